@@ -1,0 +1,123 @@
+//! What a Rust user can add: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
+
+use crate::bounding::{Bounded, CustomVolume, Volume};
+use crate::interference::Interference;
+use crate::primitive::{
+    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere, TriangleSet,
+};
+use crate::Transform;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A primitive as a registered tester sees it, in the frame of its own movable group.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs)]
+pub enum PrimitiveRef<'a> {
+    Point(&'a Point),
+    LineSegment(&'a LineSegment),
+    Ray(&'a Ray),
+    Sphere(&'a Sphere),
+    Ellipsoid(&'a Ellipsoid),
+    Triangle(&'a TriangleSet, u32),
+    Polyhedron(&'a Polyhedron),
+    Plane(&'a Plane),
+    Custom(&'a dyn CustomPrimitive),
+}
+
+/// Makes a custom primitive from the parameters in the model file, or says what is wrong with them.
+pub type PrimitiveFactory = Arc<dyn Fn(&[f64]) -> Result<Arc<dyn CustomPrimitive>, String> + Send + Sync>;
+/// Fits a custom bounding volume around things.
+pub type VolumeFitter = Arc<dyn Fn(&[&dyn Bounded]) -> Arc<dyn CustomVolume> + Send + Sync>;
+/// Tests two volumes, each in its own frame, with the transform from the first to the second: `false` only if
+/// they are certainly apart.
+pub type VolumeTest = Arc<dyn Fn(&Volume, &Volume, &Transform) -> bool + Send + Sync>;
+/// Tests A (first kind) against B (second kind), each in its own frame, with the transform from A's to B's frame; the result is in B's frame.
+pub type ContactTest =
+    Arc<dyn Fn(PrimitiveRef<'_>, PrimitiveRef<'_>, &Transform) -> Option<Interference> + Send + Sync>;
+
+/// The kinds and tests a user has registered. Built-in kinds need no entry.
+#[derive(Clone, Default)]
+pub struct Extensions {
+    primitives: BTreeMap<String, PrimitiveFactory>,
+    volumes: BTreeMap<String, VolumeFitter>,
+    volume_tests: BTreeMap<(String, String), VolumeTest>,
+    contact_tests: BTreeMap<(String, String), ContactTest>,
+}
+
+impl Extensions {
+    /// No extensions.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a kind of primitive that the model file can then name in `Custom(kind: …)`.
+    pub fn add_primitive(&mut self, kind: &str, factory: PrimitiveFactory) {
+        self.primitives.insert(kind.to_owned(), factory);
+    }
+
+    /// Adds a kind of bounding volume that the model file can then name in `bound: Custom(…)`.
+    pub fn add_volume(&mut self, kind: &str, fitter: VolumeFitter) {
+        self.volumes.insert(kind.to_owned(), fitter);
+    }
+
+    /// Adds the test of two kinds of volumes (built-in names: `Aabb`, `Sphere`, `Obb`). One order is enough.
+    pub fn add_volume_test(&mut self, kind_a: &str, kind_b: &str, test: VolumeTest) {
+        self.volume_tests.insert((kind_a.to_owned(), kind_b.to_owned()), test);
+    }
+
+    /// Adds the contact test of two kinds of primitives; the first is A (built-in names as in
+    /// [`PrimitiveKind::name`]).
+    pub fn add_contact_test(&mut self, kind_a: &str, kind_b: &str, test: ContactTest) {
+        self.contact_tests.insert((kind_a.to_owned(), kind_b.to_owned()), test);
+    }
+
+    /// The factory of a kind of primitive.
+    pub fn primitive(&self, kind: &str) -> Option<&PrimitiveFactory> {
+        self.primitives.get(kind)
+    }
+
+    /// The fitter of a kind of volume.
+    pub fn volume(&self, kind: &str) -> Option<&VolumeFitter> {
+        self.volumes.get(kind)
+    }
+
+    /// The test of an ordered pair of volume kinds.
+    pub fn volume_test(&self, kind_a: &str, kind_b: &str) -> Option<&VolumeTest> {
+        self.volume_tests.get(&(kind_a.to_owned(), kind_b.to_owned()))
+    }
+
+    /// The contact test of an ordered pair of primitive kinds.
+    pub fn contact_test(&self, kind_a: &str, kind_b: &str) -> Option<&ContactTest> {
+        self.contact_tests.get(&(kind_a.to_owned(), kind_b.to_owned()))
+    }
+
+    /// Whether anything is registered between two kinds, in either order.
+    pub fn has_contact_test(&self, kind_a: &str, kind_b: &str) -> bool {
+        self.contact_test(kind_a, kind_b).is_some() || self.contact_test(kind_b, kind_a).is_some()
+    }
+}
+
+impl PrimitiveRef<'_> {
+    /// The kind.
+    pub fn kind(&self) -> PrimitiveKind {
+        match self {
+            Self::Point(_) => PrimitiveKind::Point,
+            Self::LineSegment(_) => PrimitiveKind::LineSegment,
+            Self::Ray(_) => PrimitiveKind::Ray,
+            Self::Sphere(_) => PrimitiveKind::Sphere,
+            Self::Ellipsoid(_) => PrimitiveKind::Ellipsoid,
+            Self::Triangle(..) => PrimitiveKind::Triangle,
+            Self::Polyhedron(_) => PrimitiveKind::Polyhedron,
+            Self::Plane(_) => PrimitiveKind::Plane,
+            Self::Custom(_) => PrimitiveKind::Custom,
+        }
+    }
+
+    /// The name of the kind, a custom kind's own name included.
+    pub fn kind_name(&self) -> &str {
+        match self {
+            Self::Custom(custom) => custom.kind_name(),
+            other => other.kind().name(),
+        }
+    }
+}

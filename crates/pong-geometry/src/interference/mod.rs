@@ -1,0 +1,55 @@
+//! The interference tests: one file per pair of primitives (the listing is the capability table).
+//!
+//! Every test takes A already carried into the frame of B's movable group and hands out [`Interference`]s in
+//! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
+
+use crate::Vec3;
+
+/// A place where B is pierced by A.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interference {
+    /// Depth δ > 0, m.
+    pub depth: f64,
+    /// Unit normal from B to A, in B's frame.
+    pub normal: Vec3,
+    /// The point `a` of A deepest along −normal, in B's frame, m.
+    pub point_a: Vec3,
+    /// Which feature of B pushes.
+    pub feature: Feature,
+}
+
+/// A feature of B: what kind it is and its index. Orders by kind, then index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Feature(pub u32);
+
+impl Feature {
+    /// The primitive as a whole: planes, spheres, ellipsoids.
+    pub const WHOLE: Self = Self(0);
+    const KIND_SHIFT: u32 = 30;
+    const INDEX_MASK: u32 = (1 << Self::KIND_SHIFT) - 1;
+
+    /// A face (or the triangle itself).
+    pub fn face(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    /// An edge.
+    pub fn edge(index: usize) -> Self {
+        Self(1 << Self::KIND_SHIFT | index as u32)
+    }
+
+    /// A vertex.
+    pub fn vertex(index: usize) -> Self {
+        Self(2 << Self::KIND_SHIFT | index as u32)
+    }
+
+    /// Whether this is a face.
+    pub fn is_face(self) -> bool {
+        self.0 >> Self::KIND_SHIFT == 0
+    }
+
+    /// The index within its kind.
+    pub fn index(self) -> usize {
+        (self.0 & Self::INDEX_MASK) as usize
+    }
+}

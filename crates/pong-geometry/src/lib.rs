@@ -1,0 +1,31 @@
+//! Geometry of the contact engine: poses, twists and wrenches, primitives, bounding volumes and the
+//! interference test of every pair of primitives.
+//!
+//! Everything here is a pure function on values or borrowed slices. This crate never touches the heap in a
+//! test, never starts a thread and never does I/O.
+//!
+//! # Conventions
+//!
+//! * SI units, `f64`. Frames are right-handed.
+//! * `x_wg` is the pose of frame *g* seen from frame *w*: it takes components in *g* to components in *w*.
+//!   `v_ab_w` is the velocity of *b* seen from *a*, expressed in *w*.
+//! * In an interference of A and B the normal is a unit vector from B to A (the way A is pushed) and the depth
+//!   is positive in overlap: the least translation of A along the normal that separates the two.
+//! * All tests work in the frame of B's movable group: A is carried there first.
+
+#![forbid(unsafe_code)]
+
+pub mod bounding;
+pub mod extension;
+pub mod interference;
+pub mod pose;
+pub mod primitive;
+
+pub use pose::{Pose, Transform, Twist, Wrench};
+
+/// A vector of three components; which frame it is expressed in is told by its name.
+pub type Vec3 = nalgebra::Vector3<f64>;
+/// A 3 × 3 matrix.
+pub type Mat3 = nalgebra::Matrix3<f64>;
+/// A unit quaternion (w, x, y, z), Hamilton product.
+pub type Quat = nalgebra::UnitQuaternion<f64>;

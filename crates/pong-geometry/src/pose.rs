@@ -1,0 +1,226 @@
+//! Poses, twists and wrenches, and the motion between two poses.
+
+use crate::{Mat3, Quat, Vec3};
+use nalgebra::Quaternion;
+
+/// Position and orientation of a frame *g* seen from a frame *w*: the state half that a host hands in.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Origin of *g* in *w*, metres.
+    pub position: Vec3,
+    /// Rotation that takes components in *g* to components in *w*.
+    pub orientation: Quat,
+}
+
+impl Pose {
+    /// The pose of a frame that coincides with its reference.
+    pub fn identity() -> Self {
+        Self { position: Vec3::zeros(), orientation: Quat::identity() }
+    }
+
+    /// Pose from a position (m) and a quaternion (w, x, y, z) that is normalised here.
+    ///
+    /// The quaternion must not be zero.
+    pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
+        let [w, x, y, z] = wxyz;
+        Self { position, orientation: Quat::new_normalize(Quaternion::new(w, x, y, z)) }
+    }
+
+    /// `x_wg · x_gh = x_wh`.
+    pub fn compose(&self, x_gh: &Pose) -> Pose {
+        Pose {
+            position: self.position + self.orientation * x_gh.position,
+            orientation: self.orientation * x_gh.orientation,
+        }
+    }
+
+    /// `x_gw` from `x_wg`.
+    pub fn inverse(&self) -> Pose {
+        let inverse = self.orientation.inverse();
+        Pose { position: inverse * (-self.position), orientation: inverse }
+    }
+
+    /// `x_ba`, the pose of A seen from B, from the poses of both in one common frame.
+    ///
+    /// The positions are subtracted before anything is rotated (physics contract, section 1), so the result
+    /// does not depend on where the common origin is beyond the rounding of the inputs.
+    pub fn relative(x_wa: &Pose, x_wb: &Pose) -> Pose {
+        let r_ba_w = x_wa.position - x_wb.position;
+        let b_from_w = x_wb.orientation.inverse();
+        Pose { position: b_from_w * r_ba_w, orientation: b_from_w * x_wa.orientation }
+    }
+
+    /// The same pose with its rotation as a matrix, for carrying many points.
+    pub fn transform(&self) -> Transform {
+        Transform {
+            translation: self.position,
+            rotation: self.orientation.to_rotation_matrix().into_inner(),
+        }
+    }
+}
+
+/// A rigid transform with the rotation as a matrix: a [`Pose`] made ready for many points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transform {
+    /// Origin of the source frame in the target frame, metres.
+    pub translation: Vec3,
+    /// Columns are the source axes in the target frame.
+    pub rotation: Mat3,
+}
+
+impl Transform {
+    /// The transform that changes nothing.
+    pub fn identity() -> Self {
+        Self { translation: Vec3::zeros(), rotation: Mat3::identity() }
+    }
+
+    /// Carries a point.
+    #[inline]
+    pub fn point(&self, p: &Vec3) -> Vec3 {
+        self.rotation * p + self.translation
+    }
+
+    /// Carries a free vector or direction.
+    #[inline]
+    pub fn vector(&self, v: &Vec3) -> Vec3 {
+        self.rotation * v
+    }
+
+    /// `x_ab · x_bc = x_ac`.
+    pub fn compose(&self, other: &Transform) -> Transform {
+        Transform { translation: self.point(&other.translation), rotation: self.rotation * other.rotation }
+    }
+
+    /// The transform the other way.
+    pub fn inverse(&self) -> Transform {
+        let rotation = self.rotation.transpose();
+        Transform { translation: -(rotation * self.translation), rotation }
+    }
+}
+
+/// Linear and angular velocity of a frame: of its origin (m/s) and of the frame (rad/s).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist {
+    /// Velocity of the frame's origin, m/s.
+    pub linear: Vec3,
+    /// Angular velocity, rad/s.
+    pub angular: Vec3,
+}
+
+impl Twist {
+    /// A frame at rest.
+    pub fn zero() -> Self {
+        Self { linear: Vec3::zeros(), angular: Vec3::zeros() }
+    }
+
+    /// Velocity of the material point at `arm` from the frame's origin.
+    #[inline]
+    pub fn at(&self, arm: &Vec3) -> Vec3 {
+        self.linear + self.angular.cross(arm)
+    }
+}
+
+/// Force (N) and moment (N·m) about a stated point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    /// Force, N.
+    pub force: Vec3,
+    /// Moment about the point that the holder of the wrench states, N·m.
+    pub moment: Vec3,
+}
+
+impl Wrench {
+    /// No load.
+    pub fn zero() -> Self {
+        Self { force: Vec3::zeros(), moment: Vec3::zeros() }
+    }
+
+    /// The wrench about the origin of a force that acts at `arm`.
+    #[inline]
+    pub fn of_force_at(force: Vec3, arm: &Vec3) -> Self {
+        Self { force, moment: arm.cross(&force) }
+    }
+}
+
+impl std::ops::AddAssign for Wrench {
+    fn add_assign(&mut self, other: Self) {
+        self.force += other.force;
+        self.moment += other.moment;
+    }
+}
+
+/// Rotation vector (axis times angle in rad, angle in 0…π) of a rotation.
+///
+/// Uses +, −, ×, ÷ and √ alone, so that every machine gives the same bits: the half angle is halved three more
+/// times by the half-angle identity, where the arctangent's series converges to rounding in thirteen terms.
+pub fn rotation_vector(q: &Quat) -> Vec3 {
+    const HALVINGS: i32 = 3;
+    const TERMS: i32 = 13;
+    let mut w = q.w;
+    let mut v = q.imag();
+    if w < 0.0 {
+        w = -w;
+        v = -v;
+    }
+    // (1 + w, v) points along the square root of the rotation.
+    for _ in 0..HALVINGS {
+        let half = 1.0 + w;
+        let norm = (half * half + v.norm_squared()).sqrt();
+        w = half / norm;
+        v /= norm;
+    }
+    let tangent = v / w;
+    let square = tangent.norm_squared();
+    let mut ratio = 0.0;
+    for k in (0..TERMS).rev() {
+        ratio = 1.0 / f64::from(2 * k + 1) - square * ratio;
+    }
+    // The quaternion's angle is half the rotation's.
+    tangent * (ratio * 2.0 * f64::from(1 << HALVINGS))
+}
+
+/// Carries `p`, a vector across the unit normal `from`, by the smallest rotation that takes `from` into `to`.
+///
+/// Opposite normals have no smallest rotation: the result is then zero.
+pub fn carry_by_smallest_rotation(p: &Vec3, from: &Vec3, to: &Vec3) -> Vec3 {
+    let cosine = from.dot(to);
+    let axis = from.cross(to);
+    let denominator = 1.0 + cosine;
+    if denominator <= 0.0 {
+        return Vec3::zeros();
+    }
+    p * cosine + axis.cross(p) + axis * (axis.dot(p) / denominator)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rotation_vector_inverts_the_exponential() {
+        let axis = nalgebra::Unit::new_normalize(Vec3::new(0.3, -0.8, 0.5));
+        for angle in [0.0, 1e-9, 1e-3, 0.4, 1.5, 2.9, std::f64::consts::PI - 1e-9] {
+            let vector = rotation_vector(&Quat::from_axis_angle(&axis, angle));
+            assert!((vector - axis.into_inner() * angle).norm() <= 4e-15 * (1.0 + angle), "angle {angle}");
+        }
+    }
+
+    #[test]
+    fn smallest_rotation_takes_one_normal_into_the_other() {
+        let from = Vec3::new(0.0, 0.6, 0.8);
+        let to = Vec3::new(0.48, -0.6, 0.64);
+        let carried = carry_by_smallest_rotation(&from, &from, &to);
+        assert!((carried - to).norm() < 1e-15);
+        assert_eq!(carry_by_smallest_rotation(&Vec3::x(), &Vec3::z(), &-Vec3::z()), Vec3::zeros());
+    }
+
+    #[test]
+    fn relative_pose_ignores_the_common_origin() {
+        let a = Pose::new(Vec3::new(1.0, 2.0, 3.0), [0.9, 0.1, -0.2, 0.3]);
+        let b = Pose::new(Vec3::new(-4.0, 0.5, 1.0), [0.2, 0.7, 0.1, -0.5]);
+        let direct = b.inverse().compose(&a);
+        let relative = Pose::relative(&a, &b);
+        assert!((direct.position - relative.position).norm() < 1e-14);
+        assert!(direct.orientation.angle_to(&relative.orientation) < 1e-7);
+    }
+}

@@ -1,0 +1,56 @@
+//! Sphere and ellipsoid.
+
+use crate::{Mat3, Transform, Vec3};
+
+/// A ball.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sphere {
+    /// Centre, m.
+    pub center: Vec3,
+    /// Radius, m, positive.
+    pub radius: f64,
+}
+
+/// An ellipsoid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ellipsoid {
+    /// Centre, m.
+    pub center: Vec3,
+    /// Columns are the principal axes.
+    pub axes: Mat3,
+    /// Semi-axis along each column of `axes`, m, positive, in any order.
+    pub semi_axes: Vec3,
+}
+
+impl Sphere {
+    /// The same sphere in another frame.
+    pub fn carried(&self, x: &Transform) -> Self {
+        Self { center: x.point(&self.center), radius: self.radius }
+    }
+}
+
+impl Ellipsoid {
+    /// The same ellipsoid in another frame.
+    pub fn carried(&self, x: &Transform) -> Self {
+        Self { center: x.point(&self.center), axes: x.rotation * self.axes, semi_axes: self.semi_axes }
+    }
+
+    /// Half the width along a unit direction, `√Σ(aᵢ nᵢ)²`, m.
+    #[inline]
+    pub fn half_width(&self, direction: &Vec3) -> f64 {
+        self.axes.tr_mul(direction).component_mul(&self.semi_axes).norm()
+    }
+
+    /// The surface point farthest along a unit direction, m.
+    #[inline]
+    pub fn support(&self, direction: &Vec3) -> Vec3 {
+        let scaled = self.axes.tr_mul(direction).component_mul(&self.semi_axes);
+        let half_width = scaled.norm();
+        self.center + self.axes * scaled.component_mul(&self.semi_axes) / half_width
+    }
+
+    /// The smallest semi-axis, m.
+    pub fn smallest_semi_axis(&self) -> f64 {
+        self.semi_axes.min()
+    }
+}

@@ -1,0 +1,49 @@
+//! All triangles of one movable group, sharing vertices, with their neighbours.
+//!
+//! Forty bytes per triangle: normals and edge planes are computed when they are needed. Edge `k` of a triangle
+//! runs from its vertex `k` to its vertex `k + 1` (mod 3).
+
+use crate::Vec3;
+
+/// In [`TriangleRecord::neighbors`]: the edge is free (or shared by three or more triangles, which counts as
+/// free).
+pub const NO_NEIGHBOR: u32 = u32::MAX;
+
+/// The triangles of one movable group.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TriangleSet {
+    /// Vertices in the movable group's frame, m; bit-equal positions are one vertex.
+    pub vertices: Vec<Vec3>,
+    /// Triangles in the order of the file. A two-sided one is followed, at the end of its primitive, by its
+    /// mirror image.
+    pub triangles: Vec<TriangleRecord>,
+}
+
+/// One facet; its front is where its vertices run counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TriangleRecord {
+    /// Indices into [`TriangleSet::vertices`].
+    pub vertices: [u32; 3],
+    /// The triangle across each edge (index into [`TriangleSet::triangles`]) or [`NO_NEIGHBOR`].
+    pub neighbors: [u32; 3],
+    /// The connected surface this triangle belongs to (index among the movable group's shells).
+    pub shell: u32,
+}
+
+impl TriangleSet {
+    /// The corners of a triangle, m.
+    #[inline]
+    pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
+        self.triangles[triangle as usize].vertices.map(|v| self.vertices[v as usize])
+    }
+
+    /// Unit normal towards the front.
+    ///
+    /// The two edges that meet at the largest angle are not singled out: triangles flatter than the loader's
+    /// limit never get here.
+    #[inline]
+    pub fn normal(&self, triangle: u32) -> Vec3 {
+        let [a, b, c] = self.corners(triangle);
+        (b - a).cross(&(c - a)).normalize()
+    }
+}

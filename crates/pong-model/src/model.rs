@@ -1,0 +1,123 @@
+//! The flat, immutable form of a model that the engine reads.
+
+use crate::surface::{PairOverride, Surface};
+use pong_geometry::Pose;
+use pong_geometry::bounding::Volume;
+use pong_geometry::primitive::{
+    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere, TriangleSet,
+};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A validated model.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Name as given in the file.
+    pub name: String,
+    /// Hash of everything that decides the numbers (FNV-1a over a canonical byte form); equal files give equal
+    /// hashes on every machine.
+    pub hash: u64,
+    /// Whether points remember the side of entry (physics contract, section 2.4).
+    pub entry_memory: bool,
+    /// All surfaces.
+    pub surfaces: Vec<Surface>,
+    /// Table of values for pairs of surfaces.
+    pub pair_overrides: Vec<PairOverride>,
+    /// The movable groups; 0 is the root.
+    pub bodies: Vec<Body>,
+    /// What the author should know though the model is valid.
+    pub warnings: Vec<String>,
+}
+
+/// A movable group with everything that hangs below it down to the next movable groups: one rigid body.
+#[derive(Clone, Debug, Default)]
+pub struct Body {
+    /// Name of the movable group.
+    pub name: String,
+    /// Path in the tree, `root/arm/latch`.
+    pub path: String,
+    /// The next movable group above (index into [`Model::bodies`]); `None` for the root.
+    pub parent: Option<u32>,
+    /// Pose in the frame of the root group, as authored: where a host may start it.
+    pub initial_pose: Option<Pose>,
+    /// Every primitive in file order; a mesh is one primitive.
+    pub primitives: Vec<PrimitiveInfo>,
+    /// All points.
+    pub points: Vec<Point>,
+    /// All line segments.
+    pub segments: Vec<LineSegment>,
+    /// All rays.
+    pub rays: Vec<Ray>,
+    /// All spheres.
+    pub spheres: Vec<Sphere>,
+    /// All ellipsoids.
+    pub ellipsoids: Vec<Ellipsoid>,
+    /// All triangles.
+    pub triangles: TriangleSet,
+    /// All polyhedra.
+    pub polyhedra: Vec<Polyhedron>,
+    /// All planes.
+    pub planes: Vec<Plane>,
+    /// All custom primitives.
+    pub customs: Vec<Arc<dyn CustomPrimitive>>,
+    /// Number of shells: connected surfaces of triangles or of polyhedra joined by inner walls (section 2.1);
+    /// every other primitive is a shell of its own.
+    pub shell_count: u32,
+    /// The tree of bounding volumes.
+    pub tree: Tree,
+}
+
+/// What is known of a primitive besides its shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrimitiveInfo {
+    /// Name as authored.
+    pub name: String,
+    /// Path in the tree, `root/arm/tip`.
+    pub path: String,
+    /// Kind.
+    pub kind: PrimitiveKind,
+    /// Index into [`Model::surfaces`].
+    pub surface: u32,
+    /// Its elements in the array of its kind: one, or the triangles of a mesh (mirror images included).
+    pub elements: Range<u32>,
+    /// Its shell; for triangles see [`pong_geometry::primitive::TriangleRecord::shell`] instead.
+    pub shell: u32,
+    /// Triangles: how far behind the front a centre is still pushed, m; `None` takes the smallest semi-axis of
+    /// the body that touches.
+    pub thickness: Option<f64>,
+    /// Triangles: the elements from this one on are mirror images that make the mesh two-sided; equals
+    /// `elements.end` if it is one-sided.
+    pub first_mirror: u32,
+}
+
+/// A tree of bounding volumes of any arity in one array.
+#[derive(Clone, Debug, Default)]
+pub struct Tree {
+    /// Node 0 is the root; the children of a node are contiguous.
+    pub nodes: Vec<Node>,
+    /// Contents of the leaves, leaf after leaf.
+    pub items: Vec<Item>,
+}
+
+/// A node: either children or items, never both.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Bounds everything below, in the movable group's frame.
+    pub volume: Volume,
+    /// Children (indices into [`Tree::nodes`]).
+    pub children: Range<u32>,
+    /// Contents of a leaf (indices into [`Tree::items`]).
+    pub items: Range<u32>,
+    /// Path of the authored group this node belongs to; large leaves are split further by the loader and those
+    /// nodes keep the path of the leaf.
+    pub group: Arc<str>,
+}
+
+/// One element of a leaf.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Item {
+    /// Index into [`Body::primitives`].
+    pub primitive: u32,
+    /// Index into the array of the primitive's kind.
+    pub element: u32,
+}

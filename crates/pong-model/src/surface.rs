@@ -1,0 +1,94 @@
+//! Surface properties: stiffness, damping and friction, per surface and per pair of surfaces.
+
+/// A named surface: what primitives are made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// Name, unique in the model.
+    pub name: String,
+    /// Normal stiffness: N/m, or N/m^1.5 with the exponent 3/2; infinite means rigid.
+    pub stiffness: f64,
+    /// Normal force law and its damping.
+    pub normal: NormalLaw,
+    /// Friction law.
+    pub friction: FrictionLaw,
+}
+
+/// The normal force law of a surface (physics contract, section 3).
+#[derive(Clone, Debug, PartialEq)]
+pub enum NormalLaw {
+    /// F = max(0, k·δ + c·S(δ/ramp)·δ').
+    Linear {
+        /// c, N·s/m.
+        damping: f64,
+        /// Depth over which the damping sets in, m; 0 means at once.
+        ramp: f64,
+    },
+    /// F = max(0, k·δ^e·(1 + χ·δ')).
+    HuntCrossley {
+        /// χ, s/m.
+        dissipation: f64,
+        /// e.
+        exponent: Exponent,
+    },
+    /// A law registered with the engine under this name.
+    Custom {
+        /// Name of the registered law.
+        name: String,
+        /// Handed to the law as they stand.
+        parameters: Vec<f64>,
+    },
+}
+
+/// Exponent of the depth in the Hunt-Crossley law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exponent {
+    /// e = 1.
+    One,
+    /// e = 3/2 (Hertz).
+    ThreeHalves,
+}
+
+/// The friction law of a surface (physics contract, section 4).
+#[derive(Clone, Debug, PartialEq)]
+pub enum FrictionLaw {
+    /// No friction; costs nothing.
+    None,
+    /// Reset-integrator bristle.
+    Bristle {
+        /// μ_k.
+        mu: f64,
+        /// a, so that μ_s = (1 + a)·μ_k.
+        static_excess: f64,
+        /// k_t, N/m; `None` takes ⅔ of the normal stiffness.
+        stiffness: Option<f64>,
+        /// c_t, N·s/m.
+        damping: f64,
+    },
+    /// Regularised Coulomb friction; creeps.
+    Coulomb {
+        /// μ_k.
+        mu: f64,
+        /// v_ε, the slip speed at which the full force is reached, m/s.
+        slip_speed: f64,
+    },
+    /// A law registered with the engine under this name.
+    Custom {
+        /// Name of the registered law.
+        name: String,
+        /// Handed to the law as they stand.
+        parameters: Vec<f64>,
+    },
+}
+
+/// An entry of the model's table for a pair of surfaces: every value given replaces the combined one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PairOverride {
+    /// The two surfaces, in either order; they may be the same, and may belong to another model.
+    pub surfaces: [String; 2],
+    /// k of the pair, N/m (N/m^1.5).
+    pub stiffness: Option<f64>,
+    /// Normal law with its damping values, those of the pair.
+    pub normal: Option<NormalLaw>,
+    /// Friction law with its values, those of the pair (`stiffness: None` keeps ⅔·k).
+    pub friction: Option<FrictionLaw>,
+}
