@@ -2,6 +2,30 @@
 //!
 //! A test answers `true` unless the two volumes are certainly apart: it may err on the side of `true` by
 //! rounding, never on the other.
+//!
+//! One file fits each kind of volume (`aabb`, `sphere`, `obb`), one tests each pair of kinds (`sphere_sphere`,
+//! `sphere_aabb` …), and [`VolumeTests`] picks the test. What makes the answers safe is said once, at
+//! [`RELATIVE_MARGIN`].
+
+mod aabb;
+mod aabb_aabb;
+mod aabb_obb;
+mod bounded;
+mod box_box;
+mod fit;
+mod obb;
+mod obb_obb;
+mod principal_axes;
+mod sphere;
+mod sphere_aabb;
+mod sphere_obb;
+mod sphere_sphere;
+mod volume_tests;
+
+pub use aabb::{aabb_of_points, fit_aabb_bounds};
+pub use bounded::{CustomBounds, Dilated, PointCloud};
+pub use fit::{RELATIVE_MARGIN, fit};
+pub use volume_tests::VolumeTests;
 
 use crate::Vec3;
 use crate::{Mat3, Transform};
@@ -18,6 +42,19 @@ pub enum BoundKind {
     Obb,
     /// A kind registered in [`crate::extension::Extensions`], by name.
     Custom(String),
+}
+
+impl BoundKind {
+    /// The name, a custom kind's own name included: what [`Volume::kind_name`] gives for a bounded volume of
+    /// this kind.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Aabb => "Aabb",
+            Self::Sphere => "Sphere",
+            Self::Obb => "Obb",
+            Self::Custom(name) => name,
+        }
+    }
 }
 
 /// A bounding volume in the frame of its movable group.
@@ -52,12 +89,30 @@ pub enum Volume {
     Custom(Arc<dyn CustomVolume>),
 }
 
+impl Volume {
+    /// The name of the kind, a custom kind's own name included.
+    pub fn kind_name(&self) -> &str {
+        match self {
+            Self::Unbounded => "Unbounded",
+            Self::Aabb { .. } => "Aabb",
+            Self::Sphere { .. } => "Sphere",
+            Self::Obb { .. } => "Obb",
+            Self::Custom(custom) => custom.kind_name(),
+        }
+    }
+}
+
 /// A bounding volume added by a Rust user.
 pub trait CustomVolume: std::fmt::Debug + Send + Sync + std::any::Any {
     /// The kind's name, as in the model file and in the registration of its pair tests.
     fn kind_name(&self) -> &str;
     /// The volume as `Any`, so that a pair test can get its own type back.
     fn as_any(&self) -> &dyn std::any::Any;
+    /// Support function, as [`Bounded::support`]: a parent volume is fitted around this one with it. Without one
+    /// every parent is unbounded, which is correct and slow.
+    fn support(&self, _direction: &Vec3) -> f64 {
+        f64::INFINITY
+    }
 }
 
 /// Something a bounding volume can be fitted around.

@@ -1,0 +1,86 @@
+//! Fitting a box along its own axes: for given axes it is exact, by the supports along them; the axes are the best
+//! of the frame's, the principal ones, and what turning the best of these still gains.
+
+use super::fit::{representatives, support};
+use super::principal_axes::{orthonormal, plane_rotation, principal_axes};
+use super::{Bounded, Volume};
+use crate::{Mat3, Vec3};
+
+/// The smallest box found around things, without margin.
+pub(super) fn fit_obb(things: &[&dyn Bounded]) -> Volume {
+    let mut best = Candidate::along(Mat3::identity(), things);
+    let points = representatives(things);
+    if points.len() > 1 {
+        best.take_if_smaller(principal_axes(&points), things);
+    }
+    best.turn_by_coarse_steps(things);
+    best.refine(things);
+    let center = best.axes * best.mid;
+    Volume::Obb { center, axes: best.axes, half: best.half }
+}
+
+struct Candidate {
+    axes: Mat3,
+    /// Centre in the box's own axes, m.
+    mid: Vec3,
+    half: Vec3,
+    score: f64,
+}
+
+impl Candidate {
+    fn along(axes: Mat3, things: &[&dyn Bounded]) -> Self {
+        let direction = |i: usize| axes.column(i).into_owned();
+        let max = Vec3::from_fn(|i, _| support(things, &direction(i)));
+        let min = Vec3::from_fn(|i, _| -support(things, &-direction(i)));
+        let half = (max - min) * 0.5;
+        Self { axes, mid: (max + min) * 0.5, half, score: score(&half) }
+    }
+
+    fn take_if_smaller(&mut self, axes: Mat3, things: &[&dyn Bounded]) -> bool {
+        let other = Self::along(axes, things);
+        let smaller = other.score < self.score;
+        if smaller {
+            *self = other;
+        }
+        smaller
+    }
+
+    /// The axes turned about one of themselves, by twice the angle whose tangent is given.
+    fn turned(&self, axis: usize, half_angle_tangent: f64) -> Mat3 {
+        let square = half_angle_tangent * half_angle_tangent;
+        let (cosine, sine) = ((1.0 - square) / (1.0 + square), 2.0 * half_angle_tangent / (1.0 + square));
+        orthonormal(&(self.axes * plane_rotation((axis + 1) % 3, (axis + 2) % 3, cosine, sine)))
+    }
+
+    /// A cube or a cylinder has no preferred principal axes: look around in large steps first.
+    fn turn_by_coarse_steps(&mut self, things: &[&dyn Bounded]) {
+        // Tangents of half of 22.5° and 45°.
+        const HALF_ANGLE_TANGENTS: [f64; 4] = [0.199, -0.199, 0.414, -0.414];
+        for axis in 0..3 {
+            for tangent in HALF_ANGLE_TANGENTS {
+                self.take_if_smaller(self.turned(axis, tangent), things);
+            }
+        }
+    }
+
+    /// Turns about the box's axes, by ever smaller angles, as long as the box gets smaller.
+    fn refine(&mut self, things: &[&dyn Bounded]) {
+        const HALVINGS: usize = 16;
+        let mut tangent = 0.1;
+        for _ in 0..HALVINGS {
+            for axis in 0..3 {
+                if !self.take_if_smaller(self.turned(axis, tangent), things) {
+                    self.take_if_smaller(self.turned(axis, -tangent), things);
+                }
+            }
+            tangent *= 0.5;
+        }
+    }
+}
+
+/// Volume of the box thickened by a thousandth of its size, so that flat and thin things, whose boxes have no
+/// volume, still prefer the box with the least face or length.
+fn score(half: &Vec3) -> f64 {
+    let thickening = 1e-3 * half.norm();
+    half.add_scalar(thickening).product()
+}

@@ -1,0 +1,53 @@
+//! Principal axes of points, by Jacobi rotations: +, −, ×, ÷ and √ alone, so every machine finds the same bits.
+
+use crate::{Mat3, Vec3};
+
+/// The axes along which the points vary most and least, as orthonormal right-handed columns.
+pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
+    let count = points.len() as f64;
+    let mean = points.iter().sum::<Vec3>() / count;
+    let spread = points.iter().fold(Mat3::zeros(), |sum, p| sum + (p - mean) * (p - mean).transpose());
+    orthonormal(&diagonalising_rotation(spread))
+}
+
+/// The rotation V with VᵀSV diagonal, for symmetric S.
+///
+/// Each sweep turns in the three coordinate planes by the angle that zeroes the product of inertia there; it
+/// converges quadratically, and six sweeps leave nothing of any 3 × 3 matrix.
+fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
+    const SWEEPS: usize = 8;
+    let mut rotation = Mat3::identity();
+    for _ in 0..SWEEPS {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if s[(p, q)] == 0.0 {
+                continue;
+            }
+            // The smaller root t = tan(angle) of t² + 2·t·cot(2·angle) − 1 = 0.
+            let cot = (s[(q, q)] - s[(p, p)]) / (2.0 * s[(p, q)]);
+            let tangent = cot.signum() / (cot.abs() + (cot * cot + 1.0).sqrt());
+            let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
+            let turn = plane_rotation(p, q, cosine, tangent * cosine);
+            s = turn.transpose() * s * turn;
+            rotation *= turn;
+        }
+    }
+    rotation
+}
+
+/// Rotation in the plane of axes `p` and `q` that takes `p` towards −`q`.
+pub(super) fn plane_rotation(p: usize, q: usize, cosine: f64, sine: f64) -> Mat3 {
+    let mut turn = Mat3::identity();
+    turn[(p, p)] = cosine;
+    turn[(q, q)] = cosine;
+    turn[(p, q)] = sine;
+    turn[(q, p)] = -sine;
+    turn
+}
+
+/// The right-handed orthonormal frame nearest to one that rounding has bent.
+pub(super) fn orthonormal(axes: &Mat3) -> Mat3 {
+    let x = axes.column(0).normalize();
+    let y = axes.column(1) - x * x.dot(&axes.column(1));
+    let y = y.normalize();
+    Mat3::from_columns(&[x, y, x.cross(&y)])
+}

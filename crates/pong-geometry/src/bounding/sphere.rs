@@ -1,0 +1,83 @@
+//! Fitting a ball: its radius is exact for its centre, `max over things of farthest(centre)`; the centre is near
+//! that of the smallest ball.
+
+use super::bounded::largest;
+use super::fit::representatives;
+use super::{Bounded, Volume};
+use crate::Vec3;
+
+/// The smallest ball found around things, without margin; `box_center` is the centre of the box around them.
+pub(super) fn fit_sphere(things: &[&dyn Bounded], box_center: &Vec3) -> Volume {
+    let points = representatives(things);
+    let radius_about = |center: &Vec3| largest(things.iter().map(|thing| thing.farthest(center)));
+    let mut best = Ball { center: *box_center, radius: radius_about(box_center) };
+    if let Some(center) = growing_ball(&points) {
+        for center in [center, drawn_to_farthest(&points, center)] {
+            best.take_if_smaller(center, &radius_about);
+        }
+    }
+    best.refine(&radius_about);
+    Volume::Sphere { center: best.center, radius: best.radius }
+}
+
+struct Ball {
+    center: Vec3,
+    radius: f64,
+}
+
+impl Ball {
+    fn take_if_smaller(&mut self, center: Vec3, radius_about: &impl Fn(&Vec3) -> f64) -> bool {
+        let radius = radius_about(&center);
+        let smaller = radius < self.radius;
+        if smaller {
+            *self = Self { center, radius };
+        }
+        smaller
+    }
+
+    /// Moves the centre along the axes, by ever smaller steps, as long as the radius falls. The points that
+    /// represent curved things are not all of their surface, so the last word is with the things themselves.
+    fn refine(&mut self, radius_about: &impl Fn(&Vec3) -> f64) {
+        const HALVINGS: usize = 12;
+        let mut step = 0.125 * self.radius;
+        for _ in 0..HALVINGS {
+            for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+                if !self.take_if_smaller(self.center + axis * step, radius_about) {
+                    self.take_if_smaller(self.center - axis * step, radius_about);
+                }
+            }
+            step *= 0.5;
+        }
+    }
+}
+
+fn farthest_point<'a>(points: &'a [Vec3], from: &Vec3) -> Option<&'a Vec3> {
+    let distance = |p: &Vec3| (p - from).norm_squared();
+    points.iter().reduce(|far, p| if distance(p) > distance(far) { p } else { far })
+}
+
+/// Centre of a ball around points: from a far pair, grown towards each point that is still outside (Ritter 1990).
+fn growing_ball(points: &[Vec3]) -> Option<Vec3> {
+    let one_end = farthest_point(points, points.first()?)?;
+    let other_end = farthest_point(points, one_end)?;
+    let mut center = (one_end + other_end) * 0.5;
+    let mut radius = (one_end - other_end).norm() * 0.5;
+    for p in points {
+        let distance = (p - center).norm();
+        if distance > radius {
+            let grown = 0.5 * (radius + distance);
+            center += (p - center) * ((distance - grown) / distance);
+            radius = grown;
+        }
+    }
+    Some(center)
+}
+
+/// Centre of the smallest ball around points, by steps of 1/(k+1) towards the farthest of them (Bădoiu and
+/// Clarkson 2003); the first steps are left out because the start is near already.
+fn drawn_to_farthest(points: &[Vec3], start: Vec3) -> Vec3 {
+    (10..150).fold(start, |center, k| match farthest_point(points, &center) {
+        Some(far) => center + (far - center) / f64::from(k + 1),
+        None => center,
+    })
+}

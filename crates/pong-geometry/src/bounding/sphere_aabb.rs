@@ -1,0 +1,31 @@
+//! Ball against a box along its frame's axes: apart if the box's point nearest to the ball's centre is farther from
+//! it than the radius.
+
+use super::FromAToB;
+use crate::Vec3;
+
+/// Ball in A's frame, box in B's.
+#[inline]
+pub(super) fn sphere_aabb(a: (&Vec3, f64), b: (&Vec3, &Vec3), x_ba: &FromAToB) -> bool {
+    ball_reaches_box(&(x_ba.point(a.0) - b.0), a.1, b.1)
+}
+
+/// Box in A's frame, ball in B's.
+#[inline]
+pub(super) fn aabb_sphere(a: (&Vec3, &Vec3), b: (&Vec3, f64), x_ba: &FromAToB) -> bool {
+    ball_reaches_box(&(into_a(b.0, x_ba) - a.0), b.1, a.1)
+}
+
+/// Whether a ball at `center` reaches a box of half extents `half` around the origin.
+#[inline]
+pub(super) fn ball_reaches_box(center: &Vec3, radius: f64, half: &Vec3) -> bool {
+    let outside = (center.abs() - half).map(|x| x.max(0.0));
+    let apart = outside.norm_squared() > radius * radius;
+    !apart
+}
+
+/// A point of B's frame in A's frame.
+#[inline]
+pub(super) fn into_a(point: &Vec3, x_ba: &FromAToB) -> Vec3 {
+    x_ba.rotation.tr_mul(&(point - x_ba.translation))
+}

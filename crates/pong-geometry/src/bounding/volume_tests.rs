@@ -1,0 +1,98 @@
+//! The table of pair tests: which test answers for which pair of volumes.
+
+use super::aabb_aabb::aabb_aabb;
+use super::aabb_obb::{aabb_obb, obb_aabb};
+use super::obb_obb::obb_obb;
+use super::sphere_aabb::{aabb_sphere, sphere_aabb};
+use super::sphere_obb::{obb_sphere, sphere_obb};
+use super::sphere_sphere::sphere_sphere;
+use super::{FromAToB, Volume};
+use crate::extension::{Extensions, VolumeTest};
+
+/// The built-in pair tests together with those a user has registered.
+#[derive(Clone, Default)]
+pub struct VolumeTests {
+    custom: Vec<CustomTest>,
+}
+
+#[derive(Clone)]
+struct CustomTest {
+    kind_a: String,
+    kind_b: String,
+    test: VolumeTest,
+}
+
+impl VolumeTests {
+    /// The built-in tests and those registered in `ext`. A registration for two built-in kinds is never asked.
+    pub fn new(ext: &Extensions) -> Self {
+        let custom = ext.volume_tests().map(|(kind_a, kind_b, test)| CustomTest {
+            kind_a: kind_a.to_owned(),
+            kind_b: kind_b.to_owned(),
+            test: test.clone(),
+        });
+        Self { custom: custom.collect() }
+    }
+
+    /// Whether two volumes, each in its own frame, may overlap; `x_ba` carries A's frame into B's. `false` only if
+    /// they are certainly apart, so a pair without a test overlaps ([`Self::supports`] finds such pairs). Takes
+    /// nothing from the heap.
+    #[inline]
+    pub fn overlap(&self, a: &Volume, b: &Volume, x_ba: &FromAToB) -> bool {
+        use Volume::{Aabb, Obb, Sphere, Unbounded};
+        match (a, b) {
+            (Unbounded, _) | (_, Unbounded) => true,
+            (Sphere { center: c, radius: r }, Sphere { center: d, radius: s }) => {
+                sphere_sphere((c, *r), (d, *s), x_ba)
+            }
+            (Sphere { center: c, radius: r }, Aabb { center: d, half: k }) => {
+                sphere_aabb((c, *r), (d, k), x_ba)
+            }
+            (Aabb { center: c, half: h }, Sphere { center: d, radius: s }) => {
+                aabb_sphere((c, h), (d, *s), x_ba)
+            }
+            (Sphere { center: c, radius: r }, Obb { center: d, axes, half: k }) => {
+                sphere_obb((c, *r), (d, axes, k), x_ba)
+            }
+            (Obb { center: c, axes, half: h }, Sphere { center: d, radius: s }) => {
+                obb_sphere((c, axes, h), (d, *s), x_ba)
+            }
+            (Aabb { center: c, half: h }, Aabb { center: d, half: k }) => aabb_aabb((c, h), (d, k), x_ba),
+            (Aabb { center: c, half: h }, Obb { center: d, axes, half: k }) => {
+                aabb_obb((c, h), (d, axes, k), x_ba)
+            }
+            (Obb { center: c, axes, half: h }, Aabb { center: d, half: k }) => {
+                obb_aabb((c, axes, h), (d, k), x_ba)
+            }
+            (Obb { center: c, axes: u, half: h }, Obb { center: d, axes: v, half: k }) => {
+                obb_obb((c, u, h), (d, v, k), x_ba)
+            }
+            (Volume::Custom(_), _) | (_, Volume::Custom(_)) => self.custom_overlap(a, b, x_ba),
+        }
+    }
+
+    /// Whether there is a test for two kinds, given by name, in either order.
+    pub fn supports(&self, kind_a: &str, kind_b: &str) -> bool {
+        let built_in = |kind: &str| matches!(kind, "Aabb" | "Sphere" | "Obb");
+        let unbounded = kind_a == "Unbounded" || kind_b == "Unbounded";
+        unbounded
+            || (built_in(kind_a) && built_in(kind_b))
+            || self.custom_test(kind_a, kind_b).is_some()
+            || self.custom_test(kind_b, kind_a).is_some()
+    }
+
+    #[cold]
+    fn custom_overlap(&self, a: &Volume, b: &Volume, x_ba: &FromAToB) -> bool {
+        let (kind_a, kind_b) = (a.kind_name(), b.kind_name());
+        if let Some(test) = self.custom_test(kind_a, kind_b) {
+            return test(a, b, x_ba);
+        }
+        self.custom_test(kind_b, kind_a).is_none_or(|test| test(b, a, &x_ba.inverse()))
+    }
+
+    fn custom_test(&self, kind_a: &str, kind_b: &str) -> Option<&VolumeTest> {
+        self.custom
+            .iter()
+            .find(|entry| entry.kind_a == kind_a && entry.kind_b == kind_b)
+            .map(|entry| &entry.test)
+    }
+}
