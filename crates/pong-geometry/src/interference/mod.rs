@@ -3,7 +3,26 @@
 //! Every test takes A already carried into the frame of B's movable group and hands out [`Interference`]s in
 //! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
 
+pub mod ellipsoid_math;
+pub mod ellipsoid_plane;
+pub mod ellipsoid_polyhedron;
+pub mod line_segment_plane;
+pub mod line_segment_polyhedron;
+pub mod point_ellipsoid;
+pub mod point_plane;
+pub mod point_polyhedron;
+pub mod point_sphere;
+pub mod ray_plane;
+pub mod ray_polyhedron;
+pub mod ray_triangle;
+pub mod sphere_plane;
+pub mod sphere_polyhedron;
+pub mod sphere_sphere;
+pub mod sphere_triangle;
+pub mod triangle_features;
+
 use crate::Vec3;
+use crate::primitive::Sphere;
 
 /// A place where B is pierced by A.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,4 +71,23 @@ impl Feature {
     pub fn index(self) -> usize {
         (self.0 & Self::INDEX_MASK) as usize
     }
+}
+
+/// Sphere pushed away from a point of B: an edge's or a vertex's foot, or the centre of another ball.
+///
+/// `mean_normal` decides the direction when the sphere's centre coincides with the point; any length but zero.
+pub(crate) fn ball_over_point(
+    sphere: &Sphere,
+    foot: &Vec3,
+    mean_normal: &Vec3,
+    feature: Feature,
+) -> Option<Interference> {
+    let arm = sphere.center - foot;
+    let distance = arm.norm();
+    let depth = sphere.radius - distance;
+    if depth <= 0.0 {
+        return None;
+    }
+    let normal = if distance > 0.0 { (arm / distance).normalize() } else { mean_normal.normalize() };
+    Some(Interference { depth, normal, point_a: sphere.center - normal * sphere.radius, feature })
 }

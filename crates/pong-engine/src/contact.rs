@@ -1,0 +1,114 @@
+//! What a frame reports: contacts, counts, energies.
+
+use crate::ids::{InterfaceId, ObjectId, PairId};
+use pong_geometry::Vec3;
+
+/// One contact of the last frame.
+///
+/// Forces are those on A; B receives the opposite at the same place. Vectors are expressed in the common frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// The pair of Objects.
+    pub pair: PairId,
+    /// Side A: the primitive whose kind the tester names first.
+    pub a: ContactSide,
+    /// Side B.
+    pub b: ContactSide,
+    /// Feature of B that pushes: kind in the two highest bits (0 face, 1 edge, 2 vertex), index below.
+    pub feature: u32,
+    /// End of a segment (0 or 1); 0 otherwise.
+    pub end: u32,
+    /// Place c where the force acts, m, in the common frame.
+    pub point: Vec3,
+    /// Unit normal from B to A.
+    pub normal: Vec3,
+    /// Depth δ, m.
+    pub depth: f64,
+    /// Depth rate δ', m/s, positive while closing.
+    pub rate: f64,
+    /// Weight w of the contact, 0…1.
+    pub weight: f64,
+    /// Normal force, N, never negative.
+    pub normal_force: f64,
+    /// Friction force on A, N.
+    pub friction_force: Vec3,
+    /// Total force on A, N.
+    pub force: Vec3,
+    /// Tangential velocity of A against B, m/s.
+    pub slip_velocity: Vec3,
+    /// Whether friction sticks.
+    pub sticks: bool,
+    /// Energy stored in normal spring and bristle, J.
+    pub stored: f64,
+}
+
+/// One side of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactSide {
+    /// The Object.
+    pub object: ObjectId,
+    /// The movable group.
+    pub interface: InterfaceId,
+    /// The primitive: index into its movable group's list (see [`World::primitive_path`](crate::World::primitive_path)).
+    pub primitive: u32,
+    /// Which element of the primitive: the triangle of a mesh, counted from its first; 0 otherwise.
+    pub element: u32,
+    /// Arm from the origin of the movable group to the contact's place, m, along the axes of the common frame.
+    pub arm: Vec3,
+}
+
+/// What a frame had to leave out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StatusBits(u32);
+
+impl StatusBits {
+    /// More contacts than the world's capacity: the deepest were kept. Raise `Config::contact_capacity`.
+    pub const CONTACT_LIMIT: Self = Self(1);
+
+    /// Whether nothing was left out.
+    pub fn is_complete(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether a bit is set.
+    pub fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// The bits as a number.
+    pub fn bits(self) -> u32 {
+        self.0
+    }
+
+    pub(crate) fn set(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+/// Counts of one frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameReport {
+    /// What had to be left out.
+    pub status: StatusBits,
+    /// Pairs of bounding volumes tested.
+    pub volumes_tested: u64,
+    /// Pairs of leaves whose contents were tested.
+    pub leaf_pairs: u64,
+    /// Pairs of primitives tested.
+    pub primitives_tested: u64,
+    /// Contacts listed.
+    pub contacts: u32,
+    /// Contacts that would have been listed without the limit; the advised capacity when the limit was hit.
+    pub contacts_wanted: u32,
+}
+
+/// Energies of all contacts. Meaningful if the world keeps the ledger ([`Config::ledger`](crate::Config)).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Stored in normal springs and bristles at the last commit, J.
+    pub stored: f64,
+    /// Work done on the bodies since the world began, by the trapezoid rule between commits, J.
+    pub work: f64,
+    /// Dissipated since the world began, J: −work − stored.
+    pub dissipated: f64,
+}

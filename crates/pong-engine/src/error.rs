@@ -1,0 +1,96 @@
+//! What can go wrong, told as thing, cause and cure.
+
+use crate::state::StateError;
+
+/// An error of the engine. The world is as it was before the call.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EngineError {
+    /// An id that this world did not give out, or that names nothing.
+    UnknownId {
+        /// What the id should have named.
+        what: &'static str,
+    },
+    /// A name that nothing has.
+    UnknownName {
+        /// What was looked for.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The names there are.
+        known: Vec<String>,
+    },
+    /// A name or a pair that is already there.
+    Duplicate {
+        /// What is there twice.
+        what: String,
+    },
+    /// A call that the world's phase does not allow.
+    WrongPhase {
+        /// The call.
+        call: &'static str,
+        /// What to do first.
+        cure: &'static str,
+    },
+    /// The scene cannot be sealed; every reason is listed.
+    Seal {
+        /// One line each: thing, cause, cure.
+        problems: Vec<String>,
+    },
+    /// A state that is not finite or whose quaternion is not near unit length.
+    BadState {
+        /// `object/path` of the interface.
+        interface: String,
+        /// What is wrong with it.
+        cause: String,
+    },
+    /// A paired movable group has no state yet.
+    UnsetState {
+        /// `object/path` of the interface.
+        interface: String,
+    },
+    /// A value that a surface or a setting cannot have.
+    BadValue {
+        /// The thing.
+        what: String,
+        /// What is wrong and what to give instead.
+        cause: String,
+    },
+    /// A saved contact state was refused.
+    State(StateError),
+}
+
+impl std::fmt::Display for EngineError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::UnknownId { what } => write!(
+                f,
+                "{what}: the id is zero, stale or of another world; use an id that this world returned"
+            ),
+            Self::UnknownName { what, name, known } => {
+                write!(f, "{what} `{name}`: there is none; known: {}", known.join(", "))
+            }
+            Self::Duplicate { what } => write!(f, "{what}: already there; use another name or leave it out"),
+            Self::WrongPhase { call, cure } => write!(f, "{call}: not allowed now; {cure}"),
+            Self::Seal { problems } => {
+                write!(f, "the scene cannot be sealed:")?;
+                problems.iter().try_for_each(|problem| write!(f, "\n  {problem}"))
+            }
+            Self::BadState { interface, cause } => {
+                write!(f, "state of `{interface}`: {cause}; the state set before stays in force")
+            }
+            Self::UnsetState { interface } => {
+                write!(f, "state of `{interface}`: never set; set the states of all paired movable groups before a frame")
+            }
+            Self::BadValue { what, cause } => write!(f, "{what}: {cause}"),
+            Self::State(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for EngineError {}
+
+impl From<StateError> for EngineError {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
+    }
+}

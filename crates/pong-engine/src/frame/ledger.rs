@@ -1,0 +1,111 @@
+//! Energies between commits (physics contract, section 6), kept on request.
+//!
+//! Work of a contact's force on the two bodies, by the trapezoid rule over the relative displacement since the
+//! last commit: with o the reference point of A,
+//!
+//!     W = Σ_{then, now} ½·(F·Δo + ((c − o) × F)·φ)
+//!
+//! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
+
+use super::Frame;
+use super::forces::reference_point;
+use super::listing::body_of_a;
+use super::relative::SinceCommit;
+use crate::state::{ContactMemory, ContactRecord, Role};
+use crate::sealed::Sealed;
+use crate::world::Scene;
+use pong_geometry::{Transform, Vec3};
+
+/// Fills in the energies of the trial records and the totals.
+pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
+    frame.trial.work = memory.work;
+    frame.trial.dissipated = memory.dissipated;
+    if !scene.config.ledger {
+        return;
+    }
+    let mut continued = vec![false; memory.records.len()];
+    for index in 0..frame.contacts.len() {
+        let contact = &frame.contacts[index];
+        if contact.role != Role::Pushes {
+            continue;
+        }
+        let motion = frame.motions[contact.key.group_pair as usize][contact.key.flipped as usize];
+        let record = &mut frame.trial.records[index];
+        let mut before = Before::default();
+        // Two contacts may continue one record; its energy goes to the first.
+        if let Some(earlier) = contact.continues.filter(|&i| !continued[i as usize]) {
+            continued[earlier as usize] = true;
+            before = Before::of(&memory.records[earlier as usize]);
+        }
+        let mut work = 0.0;
+        if let Some(since) = &motion.since_commit {
+            let body_a = body_of_a(scene, sealed, contact);
+            let reference = reference_point(body_a, contact);
+            let displacement = Displacement::new(since, &motion.x_ba, &reference);
+            work = displacement.half_work(&before.point, &before.force, false)
+                + displacement.half_work(&record.point, &record.force, true);
+        }
+        let dissipated = -work - (record.stored - before.stored);
+        record.work = before.work + work;
+        record.dissipated = before.dissipated + dissipated;
+        frame.trial.work += work;
+        frame.trial.dissipated += dissipated;
+    }
+    for (earlier, _) in memory.records.iter().zip(&continued).filter(|(r, done)| r.role == Role::Pushes && !**done) {
+        end_contact(earlier, frame);
+    }
+}
+
+/// What a contact was at the last commit; all zero if it was none.
+#[derive(Default)]
+struct Before {
+    point: Vec3,
+    force: Vec3,
+    stored: f64,
+    work: f64,
+    dissipated: f64,
+}
+
+impl Before {
+    fn of(record: &ContactRecord) -> Self {
+        Self {
+            point: record.point,
+            force: record.force,
+            stored: record.stored,
+            work: record.work,
+            dissipated: record.dissipated,
+        }
+    }
+}
+
+/// Displacement of A since the last commit, at a point carried by A.
+struct Displacement {
+    before: Vec3,
+    now: Vec3,
+    turn: Vec3,
+}
+
+impl Displacement {
+    fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
+        Self { before: since.x_ba.point(reference), now: x_ba.point(reference), turn: since.turn }
+    }
+
+    /// Half of the work that a force at `point` does over the displacement.
+    fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
+        let arm = point - if at_end { self.now } else { self.before };
+        0.5 * (force.dot(&(self.now - self.before)) + arm.cross(force).dot(&self.turn))
+    }
+}
+
+/// A contact that is no more: half of the work of its last force, and its stored energy is gone.
+fn end_contact(earlier: &ContactRecord, frame: &mut Frame) {
+    let motion = frame.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
+    let mut work = 0.0;
+    if let Some(since) = &motion.since_commit {
+        // Any point carried by A serves as reference; the contact's own place then is at hand.
+        let local = since.x_ba.inverse().point(&earlier.point);
+        work = Displacement::new(since, &motion.x_ba, &local).half_work(&earlier.point, &earlier.force, false);
+    }
+    frame.trial.work += work;
+    frame.trial.dissipated += earlier.stored - work;
+}

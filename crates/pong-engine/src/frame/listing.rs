@@ -1,0 +1,67 @@
+//! The contacts of a frame as the host sees them: ids, common frame.
+
+use super::Frame;
+use super::buffers::FrameContact;
+use crate::contact::{Contact, ContactSide};
+use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
+use crate::sealed::Sealed;
+use crate::state::Role;
+use crate::world::Scene;
+use pong_geometry::Vec3;
+use pong_model::Body;
+
+impl Frame {
+    /// Every contact that pushes, in key order.
+    pub fn list_contacts(&self, scene: &Scene, sealed: &Sealed, stamp: WorldStamp) -> Vec<Contact> {
+        let pushing = self.contacts.iter().filter(|contact| contact.role == Role::Pushes);
+        pushing.map(|contact| self.list_contact(contact, scene, sealed, stamp)).collect()
+    }
+
+    fn list_contact(
+        &self,
+        contact: &FrameContact,
+        scene: &Scene,
+        sealed: &Sealed,
+        stamp: WorldStamp,
+    ) -> Contact {
+        let pair = &sealed.group_pairs[contact.key.group_pair as usize];
+        let flipped = contact.key.flipped as usize;
+        let (body_a, body_b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let x_ba = &self.motions[contact.key.group_pair as usize][flipped].x_ba;
+        let x_wb = &self.poses[body_b];
+        let to_common = |v: &Vec3| x_wb.orientation * v;
+        let side = |body: usize, primitive: u32, element: u32, arm: Vec3| ContactSide {
+            object: ObjectId::new(stamp, scene.bodies[body].object),
+            interface: InterfaceId::new(stamp, body),
+            primitive,
+            element: element - scene.body(body).primitives[primitive as usize].elements.start,
+            arm,
+        };
+        let arm_a = to_common(&(contact.point - x_ba.translation));
+        let arm_b = to_common(&contact.point);
+        Contact {
+            pair: PairId::new(stamp, pair.pair),
+            a: side(body_a, contact.key.primitive_a, contact.element_a, arm_a),
+            b: side(body_b, contact.primitive_b, contact.element_b, arm_b),
+            feature: contact.feature.0,
+            end: contact.key.end,
+            point: x_wb.position + arm_b,
+            normal: to_common(&contact.normal),
+            depth: contact.depth,
+            rate: contact.rate,
+            weight: contact.full_weight(),
+            normal_force: contact.normal_force,
+            friction_force: to_common(&contact.friction_force),
+            force: to_common(&contact.force()),
+            slip_velocity: to_common(&contact.slip_velocity),
+            sticks: contact.sticks,
+            stored: contact.stored,
+        }
+    }
+}
+
+/// The body that holds A of a contact.
+pub(super) fn body_of_a<'a>(scene: &'a Scene, sealed: &Sealed, contact: &FrameContact) -> &'a Body {
+    let pair = &sealed.group_pairs[contact.key.group_pair as usize];
+    scene.body(if contact.key.flipped == 0 { pair.first } else { pair.second })
+}

@@ -1,0 +1,21 @@
+//! Sums the forces of all contacts into wrenches, in key order, about and along each movable group's own frame.
+
+use super::Frame;
+use crate::sealed::Sealed;
+use crate::state::Role;
+use pong_geometry::Wrench;
+
+/// Adds every contact to both of its movable groups.
+pub(super) fn sum(sealed: &Sealed, frame: &mut Frame) {
+    for contact in frame.contacts.iter().filter(|contact| contact.role == Role::Pushes) {
+        let pair = &sealed.group_pairs[contact.key.group_pair as usize];
+        let flipped = contact.key.flipped as usize;
+        let (body_a, body_b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let x_ba = &frame.motions[contact.key.group_pair as usize][flipped].x_ba;
+        let force_b = contact.force();
+        let force_a = x_ba.rotation.tr_mul(&force_b);
+        let arm_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));
+        frame.wrenches[body_a] += Wrench::of_force_at(force_a, &arm_a);
+        frame.wrenches[body_b] += Wrench::of_force_at(-force_b, &contact.point);
+    }
+}

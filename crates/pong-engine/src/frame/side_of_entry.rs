@@ -1,0 +1,190 @@
+//! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
+//! (physics contract, 2.2 and 2.4).
+
+use super::bounding::PairContext;
+use crate::state::{ContactKey, ContactMemory, NO_FACE, Role};
+use pong_geometry::bounding::Volume;
+use pong_geometry::interference::point_polyhedron::{
+    entry_of_line, face_most_along, follow, pushing_face, shallowest_face,
+};
+use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::interference::triangle_features::{Standing, TriangleContact, TriangleView};
+use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
+use pong_geometry::{Transform, Vec3};
+use pong_model::Body;
+
+/// Which face of a polyhedron memory reaches, and which one pushes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EntryFace {
+    pub reached: usize,
+    pub pushes: usize,
+}
+
+/// A point (or a sphere's centre) that may be inside a piece of B.
+pub(super) struct PolyhedronEntry<'a> {
+    pub memory: &'a ContactMemory,
+    pub body: &'a Body,
+    pub shell: u32,
+    /// Which polyhedron of the body.
+    pub piece: u32,
+    /// The point, in B's frame.
+    pub point: Vec3,
+    /// Where it was at the last commit, in B's frame.
+    pub earlier: Option<Vec3>,
+    /// Whether the model of B remembers sides of entry.
+    pub remembers: bool,
+}
+
+impl PolyhedronEntry<'_> {
+    /// The faces for a point inside the piece; `None` if it is outside or no face of the piece is active.
+    pub fn face(&self, key: &ContactKey) -> Option<EntryFace> {
+        let polyhedron = self.polyhedron();
+        if !polyhedron.contains(&self.point) {
+            return None;
+        }
+        if !self.remembers {
+            let face = shallowest_face(&self.point, polyhedron)?;
+            return Some(EntryFace { reached: face, pushes: face });
+        }
+        let start = match self.remembered(key) {
+            Some(face) => face,
+            None => self.entered_by()?,
+        };
+        let reached = follow(&self.point, polyhedron, start);
+        Some(EntryFace { reached, pushes: pushing_face(&self.point, polyhedron, reached) })
+    }
+
+    fn polyhedron(&self) -> &Polyhedron {
+        &self.body.polyhedra[self.piece as usize]
+    }
+
+    /// The committed face; carried over if it belongs to another piece of the same surface.
+    fn remembered(&self, key: &ContactKey) -> Option<usize> {
+        let (_, records) = self.memory.under(key);
+        let with_face = || records.iter().filter(|record| record.entry_face != NO_FACE);
+        let record = with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
+        let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
+        let old = faces.get(record.entry_face as usize)?;
+        if record.element_b == self.piece && old.active {
+            return Some(record.entry_face as usize);
+        }
+        face_most_along(&old.normal, self.polyhedron())
+    }
+
+    /// The face by which the straight line since the last commit came in; the least deep one without a line.
+    fn entered_by(&self) -> Option<usize> {
+        let polyhedron = self.polyhedron();
+        let entry = self.earlier.and_then(|earlier| entry_of_line(&earlier, &self.point, polyhedron));
+        match entry {
+            Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
+            Some(entry) => self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point, polyhedron)),
+            None => shallowest_face(&self.point, polyhedron),
+        }
+    }
+
+    /// The line came through an inner wall at `at`: the active face by which it had come into the surface, the
+    /// nearest one before the wall, carried over into this piece.
+    fn entered_through_wall(&self, at: f64) -> Option<usize> {
+        let earlier = self.earlier?;
+        let wall = earlier + (self.point - earlier) * at;
+        let mut best: Option<(f64, Vec3)> = None;
+        let pieces = self.body.primitives.iter().filter(|info| {
+            info.kind == PrimitiveKind::Polyhedron && info.shell == self.shell && info.elements.start != self.piece
+        });
+        for piece in pieces {
+            let polyhedron = &self.body.polyhedra[piece.elements.start as usize];
+            let Some(entry) = entry_of_line(&earlier, &wall, polyhedron) else { continue };
+            let face = &polyhedron.faces[entry.face];
+            if face.active && best.is_none_or(|(last, _)| entry.at > last) {
+                best = Some((entry.at, face.normal));
+            }
+        }
+        best.and_then(|(_, normal)| face_most_along(&normal, self.polyhedron()))
+    }
+}
+
+/// The centre of a sphere or ellipsoid against one triangle of B.
+pub(super) struct TriangleEntry<'a> {
+    pub context: &'a PairContext<'a>,
+    pub memory: &'a ContactMemory,
+    pub body: &'a Body,
+    pub triangle: u32,
+    /// The centre, in B's frame.
+    pub center: Vec3,
+    /// Where it was at the last commit, in B's frame.
+    pub earlier: Option<Vec3>,
+}
+
+impl TriangleEntry<'_> {
+    /// Whether a contact pushes or is barred; `None` if it does not count at all.
+    pub fn role(&self, key: &ContactKey, contact: &TriangleContact) -> Option<Role> {
+        let normal = &contact.interference.normal;
+        let continues = |role| self.memory.matching(key, normal, role).is_some();
+        if continues(Role::Pushes) || continues(Role::Silent) {
+            return Some(Role::Pushes);
+        }
+        let behind = contact.standing == Standing::Behind;
+        if continues(Role::Barred) {
+            return (!behind).then_some(Role::Barred);
+        }
+        let Some(earlier) = self.earlier else { return Some(Role::Pushes) };
+        let view = TriangleView::new(&self.body.triangles, self.triangle);
+        if view.height(&earlier) >= 0.0 {
+            return Some(Role::Pushes);
+        }
+        if behind {
+            return None;
+        }
+        Some(if self.came_from_behind(&earlier, key.shell_b) { Role::Barred } else { Role::Pushes })
+    }
+
+    /// Whether the last crossing of the surface by the straight line since the last commit was from behind.
+    fn came_from_behind(&self, earlier: &Vec3, shell: u32) -> bool {
+        let path = self.center - earlier;
+        let length = path.norm();
+        if length == 0.0 {
+            return false;
+        }
+        let ray = |origin: Vec3, direction: Vec3| Ray {
+            origin,
+            direction,
+            length,
+            reach: None,
+            response: RayResponse::Normal,
+        };
+        let forward = ray(*earlier, path / length);
+        let backward = ray(self.center, -path / length);
+        let half = path.map(f64::abs) * 0.5;
+        let around_path = Volume::Aabb { center: earlier + path * 0.5, half };
+        // Distances of crossings from the present centre: the smaller came later.
+        let (mut from_behind, mut from_front) = (f64::INFINITY, f64::INFINITY);
+        self.visit_triangles(&around_path, 0, &mut |triangle| {
+            let set = &self.body.triangles;
+            if set.triangles[triangle as usize].shell != shell {
+                return;
+            }
+            if let Some(hit) = ray_triangle(&backward, set, triangle, 0.0) {
+                from_behind = from_behind.min(hit.distance);
+            }
+            if let Some(hit) = ray_triangle(&forward, set, triangle, 0.0) {
+                from_front = from_front.min(length - hit.distance);
+            }
+        });
+        from_behind < from_front
+    }
+
+    fn visit_triangles(&self, around: &Volume, node: u32, visit: &mut dyn FnMut(u32)) {
+        let node = &self.body.tree.nodes[node as usize];
+        if !self.context.volume_tests.overlap(around, &node.volume, &Transform::identity()) {
+            return;
+        }
+        for item in &self.body.tree.items[node.items.start as usize..node.items.end as usize] {
+            if self.body.primitives[item.primitive as usize].kind == PrimitiveKind::Triangle {
+                visit(item.element);
+            }
+        }
+        for child in node.children.clone() {
+            self.visit_triangles(around, child, visit);
+        }
+    }
+}

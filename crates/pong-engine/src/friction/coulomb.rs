@@ -1,0 +1,11 @@
+//! F_t = −μ·F_n·v_t/max(|v_t|, v_ε): Coulomb friction made continuous.
+//!
+//! It has no memory and creeps under any load: below v_ε it is a damper.
+
+use super::{FrictionInput, FrictionOutput};
+
+pub(super) fn evaluate(mu: f64, slip_speed: f64, input: &FrictionInput<'_>) -> FrictionOutput {
+    let speed = input.slip_velocity.norm();
+    let force = input.slip_velocity * (-mu * input.normal_force / speed.max(slip_speed));
+    FrictionOutput { force, sticks: speed < slip_speed, ..FrictionOutput::free() }
+}

@@ -1,0 +1,308 @@
+//! Two surfaces in series become one set of values for the pair (physics contract, section 3).
+//!
+//!     s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
+//!
+//! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
+//! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B).
+
+use super::NormalForce;
+use crate::friction::FrictionForce;
+use crate::registry::Laws;
+use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use std::sync::Arc;
+
+/// The values of an ordered pair of surfaces.
+#[derive(Clone, Debug)]
+pub struct PairProps {
+    /// s_A: A's share of the yield, 0…1.
+    pub share_a: f64,
+    /// k, N/m (N/m^1.5 with the exponent 3/2).
+    pub stiffness: f64,
+    /// Normal law with the pair's damping.
+    pub normal: NormalProps,
+    /// Friction law with the pair's values.
+    pub friction: FrictionProps,
+}
+
+/// Normal law of a pair.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum NormalProps {
+    Linear { damping: f64, ramp: f64 },
+    HuntCrossley { dissipation: f64, exponent: Exponent },
+    Custom { law: Arc<dyn NormalForce>, parameters: Vec<f64> },
+}
+
+/// Friction law of a pair.
+#[derive(Clone, Debug)]
+#[allow(missing_docs)]
+pub enum FrictionProps {
+    None,
+    Bristle { stiffness: f64, damping: f64, mu_kinetic: f64, mu_static: f64 },
+    Coulomb { mu: f64, slip_speed: f64 },
+    Custom { law: Arc<dyn FrictionForce>, stiffness: f64, parameters: Vec<f64> },
+}
+
+/// Why two surfaces cannot be combined.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CombineError {
+    /// What is wrong.
+    pub cause: String,
+    /// What would mend it.
+    pub cure: String,
+}
+
+/// Combines surface `a` (of A) with surface `b` (of B); what `table` gives for the pair goes first.
+pub fn combine(
+    a: &Surface,
+    b: &Surface,
+    table: Option<&PairOverride>,
+    laws: &Laws,
+) -> Result<PairProps, CombineError> {
+    if a.stiffness.is_infinite() && b.stiffness.is_infinite() {
+        return Err(CombineError {
+            cause: "both surfaces are rigid: the pair has no stiffness".to_owned(),
+            cure: "give one of the two surfaces a finite stiffness".to_owned(),
+        });
+    }
+    let exponent = pair_exponent(a, b, table);
+    let (share_a, series) = in_series(a.stiffness, b.stiffness, exponent);
+    let stiffness = table.and_then(|entry| entry.stiffness).unwrap_or(series);
+    let normal = match table.and_then(|entry| entry.normal.as_ref()) {
+        Some(law) => normal_props(law, laws)?,
+        None => normal_props(&combined_normal(a, b, share_a)?, laws)?,
+    };
+    let friction = match table.and_then(|entry| entry.friction.as_ref()) {
+        Some(law) => table_friction(law, stiffness, laws)?,
+        None => combined_friction(a, b, laws)?,
+    };
+    Ok(PairProps { share_a, stiffness, normal, friction })
+}
+
+fn pair_exponent(a: &Surface, b: &Surface, table: Option<&PairOverride>) -> Exponent {
+    let law = table.and_then(|entry| entry.normal.as_ref());
+    let of = |law: &NormalLaw| match law {
+        NormalLaw::HuntCrossley { exponent, .. } => *exponent,
+        _ => Exponent::One,
+    };
+    match law {
+        Some(law) => of(law),
+        None if of(&a.normal) == of(&b.normal) => of(&a.normal),
+        None => Exponent::One,
+    }
+}
+
+/// A's share and the stiffness of two springs in series.
+fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
+    if k_a.is_infinite() {
+        return (0.0, k_b);
+    }
+    if k_b.is_infinite() {
+        return (1.0, k_a);
+    }
+    match exponent {
+        Exponent::One => {
+            let share_a = k_b / (k_a + k_b);
+            (share_a, k_a * share_a)
+        }
+        Exponent::ThreeHalves => {
+            let kappa = |k: f64| libm::cbrt(k) * libm::cbrt(k);
+            let share_a = kappa(k_b) / (kappa(k_a) + kappa(k_b));
+            // k = k_A·s_A^(3/2), the closed form of the rule in the header.
+            (share_a, k_a * share_a * share_a.sqrt())
+        }
+    }
+}
+
+fn needs_entry(a: &Surface, b: &Surface, what: &str) -> CombineError {
+    CombineError {
+        cause: format!("surfaces `{}` and `{}` differ in {what}", a.name, b.name),
+        cure: format!(
+            "add an entry to `pairs` for (\"{}\", \"{}\") that says what holds between them",
+            a.name, b.name
+        ),
+    }
+}
+
+fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, CombineError> {
+    let share_b = 1.0 - share_a;
+    match (&a.normal, &b.normal) {
+        (NormalLaw::Linear { damping: c_a, ramp }, NormalLaw::Linear { damping: c_b, ramp: other }) => {
+            if ramp != other {
+                return Err(needs_entry(a, b, "the ramp of their damping"));
+            }
+            Ok(NormalLaw::Linear { damping: c_a * share_a * share_a + c_b * share_b * share_b, ramp: *ramp })
+        }
+        (
+            NormalLaw::HuntCrossley { dissipation: chi_a, exponent },
+            NormalLaw::HuntCrossley { dissipation: chi_b, exponent: other },
+        ) => {
+            if exponent != other {
+                return Err(needs_entry(a, b, "the exponent of their force law"));
+            }
+            Ok(NormalLaw::HuntCrossley { dissipation: chi_a * share_a + chi_b * share_b, exponent: *exponent })
+        }
+        (custom @ NormalLaw::Custom { .. }, other) if custom == other => Ok(custom.clone()),
+        _ => Err(needs_entry(a, b, "their normal force law")),
+    }
+}
+
+fn normal_props(law: &NormalLaw, laws: &Laws) -> Result<NormalProps, CombineError> {
+    Ok(match law {
+        NormalLaw::Linear { damping, ramp } => NormalProps::Linear { damping: *damping, ramp: *ramp },
+        NormalLaw::HuntCrossley { dissipation, exponent } => {
+            NormalProps::HuntCrossley { dissipation: *dissipation, exponent: *exponent }
+        }
+        NormalLaw::Custom { name, parameters } => {
+            NormalProps::Custom { law: laws.normal(name)?, parameters: parameters.clone() }
+        }
+    })
+}
+
+fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionProps, CombineError> {
+    match (&a.friction, &b.friction) {
+        (FrictionLaw::None, _) | (_, FrictionLaw::None) => Ok(FrictionProps::None),
+        (
+            FrictionLaw::Bristle { mu: mu_a, static_excess: excess_a, stiffness: kt_a, damping: ct_a },
+            FrictionLaw::Bristle { mu: mu_b, static_excess: excess_b, stiffness: kt_b, damping: ct_b },
+        ) => {
+            let kt_a = kt_a.unwrap_or(default_tangential(a.stiffness));
+            let kt_b = kt_b.unwrap_or(default_tangential(b.stiffness));
+            let (share_a, stiffness) = in_series(kt_a, kt_b, Exponent::One);
+            if stiffness.is_infinite() {
+                return Err(CombineError {
+                    cause: "both bristle stiffnesses are infinite".to_owned(),
+                    cure: "give one of the two surfaces a finite friction stiffness".to_owned(),
+                });
+            }
+            let share_b = 1.0 - share_a;
+            Ok(FrictionProps::Bristle {
+                stiffness,
+                damping: ct_a * share_a * share_a + ct_b * share_b * share_b,
+                mu_kinetic: harmonic(*mu_a, *mu_b),
+                mu_static: harmonic((1.0 + excess_a) * mu_a, (1.0 + excess_b) * mu_b),
+            })
+        }
+        (
+            FrictionLaw::Coulomb { mu: mu_a, slip_speed },
+            FrictionLaw::Coulomb { mu: mu_b, slip_speed: other },
+        ) => {
+            if slip_speed != other {
+                return Err(needs_entry(a, b, "the slip speed of their friction law"));
+            }
+            Ok(FrictionProps::Coulomb { mu: harmonic(*mu_a, *mu_b), slip_speed: *slip_speed })
+        }
+        (custom @ FrictionLaw::Custom { .. }, other) if custom == other => {
+            let (_, stiffness) = in_series(a.stiffness, b.stiffness, Exponent::One);
+            table_friction(custom, stiffness, laws)
+        }
+        _ => Err(needs_entry(a, b, "their friction law")),
+    }
+}
+
+fn table_friction(law: &FrictionLaw, pair_stiffness: f64, laws: &Laws) -> Result<FrictionProps, CombineError> {
+    Ok(match law {
+        FrictionLaw::None => FrictionProps::None,
+        FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
+            stiffness: stiffness.unwrap_or(default_tangential(pair_stiffness)),
+            damping: *damping,
+            mu_kinetic: *mu,
+            mu_static: (1.0 + static_excess) * mu,
+        },
+        FrictionLaw::Coulomb { mu, slip_speed } => FrictionProps::Coulomb { mu: *mu, slip_speed: *slip_speed },
+        FrictionLaw::Custom { name, parameters } => FrictionProps::Custom {
+            law: laws.friction(name)?,
+            stiffness: default_tangential(pair_stiffness),
+            parameters: parameters.clone(),
+        },
+    })
+}
+
+fn default_tangential(stiffness: f64) -> f64 {
+    2.0 / 3.0 * stiffness
+}
+
+fn harmonic(mu_a: f64, mu_b: f64) -> f64 {
+    if mu_a == 0.0 || mu_b == 0.0 { 0.0 } else { 2.0 * mu_a * mu_b / (mu_a + mu_b) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surface(stiffness: f64, damping: f64) -> Surface {
+        Surface {
+            name: format!("k{stiffness}"),
+            stiffness,
+            normal: NormalLaw::Linear { damping, ramp: 0.0 },
+            friction: FrictionLaw::None,
+        }
+    }
+
+    fn damping_of(props: &PairProps) -> f64 {
+        match props.normal {
+            NormalProps::Linear { damping, .. } => damping,
+            _ => unreachable!(),
+        }
+    }
+
+    #[test]
+    fn springs_in_series_share_the_depth_by_compliance() {
+        let props = combine(&surface(3e5, 900.0), &surface(1e5, 100.0), None, &Laws::default()).unwrap();
+        assert!((props.stiffness - 7.5e4).abs() < 1e-9);
+        assert!((props.share_a - 0.25).abs() < 1e-15);
+        // Both dampers carry their own part of the rate: power adds.
+        assert!((damping_of(&props) - (900.0 / 16.0 + 100.0 * 9.0 / 16.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_rigid_surface_leaves_all_the_yield_to_the_other() {
+        let props = combine(&surface(f64::INFINITY, 0.0), &surface(1e5, 7.0), None, &Laws::default()).unwrap();
+        assert_eq!((props.share_a, props.stiffness, damping_of(&props)), (0.0, 1e5, 7.0));
+        let both = surface(f64::INFINITY, 0.0);
+        assert!(combine(&both, &both, None, &Laws::default()).is_err());
+    }
+
+    #[test]
+    fn hertz_surfaces_carry_the_same_force_at_their_share_of_the_depth() {
+        let hertz = |stiffness| Surface {
+            normal: NormalLaw::HuntCrossley { dissipation: 0.0, exponent: Exponent::ThreeHalves },
+            ..surface(stiffness, 0.0)
+        };
+        let (a, b) = (hertz(4e6), hertz(9e5));
+        let props = combine(&a, &b, None, &Laws::default()).unwrap();
+        let depth = 1e-3_f64;
+        let of = |k: f64, d: f64| k * d * d.sqrt();
+        let whole = of(props.stiffness, depth);
+        assert!((of(a.stiffness, depth * props.share_a) / whole - 1.0).abs() < 1e-14);
+        assert!((of(b.stiffness, depth * (1.0 - props.share_a)) / whole - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn friction_combines_by_the_harmonic_mean() {
+        let rough = |mu, stiffness| Surface {
+            friction: FrictionLaw::Bristle { mu, static_excess: 0.5, stiffness: Some(stiffness), damping: 4.0 },
+            ..surface(1e5, 0.0)
+        };
+        let props = combine(&rough(0.2, 1e4), &rough(0.6, 3e4), None, &Laws::default()).unwrap();
+        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction else {
+            panic!("not a bristle")
+        };
+        assert!((mu_kinetic - 0.3).abs() < 1e-15 && (mu_static - 0.45).abs() < 1e-15);
+        assert!((stiffness - 7500.0).abs() < 1e-9);
+        assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn different_laws_need_an_entry_for_the_pair() {
+        let ramped = Surface { normal: NormalLaw::Linear { damping: 1.0, ramp: 1e-3 }, ..surface(1e5, 1.0) };
+        let plain = surface(1e5, 1.0);
+        assert!(combine(&ramped, &plain, None, &Laws::default()).is_err());
+        let entry = PairOverride {
+            normal: Some(NormalLaw::Linear { damping: 3.0, ramp: 0.0 }),
+            ..PairOverride::default()
+        };
+        let props = combine(&ramped, &plain, Some(&entry), &Laws::default()).unwrap();
+        assert_eq!(damping_of(&props), 3.0);
+    }
+}

@@ -1,0 +1,20 @@
+//! F = k·δ + c·S(δ/ramp)·δ',  S(x) = 3x² − 2x³ on 0…1.
+//!
+//! The Kelvin-Voigt element, here without pull (the caller cuts at zero). Without a ramp the damping force steps
+//! to c·δ' at touch; with one it grows over the stated depth.
+
+pub(super) fn force(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> f64 {
+    stiffness * depth + damping * ramp_factor(depth, ramp) * rate
+}
+
+pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
+    0.5 * stiffness * depth * depth
+}
+
+fn ramp_factor(depth: f64, ramp: f64) -> f64 {
+    if depth >= ramp {
+        return 1.0;
+    }
+    let x = depth / ramp;
+    x * x * (3.0 - 2.0 * x)
+}

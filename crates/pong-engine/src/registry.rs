@@ -1,0 +1,45 @@
+//! Force laws added by the user, by name.
+
+use crate::friction::FrictionForce;
+use crate::law::{CombineError, NormalForce};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Registered force laws; the model's surfaces refer to them by name.
+#[derive(Clone, Debug, Default)]
+pub struct Laws {
+    normal: BTreeMap<String, Arc<dyn NormalForce>>,
+    friction: BTreeMap<String, Arc<dyn FrictionForce>>,
+}
+
+impl Laws {
+    /// Adds a normal force law.
+    pub fn add_normal(&mut self, name: &str, law: Arc<dyn NormalForce>) {
+        self.normal.insert(name.to_owned(), law);
+    }
+
+    /// Adds a friction law.
+    pub fn add_friction(&mut self, name: &str, law: Arc<dyn FrictionForce>) {
+        self.friction.insert(name.to_owned(), law);
+    }
+
+    pub(crate) fn normal(&self, name: &str) -> Result<Arc<dyn NormalForce>, CombineError> {
+        self.normal.get(name).cloned().ok_or_else(|| missing("normal force law", name))
+    }
+
+    pub(crate) fn friction(&self, name: &str) -> Result<Arc<dyn FrictionForce>, CombineError> {
+        self.friction.get(name).cloned().ok_or_else(|| missing("friction law", name))
+    }
+
+    /// The names of all laws, for the hash of a world.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.normal.keys().chain(self.friction.keys()).map(String::as_str)
+    }
+}
+
+fn missing(what: &str, name: &str) -> CombineError {
+    CombineError {
+        cause: format!("no {what} named `{name}` is registered"),
+        cure: "register it with the world before sealing".to_owned(),
+    }
+}

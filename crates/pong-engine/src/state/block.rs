@@ -1,0 +1,263 @@
+//! Contact state as one flat, versioned, pointer-free block of bytes.
+//!
+//!     magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
+//!     | poses: known 8, two poses of 7 × 8, per pair of movable groups
+//!     | records: RECORD_LEN + 8 × custom numbers, per place of the world's contact capacity, unused ones zero
+//!     | checksum 8 (FNV-1a of everything before)
+//!
+//! Little-endian. The size depends on the sealed world alone.
+
+use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
+use pong_geometry::{Pose, Vec3};
+
+const MAGIC: [u8; 8] = *b"PONGSTAT";
+const VERSION: u32 = 1;
+const HEADER_LEN: usize = 8 + 4 + 4 + 8 + 2 * 8;
+const POSE_LEN: usize = 8 + 2 * 7 * 8;
+const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
+const CHECKSUM_LEN: usize = 8;
+
+/// Why a block was refused. The world keeps the state it had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StateError {
+    /// The buffer has the wrong length.
+    Length {
+        /// Bytes that the sealed world needs.
+        expected: usize,
+        /// Bytes given.
+        got: usize,
+    },
+    /// The block does not start like a contact state block.
+    Foreign,
+    /// The block was written by another version of the format.
+    Version {
+        /// Version in the block.
+        got: u32,
+    },
+    /// The block belongs to a world that was built by other calls.
+    World,
+    /// The block's contents do not match its checksum.
+    Damaged,
+}
+
+impl std::fmt::Display for StateError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Length { expected, got } => {
+                write!(f, "contact state: the buffer has {got} bytes where this world's block has {expected}; ask the world for the size")
+            }
+            Self::Foreign => write!(f, "contact state: the bytes are not a contact state block; hand in one that was saved by this engine"),
+            Self::Version { got } => write!(f, "contact state: the block has format version {got}, this engine reads {VERSION}; save it again with this version"),
+            Self::World => write!(f, "contact state: the block was saved by a world that was built from other models or other calls; build the world by the same calls in the same order"),
+            Self::Damaged => write!(f, "contact state: the block is damaged (checksum mismatch); use another copy"),
+        }
+    }
+}
+
+impl std::error::Error for StateError {}
+
+/// Size of the block of a sealed world, bytes.
+pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize) -> usize {
+    HEADER_LEN + group_pairs * POSE_LEN + capacity * (RECORD_LEN + 8 * custom_stride) + CHECKSUM_LEN
+}
+
+/// Writes the block. `out` must have the length that [`block_len`] gives.
+pub(crate) fn write_block(
+    memory: &ContactMemory,
+    world_hash: u64,
+    capacity: usize,
+    out: &mut [u8],
+) -> Result<(), StateError> {
+    let expected = block_len(memory.poses.len(), capacity, memory.custom_stride);
+    if out.len() != expected {
+        return Err(StateError::Length { expected, got: out.len() });
+    }
+    out.fill(0);
+    let mut writer = Writer { out, at: 0 };
+    writer.bytes(&MAGIC);
+    writer.u32(VERSION);
+    writer.u32(memory.records.len() as u32);
+    writer.bytes(&world_hash.to_le_bytes());
+    writer.f64(memory.work);
+    writer.f64(memory.dissipated);
+    for pose in &memory.poses {
+        writer.pair_pose(pose);
+    }
+    for (i, record) in memory.records.iter().enumerate() {
+        writer.record(record);
+        memory.custom_of(i).iter().for_each(|x| writer.f64(*x));
+    }
+    let checksum = fnv1a(&out[..expected - CHECKSUM_LEN]);
+    out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
+    Ok(())
+}
+
+/// Reads a block back; `like` gives the shape that the world expects.
+pub(crate) fn read_block(
+    like: &ContactMemory,
+    world_hash: u64,
+    capacity: usize,
+    block: &[u8],
+) -> Result<ContactMemory, StateError> {
+    let expected = block_len(like.poses.len(), capacity, like.custom_stride);
+    if block.len() < HEADER_LEN || block[..8] != MAGIC {
+        return Err(StateError::Foreign);
+    }
+    let mut reader = Reader { block, at: 8 };
+    let version = reader.u32();
+    if version != VERSION {
+        return Err(StateError::Version { got: version });
+    }
+    let count = reader.u32() as usize;
+    if reader.u64() != world_hash {
+        return Err(StateError::World);
+    }
+    if block.len() != expected {
+        return Err(StateError::Length { expected, got: block.len() });
+    }
+    let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
+    if fnv1a(body).to_le_bytes() != checksum || count > capacity {
+        return Err(StateError::Damaged);
+    }
+    let mut memory = ContactMemory::new(like.poses.len(), like.custom_stride);
+    memory.work = reader.f64();
+    memory.dissipated = reader.f64();
+    for pose in &mut memory.poses {
+        *pose = reader.pair_pose();
+    }
+    for _ in 0..count {
+        memory.records.push(reader.record(like.poses.len()).ok_or(StateError::Damaged)?);
+        memory.custom.extend((0..like.custom_stride).map(|_| reader.f64()));
+    }
+    Ok(memory)
+}
+
+/// FNV-1a, 64 bit.
+pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+struct Writer<'a> {
+    out: &'a mut [u8],
+    at: usize,
+}
+
+impl Writer<'_> {
+    fn bytes(&mut self, bytes: &[u8]) {
+        self.out[self.at..self.at + bytes.len()].copy_from_slice(bytes);
+        self.at += bytes.len();
+    }
+
+    fn u32(&mut self, value: u32) {
+        self.bytes(&value.to_le_bytes());
+    }
+
+    fn f64(&mut self, value: f64) {
+        self.bytes(&value.to_le_bytes());
+    }
+
+    fn vec3(&mut self, v: &Vec3) {
+        v.iter().for_each(|x| self.f64(*x));
+    }
+
+    fn pair_pose(&mut self, pose: &PairPose) {
+        self.u32(u32::from(pose.known));
+        self.u32(0);
+        for relative in &pose.relative {
+            self.vec3(&relative.position);
+            relative.orientation.coords.iter().for_each(|x| self.f64(*x));
+        }
+    }
+
+    fn record(&mut self, record: &ContactRecord) {
+        let key = &record.key;
+        for word in [key.group_pair, key.flipped, key.primitive_a, key.shell_b, key.end] {
+            self.u32(word);
+        }
+        for word in [record.feature, record.element_b, record.entry_face] {
+            self.u32(word);
+        }
+        self.u32(u32::from(record.sticks));
+        self.u32(record.role.to_word());
+        for v in [&record.normal, &record.point, &record.bristle, &record.force] {
+            self.vec3(v);
+        }
+        for x in [record.stored, record.work, record.dissipated] {
+            self.f64(x);
+        }
+    }
+}
+
+struct Reader<'a> {
+    block: &'a [u8],
+    at: usize,
+}
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> [u8; N] {
+        let bytes = self.block[self.at..self.at + N].try_into().expect("N bytes");
+        self.at += N;
+        bytes
+    }
+
+    fn u32(&mut self) -> u32 {
+        u32::from_le_bytes(self.take())
+    }
+
+    fn u64(&mut self) -> u64 {
+        u64::from_le_bytes(self.take())
+    }
+
+    fn f64(&mut self) -> f64 {
+        f64::from_le_bytes(self.take())
+    }
+
+    fn vec3(&mut self) -> Vec3 {
+        Vec3::new(self.f64(), self.f64(), self.f64())
+    }
+
+    fn pose(&mut self) -> Pose {
+        let position = self.vec3();
+        let [x, y, z, w] = [self.f64(), self.f64(), self.f64(), self.f64()];
+        // Stored bits are unit already; normalising again would change them.
+        let orientation = nalgebra::Unit::new_unchecked(nalgebra::Quaternion::new(w, x, y, z));
+        Pose { position, orientation }
+    }
+
+    fn pair_pose(&mut self) -> PairPose {
+        let known = self.u32() != 0;
+        self.u32();
+        PairPose { relative: [self.pose(), self.pose()], known }
+    }
+
+    /// `None` if a number in the record is impossible.
+    fn record(&mut self, group_pairs: usize) -> Option<ContactRecord> {
+        let key = ContactKey {
+            group_pair: self.u32(),
+            flipped: self.u32(),
+            primitive_a: self.u32(),
+            shell_b: self.u32(),
+            end: self.u32(),
+        };
+        if key.group_pair as usize >= group_pairs {
+            return None;
+        }
+        Some(ContactRecord {
+            key,
+            feature: self.u32(),
+            element_b: self.u32(),
+            entry_face: self.u32(),
+            sticks: self.u32() != 0,
+            role: Role::from_word(self.u32())?,
+            normal: self.vec3(),
+            point: self.vec3(),
+            bristle: self.vec3(),
+            force: self.vec3(),
+            stored: self.f64(),
+            work: self.f64(),
+            dissipated: self.f64(),
+        })
+    }
+}

@@ -1,0 +1,177 @@
+//! Contact records under their keys, and the relative poses of the last commit.
+
+use pong_geometry::{Pose, Vec3};
+
+/// In [`ContactRecord::entry_face`]: no side of entry is remembered.
+pub(crate) const NO_FACE: u32 = u32::MAX;
+
+/// What a contact is remembered under. Its order is the order of every sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct ContactKey {
+    /// Index of the pair of movable groups.
+    pub group_pair: u32,
+    /// 0 if A belongs to the pair's first group, 1 if to its second.
+    pub flipped: u32,
+    /// Primitive of A.
+    pub primitive_a: u32,
+    /// Shell of B.
+    pub shell_b: u32,
+    /// End of a segment; 0 otherwise.
+    pub end: u32,
+}
+
+/// Why a contact is remembered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// It pushes.
+    Pushes,
+    /// Its centre came through the surface from behind: overlaps, but is not pushed to the front.
+    Barred,
+    /// Its share of the spring is zero; only its side of entry matters.
+    Silent,
+}
+
+impl Role {
+    pub fn to_word(self) -> u32 {
+        self as u32
+    }
+
+    /// `None` for a word that no role has.
+    pub fn from_word(word: u32) -> Option<Self> {
+        [Self::Pushes, Self::Barred, Self::Silent].into_iter().find(|role| role.to_word() == word)
+    }
+}
+
+/// What is remembered of one contact. Vectors are in the frame of B's movable group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ContactRecord {
+    pub key: ContactKey,
+    /// Feature of B, for ties.
+    pub feature: u32,
+    /// Primitive element of B (the piece of a shell).
+    pub element_b: u32,
+    /// Face reached by the walk from the side of entry, in that piece.
+    pub entry_face: u32,
+    /// Whether the bristle sticks.
+    pub sticks: bool,
+    /// Whether the contact pushes, or is only remembered.
+    pub role: Role,
+    /// n.
+    pub normal: Vec3,
+    /// c, m.
+    pub point: Vec3,
+    /// p, m.
+    pub bristle: Vec3,
+    /// Force on A, N: the ledger's trapezoid needs it.
+    pub force: Vec3,
+    /// Energy stored in the normal spring and in the bristle, J.
+    pub stored: f64,
+    /// Work done on the two bodies since the contact began, J.
+    pub work: f64,
+    /// Energy dissipated since the contact began, J.
+    pub dissipated: f64,
+}
+
+/// Relative poses of a pair of movable groups at the last commit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct PairPose {
+    /// Pose of the first group seen from the second, and of the second seen from the first.
+    pub relative: [Pose; 2],
+    /// False until the first commit, and again after the pair was forgotten or switched off.
+    pub known: bool,
+}
+
+/// All contact state of a world.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct ContactMemory {
+    /// One per pair of movable groups.
+    pub poses: Vec<PairPose>,
+    /// Sorted by key, then piece and feature.
+    pub records: Vec<ContactRecord>,
+    /// Numbers of registered friction laws: `custom_stride` per record.
+    pub custom: Vec<f64>,
+    /// How many numbers each record has in `custom`.
+    pub custom_stride: usize,
+    /// Energy that left the contacts for good since the world began, J.
+    pub dissipated: f64,
+    /// Work done on the bodies since the world began, J.
+    pub work: f64,
+}
+
+impl PairPose {
+    /// Before the first commit.
+    pub fn unknown() -> Self {
+        Self { relative: [Pose::identity(); 2], known: false }
+    }
+}
+
+impl ContactMemory {
+    pub fn new(group_pairs: usize, custom_stride: usize) -> Self {
+        Self { poses: vec![PairPose::unknown(); group_pairs], custom_stride, ..Self::default() }
+    }
+
+    /// The records under one key, with the index of the first.
+    pub fn under(&self, key: &ContactKey) -> (usize, &[ContactRecord]) {
+        let first = self.records.partition_point(|record| record.key < *key);
+        let count = self.records[first..].partition_point(|record| record.key == *key);
+        (first, &self.records[first..first + count])
+    }
+
+    /// The record of the given role that a present contact with normal `n` continues: the one under its key with
+    /// the largest n·n', ties by feature, if that exceeds ½.
+    pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: Role) -> Option<usize> {
+        let (first, records) = self.under(key);
+        let mut best: Option<(usize, f64)> = None;
+        for (i, record) in records.iter().enumerate().filter(|(_, record)| record.role == role) {
+            let cosine = record.normal.dot(normal);
+            let closer = match best {
+                None => cosine > 0.5,
+                Some((b, most)) => cosine > most || (cosine == most && record.feature < records[b].feature),
+            };
+            if closer {
+                best = Some((i, cosine));
+            }
+        }
+        best.map(|(i, _)| first + i)
+    }
+
+    /// The custom numbers of a record.
+    pub fn custom_of(&self, record: usize) -> &[f64] {
+        &self.custom[record * self.custom_stride..(record + 1) * self.custom_stride]
+    }
+
+    /// Drops everything remembered of the pairs of movable groups that `forgotten` names.
+    pub fn forget(&mut self, forgotten: impl Fn(u32) -> bool) {
+        for (index, pose) in self.poses.iter_mut().enumerate() {
+            if forgotten(index as u32) {
+                *pose = PairPose::unknown();
+            }
+        }
+        let stride = self.custom_stride;
+        let kept: Vec<usize> =
+            (0..self.records.len()).filter(|&i| !forgotten(self.records[i].key.group_pair)).collect();
+        self.custom = kept.iter().flat_map(|&i| self.custom[i * stride..(i + 1) * stride].to_vec()).collect();
+        self.records = kept.iter().map(|&i| self.records[i]).collect();
+    }
+
+    /// Takes over what `trial` holds of the pairs of movable groups that `accepted` names and keeps the rest.
+    pub fn accept(&mut self, trial: &ContactMemory, accepted: impl Fn(u32) -> bool) {
+        let stride = self.custom_stride;
+        let mut merged = ContactMemory { poses: self.poses.clone(), ..ContactMemory::new(0, stride) };
+        merged.dissipated = self.dissipated;
+        merged.work = self.work;
+        for (index, pose) in merged.poses.iter_mut().enumerate() {
+            if accepted(index as u32) {
+                *pose = trial.poses[index];
+            }
+        }
+        for index in 0..self.poses.len() as u32 {
+            let source: &ContactMemory = if accepted(index) { trial } else { self };
+            let first = source.records.partition_point(|record| record.key.group_pair < index);
+            let count = source.records[first..].partition_point(|record| record.key.group_pair == index);
+            merged.records.extend_from_slice(&source.records[first..first + count]);
+            merged.custom.extend_from_slice(&source.custom[first * stride..(first + count) * stride]);
+        }
+        *self = merged;
+    }
+}

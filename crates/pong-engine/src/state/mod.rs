@@ -1,0 +1,8 @@
+//! Contact state: all that the engine remembers between frames (physics contract, section 5).
+
+mod block;
+mod memory;
+
+pub use block::StateError;
+pub(crate) use block::{block_len, fnv1a, read_block, write_block};
+pub(crate) use memory::{ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role};

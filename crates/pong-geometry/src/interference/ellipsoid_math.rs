@@ -1,0 +1,331 @@
+//! Nearest points of an ellipse and an ellipsoid, and an ellipsoid made ready for many directions.
+//!
+//! # The equation
+//!
+//! In the principal frame let `aᵢ` be the semi-axes, `y` the given point and `x = aᵢ²·yᵢ/(aᵢ² + t)` the foot of a
+//! normal through `y`. That `x` lies on the surface is the secular equation
+//!
+//! ```text
+//! f(t) = Σ qᵢ² = 1,    qᵢ = xᵢ/aᵢ = aᵢ·yᵢ/(aᵢ² + t).
+//! ```
+//!
+//! `x − y = −t·A⁻²·x`, so `y` lies inside along the normal for `t < 0`. A root is a local minimum of the distance if
+//! `H = I + t·A⁻²` is positive semidefinite on the tangent plane at `x`, whose normal is `g = A⁻²·x`.
+//!
+//! * `t > −a_min²`: `H` is positive definite. `f` falls from ∞ to 0, there is one root: the nearest point.
+//! * `−a_mid² < t < −a_min²`: `H` has one negative eigenvalue. The determinant of `H` on the tangent plane has the
+//!   sign of `gᵀ·adj(H)·g = −½·det(H)·f'(t)`, that is of `f'`; the other eigenvalue is positive by interlacing. `f` is
+//!   convex here, so of its at most two roots the larger, where `f' ≥ 0`, is a local minimum, and the only one.
+//! * `t < −a_mid²`: two negative eigenvalues meet every tangent plane in three dimensions: no local minimum.
+//!
+//! If `y` lies in the plane across the shortest axis, both minima can fall on `t = −a_min²`, and are then mirror images.
+//!
+//! # Why the iteration converges
+//!
+//! With `σ = (t + a_min²)/a_min²`, `wᵢ = aᵢ·yᵢ/a_min²` and `dᵢ = (aᵢ² − a_min²)/a_min² ≥ 0`, `f = Σ (wᵢ/(σ + dᵢ))²`.
+//! `ψ = 1/√f` is concave wherever no pole is crossed: `ψ'' ≤ 0` is `3·f'² ≤ 2·f·f''`, that is
+//! `(Σ wᵢ²/(σ+dᵢ)³)² ≤ Σ wᵢ²/(σ+dᵢ)² · Σ wᵢ²/(σ+dᵢ)⁴`, the inequality of Cauchy and Schwarz. The tangent of a concave
+//! function lies above it, so Newton's method for `ψ = 1`, started where `ψ ≤ 1` on the rising side, moves towards the
+//! root without ever passing it, and near it at second order. The start `σ = maxᵢ(|wᵢ| − dᵢ)` has `1 ≤ f ≤ N`.
+//! The second minimum is the same iteration in `τ = −σ` from `τ = |w_min|`: if it comes to a falling `ψ`, or to the
+//! pole, before `ψ = 1`, there is no root. Rounded, the sequence rises until it stops rising: it always ends.
+//!
+//! Only `d` and `w` enter, both free of units: scaling the scene changes nothing but rounding.
+
+use crate::Vec3;
+use crate::primitive::Ellipsoid;
+
+/// Far more than the quadratic phase needs; the slowest approach, a point within rounding of the focal curve, grows
+/// by half per iteration from 1e-8 to 1.
+const MOST_ITERATIONS: usize = 100;
+
+/// The foot of a normal from a point to an ellipse (`N` = 2) or ellipsoid (`N` = 3), in its principal frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalFoot<const N: usize> {
+    /// The surface point, m.
+    pub point: [f64; N],
+    /// Outward unit normal there.
+    pub normal: [f64; N],
+    /// Height of the tangent plane above the given point, m: positive if the point is inside.
+    pub depth: f64,
+}
+
+/// The surface point nearest to `y`, inside or outside, in the principal frame.
+///
+/// Where it is not unique the choice is fixed: towards positive coordinates, along the first of the smallest axes.
+pub fn nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> NormalFoot<3> {
+    nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
+}
+
+/// The other local minimum of the distance from `y` to the surface, on the far side of the plane across the shortest
+/// axis, if there is one.
+pub fn second_nearest_on_ellipsoid(semi_axes: &Vec3, y: &Vec3) -> Option<NormalFoot<3>> {
+    second_nearest([semi_axes.x, semi_axes.y, semi_axes.z], [y.x, y.y, y.z])
+}
+
+/// As [`nearest_on_ellipsoid`], for an ellipse.
+pub fn nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> NormalFoot<2> {
+    nearest(semi_axes, y)
+}
+
+/// As [`second_nearest_on_ellipsoid`], for an ellipse.
+pub fn second_nearest_on_ellipse(semi_axes: [f64; 2], y: [f64; 2]) -> Option<NormalFoot<2>> {
+    second_nearest(semi_axes, y)
+}
+
+#[inline]
+fn nearest<const N: usize>(a: [f64; N], y: [f64; N]) -> NormalFoot<N> {
+    let secular = Secular::new(&a, &y);
+    let mut q = secular.main_root();
+    normalize(&mut q);
+    foot(&a, &y, q)
+}
+
+#[inline]
+fn second_nearest<const N: usize>(a: [f64; N], y: [f64; N]) -> Option<NormalFoot<N>> {
+    let mut q = Secular::new(&a, &y).second_root()?;
+    normalize(&mut q);
+    Some(foot(&a, &y, q))
+}
+
+/// The secular equation without units (see the head of this file).
+struct Secular<const N: usize> {
+    w: [f64; N],
+    d: [f64; N],
+    shortest: usize,
+}
+
+impl<const N: usize> Secular<N> {
+    #[inline]
+    fn new(a: &[f64; N], y: &[f64; N]) -> Self {
+        let mut shortest = 0;
+        for i in 1..N {
+            if a[i] < a[shortest] {
+                shortest = i;
+            }
+        }
+        let a_min = a[shortest];
+        let inverse_square = 1.0 / (a_min * a_min);
+        let mut secular = Self { w: [0.0; N], d: [0.0; N], shortest };
+        for i in 0..N {
+            secular.w[i] = a[i] * y[i] * inverse_square;
+            secular.d[i] = (a[i] - a_min) * (a[i] + a_min) * inverse_square;
+        }
+        secular
+    }
+
+    /// The unit vector `q` of the nearest point, up to its length.
+    #[inline]
+    fn main_root(&self) -> [f64; N] {
+        let mut sigma = 0.0_f64;
+        for i in 0..N {
+            sigma = sigma.max(self.w[i].abs() - self.d[i]);
+        }
+        if sigma == 0.0 {
+            // The point lies in the plane across the shortest axis, with every pole at 0 lifted.
+            if let Some(q) = self.on_medial_plane(1.0) {
+                return q;
+            }
+        }
+        for _ in 0..MOST_ITERATIONS {
+            let (mut square, mut cube) = (0.0, 0.0);
+            for i in 0..N {
+                let reciprocal = self.reciprocal(sigma, i);
+                let q = self.w[i] * reciprocal;
+                square += q * q;
+                cube += q * q * reciprocal;
+            }
+            let next = sigma + square * (square.sqrt() - 1.0) / cube;
+            if next.is_nan() || next <= sigma {
+                break;
+            }
+            sigma = next;
+        }
+        std::array::from_fn(|i| self.w[i] * self.reciprocal(sigma, i))
+    }
+
+    /// The unit vector `q` of the second local minimum, up to its length.
+    #[inline]
+    fn second_root(&self) -> Option<[f64; N]> {
+        let lifted = self.on_medial_plane(-1.0)?;
+        let w_short = self.w[self.shortest].abs();
+        if w_short == 0.0 {
+            return self.has_gap().then_some(lifted);
+        }
+        let mut tau = w_short;
+        for _ in 0..MOST_ITERATIONS {
+            let (mut square, mut cube) = (0.0, 0.0);
+            for i in 0..N {
+                let denominator = self.d[i] - tau;
+                if i != self.shortest && denominator <= 0.0 {
+                    return None;
+                }
+                let reciprocal = 1.0 / denominator;
+                let q = self.w[i] * reciprocal;
+                square += q * q;
+                cube -= q * q * reciprocal;
+            }
+            if cube <= 0.0 {
+                return None;
+            }
+            let next = tau + square * (square.sqrt() - 1.0) / cube;
+            if next.is_nan() || next <= tau {
+                break;
+            }
+            tau = next;
+        }
+        Some(std::array::from_fn(|i| self.w[i] / (self.d[i] - tau)))
+    }
+
+    /// `q` at `t = −a_min²` with the component along the shortest axis filled up to unit length with the given
+    /// sign; none if the others are longer than that.
+    #[inline]
+    fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
+        let mut q = [0.0; N];
+        let mut rest = 0.0;
+        for i in 0..N {
+            if i != self.shortest && self.w[i] != 0.0 {
+                q[i] = self.w[i] / self.d[i];
+                rest += q[i] * q[i];
+            }
+        }
+        if rest > 1.0 {
+            return None;
+        }
+        q[self.shortest] = sign * (1.0 - rest).sqrt();
+        Some(q)
+    }
+
+    /// Whether the shortest axis is the only one of its length.
+    fn has_gap(&self) -> bool {
+        (0..N).all(|i| i == self.shortest || self.d[i] > 0.0)
+    }
+
+    /// `1/(σ + dᵢ)`; 0 for the lifted pole of a vanishing component.
+    #[inline]
+    fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
+        let sum = sigma + self.d[i];
+        if sum > 0.0 { 1.0 / sum } else { 0.0 }
+    }
+}
+
+#[inline]
+fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    for x in v.iter_mut() {
+        *x /= length;
+    }
+    length
+}
+
+/// The depth is taken as `h(n) − n·y` from the normal at hand: at a stationary normal an error of the root enters it
+/// at second order only, and it never falls below the true minimum by more than rounding.
+#[inline]
+fn foot<const N: usize>(a: &[f64; N], y: &[f64; N], q: [f64; N]) -> NormalFoot<N> {
+    let mut normal: [f64; N] = std::array::from_fn(|i| q[i] / a[i]);
+    let half_width = 1.0 / normalize(&mut normal);
+    let height: f64 = (0..N).map(|i| normal[i] * y[i]).sum();
+    NormalFoot { point: std::array::from_fn(|i| a[i] * q[i]), normal, depth: half_width - height }
+}
+
+/// An ellipsoid made ready for many directions and points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedEllipsoid {
+    /// Centre, m.
+    pub(crate) center: Vec3,
+    /// Rows: principal axes times semi-axes; takes a normal to its scaled one.
+    pub(crate) widen: [Vec3; 3],
+    /// Rows: principal axes over semi-axes; takes the ellipsoid to the unit ball.
+    shrink: [Vec3; 3],
+    /// Smallest semi-axis, m.
+    pub(crate) smallest: f64,
+    /// Largest semi-axis, m.
+    pub(crate) largest: f64,
+}
+
+impl PreparedEllipsoid {
+    pub(crate) fn new(e: &Ellipsoid) -> Self {
+        let axis = |i: usize| e.axes.column(i).into_owned();
+        Self {
+            center: e.center,
+            widen: std::array::from_fn(|i| axis(i) * e.semi_axes[i]),
+            shrink: std::array::from_fn(|i| axis(i) / e.semi_axes[i]),
+            smallest: e.semi_axes.min(),
+            largest: e.semi_axes.max(),
+        }
+    }
+
+    /// The scaled normal, whose length is the half width along `n`.
+    #[inline]
+    pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
+        Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
+    }
+
+    /// The surface point along a scaled normal as seen from the centre, times the half width.
+    #[inline]
+    pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
+        self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
+    }
+
+    /// A vector as seen where the ellipsoid is the unit ball.
+    #[inline]
+    pub(crate) fn shrunk(&self, v: &Vec3) -> Vec3 {
+        Vec3::new(self.shrink[0].dot(v), self.shrink[1].dot(v), self.shrink[2].dot(v))
+    }
+
+    /// The direction whose scaled normal is along `widened`, not of unit length.
+    #[inline]
+    pub(crate) fn direction_of(&self, widened: &Vec3) -> Vec3 {
+        self.shrink[0] * widened.x + self.shrink[1] * widened.y + self.shrink[2] * widened.z
+    }
+
+    /// The point of the ellipsoid deepest along −n.
+    #[inline]
+    pub(crate) fn deepest(&self, n: &Vec3) -> Vec3 {
+        let widened = self.widened(n);
+        self.center - self.reach(&widened) / widened.norm()
+    }
+}
+
+/// The outline of an ellipsoid seen along a direction: an ellipse in the plane across it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shadow {
+    /// Principal axes, unit.
+    pub(crate) axes: [Vec3; 2],
+    /// Semi-axes, m.
+    pub(crate) semi_axes: [f64; 2],
+}
+
+impl Shadow {
+    /// `u` and `v` are orthonormal and span the plane.
+    ///
+    /// The half width along a direction of the plane is the length of its scaled normal: the principal axes are
+    /// those whose scaled normals are orthogonal, found by one rotation of Jacobi's, which keeps the small axis exact
+    /// to rounding of the large one.
+    #[inline]
+    pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
+        let (wide_u, wide_v) = (e.widened(u), e.widened(v));
+        let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
+        if uv == 0.0 {
+            return Self { axes: [*u, *v], semi_axes: [uu.sqrt(), vv.sqrt()] };
+        }
+        let zeta = (vv - uu) / (2.0 * uv);
+        let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+        let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+        let sine = cosine * tangent;
+        let turned = |a: &Vec3, b: &Vec3| [a * cosine - b * sine, a * sine + b * cosine];
+        Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
+    }
+
+    /// A vector's components along the principal axes.
+    #[inline]
+    pub(crate) fn components(&self, v: &Vec3) -> [f64; 2] {
+        [self.axes[0].dot(v), self.axes[1].dot(v)]
+    }
+
+    /// A vector of the plane from its components.
+    #[inline]
+    pub(crate) fn vector(&self, components: &[f64; 2]) -> Vec3 {
+        self.axes[0] * components[0] + self.axes[1] * components[1]
+    }
+}

@@ -1,0 +1,15 @@
+//! Ellipsoid against plane: `δ = d − n·c + √Σ(aᵢ·nᵢ)²`.
+
+use super::{Feature, Interference};
+use crate::primitive::{Ellipsoid, Plane};
+
+/// Tests an ellipsoid (A) against a half space (B); none unless the ellipsoid reaches below the plane.
+pub fn ellipsoid_plane(e: &Ellipsoid, plane: &Plane) -> Option<Interference> {
+    let depth = e.half_width(&plane.normal) - plane.height(&e.center);
+    (depth > 0.0).then(|| Interference {
+        depth,
+        normal: plane.normal,
+        point_a: e.support(&-plane.normal),
+        feature: Feature::WHOLE,
+    })
+}

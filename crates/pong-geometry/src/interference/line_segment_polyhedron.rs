@@ -1,0 +1,145 @@
+//! Line segment (A) – polyhedron (B) (physics contract, 2.3).
+//!
+//! For each active face, the part of the segment over the face's polygon carries half a spring at each of its
+//! two ends. A *tip* of the segment measures its depth straight below the face. Where the segment's line leaves
+//! the polygon across an edge, the *crossing* measures the distance between the two lines. The face that stores
+//! the least energy pushes.
+//!
+//! Degenerate cases: a segment along the face's normal has two tips; one along an edge of the outline belongs to
+//! the faces on both sides, of which the lower wins a tie; a segment that only touches has no contact.
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
+
+/// The contact at each end of the part that carries: 0 towards the segment's first end, 1 towards its second.
+pub type EndContacts = [Option<Interference>; 2];
+
+/// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
+pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+    let mut best: EndContacts = [None, None];
+    if !pierces(segment, polyhedron) {
+        return best;
+    }
+    let mut best_energy = f64::INFINITY;
+    for (index, face) in polyhedron.faces.iter().enumerate() {
+        if !face.active {
+            continue;
+        }
+        let ends = ends_over_face(segment, polyhedron, index);
+        // Stored energy in units of k/4.
+        let energy: f64 = ends.iter().flatten().map(|contact| contact.depth * contact.depth).sum();
+        if energy > 0.0 && energy < best_energy {
+            best_energy = energy;
+            best = ends;
+        }
+    }
+    best
+}
+
+/// Whether some point of the segment lies inside.
+fn pierces(segment: &LineSegment, polyhedron: &Polyhedron) -> bool {
+    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
+    for face in &polyhedron.faces {
+        let heights = segment.ends.map(|end| face.height(&end));
+        if heights[0] == heights[1] {
+            let inside = heights[0] < 0.0 || (face.closed && heights[0] == 0.0);
+            if !inside {
+                return false;
+            }
+            continue;
+        }
+        let crossing = heights[0] / (heights[0] - heights[1]);
+        if heights[1] < heights[0] {
+            enter = enter.max(crossing);
+        } else {
+            leave = leave.min(crossing);
+        }
+        if enter >= leave {
+            return false;
+        }
+    }
+    true
+}
+
+/// Where the part of a segment over a face's polygon ends.
+#[derive(Clone, Copy)]
+struct PartEnd {
+    /// Parameter along the segment.
+    at: f64,
+    /// The edge it is cut by; `None` at a tip.
+    cut_by: Option<RimEdge>,
+}
+
+/// The contacts at both ends of the part over one face.
+fn ends_over_face(segment: &LineSegment, polyhedron: &Polyhedron, index: usize) -> EndContacts {
+    let face = &polyhedron.faces[index];
+    if segment.ends.iter().all(|end| face.height(end) >= 0.0) {
+        return [None, None];
+    }
+    let Some(part) = part_over_face(segment, polyhedron, index) else { return [None, None] };
+    [0, 1].map(|end| match part[end].cut_by {
+        None => tip_contact(&segment.ends[end], face, index),
+        Some(rim) if !polyhedron.faces[rim.neighbor as usize].active => None,
+        Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
+    })
+}
+
+/// Clips the segment to the prism of a face along its normal; `None` if nothing is left.
+fn part_over_face(segment: &LineSegment, polyhedron: &Polyhedron, index: usize) -> Option<[PartEnd; 2]> {
+    let mut part = [PartEnd { at: 0.0, cut_by: None }, PartEnd { at: 1.0, cut_by: None }];
+    for rim in polyhedron.rim(index) {
+        let beyond = segment.ends.map(|end| rim.outward.dot(&(end - rim.anchor)));
+        if beyond[0] <= 0.0 && beyond[1] <= 0.0 {
+            continue;
+        }
+        if beyond[0] > 0.0 && beyond[1] > 0.0 {
+            return None;
+        }
+        let at = beyond[0] / (beyond[0] - beyond[1]);
+        if beyond[0] > 0.0 && at >= part[0].at {
+            part[0] = PartEnd { at, cut_by: Some(*rim) };
+        } else if beyond[1] > 0.0 && at <= part[1].at {
+            part[1] = PartEnd { at, cut_by: Some(*rim) };
+        }
+    }
+    (part[0].at < part[1].at).then_some(part)
+}
+
+fn tip_contact(tip: &Vec3, face: &PolyhedronFace, index: usize) -> Option<Interference> {
+    let depth = -face.height(tip);
+    (depth > 0.0).then(|| Interference {
+        depth,
+        normal: face.normal,
+        point_a: *tip,
+        feature: Feature::face(index),
+    })
+}
+
+/// Distance of the segment's line below the edge's line, along the common normal of both.
+fn crossing_contact(
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+    face: &PolyhedronFace,
+    rim: &RimEdge,
+) -> Option<Interference> {
+    let edge = polyhedron.edges[rim.edge as usize].direction;
+    let along = segment.ends[1] - segment.ends[0];
+    let across = edge.cross(&along);
+    // |edge × along|² is the determinant of the two lines' closest-point problem; it cannot vanish where the
+    // segment crosses the edge's plane.
+    let square = across.norm_squared();
+    let normal = across.normalize() * across.dot(&face.normal).signum();
+    let to_anchor = rim.anchor - segment.ends[0];
+    let depth = normal.dot(&to_anchor);
+    if depth <= 0.0 || square == 0.0 {
+        return None;
+    }
+    let nearest = to_anchor.cross(&edge).dot(&along.cross(&edge)) / square;
+    Some(Interference {
+        depth,
+        normal,
+        point_a: segment.ends[0] + along * nearest,
+        feature: Feature::edge(rim.edge as usize),
+    })
+}

@@ -1,0 +1,24 @@
+//! Point against ellipsoid: depth and normal of the nearest surface point.
+
+use super::ellipsoid_math::nearest_on_ellipsoid;
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::Ellipsoid;
+
+/// Tests a point (A) against an ellipsoid (B); none unless the point is inside.
+///
+/// At the centre the normal is the direction of the first of the smallest axes. See
+/// [`ellipsoid_math`](super::ellipsoid_math) for the equation.
+pub fn point_ellipsoid(p: &Vec3, e: &Ellipsoid) -> Option<Interference> {
+    let y = e.axes.tr_mul(&(p - e.center));
+    if y.component_div(&e.semi_axes).norm_squared() >= 1.0 {
+        return None;
+    }
+    let foot = nearest_on_ellipsoid(&e.semi_axes, &y);
+    (foot.depth > 0.0).then(|| Interference {
+        depth: foot.depth,
+        normal: e.axes * Vec3::from(foot.normal),
+        point_a: *p,
+        feature: Feature::WHOLE,
+    })
+}

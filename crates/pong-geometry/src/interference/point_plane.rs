@@ -1,0 +1,15 @@
+//! Point (A) – plane (B): the plane is the half space `normal · x ≤ offset`.
+
+use super::{Feature, Interference};
+use crate::primitive::{Plane, Point};
+
+/// Depth of a point below a plane.
+pub fn point_plane(point: &Point, plane: &Plane) -> Option<Interference> {
+    let depth = -plane.height(&point.position);
+    (depth > 0.0).then(|| Interference {
+        depth,
+        normal: plane.normal,
+        point_a: point.position,
+        feature: Feature::WHOLE,
+    })
+}

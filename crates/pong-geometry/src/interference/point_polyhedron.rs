@@ -1,0 +1,122 @@
+//! Point (A) – polyhedron (B): the side of entry (physics contract, 2.4).
+//!
+//! A point inside is pushed out through the face that it came in by, or through a neighbour of that face when
+//! this is nearer. Which face that is, is remembered by the engine; here are the questions it asks of one piece.
+//!
+//! Degenerate cases: a point on an active face is outside; one on an inner wall belongs to the piece whose face
+//! is `closed`. Ties go to the lower index.
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::Polyhedron;
+
+/// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
+/// across anything sharper it stays (physics contract, 2.4).
+const FOLLOWED_COSINE_MIN: f64 = 0.3;
+
+/// The active face under which the point lies least deep; `None` if no face is active.
+pub fn shallowest_face(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+    let mut best: Option<(usize, f64)> = None;
+    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
+        let depth = -face.height(p);
+        if best.is_none_or(|(_, least)| depth < least) {
+            best = Some((index, depth));
+        }
+    }
+    best.map(|(index, _)| index)
+}
+
+/// The active face whose normal is nearest to a direction; `None` if no face is active.
+pub fn face_most_along(direction: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+    let mut best: Option<(usize, f64)> = None;
+    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
+        let cosine = face.normal.dot(direction);
+        if best.is_none_or(|(_, most)| cosine > most) {
+            best = Some((index, cosine));
+        }
+    }
+    best.map(|(index, _)| index)
+}
+
+/// Where the straight line from `from` (outside) to `to` (inside) enters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// The face, active or not.
+    pub face: usize,
+    /// How far along the line, 0…1.
+    pub at: f64,
+}
+
+/// The face through which a straight line enters; `None` if it starts inside or misses.
+pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
+    let mut entry: Option<Entry> = None;
+    let mut leave = f64::INFINITY;
+    for (index, face) in polyhedron.faces.iter().enumerate() {
+        let (start, end) = (face.height(from), face.height(to));
+        if start >= 0.0 && end >= 0.0 && !(face.closed && end == 0.0) {
+            return None;
+        }
+        if start > end {
+            let at = start / (start - end);
+            if start >= 0.0 && entry.is_none_or(|best| at > best.at) {
+                entry = Some(Entry { face: index, at });
+            }
+        } else if start < end {
+            leave = leave.min(start / (start - end));
+        }
+    }
+    entry.filter(|entry| entry.at < leave)
+}
+
+/// From a remembered face, the face that memory reaches: it walks to the neighbour of least depth while that
+/// lowers the depth, never round a sharp rim.
+pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> usize {
+    let mut reached = remembered;
+    let mut depth = -polyhedron.height(reached, p);
+    // Every step lowers the depth, so no face is met twice.
+    loop {
+        let mut next = None;
+        for rim in polyhedron.rim(reached) {
+            let neighbor = rim.neighbor as usize;
+            let face = &polyhedron.faces[neighbor];
+            let followed = face.normal.dot(&polyhedron.faces[reached].normal) > FOLLOWED_COSINE_MIN;
+            let candidate = -face.height(p);
+            let better = candidate < depth || (candidate == depth && next.is_some_and(|best| neighbor < best));
+            if face.active && followed && better {
+                depth = candidate;
+                next = Some(neighbor);
+            }
+        }
+        match next {
+            Some(face) => reached = face,
+            None => return reached,
+        }
+    }
+}
+
+/// The face that pushes: of the reached face and its active neighbours, the one of least depth.
+pub fn pushing_face(p: &Vec3, polyhedron: &Polyhedron, reached: usize) -> usize {
+    let mut best = reached;
+    let mut depth = -polyhedron.height(reached, p);
+    for rim in polyhedron.rim(reached) {
+        let neighbor = rim.neighbor as usize;
+        let candidate = -polyhedron.height(neighbor, p);
+        let nearer = candidate < depth || (candidate == depth && neighbor < best);
+        if polyhedron.faces[neighbor].active && nearer {
+            best = neighbor;
+            depth = candidate;
+        }
+    }
+    best
+}
+
+/// The contact of a point inside with the face that pushes; `None` if the point lies on it.
+pub fn point_below_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<Interference> {
+    let depth = -polyhedron.height(face, p);
+    (depth > 0.0).then(|| Interference {
+        depth,
+        normal: polyhedron.faces[face].normal,
+        point_a: *p,
+        feature: Feature::face(face),
+    })
+}

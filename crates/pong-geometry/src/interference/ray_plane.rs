@@ -1,0 +1,43 @@
+//! Ray (A) – plane (B), and what every ray does with the surface it hits (physics contract, 2.5).
+//!
+//! Degenerate case: a ray along the surface or from behind does not hit it.
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Plane, Ray, RayResponse};
+
+/// Where a ray hits a surface from its front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayHit {
+    /// Distance from the ray's origin along its direction, m; negative behind the origin.
+    pub distance: f64,
+    /// Unit normal of the surface.
+    pub normal: Vec3,
+    /// Which feature is hit.
+    pub feature: Feature,
+}
+
+/// Where a ray hits a plane, if from the front at −reach < distance < length.
+pub fn ray_plane(ray: &Ray, plane: &Plane) -> Option<RayHit> {
+    hit_plane(ray, &plane.normal, -plane.height(&ray.origin), ray.reach.unwrap_or(0.0), Feature::WHOLE)
+}
+
+/// The hit on a plane that lies `rise` (m) from the ray's origin along `normal`.
+pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature: Feature) -> Option<RayHit> {
+    let closing = ray.direction.dot(normal);
+    if closing >= 0.0 {
+        return None;
+    }
+    let distance = rise / closing;
+    (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal: *normal, feature })
+}
+
+/// The contact of a ray with the nearest surface it hits.
+pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
+    let shortening = ray.length - hit.distance;
+    let (depth, normal) = match ray.response {
+        RayResponse::Normal => (shortening * -ray.direction.dot(&hit.normal), hit.normal),
+        RayResponse::Axial => (shortening, -ray.direction),
+    };
+    Interference { depth, normal, point_a: ray.tip(), feature: hit.feature }
+}

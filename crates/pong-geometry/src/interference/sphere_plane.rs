@@ -1,0 +1,15 @@
+//! Sphere (A) – plane (B): the support point of the sphere against the half space.
+
+use super::{Feature, Interference};
+use crate::primitive::{Plane, Sphere};
+
+/// Depth of a sphere's lowest point below a plane.
+pub fn sphere_plane(sphere: &Sphere, plane: &Plane) -> Option<Interference> {
+    let depth = sphere.radius - plane.height(&sphere.center);
+    (depth > 0.0).then(|| Interference {
+        depth,
+        normal: plane.normal,
+        point_a: sphere.center - plane.normal * sphere.radius,
+        feature: Feature::WHOLE,
+    })
+}

@@ -1,0 +1,14 @@
+//! Sphere (A) – sphere (B): centre distance.
+//!
+//! Degenerate case: concentric spheres push along the frame's x axis.
+
+use super::{Feature, Interference, ball_over_point};
+use crate::Vec3;
+use crate::primitive::Sphere;
+
+/// Depth of the overlap of two spheres.
+pub fn sphere_sphere(a: &Sphere, b: &Sphere) -> Option<Interference> {
+    let as_ball = Sphere { center: a.center, radius: a.radius + b.radius };
+    let contact = ball_over_point(&as_ball, &b.center, &Vec3::x(), Feature::WHOLE)?;
+    Some(Interference { point_a: a.center - contact.normal * a.radius, ..contact })
+}

@@ -1,0 +1,131 @@
+//! Sphere (A) – triangle (B), one-sided (physics contract, 2.2).
+//!
+//! Degenerate cases: centre in the plane counts as in front; centre on a convex edge or vertex pushes along the
+//! mean of the normals that meet there.
+
+use super::triangle_features::{EdgeClass, Standing, TriangleContact, TriangleView, vertex_pushes, walk_fan};
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Sphere, TriangleSet};
+
+/// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
+///
+/// `thickness` (m): how far behind the face the centre is still pushed to the front. Edges and vertices are
+/// emitted by their owner alone, so that over a whole surface each feature counts once.
+pub fn sphere_triangle(
+    sphere: &Sphere,
+    set: &TriangleSet,
+    triangle: u32,
+    thickness: f64,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    let view = TriangleView::new(set, triangle);
+    let height = view.height(&sphere.center);
+    if height >= sphere.radius || height <= -(thickness.max(sphere.radius)) {
+        return;
+    }
+    if view.holds_foot(set, &sphere.center) {
+        emit_face(sphere, &view, height, thickness, emit);
+    }
+    for k in 0..3 {
+        emit_edge(sphere, set, &view, k, height, emit);
+    }
+    for corner in 0..3 {
+        emit_vertex(sphere, set, &view, corner, emit);
+    }
+}
+
+fn emit_face(
+    sphere: &Sphere,
+    view: &TriangleView,
+    height: f64,
+    thickness: f64,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    let depth = sphere.radius - height;
+    let behind = height < 0.0;
+    if depth <= 0.0 || (behind && -height >= thickness) {
+        return;
+    }
+    emit(TriangleContact {
+        interference: Interference {
+            depth,
+            normal: view.normal,
+            point_a: sphere.center - view.normal * sphere.radius,
+            feature: Feature::face(view.index as usize),
+        },
+        standing: if behind { Standing::Behind } else { Standing::Front },
+    });
+}
+
+fn emit_edge(
+    sphere: &Sphere,
+    set: &TriangleSet,
+    view: &TriangleView,
+    k: usize,
+    height: f64,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    if !view.owns_edge(set, k) || view.beyond_edge(k, &sphere.center) <= 0.0 {
+        return;
+    }
+    let [first, second] = view.edge_ends(k);
+    let along = second - first;
+    let from_first = sphere.center - first;
+    let from_second = sphere.center - second;
+    if from_first.dot(&along) < 0.0 || from_second.dot(&along) > 0.0 {
+        return;
+    }
+    let other_normal = match view.classify_edge(set, k) {
+        EdgeClass::Silent { .. } => return,
+        EdgeClass::Free if height < 0.0 => return,
+        EdgeClass::Free => view.outward(k),
+        EdgeClass::Convex { outward, .. } if outward.dot(&from_first) <= 0.0 => return,
+        EdgeClass::Convex { normal, .. } => normal,
+    };
+    let foot = first + along * (from_first.dot(&along) / along.norm_squared());
+    let feature = Feature::edge(3 * view.index as usize + k);
+    push_from(sphere, &foot, &(view.normal + other_normal), feature, Standing::Front, emit);
+}
+
+fn emit_vertex(
+    sphere: &Sphere,
+    set: &TriangleSet,
+    view: &TriangleView,
+    corner: usize,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    let apex = view.corners[corner];
+    let direction = sphere.center - apex;
+    if direction.norm_squared() >= sphere.radius * sphere.radius {
+        return;
+    }
+    // Most vertices fail at the two edges of their own triangle: no need to walk around them.
+    let slack = 1e-9 * direction.norm();
+    for other in [view.corners[(corner + 1) % 3], view.corners[(corner + 2) % 3]] {
+        let edge = other - apex;
+        if direction.dot(&edge) > slack * edge.norm() {
+            return;
+        }
+    }
+    let mut in_front = |t: &TriangleView| t.height(&sphere.center) >= 0.0;
+    let Some(strictly) = vertex_pushes(set, view.index, corner, &direction, &mut in_front) else { return };
+    let mut mean = Vec3::zeros();
+    walk_fan(set, view.index, corner, &mut |t, _| mean += set.normal(t));
+    let vertex = set.triangles[view.index as usize].vertices[corner];
+    let standing = if strictly { Standing::Front } else { Standing::Spare };
+    push_from(sphere, &apex, &mean, Feature::vertex(vertex as usize), standing, emit);
+}
+
+fn push_from(
+    sphere: &Sphere,
+    foot: &Vec3,
+    mean_normal: &Vec3,
+    feature: Feature,
+    standing: Standing,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    if let Some(interference) = super::ball_over_point(sphere, foot, mean_normal, feature) {
+        emit(TriangleContact { interference, standing });
+    }
+}

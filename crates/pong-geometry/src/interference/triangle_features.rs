@@ -1,0 +1,238 @@
+//! What the features of a triangle surface may push: faces, edges, vertices (physics contract, 2.1 and 2.2).
+//!
+//! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
+//!
+//! * a face pushes along its normal when *p* lies over it;
+//! * a convex edge pushes only along normals strictly between those of its two faces;
+//! * a convex vertex pushes only inside its normal cone;
+//! * concave and flat edges are silent;
+//! * a free edge (one face only) pushes from the edge towards the centre, while the centre is in front.
+//!
+//! The three kinds of regions partition the space in front. Each bounding plane is computed once, from the same
+//! numbers, for the features on both its sides, so that rounding opens no gap between them; where an edge is
+//! silent there is no third region, and a point that rounding puts outside both faces belongs to the lower one.
+
+use super::Interference;
+use crate::Vec3;
+use crate::primitive::{NO_NEIGHBOR, TriangleSet};
+
+/// Two faces count as convex only if the sine of the angle between them exceeds this: rounding in a unit normal
+/// computed from f64 vertices stays below it for every triangle that the loader accepts as flat.
+const CONVEX_SINE_MIN: f64 = 1e-12;
+
+/// How a contact of a triangle surface stands among its neighbours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// The centre is in front.
+    Front,
+    /// The centre is behind the face, within its thickness.
+    Behind,
+    /// A vertex that may not push by its cone, but only within rounding: counts where nothing else is as near.
+    Spare,
+}
+
+/// A contact of a sphere or an ellipsoid with one triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleContact {
+    /// Depth, normal, point, feature.
+    pub interference: Interference,
+    /// How it stands.
+    pub standing: Standing,
+}
+
+/// A triangle with the planes that bound its regions.
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleView {
+    /// Its index in the set.
+    pub index: u32,
+    /// Corners, counter-clockwise seen from the front, m.
+    pub corners: [Vec3; 3],
+    /// Unit normal to the front.
+    pub normal: Vec3,
+}
+
+/// What an edge may do.
+#[derive(Clone, Copy, Debug)]
+pub enum EdgeClass {
+    /// One face only.
+    Free,
+    /// Two faces that meet convexly.
+    Convex {
+        /// The triangle on the other side.
+        neighbor: u32,
+        /// Its unit normal.
+        normal: Vec3,
+        /// Unit vector in its plane, across the edge, out of it.
+        outward: Vec3,
+    },
+    /// Two faces that meet flat or concavely: the edge never pushes.
+    Silent {
+        /// The triangle on the other side.
+        neighbor: u32,
+        /// Unit vector in its plane, across the edge, out of it.
+        outward: Vec3,
+    },
+}
+
+impl TriangleView {
+    /// The view of one triangle of a set.
+    #[inline]
+    pub fn new(set: &TriangleSet, index: u32) -> Self {
+        let corners = set.corners(index);
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+        Self { index, corners, normal }
+    }
+
+    /// Signed distance of a point in front of the plane, m.
+    #[inline]
+    pub fn height(&self, p: &Vec3) -> f64 {
+        self.normal.dot(&(p - self.corners[0]))
+    }
+
+    /// The two ends of edge `k` in (x, y, z) order.
+    #[inline]
+    pub fn edge_ends(&self, k: usize) -> [Vec3; 2] {
+        let (a, b) = (self.corners[k], self.corners[(k + 1) % 3]);
+        if lexicographically_before(&b, &a) { [b, a] } else { [a, b] }
+    }
+
+    /// Unit vector in the plane, across edge `k`, out of the triangle.
+    #[inline]
+    pub fn outward(&self, k: usize) -> Vec3 {
+        (self.corners[(k + 1) % 3] - self.corners[k]).cross(&self.normal).normalize()
+    }
+
+    /// Signed distance of a point beyond edge `k`, along the plane, m.
+    #[inline]
+    pub fn beyond_edge(&self, k: usize, p: &Vec3) -> f64 {
+        self.outward(k).dot(&(p - self.edge_ends(k)[0]))
+    }
+
+    /// What edge `k` may do.
+    pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
+        let neighbor = set.triangles[self.index as usize].neighbors[k];
+        if neighbor == NO_NEIGHBOR {
+            return EdgeClass::Free;
+        }
+        let other = Self::new(set, neighbor);
+        let twin = edge_towards(set, neighbor, self.index);
+        let outward = other.outward(twin);
+        if self.normal.dot(&outward) > CONVEX_SINE_MIN {
+            EdgeClass::Convex { neighbor, normal: other.normal, outward }
+        } else {
+            EdgeClass::Silent { neighbor, outward }
+        }
+    }
+
+    /// Whether the triangle holds the foot of `p`: inside its outline, or in the seam that rounding leaves at a
+    /// silent edge, which belongs to the lower of the two faces.
+    pub fn holds_foot(&self, set: &TriangleSet, p: &Vec3) -> bool {
+        (0..3).all(|k| {
+            if self.beyond_edge(k, p) <= 0.0 {
+                return true;
+            }
+            match self.classify_edge(set, k) {
+                EdgeClass::Silent { neighbor, outward } => {
+                    self.index < neighbor && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
+                }
+                EdgeClass::Free | EdgeClass::Convex { .. } => false,
+            }
+        })
+    }
+
+    /// Whether this triangle is the owner of edge `k`: the lower of the two that share it.
+    #[inline]
+    pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
+        let neighbor = set.triangles[self.index as usize].neighbors[k];
+        neighbor == NO_NEIGHBOR || self.index < neighbor
+    }
+}
+
+/// The triangles around one vertex, reached from one of them across shared edges.
+#[derive(Clone, Copy, Debug)]
+pub struct Fan {
+    /// The lowest triangle of the fan: the vertex's owner.
+    pub lowest: u32,
+    /// Whether the fan ends at free edges instead of closing.
+    pub open: bool,
+}
+
+/// Walks the fan around corner `corner` of `triangle` and calls `visit` with every triangle of it and that
+/// triangle's index of the corner, each once.
+pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn FnMut(u32, usize)) -> Fan {
+    let vertex = set.triangles[triangle as usize].vertices[corner];
+    let mut fan = Fan { lowest: triangle, open: false };
+    visit(triangle, corner);
+    // Across the edge that ends in the corner, then, if the fan is open, across the edge that starts there.
+    for side in [2, 0] {
+        let (mut current, mut at) = (triangle, corner);
+        loop {
+            let next = set.triangles[current as usize].neighbors[(at + side) % 3];
+            if next == NO_NEIGHBOR {
+                fan.open = true;
+                break;
+            }
+            if next == triangle {
+                return fan;
+            }
+            at = corner_of(set, next, vertex);
+            current = next;
+            fan.lowest = fan.lowest.min(current);
+            visit(current, at);
+        }
+    }
+    fan
+}
+
+/// Whether a normal lies in the cone of a vertex, `Some(strictly)`; `None` if it is outside by more than
+/// rounding, if the vertex belongs to a lower triangle, or if an open fan has its centre behind all its faces.
+///
+/// `direction` points from the vertex to the centre (any length), `center_in_front` answers for one triangle.
+pub fn vertex_pushes(
+    set: &TriangleSet,
+    triangle: u32,
+    corner: usize,
+    direction: &Vec3,
+    center_in_front: &mut dyn FnMut(&TriangleView) -> bool,
+) -> Option<bool> {
+    /// Rounding in a product of a unit direction and a unit edge.
+    const CONE_COSINE_SLACK: f64 = 1e-12;
+    let apex = set.corners(triangle)[corner];
+    let length = direction.norm();
+    let (mut strictly, mut nearly, mut in_front) = (true, true, false);
+    let fan = walk_fan(set, triangle, corner, &mut |t, at| {
+        let corners = set.corners(t);
+        for other in [corners[(at + 1) % 3], corners[(at + 2) % 3]] {
+            let edge = other - apex;
+            let product = direction.dot(&edge);
+            strictly &= product < 0.0;
+            nearly &= product <= CONE_COSINE_SLACK * length * edge.norm();
+        }
+        in_front |= center_in_front(&TriangleView::new(set, t));
+    });
+    let allowed = nearly && fan.lowest == triangle && (!fan.open || in_front);
+    allowed.then_some(strictly)
+}
+
+fn corner_of(set: &TriangleSet, triangle: u32, vertex: u32) -> usize {
+    let vertices = &set.triangles[triangle as usize].vertices;
+    (0..3).find(|&i| vertices[i] == vertex).expect("neighbours share the vertex")
+}
+
+fn edge_towards(set: &TriangleSet, triangle: u32, neighbor: u32) -> usize {
+    let own = &set.triangles[triangle as usize];
+    let other = &set.triangles[neighbor as usize];
+    (0..3)
+        .find(|&k| {
+            own.neighbors[k] == neighbor
+                && other.vertices.contains(&own.vertices[k])
+                && other.vertices.contains(&own.vertices[(k + 1) % 3])
+        })
+        .expect("neighbours share an edge")
+}
+
+/// The order in which both faces of an edge see its ends.
+#[inline]
+pub fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
+    (a.x, a.y, a.z) < (b.x, b.y, b.z)
+}
