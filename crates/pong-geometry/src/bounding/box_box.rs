@@ -23,25 +23,21 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 pub(super) fn boxes_overlap(half_a: &Vec3, half_b: &Vec3, m: &Mat3, t: &Vec3) -> bool {
     let abs = m.abs();
     let margin = ROUNDING * (half_a.sum() + half_b.sum());
-    // NaN compares as not apart.
-    let apart = |gap: f64| gap > margin;
-    let gap_b = (t.abs() - half_b - abs * half_a).max();
-    if apart(gap_b) {
+    // No branch within a group of three; NaN compares as not apart.
+    let apart = |x: f64, y: f64, z: f64| (x > margin) | (y > margin) | (z > margin);
+    let gaps_b = t.abs() - half_b - abs * half_a;
+    if apart(gaps_b.x, gaps_b.y, gaps_b.z) {
         return false;
     }
-    let gap_a = (m.tr_mul(t).abs() - half_a - abs.tr_mul(half_b)).max();
-    if apart(gap_a) {
+    let gaps_a = m.tr_mul(t).abs() - half_a - abs.tr_mul(half_b);
+    if apart(gaps_a.x, gaps_a.y, gaps_a.z) {
         return false;
     }
-    for i in 0..3 {
-        let gap = edge_gap(i, 0, half_a, half_b, m, &abs, t)
-            .max(edge_gap(i, 1, half_a, half_b, m, &abs, t))
-            .max(edge_gap(i, 2, half_a, half_b, m, &abs, t));
-        if apart(gap) {
-            return false;
-        }
-    }
-    true
+    let edges = |i: usize| {
+        let gap = |j: usize| edge_gap(i, j, half_a, half_b, m, &abs, t);
+        apart(gap(0), gap(1), gap(2))
+    };
+    !(edges(0) | edges(1) | edges(2))
 }
 
 /// Gap between the projections along `b_i × a_j`, which is not of unit length.

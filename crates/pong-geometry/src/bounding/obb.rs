@@ -65,12 +65,19 @@ impl Candidate {
 
     /// Turns about the box's axes, by ever smaller angles, as long as the box gets smaller.
     fn refine(&mut self, things: &[&dyn Bounded]) {
-        const HALVINGS: usize = 16;
+        const HALVINGS: usize = 20;
+        const ROUNDS: usize = 4;
         let mut tangent = 0.1;
         for _ in 0..HALVINGS {
-            for axis in 0..3 {
-                if !self.take_if_smaller(self.turned(axis, tangent), things) {
-                    self.take_if_smaller(self.turned(axis, -tangent), things);
+            for _ in 0..ROUNDS {
+                let turns =
+                    [(0, tangent), (0, -tangent), (1, tangent), (1, -tangent), (2, tangent), (2, -tangent)];
+                let before = self.score;
+                for (axis, tangent) in turns {
+                    self.take_if_smaller(self.turned(axis, tangent), things);
+                }
+                if self.score == before {
+                    break;
                 }
             }
             tangent *= 0.5;

@@ -12,8 +12,8 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
 
 /// The rotation V with VᵀSV diagonal, for symmetric S.
 ///
-/// Each sweep turns in the three coordinate planes by the angle that zeroes the product of inertia there; it
-/// converges quadratically, and six sweeps leave nothing of any 3 × 3 matrix.
+/// Each sweep turns in the three coordinate planes by the angle that zeroes the entry off the diagonal there. It
+/// converges quadratically: a 3 × 3 matrix needs four or five sweeps, the rest find nothing left to turn.
 fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     const SWEEPS: usize = 8;
     let mut rotation = Mat3::identity();
@@ -44,7 +44,7 @@ pub(super) fn plane_rotation(p: usize, q: usize, cosine: f64, sine: f64) -> Mat3
     turn
 }
 
-/// The right-handed orthonormal frame nearest to one that rounding has bent.
+/// The right-handed orthonormal frame of a frame that rounding has bent: its first axis and plane are kept.
 pub(super) fn orthonormal(axes: &Mat3) -> Mat3 {
     let x = axes.column(0).normalize();
     let y = axes.column(1) - x * x.dot(&axes.column(1));
