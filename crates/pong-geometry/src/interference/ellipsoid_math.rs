@@ -155,13 +155,13 @@ impl<const N: usize> Secular<N> {
         let mut tau = w_short;
         for _ in 0..MOST_ITERATIONS {
             let (mut square, mut cube) = (0.0, 0.0);
-            for i in 0..N {
-                let denominator = self.d[i] - tau;
+            for (i, (w, d)) in self.w.iter().zip(&self.d).enumerate() {
+                let denominator = d - tau;
                 if i != self.shortest && denominator <= 0.0 {
                     return None;
                 }
                 let reciprocal = 1.0 / denominator;
-                let q = self.w[i] * reciprocal;
+                let q = w * reciprocal;
                 square += q * q;
                 cube -= q * q * reciprocal;
             }
@@ -183,9 +183,9 @@ impl<const N: usize> Secular<N> {
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];
         let mut rest = 0.0;
-        for i in 0..N {
-            if i != self.shortest && self.w[i] != 0.0 {
-                q[i] = self.w[i] / self.d[i];
+        for (i, (w, d)) in self.w.iter().zip(&self.d).enumerate() {
+            if i != self.shortest && *w != 0.0 {
+                q[i] = w / d;
                 rest += q[i] * q[i];
             }
         }

@@ -24,13 +24,14 @@
 //!
 //! # Inner walls
 //!
-//! Only active features push. A piece whose active features hold no foot has no contact: its neighbour has. And a
-//! piece never pushes back against an inner wall (`n·n_wall < 0`) that the centre is beyond and that is nearer: that
-//! would push the body from the neighbouring piece through all of this one.
+//! Only active features push. A piece whose active features hold no foot has no contact: its neighbour has. Two
+//! kinds of far minima would push the body through a whole piece and are left out: those deeper than the least
+//! overlap of any active face (its foot lies in a neighbour, which pushes), and those that push back against an inner
+//! wall (`n·n_wall < 0`) which the centre is beyond and which is nearer (the centre lies in a neighbour).
 
 use super::ellipsoid_math::{
-    NormalFoot, PreparedEllipsoid, Shadow, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
-    second_nearest_on_ellipsoid,
+    NormalFoot, PreparedEllipsoid, Shadow, nearest_on_ellipse, nearest_on_ellipsoid,
+    second_nearest_on_ellipse, second_nearest_on_ellipsoid,
 };
 use super::{Feature, Interference};
 use crate::Vec3;
@@ -42,12 +43,19 @@ const FOOT_SLACK: f64 = 1e-12;
 const CONE_SLACK: f64 = 1e-9;
 /// A bound within this share of the best is not taken to exclude anything.
 const BOUND_SLACK: f64 = 1e-9;
+/// Only a point this near to the surface of the unit ball may turn out to be outside (share of the square).
+const HARDLY_INSIDE: f64 = 1e-6;
+/// Overlap that is no more than the rounding of a depth, as a share of the largest length.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Tests an ellipsoid (A) against one convex piece (B).
 pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
     let prepared = PreparedEllipsoid::new(e);
     let mut search = Search::start(e, &prepared, p)?;
     let witness = search.overlap_witness()?;
+    if search.only_touches(&witness) {
+        return None;
+    }
     search.try_faces();
     search.try_edges();
     search.try_vertices();
@@ -74,10 +82,12 @@ struct Search<'a> {
     prepared: &'a PreparedEllipsoid,
     polyhedron: &'a Polyhedron,
     all_active: bool,
-    /// Where every face is active: the least overlap of a face, an upper bound of the depth; else infinity.
+    /// The least overlap of an active face, an upper bound of the depth.
     bound: f64,
     /// Faces this high or lower have no part in a minimum below `bound`.
     near_height: f64,
+    /// The largest length involved, which rounding is relative to, m.
+    size: f64,
     foot_slack: f64,
     best: Option<Candidate>,
 }
@@ -86,32 +96,23 @@ impl<'a> Search<'a> {
     /// `None` if a face's plane separates the two.
     fn start(e: &'a Ellipsoid, prepared: &'a PreparedEllipsoid, p: &'a Polyhedron) -> Option<Self> {
         let mut all_active = true;
-        let mut highest = f64::NEG_INFINITY;
-        let mut top = 0;
-        for (index, face) in p.faces.iter().enumerate() {
+        for face in &p.faces {
             let height = face.height(&e.center);
             all_active &= face.active;
-            if height > highest {
-                highest = height;
-                top = index;
-            }
             if height >= prepared.smallest && height >= prepared.widened(&face.normal).norm() {
                 return None;
             }
         }
         let mut bound = f64::INFINITY;
-        if all_active {
-            bound = prepared.widened(&p.faces[top].normal).norm() - highest;
-            for face in &p.faces {
-                let height = face.height(&e.center);
-                if prepared.smallest - height < bound {
-                    bound = bound.min(prepared.widened(&face.normal).norm() - height);
-                }
+        for face in p.faces.iter().filter(|face| face.active) {
+            let height = face.height(&e.center);
+            if prepared.smallest - height < bound {
+                bound = bound.min(prepared.widened(&face.normal).norm() - height);
             }
-            bound += BOUND_SLACK * bound;
         }
+        bound += BOUND_SLACK * bound;
         let near_height = (prepared.smallest - bound).min(0.0);
-        let foot_slack = FOOT_SLACK * (p.diameter + prepared.largest + e.center.amax());
+        let size = p.diameter + prepared.largest + e.center.amax();
         Some(Self {
             ellipsoid: e,
             prepared,
@@ -119,7 +120,8 @@ impl<'a> Search<'a> {
             all_active,
             bound,
             near_height,
-            foot_slack,
+            size,
+            foot_slack: FOOT_SLACK * size,
             best: None,
         })
     }
@@ -154,6 +156,17 @@ impl<'a> Search<'a> {
             }
         }
         inside.then(Vec3::zeros)
+    }
+
+    /// Whether the overlap found is nothing but rounding, told from the direction of a point hardly inside.
+    fn only_touches(&self, witness: &Vec3) -> bool {
+        witness.norm_squared() > 1.0 - HARDLY_INSIDE
+            && self.whole_depth(&self.direction_from(witness)) <= ROUNDING * self.size
+    }
+
+    /// The unit normal along which a point of the ellipsoid's inside is pushed, from where it is the unit ball.
+    fn direction_from(&self, witness: &Vec3) -> Vec3 {
+        self.prepared.direction_of(&-witness).normalize()
     }
 
     fn nearest_of_edge(&self, edge: usize) -> Vec3 {
@@ -285,10 +298,8 @@ impl<'a> Search<'a> {
             let depth = self.prepared.widened(&face.normal).norm() - face.height(&self.ellipsoid.center);
             self.offer(depth, &face.normal, Feature::face(index));
         }
-        let direction = self.prepared.direction_of(&-witness);
-        let length = direction.norm();
-        if length > 0.0 {
-            let normal = direction / length;
+        if *witness != Vec3::zeros() {
+            let normal = self.direction_from(witness);
             let support = self.support_vertex(&normal);
             self.offer(self.whole_depth(&normal), &normal, Feature::vertex(support));
         }

@@ -1,0 +1,303 @@
+//! Shapes and numbers shared by the geometry tests.
+#![allow(dead_code, unreachable_pub, missing_docs)]
+
+use pong_geometry::primitive::{
+    EdgePush, Ellipsoid, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
+};
+use pong_geometry::{Mat3, Quat, Transform, Vec3};
+
+/// A small deterministic generator (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in 0…1.
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Uniform between two values.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// A unit vector, uniform over the sphere.
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            let square = v.norm_squared();
+            if square > 0.01 && square < 1.0 {
+                return v / square.sqrt();
+            }
+        }
+    }
+
+    /// A rotation, uniform.
+    pub fn rotation(&mut self) -> Mat3 {
+        let axis = nalgebra::Unit::new_normalize(self.direction());
+        let other = nalgebra::Unit::new_normalize(self.direction());
+        let q = Quat::from_axis_angle(&axis, self.between(0.0, 6.3))
+            * Quat::from_axis_angle(&other, self.between(0.0, 6.3));
+        q.to_rotation_matrix().into_inner()
+    }
+
+    /// A rigid transform.
+    pub fn motion(&mut self, reach: f64) -> Transform {
+        Transform { rotation: self.rotation(), translation: self.direction() * self.between(0.0, reach) }
+    }
+}
+
+/// `count` points spread evenly over the unit sphere.
+pub fn fibonacci_sphere(count: usize) -> Vec<Vec3> {
+    let golden = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..count)
+        .map(|i| {
+            let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+            let radius = (1.0 - z * z).sqrt();
+            let angle = golden * i as f64;
+            Vec3::new(radius * angle.cos(), radius * angle.sin(), z)
+        })
+        .collect()
+}
+
+/// A closed hull with `2·vertices − 4` triangular faces: an even sphere stretched along the axes.
+pub fn stretched_hull(vertices: usize, stretch: Vec3) -> Polyhedron {
+    let points: Vec<Vec3> = fibonacci_sphere(vertices).iter().map(|p| p.component_mul(&stretch)).collect();
+    hull(&points)
+}
+
+/// An axis-aligned box.
+pub fn cuboid(low: Vec3, high: Vec3) -> Polyhedron {
+    hull(&cuboid_corners(low, high))
+}
+
+/// The corners of an axis-aligned box.
+pub fn cuboid_corners(low: Vec3, high: Vec3) -> Vec<Vec3> {
+    let mut corners = Vec::new();
+    for x in [low.x, high.x] {
+        for y in [low.y, high.y] {
+            for z in [low.z, high.z] {
+                corners.push(Vec3::new(x, y, z));
+            }
+        }
+    }
+    corners
+}
+
+/// The convex hull of points in convex position, all faces active.
+pub fn hull(points: &[Vec3]) -> Polyhedron {
+    hull_with_walls(points, &|_, _| false)
+}
+
+/// As [`hull`]; `is_wall` (outward normal, offset) makes a face an inactive inner wall. Edges and vertices on a
+/// wall do not push; other pieces are not looked at.
+pub fn hull_with_walls(points: &[Vec3], is_wall: &dyn Fn(&Vec3, f64) -> bool) -> Polyhedron {
+    let diameter = largest_distance(points);
+    let outlines = hull_outlines(points, 1e-9 * diameter);
+    let mut polyhedron = Polyhedron {
+        faces: Vec::new(),
+        rims: Vec::new(),
+        edges: Vec::new(),
+        vertices: Vec::new(),
+        cone_edges: Vec::new(),
+        diameter,
+    };
+    for (normal, outline) in &outlines {
+        let offset = outline.iter().map(|&v| normal.dot(&points[v])).sum::<f64>() / outline.len() as f64;
+        polyhedron.faces.push(PolyhedronFace {
+            normal: *normal,
+            offset,
+            active: !is_wall(normal, offset),
+            closed: false,
+            first_rim: polyhedron.rims.len() as u32,
+            rim_count: outline.len() as u32,
+        });
+        for (k, &start) in outline.iter().enumerate() {
+            let end = outline[(k + 1) % outline.len()];
+            push_rim(&mut polyhedron, points, &outlines, start, end, *normal);
+        }
+    }
+    set_edge_pushes(&mut polyhedron);
+    push_vertices(&mut polyhedron, points);
+    polyhedron
+}
+
+fn push_rim(
+    polyhedron: &mut Polyhedron,
+    points: &[Vec3],
+    outlines: &[(Vec3, Vec<usize>)],
+    start: usize,
+    end: usize,
+    normal: Vec3,
+) {
+    let face = polyhedron.faces.len() - 1;
+    let has = |outline: &[usize]| {
+        (0..outline.len()).any(|k| outline[k] == end && outline[(k + 1) % outline.len()] == start)
+    };
+    let neighbor = outlines.iter().position(|(_, outline)| has(outline)).expect("the hull is closed");
+    let key = |v: usize| (points[v].x, points[v].y, points[v].z);
+    let [first, second] = if key(start) < key(end) { [start, end] } else { [end, start] };
+    let ends = [first as u32, second as u32];
+    let edge = polyhedron.edges.iter().position(|e| e.vertices == ends).unwrap_or_else(|| {
+        polyhedron.edges.push(PolyhedronEdge {
+            vertices: ends,
+            faces: [face as u32, neighbor as u32],
+            direction: (points[second] - points[first]).normalize(),
+            push: None,
+        });
+        polyhedron.edges.len() - 1
+    });
+    polyhedron.rims.push(RimEdge {
+        start: start as u32,
+        edge: edge as u32,
+        neighbor: neighbor as u32,
+        anchor: points[first],
+        outward: (points[end] - points[start]).normalize().cross(&normal).normalize(),
+    });
+}
+
+fn set_edge_pushes(polyhedron: &mut Polyhedron) {
+    for index in 0..polyhedron.edges.len() {
+        let faces = polyhedron.edges[index].faces.map(|f| f as usize);
+        if faces.iter().all(|&f| polyhedron.faces[f].active) {
+            let outward = |f: usize| {
+                polyhedron
+                    .rim(f)
+                    .iter()
+                    .find(|rim| rim.edge as usize == index)
+                    .expect("rim of the edge")
+                    .outward
+            };
+            polyhedron.edges[index].push = Some(EdgePush {
+                normals: faces.map(|f| polyhedron.faces[f].normal),
+                outwards: faces.map(outward),
+            });
+        }
+    }
+}
+
+fn push_vertices(polyhedron: &mut Polyhedron, points: &[Vec3]) {
+    for (index, position) in points.iter().enumerate() {
+        let first_cone = polyhedron.cone_edges.len() as u32;
+        let mut pushes = true;
+        for edge in &polyhedron.edges {
+            if let Some(end) = edge.vertices.iter().position(|&v| v as usize == index) {
+                polyhedron.cone_edges.push(if end == 0 { edge.direction } else { -edge.direction });
+                pushes &= edge.faces.iter().all(|&f| polyhedron.faces[f as usize].active);
+            }
+        }
+        let cone_count = polyhedron.cone_edges.len() as u32 - first_cone;
+        polyhedron.vertices.push(PolyhedronVertex { position: *position, pushes, first_cone, cone_count });
+    }
+}
+
+fn largest_distance(points: &[Vec3]) -> f64 {
+    let mut largest = 0.0_f64;
+    for a in points {
+        for b in points {
+            largest = largest.max((a - b).norm());
+        }
+    }
+    largest
+}
+
+/// Outward normal and counter-clockwise outline of every face, by trying all triples of points.
+fn hull_outlines(points: &[Vec3], tolerance: f64) -> Vec<(Vec3, Vec<usize>)> {
+    let mut found: Vec<(Vec3, Vec<usize>)> = Vec::new();
+    let count = points.len();
+    let triples = (0..count).flat_map(|i| {
+        // The lowest index first; both turning senses of the other two.
+        (i + 1..count).flat_map(move |j| (i + 1..count).filter(move |&k| k != j).map(move |k| [i, j, k]))
+    });
+    for triple in triples {
+        let Some((normal, members)) = face_through(points, triple, tolerance) else { continue };
+        if !found.iter().any(|(_, outline)| members.iter().all(|m| outline.contains(m))) {
+            found.push((normal, ordered(points, &normal, &members)));
+        }
+    }
+    found
+}
+
+fn face_through(points: &[Vec3], [i, j, k]: [usize; 3], tolerance: f64) -> Option<(Vec3, Vec<usize>)> {
+    let cross = (points[j] - points[i]).cross(&(points[k] - points[i]));
+    let normal = cross.try_normalize(tolerance * tolerance)?;
+    let mut members = Vec::new();
+    for (index, p) in points.iter().enumerate() {
+        let height = normal.dot(&(p - points[i]));
+        if height > tolerance {
+            return None;
+        }
+        if height >= -tolerance {
+            members.push(index);
+        }
+    }
+    Some((normal, members))
+}
+
+fn ordered(points: &[Vec3], normal: &Vec3, members: &[usize]) -> Vec<usize> {
+    let middle = members.iter().map(|&m| points[m]).sum::<Vec3>() / members.len() as f64;
+    let u = (points[members[0]] - middle).normalize();
+    let v = normal.cross(&u);
+    let angle = |m: usize| {
+        let r = points[m] - middle;
+        v.dot(&r).atan2(u.dot(&r))
+    };
+    let mut outline = members.to_vec();
+    outline.sort_by(|&a, &b| angle(a).total_cmp(&angle(b)));
+    outline
+}
+
+/// A polyhedron moved rigidly.
+pub fn moved(polyhedron: &Polyhedron, x: &Transform) -> Polyhedron {
+    let mut moved = polyhedron.clone();
+    for face in &mut moved.faces {
+        face.normal = x.vector(&face.normal);
+        face.offset += face.normal.dot(&x.translation);
+    }
+    for rim in &mut moved.rims {
+        rim.anchor = x.point(&rim.anchor);
+        rim.outward = x.vector(&rim.outward);
+    }
+    for edge in &mut moved.edges {
+        edge.direction = x.vector(&edge.direction);
+        if let Some(push) = &mut edge.push {
+            push.normals = push.normals.map(|n| x.vector(&n));
+            push.outwards = push.outwards.map(|o| x.vector(&o));
+        }
+    }
+    for vertex in &mut moved.vertices {
+        vertex.position = x.point(&vertex.position);
+    }
+    for cone in &mut moved.cone_edges {
+        *cone = x.vector(cone);
+    }
+    moved
+}
+
+/// A polyhedron scaled about the origin.
+pub fn scaled(polyhedron: &Polyhedron, factor: f64) -> Polyhedron {
+    let mut scaled = polyhedron.clone();
+    scaled.diameter *= factor;
+    for face in &mut scaled.faces {
+        face.offset *= factor;
+    }
+    for rim in &mut scaled.rims {
+        rim.anchor *= factor;
+    }
+    for vertex in &mut scaled.vertices {
+        vertex.position *= factor;
+    }
+    scaled
+}
+
+/// An ellipsoid scaled about the origin.
+pub fn scaled_ellipsoid(e: &Ellipsoid, factor: f64) -> Ellipsoid {
+    Ellipsoid { center: e.center * factor, axes: e.axes, semi_axes: e.semi_axes * factor }
+}
