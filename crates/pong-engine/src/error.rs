@@ -79,7 +79,10 @@ impl std::fmt::Display for EngineError {
                 write!(f, "state of `{interface}`: {cause}; the state set before stays in force")
             }
             Self::UnsetState { interface } => {
-                write!(f, "state of `{interface}`: never set; set the states of all paired movable groups before a frame")
+                write!(
+                    f,
+                    "state of `{interface}`: never set; set the states of all paired movable groups before a frame"
+                )
             }
             Self::BadValue { what, cause } => write!(f, "{what}: {cause}"),
             Self::State(error) => error.fmt(f),

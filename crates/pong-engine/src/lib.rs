@@ -35,7 +35,8 @@ pub use frame::has_tester;
 pub use friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::{
-    CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, PairProps, combine as combine_surfaces,
+    CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, PairProps,
+    combine as combine_surfaces,
 };
 pub use registry::Laws;
 pub use sealed::{SealReport, SetupWarning};

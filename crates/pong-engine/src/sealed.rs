@@ -118,7 +118,8 @@ pub(crate) fn seal(scene: &Scene) -> Result<(Sealed, SealReport), EngineError> {
     for pair in &mut group_pairs {
         let models = [pair.first, pair.second].map(|body| scene.objects[scene.bodies[body].object].model);
         let find = |a, b| tables.iter().position(|table| (table.model_a, table.model_b) == (a, b));
-        pair.tables = [find(models[0], models[1]), find(models[1], models[0])].map(|t| t.expect("made above"));
+        pair.tables =
+            [find(models[0], models[1]), find(models[1], models[0])].map(|t| t.expect("made above"));
     }
     let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
     let record_capacity = 2 * contact_capacity;
@@ -284,7 +285,10 @@ fn table_entry<'a>(
             if (x.stiffness, &x.normal, &x.friction) != (y.stiffness, &y.normal, &y.friction) =>
         {
             Err((
-                format!("models `{}` and `{}` give different values for this pair", model_a.name, model_b.name),
+                format!(
+                    "models `{}` and `{}` give different values for this pair",
+                    model_a.name, model_b.name
+                ),
                 "make the two `pairs` entries equal or drop one".to_owned(),
             ))
         }

@@ -15,19 +15,13 @@ use std::sync::Arc;
 pub use crate::frame::State;
 
 /// Settings of a world.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Config {
     /// Most contacts of a frame; `None` takes the worst case of the scene, at most 65,536. When a frame has more,
     /// the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
     /// Whether energies are kept (physics contract, section 6).
     pub ledger: bool,
-}
-
-impl Default for Config {
-    fn default() -> Self {
-        Self { contact_capacity: None, ledger: false }
-    }
 }
 
 /// An instance of a model.
@@ -240,10 +234,8 @@ impl World {
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
         for (interface, state) in states {
             let index = self.interface_index(*interface)?;
-            frame::check_state(state).map_err(|cause| EngineError::BadState {
-                interface: self.scene.body_name(index),
-                cause,
-            })?;
+            frame::check_state(state)
+                .map_err(|cause| EngineError::BadState { interface: self.scene.body_name(index), cause })?;
         }
         for (interface, state) in states {
             let index = self.interface_index(*interface)?;
@@ -281,8 +273,7 @@ impl World {
             pairs.iter().map(|pair| self.pair_index(*pair)).collect::<Result<_, _>>()?;
         self.must_be_evaluated()?;
         let group_pairs = &self.sealed.as_ref().ok_or(NOT_SEALED)?.group_pairs;
-        self.memory
-            .accept(&self.frame.trial, |index| accepted.contains(&group_pairs[index as usize].pair));
+        self.memory.accept(&self.frame.trial, |index| accepted.contains(&group_pairs[index as usize].pair));
         self.evaluated = false;
         Ok(())
     }
@@ -500,5 +491,4 @@ impl World {
     }
 }
 
-const NOT_SEALED: EngineError =
-    EngineError::WrongPhase { call: "this call", cure: "seal the world first" };
+const NOT_SEALED: EngineError = EngineError::WrongPhase { call: "this call", cure: "seal the world first" };

@@ -1,8 +1,8 @@
 //! Trees of bounding volumes against each other: streams the pairs of leaves that may touch.
 
+use super::Frame;
 use super::buffers::FrameContact;
 use super::relative::Motion;
-use super::Frame;
 use crate::contact::FrameReport;
 use crate::sealed::Sealed;
 use crate::world::Scene;

@@ -3,7 +3,9 @@
 //! Work of a contact's force on the two bodies, by the trapezoid rule over the relative displacement since the
 //! last commit: with o the reference point of A,
 //!
-//!     W = Σ_{then, now} ½·(F·Δo + ((c − o) × F)·φ)
+//! ```text
+//! W = Σ_{then, now} ½·(F·Δo + ((c − o) × F)·φ)
+//! ```
 //!
 //! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
 
@@ -11,8 +13,8 @@ use super::Frame;
 use super::forces::reference_point;
 use super::listing::body_of_a;
 use super::relative::SinceCommit;
-use crate::state::{ContactMemory, ContactRecord, Role};
 use crate::sealed::Sealed;
+use crate::state::{ContactMemory, ContactRecord, Role};
 use crate::world::Scene;
 use pong_geometry::{Transform, Vec3};
 
@@ -51,7 +53,9 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         frame.trial.work += work;
         frame.trial.dissipated += dissipated;
     }
-    for (earlier, _) in memory.records.iter().zip(&continued).filter(|(r, done)| r.role == Role::Pushes && !**done) {
+    for (earlier, _) in
+        memory.records.iter().zip(&continued).filter(|(r, done)| r.role == Role::Pushes && !**done)
+    {
         end_contact(earlier, frame);
     }
 }
@@ -104,7 +108,8 @@ fn end_contact(earlier: &ContactRecord, frame: &mut Frame) {
     if let Some(since) = &motion.since_commit {
         // Any point carried by A serves as reference; the contact's own place then is at hand.
         let local = since.x_ba.inverse().point(&earlier.point);
-        work = Displacement::new(since, &motion.x_ba, &local).half_work(&earlier.point, &earlier.force, false);
+        work =
+            Displacement::new(since, &motion.x_ba, &local).half_work(&earlier.point, &earlier.force, false);
     }
     frame.trial.work += work;
     frame.trial.dissipated += earlier.stored - work;

@@ -26,7 +26,8 @@ impl Frame {
     ) -> Contact {
         let pair = &sealed.group_pairs[contact.key.group_pair as usize];
         let flipped = contact.key.flipped as usize;
-        let (body_a, body_b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (body_a, body_b) =
+            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
         let x_ba = &self.motions[contact.key.group_pair as usize][flipped].x_ba;
         let x_wb = &self.poses[body_b];
         let to_common = |v: &Vec3| x_wb.orientation * v;

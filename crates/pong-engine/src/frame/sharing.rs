@@ -41,12 +41,11 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, contacts: &mut [FrameCont
     for (index, contact) in contacts.iter().enumerate() {
         let Some(distance) = contact.ray_distance else { continue };
         let pair = &sealed.group_pairs[contact.key.group_pair as usize];
-        let (a, b) = if contact.key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (a, b) =
+            if contact.key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
         hits.push((a, contact.key.primitive_a, scene.bodies[b].object, distance, index));
     }
-    hits.sort_by(|x, y| {
-        (x.0, x.1, x.2).cmp(&(y.0, y.1, y.2)).then(x.3.total_cmp(&y.3)).then(x.4.cmp(&y.4))
-    });
+    hits.sort_by(|x, y| (x.0, x.1, x.2).cmp(&(y.0, y.1, y.2)).then(x.3.total_cmp(&y.3)).then(x.4.cmp(&y.4)));
     for later in hits.windows(2) {
         let same = (later[0].0, later[0].1, later[0].2) == (later[1].0, later[1].1, later[1].2);
         if same {
@@ -59,8 +58,7 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, contacts: &mut [FrameCont
 fn settle_surface(group: &mut [FrameContact], triangles: &TriangleSet) {
     drop_deeper_of_convex_faces(group, triangles);
     drop_idle_spares(group);
-    let counts =
-        |contact: &FrameContact| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
+    let counts = |contact: &FrameContact| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
     let mut sharers: Vec<Sharer> =
         group.iter().filter(|c| counts(c)).map(|c| Sharer::new(c.normal, c.depth)).collect();
     share(&mut sharers);

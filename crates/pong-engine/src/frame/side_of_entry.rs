@@ -62,7 +62,8 @@ impl PolyhedronEntry<'_> {
     fn remembered(&self, key: &ContactKey) -> Option<usize> {
         let (_, records) = self.memory.under(key);
         let with_face = || records.iter().filter(|record| record.entry_face != NO_FACE);
-        let record = with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
+        let record =
+            with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
         let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
         let old = faces.get(record.entry_face as usize)?;
         if record.element_b == self.piece && old.active {
@@ -77,7 +78,9 @@ impl PolyhedronEntry<'_> {
         let entry = self.earlier.and_then(|earlier| entry_of_line(&earlier, &self.point, polyhedron));
         match entry {
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
-            Some(entry) => self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point, polyhedron)),
+            Some(entry) => {
+                self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point, polyhedron))
+            }
             None => shallowest_face(&self.point, polyhedron),
         }
     }
@@ -89,7 +92,9 @@ impl PolyhedronEntry<'_> {
         let wall = earlier + (self.point - earlier) * at;
         let mut best: Option<(f64, Vec3)> = None;
         let pieces = self.body.primitives.iter().filter(|info| {
-            info.kind == PrimitiveKind::Polyhedron && info.shell == self.shell && info.elements.start != self.piece
+            info.kind == PrimitiveKind::Polyhedron
+                && info.shell == self.shell
+                && info.elements.start != self.piece
         });
         for piece in pieces {
             let polyhedron = &self.body.polyhedra[piece.elements.start as usize];

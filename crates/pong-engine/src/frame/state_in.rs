@@ -69,8 +69,7 @@ pub(crate) fn check_state(state: &State) -> Result<(), String> {
         }
     }
     let norm = state.orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
-    // Not `> MAX`: a norm that overflowed must be refused too.
-    if !((norm - 1.0).abs() <= NORM_ERROR_MAX) {
+    if (norm - 1.0).abs() > NORM_ERROR_MAX {
         return Err(format!("the quaternion has norm {norm}; give a unit quaternion (w, x, y, z)"));
     }
     Ok(())

@@ -11,11 +11,10 @@ use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
     Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
-    line_segment_plane::line_segment_plane,
-    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
-    point_plane::point_plane, point_polyhedron::point_below_face, point_sphere::point_sphere,
-    ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
-    ray_triangle::ray_triangle, sphere_plane::sphere_plane,
+    line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
+    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
+    point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane,
+    ray_polyhedron::ray_polyhedron, ray_triangle::ray_triangle, sphere_plane::sphere_plane,
     sphere_polyhedron::sphere_inside_polyhedron, sphere_polyhedron::sphere_outside_polyhedron,
     sphere_sphere::sphere_sphere, sphere_triangle::sphere_triangle,
 };
@@ -152,8 +151,7 @@ impl<'a> Side<'a> {
             Polyhedron => self.test_sphere_polyhedron(&local, &sphere, found),
             _ => {
                 let thickness = self.info_b().thickness.unwrap_or(sphere.radius);
-                let mut emit =
-                    |contact| self.on_triangle(&local.center, &sphere.center, contact, found);
+                let mut emit = |contact| self.on_triangle(&local.center, &sphere.center, contact, found);
                 sphere_triangle(&sphere, &body.triangles, self.item_b.element, thickness, &mut emit);
             }
         }
@@ -181,8 +179,7 @@ impl<'a> Side<'a> {
             Polyhedron => self.sharing(ellipsoid_polyhedron(&ellipsoid, &body.polyhedra[b]), found),
             _ => {
                 let thickness = self.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis());
-                let mut emit =
-                    |contact| self.on_triangle(&local.center, &ellipsoid.center, contact, found);
+                let mut emit = |contact| self.on_triangle(&local.center, &ellipsoid.center, contact, found);
                 ellipsoid_triangle(&ellipsoid, &body.triangles, self.item_b.element, thickness, &mut emit);
             }
         }

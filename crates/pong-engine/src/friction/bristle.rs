@@ -1,10 +1,12 @@
 //! The reset-integrator bristle in two dimensions, under a varying load.
 //!
-//!     p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
-//!     sticking:  |p*| ≤ p_s keeps sticking, else slips
-//!     slipping:  p*·v_t < 0 or |p*| < p_k sticks again, else keeps slipping
-//!     sticks:  p = p*·min(1, p_s/|p*|)    F_t = −(K·p + c·v_t), its length cut to μ_s·F_n
-//!     slips:   p = p_k·p*/|p*|            F_t = −K·p
+//! ```text
+//! p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
+//! sticking:  |p*| ≤ p_s keeps sticking, else slips
+//! slipping:  p*·v_t < 0 or |p*| < p_k sticks again, else keeps slipping
+//! sticks:  p = p*·min(1, p_s/|p*|)    F_t = −(K·p + c·v_t), its length cut to μ_s·F_n
+//! slips:   p = p_k·p*/|p*|            F_t = −K·p
+//! ```
 //!
 //! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control 113
 //! (1991), extended to the plane with a radial return, so that after a turn the force swings round to oppose the

@@ -57,7 +57,11 @@ pub trait FrictionForce: Debug + Send + Sync {
 }
 
 /// Friction of one contact that presses with `input.normal_force > 0`.
-pub(crate) fn friction(props: &FrictionProps, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
+pub(crate) fn friction(
+    props: &FrictionProps,
+    input: &FrictionInput<'_>,
+    state: &mut [f64],
+) -> FrictionOutput {
     match props {
         FrictionProps::None => FrictionOutput::free(),
         FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => {

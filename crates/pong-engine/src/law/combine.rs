@@ -1,6 +1,8 @@
 //! Two surfaces in series become one set of values for the pair (physics contract, section 3).
 //!
-//!     s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
+//! ```text
+//! s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B
+//! ```
 //!
 //! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
 //! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B).
@@ -140,7 +142,10 @@ fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, 
             if exponent != other {
                 return Err(needs_entry(a, b, "the exponent of their force law"));
             }
-            Ok(NormalLaw::HuntCrossley { dissipation: chi_a * share_a + chi_b * share_b, exponent: *exponent })
+            Ok(NormalLaw::HuntCrossley {
+                dissipation: chi_a * share_a + chi_b * share_b,
+                exponent: *exponent,
+            })
         }
         (custom @ NormalLaw::Custom { .. }, other) if custom == other => Ok(custom.clone()),
         _ => Err(needs_entry(a, b, "their normal force law")),
@@ -200,7 +205,11 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
     }
 }
 
-fn table_friction(law: &FrictionLaw, pair_stiffness: f64, laws: &Laws) -> Result<FrictionProps, CombineError> {
+fn table_friction(
+    law: &FrictionLaw,
+    pair_stiffness: f64,
+    laws: &Laws,
+) -> Result<FrictionProps, CombineError> {
     Ok(match law {
         FrictionLaw::None => FrictionProps::None,
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => FrictionProps::Bristle {
@@ -209,7 +218,9 @@ fn table_friction(law: &FrictionLaw, pair_stiffness: f64, laws: &Laws) -> Result
             mu_kinetic: *mu,
             mu_static: (1.0 + static_excess) * mu,
         },
-        FrictionLaw::Coulomb { mu, slip_speed } => FrictionProps::Coulomb { mu: *mu, slip_speed: *slip_speed },
+        FrictionLaw::Coulomb { mu, slip_speed } => {
+            FrictionProps::Coulomb { mu: *mu, slip_speed: *slip_speed }
+        }
         FrictionLaw::Custom { name, parameters } => FrictionProps::Custom {
             law: laws.friction(name)?,
             stiffness: default_tangential(pair_stiffness),
@@ -257,7 +268,8 @@ mod tests {
 
     #[test]
     fn a_rigid_surface_leaves_all_the_yield_to_the_other() {
-        let props = combine(&surface(f64::INFINITY, 0.0), &surface(1e5, 7.0), None, &Laws::default()).unwrap();
+        let props =
+            combine(&surface(f64::INFINITY, 0.0), &surface(1e5, 7.0), None, &Laws::default()).unwrap();
         assert_eq!((props.share_a, props.stiffness, damping_of(&props)), (0.0, 1e5, 7.0));
         let both = surface(f64::INFINITY, 0.0);
         assert!(combine(&both, &both, None, &Laws::default()).is_err());
@@ -281,7 +293,12 @@ mod tests {
     #[test]
     fn friction_combines_by_the_harmonic_mean() {
         let rough = |mu, stiffness| Surface {
-            friction: FrictionLaw::Bristle { mu, static_excess: 0.5, stiffness: Some(stiffness), damping: 4.0 },
+            friction: FrictionLaw::Bristle {
+                mu,
+                static_excess: 0.5,
+                stiffness: Some(stiffness),
+                damping: 4.0,
+            },
             ..surface(1e5, 0.0)
         };
         let props = combine(&rough(0.2, 1e4), &rough(0.6, 3e4), None, &Laws::default()).unwrap();

@@ -1,9 +1,11 @@
 //! Contact state as one flat, versioned, pointer-free block of bytes.
 //!
-//!     magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
-//!     | poses: known 8, two poses of 7 × 8, per pair of movable groups
-//!     | records: RECORD_LEN + 8 × custom numbers, per place of the world's contact capacity, unused ones zero
-//!     | checksum 8 (FNV-1a of everything before)
+//! ```text
+//! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
+//! | poses: known 8, two poses of 7 × 8, per pair of movable groups
+//! | records: RECORD_LEN + 8 × custom numbers, per place of the world's contact capacity, unused ones zero
+//! | checksum 8 (FNV-1a of everything before)
+//! ```
 //!
 //! Little-endian. The size depends on the sealed world alone.
 
@@ -44,12 +46,26 @@ impl std::fmt::Display for StateError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Length { expected, got } => {
-                write!(f, "contact state: the buffer has {got} bytes where this world's block has {expected}; ask the world for the size")
+                write!(
+                    f,
+                    "contact state: the buffer has {got} bytes where this world's block has {expected}; ask the world for the size"
+                )
             }
-            Self::Foreign => write!(f, "contact state: the bytes are not a contact state block; hand in one that was saved by this engine"),
-            Self::Version { got } => write!(f, "contact state: the block has format version {got}, this engine reads {VERSION}; save it again with this version"),
-            Self::World => write!(f, "contact state: the block was saved by a world that was built from other models or other calls; build the world by the same calls in the same order"),
-            Self::Damaged => write!(f, "contact state: the block is damaged (checksum mismatch); use another copy"),
+            Self::Foreign => write!(
+                f,
+                "contact state: the bytes are not a contact state block; hand in one that was saved by this engine"
+            ),
+            Self::Version { got } => write!(
+                f,
+                "contact state: the block has format version {got}, this engine reads {VERSION}; save it again with this version"
+            ),
+            Self::World => write!(
+                f,
+                "contact state: the block was saved by a world that was built from other models or other calls; build the world by the same calls in the same order"
+            ),
+            Self::Damaged => {
+                write!(f, "contact state: the block is damaged (checksum mismatch); use another copy")
+            }
         }
     }
 }

@@ -2,15 +2,22 @@
 //!
 //! Contacts of depth δ_i and normal n_i get λ_i, the solution of
 //!
-//!     λ_i = max(0, δ_i − Σ_{j≠i} max(0, n_i·n_j)·λ_j)
+//! ```text
+//! λ_i = max(0, δ_i − Σ_{j≠i} max(0, n_i·n_j)·λ_j)
+//! ```
 //!
 //! and their weight is w_i = λ_i/δ_i. Where no two normals are more than 90° apart this is the problem
 //!
-//!     t = argmin |t|  such that  n_i·t ≥ δ_i for all i,      t = Σ λ_i·n_i,  λ ≥ 0,
+//! ```text
+//! t = argmin |t|  such that  n_i·t ≥ δ_i for all i,      t = Σ λ_i·n_i,  λ ≥ 0,
+//! ```
 //!
 //! whose solution t is unique and decided by at most three contacts. It is found exactly: the deepest contact is
 //! the first basis; while some contact is violated, the basis of the at most three old ones and the most
 //! violated one is solved by trying its at most seven subsets. |t| grows with every exchange, so none repeats.
+//! The other case is in `uncoupled.rs`.
+
+mod uncoupled;
 
 use pong_geometry::{Mat3, Vec3};
 
@@ -44,7 +51,7 @@ pub fn share(contacts: &mut [Sharer]) {
         [only] => only.lambda = only.depth,
         [first, second] => share_two(first, second),
         _ if all_couple(contacts) => share_coupled(contacts),
-        _ => share_by_depth(contacts),
+        _ => uncoupled::share(contacts),
     }
 }
 
@@ -61,10 +68,7 @@ fn share_two(first: &mut Sharer, second: &mut Sharer) {
 }
 
 fn all_couple(contacts: &[Sharer]) -> bool {
-    contacts
-        .iter()
-        .enumerate()
-        .all(|(i, a)| contacts[i + 1..].iter().all(|b| a.normal.dot(&b.normal) >= 0.0))
+    contacts.iter().enumerate().all(|(i, a)| contacts[i + 1..].iter().all(|b| a.normal.dot(&b.normal) >= 0.0))
 }
 
 /// A set of at most four contacts and the shortest t that satisfies them.
@@ -146,8 +150,10 @@ fn exchange(contacts: &[Sharer], basis: &Basis, entering: usize, scale: f64) -> 
             }
         }
         let Some(candidate) = solve_equalities(contacts, members, count) else { continue };
-        let violation =
-            pool.iter().map(|&i| contacts[i].depth - contacts[i].normal.dot(&candidate.t)).fold(0.0, f64::max);
+        let violation = pool
+            .iter()
+            .map(|&i| contacts[i].depth - contacts[i].normal.dot(&candidate.t))
+            .fold(0.0, f64::max);
         let violation = if violation <= VIOLATION_MAX * scale { 0.0 } else { violation };
         if best.as_ref().is_none_or(|(least, _)| violation < *least) {
             best = Some((violation, candidate));
@@ -247,77 +253,9 @@ fn solve_symmetric(gram: &Mat3, b: &Vec3) -> Vec3 {
     x
 }
 
-/// Where normals more than 90° apart do not couple there is no potential and, in general, no continuity: an
-/// active set takes contacts in order of depth and drops those whose λ turns out not positive.
-fn share_by_depth(contacts: &mut [Sharer]) {
-    const ACTIVE_MAX: usize = 16;
-    let scale = contacts[deepest_of(contacts)].depth;
-    let mut active: Vec<usize> = Vec::with_capacity(ACTIVE_MAX);
-    for _ in 0..8 * contacts.len() {
-        for contact in contacts.iter_mut() {
-            contact.lambda = 0.0;
-        }
-        solve_active(contacts, &active);
-        let slackest = active.iter().copied().filter(|&i| contacts[i].lambda <= 0.0).min_by(|&i, &j| {
-            contacts[i].depth.total_cmp(&contacts[j].depth).then(j.cmp(&i))
-        });
-        if let Some(drop) = slackest {
-            active.retain(|&i| i != drop);
-            continue;
-        }
-        let missing = (0..contacts.len())
-            .filter(|i| !active.contains(i) && residual(contacts, *i) > VIOLATION_MAX * scale)
-            .max_by(|&i, &j| contacts[i].depth.total_cmp(&contacts[j].depth).then(j.cmp(&i)));
-        match missing {
-            Some(i) if active.len() < ACTIVE_MAX => active.push(i),
-            _ => break,
-        }
-    }
-    for contact in contacts.iter_mut() {
-        contact.lambda = contact.lambda.max(0.0);
-    }
-}
-
+/// The coupling of two contacts: normals more than 90° apart do not couple.
 fn coupling(a: &Sharer, b: &Sharer) -> f64 {
     a.normal.dot(&b.normal).max(0.0)
-}
-
-/// δ_i less what the others already cover.
-fn residual(contacts: &[Sharer], i: usize) -> f64 {
-    let covered: f64 =
-        contacts.iter().filter(|c| c.lambda != 0.0).map(|c| coupling(&contacts[i], c) * c.lambda).sum();
-    contacts[i].depth - covered
-}
-
-/// Solves λ on the active contacts by elimination in their order; one that depends on earlier ones gets 0.
-fn solve_active(contacts: &mut [Sharer], active: &[usize]) {
-    const PIVOT_MIN: f64 = 1e-12;
-    let n = active.len();
-    let mut rows: Vec<Vec<f64>> = active
-        .iter()
-        .map(|&i| {
-            let mut row: Vec<f64> = active.iter().map(|&j| coupling(&contacts[i], &contacts[j])).collect();
-            row.push(contacts[i].depth);
-            row
-        })
-        .collect();
-    for p in 0..n {
-        for i in p + 1..n {
-            if rows[p][p].abs() <= PIVOT_MIN {
-                break;
-            }
-            let factor = rows[i][p] / rows[p][p];
-            for j in p..=n {
-                let subtract = factor * rows[p][j];
-                rows[i][j] -= subtract;
-            }
-        }
-    }
-    for p in (0..n).rev() {
-        let known: f64 = (p + 1..n).map(|j| rows[p][j] * contacts[active[j]].lambda).sum();
-        contacts[active[p]].lambda =
-            if rows[p][p].abs() <= PIVOT_MIN { 0.0 } else { (rows[p][n] - known) / rows[p][p] };
-    }
 }
 
 #[cfg(test)]
@@ -361,8 +299,11 @@ mod tests {
     /// Known answer: the shortest vector that clears three walls is the corner point where all three are tight.
     #[test]
     fn three_walls_meet_in_their_corner() {
-        let walls =
-            [(Vec3::new(1.0, 0.1, 0.0), 1.0), (Vec3::new(0.0, 1.0, 0.2), 0.8), (Vec3::new(0.1, 0.0, 1.0), 0.9)];
+        let walls = [
+            (Vec3::new(1.0, 0.1, 0.0), 1.0),
+            (Vec3::new(0.0, 1.0, 0.2), 0.8),
+            (Vec3::new(0.1, 0.0, 1.0), 0.9),
+        ];
         let (lambda, t) = solved(&walls);
         for (n, d) in walls {
             assert!((n.normalize().dot(&t) - d).abs() < 1e-14);
@@ -390,8 +331,10 @@ mod tests {
             let mut lambda = vec![0.0_f64; count];
             for _ in 0..60_000 {
                 for i in 0..count {
-                    let covered: f64 =
-                        (0..count).filter(|&j| j != i).map(|j| contacts[i].0.dot(&contacts[j].0) * lambda[j]).sum();
+                    let covered: f64 = (0..count)
+                        .filter(|&j| j != i)
+                        .map(|j| contacts[i].0.dot(&contacts[j].0) * lambda[j])
+                        .sum();
                     lambda[i] = (contacts[i].1 - covered).max(0.0);
                 }
             }
