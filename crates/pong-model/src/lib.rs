@@ -1,9 +1,93 @@
 //! Model files: RON text → validated, flat, immutable [`Model`].
+//!
+//! The way of a file: `ron_tree` (text to values with their places), `read` (values to drafts of bodies), `hull`
+//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `tree` (bounding volumes),
+//! `hash`. The format is described in `docs/model_format.md`.
 
 #![forbid(unsafe_code)]
 
+mod build;
+mod draft;
+mod element;
+mod error;
+mod hash;
+mod hull;
 pub mod model;
+mod pieces;
+mod polyhedra;
+mod read;
+pub mod restitution;
+mod ron_tree;
 pub mod surface;
+mod t_junctions;
+mod tree;
+mod triangle_topology;
+mod weld;
 
+pub use element::Element;
+pub use error::{ModelError, ModelErrors};
 pub use model::{Body, Item, Model, Node, PrimitiveInfo, Tree};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+
+use pong_geometry::extension::Extensions;
+use read::Reader;
+use std::path::Path;
+
+/// Reads a model file; meshes are looked for beside it.
+pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
+    let file = path.display().to_string();
+    match std::fs::read(path) {
+        Ok(bytes) => match String::from_utf8(bytes) {
+            Ok(text) => parse(&text, &file, Some(path.parent().unwrap_or(Path::new(""))), ext),
+            Err(error) => Err(not_text(file, &error)),
+        },
+        Err(reason) => Err(unreadable(file, reason.to_string(), "name a model file that can be read")),
+    }
+}
+
+/// Reads a model from text.
+///
+/// `file_name` is what errors call it; meshes are looked for in `mesh_dir`. Reports every fault of the text,
+/// except that nothing behind a fault of notation is read.
+pub fn parse(
+    text: &str,
+    file_name: &str,
+    mesh_dir: Option<&Path>,
+    ext: &Extensions,
+) -> Result<Model, ModelErrors> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut reader = Reader::new(text, file_name, mesh_dir, ext);
+    let model = match ron_tree::parse(text) {
+        Ok(node) => {
+            let draft = read::document(&mut reader, &node);
+            drop(node);
+            draft.and_then(|draft| build::finish(&mut reader, draft))
+        }
+        Err(error) => {
+            reader.syntax_fault(error);
+            None
+        }
+    };
+    model.ok_or_else(|| ModelErrors(reader.into_faults()))
+}
+
+fn unreadable(file: String, cause: String, cure: &str) -> ModelErrors {
+    let path = "model".to_owned();
+    ModelErrors(vec![ModelError {
+        file,
+        line: 1,
+        column: 1,
+        path,
+        rule: "unreadable",
+        cause,
+        cure: cure.to_owned(),
+    }])
+}
+
+fn not_text(file: String, error: &std::string::FromUtf8Error) -> ModelErrors {
+    let good = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+    let line = 1 + good.iter().filter(|&&byte| byte == b'\n').count();
+    let mut errors = unreadable(file, "this is no UTF-8 text".to_owned(), "save the file as UTF-8");
+    errors.0[0].line = line as u32;
+    errors
+}

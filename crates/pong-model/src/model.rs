@@ -4,7 +4,8 @@ use crate::surface::{PairOverride, Surface};
 use pong_geometry::Pose;
 use pong_geometry::bounding::Volume;
 use pong_geometry::primitive::{
-    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere, TriangleSet,
+    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere,
+    TriangleSet,
 };
 use std::ops::Range;
 use std::sync::Arc;

@@ -1,0 +1,166 @@
+//! From drafts of bodies to the finished model.
+
+use crate::draft::{BodyDraft, ModelDraft};
+use crate::model::{Body, Model};
+use crate::pieces::join_walls;
+use crate::read::{LISTED_PER_MESH, Reader};
+use crate::triangle_topology::{self, Findings, Oddity};
+use crate::weld::Welder;
+use crate::{hash, polyhedra, tree};
+use pong_geometry::Vec3;
+use pong_geometry::primitive::PrimitiveKind;
+
+/// Knits every body together; faults and warnings go to the reader. `None` if there was any fault.
+pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model> {
+    let ModelDraft { name, entry_memory, surfaces, pair_overrides, bodies: mut drafts } = draft;
+    for draft in &mut drafts {
+        finish_body(reader, draft);
+    }
+    if reader.fault_count() > 0 {
+        return None;
+    }
+    let bodies = drafts.iter_mut().map(|draft| std::mem::take(&mut draft.body)).collect();
+    let warnings = std::mem::take(&mut reader.warnings);
+    let mut model = Model { name, hash: 0, entry_memory, surfaces, pair_overrides, bodies, warnings };
+    model.hash = hash::hash(&model, &drafts);
+    Some(model)
+}
+
+/// The tree comes last and only when nothing is wrong so far, since it trusts every element.
+fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
+    draft.welder = Welder::default();
+    let findings = knit_triangles(reader, draft);
+    let surface_of = join_pieces(reader, draft);
+    set_shells(&mut draft.body, &findings, &surface_of);
+    if reader.fault_count() > 0 {
+        return;
+    }
+    match tree::build(&draft.body, &draft.groups, reader.ext) {
+        Ok(tree) => draft.body.tree = tree,
+        Err(faults) => {
+            for (group, reason) in faults {
+                let group = &draft.groups[group];
+                let cause = format!("its bounding volume cannot be fitted: {reason}");
+                reader.fault(group.at, &group.path, "bound", cause, "choose another kind of volume");
+            }
+        }
+    }
+}
+
+fn knit_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Findings {
+    if draft.body.triangles.triangles.len() > triangle_topology::TRIANGLE_LIMIT {
+        let cause = "more triangles than one body may have";
+        let cure = format!("{} is the most", triangle_topology::TRIANGLE_LIMIT);
+        reader.fault(draft.groups[0].at, &draft.body.path, "too-many-triangles", cause, cure);
+        return Findings::default();
+    }
+    let findings = triangle_topology::knit(&mut draft.body);
+    for &(repeated, earlier) in findings.duplicates.iter().take(LISTED_PER_MESH) {
+        let (at, path) = draft.triangle_path(repeated);
+        let (_, other) = draft.triangle_path(earlier);
+        let cause = format!("the same triangle as {other}");
+        reader.fault(at, &path, "duplicate-triangle", cause, "remove one of them");
+    }
+    for oddity in findings.oddities.iter().take(LISTED_PER_MESH) {
+        tell(reader, draft, oddity);
+    }
+    if findings.oddities.len() > LISTED_PER_MESH {
+        let more = findings.oddities.len() - LISTED_PER_MESH;
+        let what = format!("{more} more edges of this body's meshes do not fit together");
+        reader.warn(draft.groups[0].at, &draft.body.path, &what);
+    }
+    findings
+}
+
+fn tell(reader: &mut Reader<'_>, draft: &BodyDraft, oddity: &Oddity) {
+    let set = &draft.body.triangles;
+    let (triangle, what) = match *oddity {
+        Oddity::CrowdedEdge { triangle, count } => (
+            triangle,
+            format!("{count} triangles share an edge near {}; it counts as free", middle(set, triangle)),
+        ),
+        Oddity::Winding { triangle, other } => {
+            let other = draft.triangle_path(other).1;
+            (triangle, format!("wound against its neighbour {other}; their common edge counts as free"))
+        }
+        Oddity::TJunction { triangle, vertex } => {
+            let v = set.vertices[vertex as usize];
+            (triangle, format!("T-junction: the vertex {} lies within a free edge", place(&v)))
+        }
+    };
+    let (at, path) = draft.triangle_path(triangle);
+    reader.warn(at, &path, &what);
+}
+
+fn middle(set: &pong_geometry::primitive::TriangleSet, triangle: u32) -> String {
+    let [a, b, c] = set.corners(triangle);
+    place(&((a + b + c) / 3.0))
+}
+
+fn place(p: &Vec3) -> String {
+    format!("({}, {}, {})", p.x, p.y, p.z)
+}
+
+/// Builds the polyhedra; returns the lowest piece of each one's surface.
+fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
+    let mut hulls = std::mem::take(&mut draft.hulls);
+    let (surface_of, lonely) = join_walls(&mut hulls);
+    let owner = |piece: u32| {
+        let is_piece = |p: &&crate::model::PrimitiveInfo| {
+            p.kind == PrimitiveKind::Polyhedron && p.elements.start == piece
+        };
+        let primitives = &draft.body.primitives;
+        primitives
+            .iter()
+            .position(|p| is_piece(&p))
+            .map(|p| (draft.primitive_at[p], primitives[p].path.clone()))
+    };
+    for (piece, face) in lonely {
+        let authored = hulls[piece as usize].faces[face].authored;
+        if let Some((at, path)) = owner(piece) {
+            let what = "this inactive face has no twin in another piece of the body";
+            reader.warn(at, &format!("{path}/faces[{authored}]"), what);
+        }
+    }
+    let (polyhedra, tangled) = polyhedra::build(&hulls, &surface_of);
+    for (piece, at_edge) in tangled {
+        if let Some((at, path)) = owner(piece as u32) {
+            let what = format!(
+                "more than two active faces meet at the edge from {}; it never pushes",
+                place(&at_edge)
+            );
+            reader.warn(at, &path, &what);
+        }
+    }
+    draft.body.polyhedra = polyhedra;
+    surface_of
+}
+
+/// Numbers the shells in the order of their first element.
+fn set_shells(body: &mut Body, findings: &Findings, surface_of: &[u32]) {
+    let mut count = 0;
+    let mut next = || {
+        count += 1;
+        count - 1
+    };
+    let mut of_piece = vec![None; surface_of.len()];
+    let mut of_triangle = vec![None; findings.shell_leader.len()];
+    for info in &mut body.primitives {
+        info.shell = match info.kind {
+            PrimitiveKind::Polyhedron => {
+                let surface = surface_of[info.elements.start as usize] as usize;
+                *of_piece[surface].get_or_insert_with(&mut next)
+            }
+            PrimitiveKind::Triangle => {
+                for triangle in info.elements.clone() {
+                    let leader = findings.shell_leader[triangle as usize] as usize;
+                    let shell = *of_triangle[leader].get_or_insert_with(&mut next);
+                    body.triangles.triangles[triangle as usize].shell = shell;
+                }
+                body.triangles.triangles[info.elements.start as usize].shell
+            }
+            _ => next(),
+        };
+    }
+    body.shell_count = count;
+}

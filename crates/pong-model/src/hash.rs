@@ -1,0 +1,172 @@
+//! The hash of a model: FNV-1a, 64 bits, over everything that decides the numbers.
+//!
+//! Names of groups and primitives and bounding volumes are left out: they change no number. Names of surfaces
+//! are in, since tables of other models refer to them.
+
+use crate::draft::BodyDraft;
+use crate::model::{Body, Model, PrimitiveInfo};
+use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use pong_geometry::Vec3;
+use pong_geometry::primitive::{Polyhedron, RayResponse, TriangleSet};
+
+struct Fnv(u64);
+
+/// The hash; `drafts` tell what custom primitives were made of.
+pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
+    let mut fnv = Fnv(0xcbf2_9ce4_8422_2325);
+    fnv.word(u64::from(model.entry_memory));
+    fnv.list(&model.surfaces, Fnv::surface);
+    fnv.list(&model.pair_overrides, Fnv::pair);
+    fnv.word(model.bodies.len() as u64);
+    for (body, draft) in model.bodies.iter().zip(drafts) {
+        fnv.body(body);
+        fnv.list(&draft.custom_parameters, |fnv, (kind, parameters)| {
+            fnv.text(kind);
+            fnv.list(parameters, |fnv, &x| fnv.number(x));
+        });
+    }
+    fnv.0
+}
+
+impl Fnv {
+    fn word(&mut self, word: u64) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    fn number(&mut self, x: f64) {
+        self.word(x.to_bits());
+    }
+
+    fn option(&mut self, x: Option<f64>) {
+        self.word(u64::from(x.is_some()));
+        self.number(x.unwrap_or(0.0));
+    }
+
+    fn vector(&mut self, v: &Vec3) {
+        v.iter().for_each(|&x| self.number(x));
+    }
+
+    fn text(&mut self, text: &str) {
+        self.word(text.len() as u64);
+        text.bytes().for_each(|byte| self.word(u64::from(byte)));
+    }
+
+    fn list<T>(&mut self, items: &[T], mut each: impl FnMut(&mut Self, &T)) {
+        self.word(items.len() as u64);
+        items.iter().for_each(|item| each(self, item));
+    }
+
+    fn surface(&mut self, surface: &Surface) {
+        self.text(&surface.name);
+        self.number(surface.stiffness);
+        self.normal_law(&surface.normal);
+        self.friction_law(&surface.friction);
+    }
+
+    fn pair(&mut self, pair: &PairOverride) {
+        pair.surfaces.iter().for_each(|name| self.text(name));
+        self.option(pair.stiffness);
+        self.list(pair.normal.as_slice(), Self::normal_law);
+        self.list(pair.friction.as_slice(), Self::friction_law);
+    }
+
+    fn normal_law(&mut self, law: &NormalLaw) {
+        match law {
+            NormalLaw::Linear { damping, ramp } => {
+                self.word(0);
+                self.number(*damping);
+                self.number(*ramp);
+            }
+            NormalLaw::HuntCrossley { dissipation, exponent } => {
+                self.word(if *exponent == Exponent::One { 1 } else { 2 });
+                self.number(*dissipation);
+            }
+            NormalLaw::Custom { name, parameters } => self.custom_law(3, name, parameters),
+        }
+    }
+
+    fn friction_law(&mut self, law: &FrictionLaw) {
+        match law {
+            FrictionLaw::None => self.word(0),
+            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+                self.word(1);
+                self.number(*mu);
+                self.number(*static_excess);
+                self.option(*stiffness);
+                self.number(*damping);
+            }
+            FrictionLaw::Coulomb { mu, slip_speed } => {
+                self.word(2);
+                self.number(*mu);
+                self.number(*slip_speed);
+            }
+            FrictionLaw::Custom { name, parameters } => self.custom_law(3, name, parameters),
+        }
+    }
+
+    fn custom_law(&mut self, kind: u64, name: &str, parameters: &[f64]) {
+        self.word(kind);
+        self.text(name);
+        self.list(parameters, |fnv, &x| fnv.number(x));
+    }
+
+    fn body(&mut self, body: &Body) {
+        self.word(body.parent.map_or(u64::MAX, u64::from));
+        self.list(&body.primitives, Self::primitive);
+        self.list(&body.points, |fnv, point| fnv.vector(&point.position));
+        self.list(&body.segments, |fnv, segment| segment.ends.iter().for_each(|end| fnv.vector(end)));
+        self.list(&body.rays, |fnv, ray| {
+            fnv.vector(&ray.origin);
+            fnv.vector(&ray.direction);
+            fnv.number(ray.length);
+            fnv.option(ray.reach);
+            fnv.word(u64::from(ray.response == RayResponse::Axial));
+        });
+        self.list(&body.spheres, |fnv, sphere| {
+            fnv.vector(&sphere.center);
+            fnv.number(sphere.radius);
+        });
+        self.list(&body.ellipsoids, |fnv, ellipsoid| {
+            fnv.vector(&ellipsoid.center);
+            ellipsoid.axes.iter().for_each(|&x| fnv.number(x));
+            fnv.vector(&ellipsoid.semi_axes);
+        });
+        self.list(&body.planes, |fnv, plane| {
+            fnv.vector(&plane.normal);
+            fnv.number(plane.offset);
+        });
+        self.triangles(&body.triangles);
+        self.list(&body.polyhedra, Self::polyhedron);
+    }
+
+    fn primitive(&mut self, info: &PrimitiveInfo) {
+        self.word(info.kind as u64);
+        self.word(u64::from(info.surface));
+        self.word(u64::from(info.elements.start) << 32 | u64::from(info.elements.end));
+        self.word(u64::from(info.first_mirror));
+        self.option(info.thickness);
+    }
+
+    /// Neighbours and shells follow from the vertices.
+    fn triangles(&mut self, set: &TriangleSet) {
+        self.list(&set.vertices, Self::vector);
+        self.list(&set.triangles, |fnv, triangle| {
+            let [a, b, c] = triangle.vertices;
+            fnv.word(u64::from(a) << 32 | u64::from(b));
+            fnv.word(u64::from(c));
+        });
+    }
+
+    /// Edges follow from vertices, faces and outlines.
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) {
+        self.list(&polyhedron.vertices, |fnv, vertex| fnv.vector(&vertex.position));
+        self.list(&polyhedron.faces, |fnv, face| {
+            fnv.vector(&face.normal);
+            fnv.number(face.offset);
+            fnv.word(u64::from(face.active) | u64::from(face.closed) << 1 | u64::from(face.rim_count) << 32);
+        });
+        self.list(&polyhedron.rims, |fnv, rim| fnv.word(u64::from(rim.start)));
+    }
+}

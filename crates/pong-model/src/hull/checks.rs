@@ -1,0 +1,212 @@
+//! What a polyhedron must be.
+
+use super::polygon::{area_vector, edges, longest_edge, plane_of, width};
+use super::{Hull, PLANE_TOLERANCE, Problem};
+use crate::weld::WordMap;
+use pong_geometry::Vec3;
+
+/// A face narrower than this share of its longest edge is refused.
+const SLIVER: f64 = 1e-9;
+
+type Checked = Result<(), Vec<Problem>>;
+
+fn verdict(problems: Vec<Problem>) -> Checked {
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// Numbers and indices as authored.
+pub(super) fn authored(vertices: &[Vec3], faces: &[&[u32]]) -> Checked {
+    let mut problems = Vec::new();
+    for (index, vertex) in vertices.iter().enumerate() {
+        if !vertex.iter().all(|x| x.is_finite()) {
+            let cause = format!("vertex {index} is not finite");
+            problems.push(Problem::new(None, "not-finite", cause, "give finite numbers"));
+        }
+    }
+    if faces.len() < 4 {
+        let cause = format!("a solid of {} faces", faces.len());
+        problems.push(Problem::new(None, "too-few-faces", cause, "a solid has at least four"));
+    }
+    for (index, face) in faces.iter().enumerate() {
+        problems.extend(face_indices(index, face, vertices.len()));
+    }
+    verdict(problems)
+}
+
+fn face_indices(index: usize, face: &[u32], vertex_count: usize) -> Option<Problem> {
+    let problem = |rule, cause, cure| Some(Problem::new(Some(index), rule, cause, cure));
+    if face.len() < 3 {
+        let cause = format!("a face of {} vertices", face.len());
+        return problem("too-few-vertices", cause, "a face has at least three");
+    }
+    if let Some(v) = face.iter().find(|&&v| v as usize >= vertex_count) {
+        let cause = format!("there is no vertex {v} among {vertex_count}");
+        return problem("index-out-of-range", cause, "indices count from 0");
+    }
+    let mut sorted = face.to_vec();
+    sorted.sort_unstable();
+    let twice = sorted.windows(2).find(|pair| pair[0] == pair[1])?[0];
+    problem("repeated-index", format!("vertex {twice} comes twice"), "a face names each of its vertices once")
+}
+
+fn corners(vertices: &[Vec3], face: &[u32]) -> Vec<Vec3> {
+    face.iter().map(|&v| vertices[v as usize]).collect()
+}
+
+/// No edge without length, no face without width.
+pub(super) fn edges_and_widths(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
+    let mut problems = Vec::new();
+    for (index, face) in faces.iter().enumerate() {
+        let corners = corners(vertices, face);
+        if edges(face).any(|(a, b)| a == b) {
+            let cause = "two neighbouring vertices are the same place".to_owned();
+            problems.push(Problem::new(Some(index), "zero-length-edge", cause, "merge the two"));
+            continue;
+        }
+        let share =
+            if area_vector(&corners).amax() > 0.0 { width(&corners) / longest_edge(&corners) } else { 0.0 };
+        if share.is_nan() || share < SLIVER {
+            let cause = format!("a sliver: its width is {share:.1e} of its longest edge");
+            problems.push(Problem::new(Some(index), "sliver-face", cause, "remove it or move a vertex"));
+        }
+    }
+    verdict(problems)
+}
+
+/// Every edge is shared by exactly two faces that run along it in opposite directions.
+pub(super) fn closed_surface(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
+    let mut users: WordMap<(u32, u32), u32> = WordMap::default();
+    for (a, b) in faces.iter().flat_map(|face| edges(face)) {
+        *users.entry((a, b)).or_default() += 1;
+    }
+    let mut problems = Vec::new();
+    for (index, face) in faces.iter().enumerate() {
+        let open = edges(face).find(|&(a, b)| users[&(a, b)] != 1 || users.get(&(b, a)) != Some(&1));
+        if let Some((a, b)) = open {
+            let (a, b) = (vertices[a as usize], vertices[b as usize]);
+            let cause = format!(
+                "the edge from ({}, {}, {}) to ({}, {}, {}) is not shared by exactly two faces in opposite directions",
+                a.x, a.y, a.z, b.x, b.y, b.z
+            );
+            let cure = "close the surface and run every face counter-clockwise seen from outside";
+            problems.push(Problem::new(Some(index), "open-polyhedron", cause, cure));
+        }
+    }
+    verdict(problems)
+}
+
+/// The solid lies behind its faces.
+pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Checked {
+    let first = vertices[0];
+    let local = |v: u32| (vertices[v as usize] - first) / diameter;
+    let mut six_volumes = 0.0;
+    let mut largest_area: f64 = 0.0;
+    for face in faces {
+        let origin = local(face[0]);
+        let corners: Vec<Vec3> = face.iter().map(|&v| local(v)).collect();
+        let area = area_vector(&corners);
+        six_volumes += area.dot(&origin);
+        largest_area = largest_area.max(area.norm());
+    }
+    // Thickness in diameters is about the volume over the largest area.
+    if six_volumes.abs() <= PLANE_TOLERANCE * largest_area {
+        return Err(vec![no_thickness()]);
+    }
+    if six_volumes < 0.0 {
+        let cause = "its faces run clockwise seen from outside".to_owned();
+        let cure = "reverse the order of the vertices of every face";
+        return Err(vec![Problem::new(None, "inside-out", cause, cure)]);
+    }
+    Ok(())
+}
+
+fn no_thickness() -> Problem {
+    let cause = format!("the solid is thinner than {PLANE_TOLERANCE:.0e} of its diameter");
+    Problem::new(None, "zero-volume", cause, "give it a thickness, or use triangles")
+}
+
+/// Faces of more than three vertices lie in a plane.
+pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Checked {
+    let mut problems = Vec::new();
+    for (index, face) in faces.iter().enumerate().filter(|(_, face)| face.len() > 3) {
+        let corners = corners(vertices, face);
+        let (normal, offset) = plane_of(&corners);
+        let off = corners.iter().map(|c| (normal.dot(c) - offset).abs()).fold(0.0, f64::max);
+        if off > PLANE_TOLERANCE * diameter {
+            let cause =
+                format!("a vertex is {:.1e} of the diameter off the plane of this face", off / diameter);
+            problems.push(Problem::new(
+                Some(index),
+                "face-not-planar",
+                cause,
+                "move it, or triangulate the face",
+            ));
+        }
+    }
+    verdict(problems)
+}
+
+/// No vertex lies in front of a face, no face has a dent, and there is a thickness behind every face.
+pub(super) fn convex(hull: &Hull) -> Checked {
+    let tolerance = PLANE_TOLERANCE * hull.diameter;
+    let mut problems = Vec::new();
+    for (index, face) in hull.faces.iter().enumerate() {
+        let authored = Some(face.authored as usize);
+        if let Some(problem) = vertex_in_front(hull, index, tolerance) {
+            problems.push(problem);
+        } else if has_dent(hull, index, tolerance) {
+            let cause = "the outline of this face has a dent".to_owned();
+            problems.push(Problem::new(
+                authored,
+                "face-not-convex",
+                cause,
+                "split the solid into convex pieces",
+            ));
+        }
+    }
+    let thin = |face: &super::HullFace| {
+        let deepest = hull.vertices.iter().map(|v| face.offset - face.normal.dot(v)).fold(0.0, f64::max);
+        deepest < tolerance
+    };
+    if problems.is_empty() && hull.faces.iter().any(thin) {
+        problems.push(no_thickness());
+    }
+    verdict(problems)
+}
+
+fn vertex_in_front(hull: &Hull, index: usize, tolerance: f64) -> Option<Problem> {
+    let face = &hull.faces[index];
+    let mut farthest = (0.0, 0);
+    for (number, vertex) in hull.vertices.iter().enumerate() {
+        let height = face.normal.dot(vertex) - face.offset;
+        if height > farthest.0 && !face.outline.contains(&(number as u32)) {
+            farthest = (height, number);
+        }
+    }
+    if farthest.0 <= tolerance {
+        return None;
+    }
+    let v = hull.vertices[farthest.1];
+    let cause = format!(
+        "not convex: the vertex ({}, {}, {}) is {:.1e} of the diameter in front of this face",
+        v.x,
+        v.y,
+        v.z,
+        farthest.0 / hull.diameter
+    );
+    Some(Problem::new(
+        Some(face.authored as usize),
+        "not-convex",
+        cause,
+        "split the solid into convex pieces",
+    ))
+}
+
+fn has_dent(hull: &Hull, index: usize, tolerance: f64) -> bool {
+    let normal = hull.faces[index].normal;
+    let corners = hull.corners(index);
+    edges(&corners).any(|(a, b)| {
+        let outward = super::polygon::unit(&(b - a)).cross(&normal);
+        corners.iter().any(|c| outward.dot(&(c - a)) > tolerance)
+    })
+}

@@ -1,0 +1,129 @@
+//! One convex piece: from authored vertices and faces to a checked shape with merged planar faces.
+//!
+//! Degenerate cases, each with its own rule: vertices that are not finite; too few faces; faces of too few,
+//! unknown or repeated vertices; edges without length; slivers; faces that are not planar or not convex; open
+//! or inside-out surfaces; solids without thickness; solids that are not convex. All tolerances are relative to
+//! the diameter, so that what `f32` rounding makes of a good shape passes at every size.
+
+mod checks;
+mod merge;
+mod polygon;
+
+pub(crate) use polygon::{area, overlap_area};
+
+use crate::weld::Welder;
+use pong_geometry::Vec3;
+
+/// Planes, walls and vertices count as one within this share of the diameter.
+pub(crate) const PLANE_TOLERANCE: f64 = 1e-6;
+
+/// A checked convex piece in the frame of its body.
+pub(crate) struct Hull {
+    /// Distinct positions, all in use.
+    pub(crate) vertices: Vec<Vec3>,
+    pub(crate) faces: Vec<HullFace>,
+    /// Largest distance between two vertices, m.
+    pub(crate) diameter: f64,
+    /// What the author should know.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// A planar face.
+#[derive(Clone)]
+pub(crate) struct HullFace {
+    pub(crate) normal: Vec3,
+    pub(crate) offset: f64,
+    pub(crate) active: bool,
+    /// Whether its plane belongs to the piece (see `PolyhedronFace::closed`).
+    pub(crate) closed: bool,
+    /// Vertices counter-clockwise seen from outside.
+    pub(crate) outline: Vec<u32>,
+    /// The lowest authored face that went into it.
+    pub(crate) authored: u32,
+}
+
+/// What is wrong with a polyhedron.
+#[derive(Debug)]
+pub(crate) struct Problem {
+    /// The authored face, if it lies with one.
+    pub(crate) face: Option<usize>,
+    pub(crate) rule: &'static str,
+    pub(crate) cause: String,
+    pub(crate) cure: &'static str,
+}
+
+impl Problem {
+    fn new(face: Option<usize>, rule: &'static str, cause: String, cure: &'static str) -> Self {
+        Self { face, rule, cause, cure }
+    }
+}
+
+impl Hull {
+    /// The corners of a face, m.
+    pub(crate) fn corners(&self, face: usize) -> Vec<Vec3> {
+        self.faces[face].outline.iter().map(|&v| self.vertices[v as usize]).collect()
+    }
+}
+
+/// Checks a polyhedron and merges its coplanar neighbouring faces, or lists all that is wrong at the first
+/// stage that finds anything.
+pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Result<Hull, Vec<Problem>> {
+    checks::authored(vertices, faces)?;
+    let (vertices, faces, remarks) = welded(vertices, faces);
+    let diameter = diameter(&vertices);
+    checks::edges_and_widths(&vertices, &faces)?;
+    checks::closed_surface(&vertices, &faces)?;
+    checks::volume(&vertices, &faces, diameter)?;
+    checks::planar(&vertices, &faces, diameter)?;
+    let faces = merge::merge_coplanar(&vertices, &faces, active, diameter);
+    let hull = without_unused(Hull { vertices, faces, diameter, remarks });
+    checks::convex(&hull)?;
+    Ok(hull)
+}
+
+/// Bit-equal positions become one vertex.
+fn welded(vertices: &[Vec3], faces: &[&[u32]]) -> (Vec<Vec3>, Vec<Vec<u32>>, Vec<String>) {
+    let mut welder = Welder::default();
+    let mut distinct = Vec::new();
+    let mut used = vec![false; vertices.len()];
+    let faces = faces
+        .iter()
+        .map(|face| {
+            face.iter()
+                .map(|&v| {
+                    used[v as usize] = true;
+                    welder.weld(vertices[v as usize], &mut distinct)
+                })
+                .collect()
+        })
+        .collect();
+    let idle = used.iter().filter(|&&used| !used).count();
+    let remarks = if idle > 0 { vec![format!("{idle} vertices belong to no face")] } else { Vec::new() };
+    (distinct, faces, remarks)
+}
+
+/// Drops the vertices that lie within merged faces.
+fn without_unused(hull: Hull) -> Hull {
+    let mut number = vec![u32::MAX; hull.vertices.len()];
+    let mut vertices = Vec::new();
+    let mut faces = hull.faces;
+    for vertex in faces.iter_mut().flat_map(|face| &mut face.outline) {
+        let slot = &mut number[*vertex as usize];
+        if *slot == u32::MAX {
+            *slot = vertices.len() as u32;
+            vertices.push(hull.vertices[*vertex as usize]);
+        }
+        *vertex = *slot;
+    }
+    Hull { vertices, faces, ..hull }
+}
+
+fn diameter(vertices: &[Vec3]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (index, a) in vertices.iter().enumerate() {
+        for b in &vertices[index + 1..] {
+            largest = largest.max((a - b).norm_squared());
+        }
+    }
+    largest.sqrt()
+}

@@ -1,0 +1,239 @@
+//! From checked pieces to polyhedra that know their surface: which edges and vertices may push, and where.
+//!
+//! Whether an edge or a vertex pushes is decided over the whole surface: pieces joined by inner walls count as
+//! one solid, and every feature belongs to the lowest piece that has it.
+
+use crate::hull::Hull;
+use crate::weld::{PositionKey, WordMap, position_key};
+use pong_geometry::Vec3;
+use pong_geometry::primitive::{
+    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
+};
+use std::cmp::Ordering;
+
+/// Sine below which two faces count as flat. Only rounding lies below: an edge that is convex by what `f32`
+/// makes of flat must keep its (tiny) range of normals, or a ball could fall between its two faces.
+const FLAT_SINE: f64 = 1e-12;
+
+type EdgeKey = (u32, PositionKey, PositionKey);
+type VertexKey = (u32, PositionKey);
+
+/// An active face at an edge of the surface.
+#[derive(Clone, Copy)]
+struct FaceAtEdge {
+    normal: Vec3,
+    outward: Vec3,
+}
+
+/// All that meets at a vertex of the surface.
+#[derive(Default)]
+struct VertexStar {
+    directions: Vec<Vec3>,
+    normal_sum: Vec3,
+    active_faces: u32,
+    /// An edge here is concave, or the surface is not closed by active faces.
+    spoiled: bool,
+}
+
+/// How two active faces meet.
+#[derive(Clone, Copy, PartialEq)]
+enum Fold {
+    Convex,
+    Flat,
+    Concave,
+}
+
+/// Builds the polyhedra of a body; `surface_of` gives each piece the lowest piece of its surface.
+///
+/// Also returns the places where more than two active faces meet at one edge, by piece.
+pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec<(usize, Vec3)>) {
+    let mut polyhedra: Vec<Polyhedron> = hulls.iter().map(piece).collect();
+    let edges = edges_of_surfaces(&polyhedra, surface_of);
+    let mut stars = stars_of_surfaces(&polyhedra, surface_of);
+    let mut tangled = Vec::new();
+    let mut done: WordMap<EdgeKey, ()> = WordMap::default();
+    for (index, polyhedron) in polyhedra.iter_mut().enumerate() {
+        for edge in 0..polyhedron.edges.len() {
+            let key = edge_key(surface_of[index], polyhedron, edge);
+            let faces = &edges[&key];
+            if faces.is_empty() || done.insert(key, ()).is_some() {
+                continue;
+            }
+            let fold = fold(faces);
+            if faces.len() > 2 {
+                tangled
+                    .push((index, polyhedron.vertices[polyhedron.edges[edge].vertices[0] as usize].position));
+            }
+            if fold == Some(Fold::Convex) {
+                polyhedron.edges[edge].push = Some(push(faces));
+            }
+            note_edge(&mut stars, surface_of[index], polyhedron, edge, fold);
+        }
+    }
+    for (index, polyhedron) in polyhedra.iter_mut().enumerate() {
+        set_cones(polyhedron, surface_of[index], &mut stars);
+    }
+    (polyhedra, tangled)
+}
+
+/// A piece with its outline, edges and vertices; nothing pushes yet.
+fn piece(hull: &Hull) -> Polyhedron {
+    let vertex =
+        |&position: &Vec3| PolyhedronVertex { position, pushes: false, first_cone: 0, cone_count: 0 };
+    let mut polyhedron = Polyhedron {
+        faces: Vec::with_capacity(hull.faces.len()),
+        rims: Vec::new(),
+        edges: Vec::new(),
+        vertices: hull.vertices.iter().map(vertex).collect(),
+        cone_edges: Vec::new(),
+        diameter: hull.diameter,
+    };
+    let mut numbers: WordMap<(u32, u32), u32> = WordMap::default();
+    for (index, face) in hull.faces.iter().enumerate() {
+        let first_rim = polyhedron.rims.len() as u32;
+        for (place, &start) in face.outline.iter().enumerate() {
+            let end = face.outline[(place + 1) % face.outline.len()];
+            let rim = rim(&mut polyhedron, &mut numbers, index as u32, face.normal, [start, end]);
+            polyhedron.rims.push(rim);
+        }
+        let rim_count = face.outline.len() as u32;
+        let (normal, offset, active, closed) = (face.normal, face.offset, face.active, face.closed);
+        polyhedron.faces.push(PolyhedronFace { normal, offset, active, closed, first_rim, rim_count });
+    }
+    set_neighbors(&mut polyhedron);
+    polyhedron
+}
+
+/// An edge as one face sees it; the edge is added when its first face comes by.
+fn rim(
+    polyhedron: &mut Polyhedron,
+    numbers: &mut WordMap<(u32, u32), u32>,
+    face: u32,
+    normal: Vec3,
+    [start, end]: [u32; 2],
+) -> RimEdge {
+    let position = |v: u32| polyhedron.vertices[v as usize].position;
+    let forward = lexicographic(&position(start), &position(end)) == Ordering::Less;
+    let [first, second] = if forward { [start, end] } else { [end, start] };
+    let anchor = position(first);
+    let direction = unit(&(position(second) - anchor));
+    let edge = *numbers.entry((first, second)).or_insert_with(|| {
+        let vertices = [first, second];
+        polyhedron.edges.push(PolyhedronEdge { vertices, faces: [face; 2], direction, push: None });
+        polyhedron.edges.len() as u32 - 1
+    });
+    polyhedron.edges[edge as usize].faces[1] = face;
+    let across = unit(&direction.cross(&normal));
+    RimEdge { start, edge, neighbor: face, anchor, outward: if forward { across } else { -across } }
+}
+
+fn set_neighbors(polyhedron: &mut Polyhedron) {
+    for (index, face) in polyhedron.faces.iter().enumerate() {
+        let range = face.first_rim as usize..(face.first_rim + face.rim_count) as usize;
+        for rim in &mut polyhedron.rims[range] {
+            let [a, b] = polyhedron.edges[rim.edge as usize].faces;
+            rim.neighbor = if a == index as u32 { b } else { a };
+        }
+    }
+}
+
+fn lexicographic(a: &Vec3, b: &Vec3) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
+}
+
+fn unit(v: &Vec3) -> Vec3 {
+    (v / v.amax()).normalize()
+}
+
+fn edge_key(surface: u32, polyhedron: &Polyhedron, edge: usize) -> EdgeKey {
+    let [a, b] =
+        polyhedron.edges[edge].vertices.map(|v| position_key(&polyhedron.vertices[v as usize].position));
+    (surface, a, b)
+}
+
+/// The active faces at every edge of every surface, in the order of pieces and faces.
+fn edges_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<EdgeKey, Vec<FaceAtEdge>> {
+    let mut edges: WordMap<EdgeKey, Vec<FaceAtEdge>> = WordMap::default();
+    for (index, polyhedron) in polyhedra.iter().enumerate() {
+        for (number, face) in polyhedron.faces.iter().enumerate() {
+            for rim in polyhedron.rim(number) {
+                let faces =
+                    edges.entry(edge_key(surface_of[index], polyhedron, rim.edge as usize)).or_default();
+                if face.active {
+                    faces.push(FaceAtEdge { normal: face.normal, outward: rim.outward });
+                }
+            }
+        }
+    }
+    edges
+}
+
+fn stars_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<VertexKey, VertexStar> {
+    let mut stars: WordMap<VertexKey, VertexStar> = WordMap::default();
+    for (index, polyhedron) in polyhedra.iter().enumerate() {
+        for (number, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
+            for rim in polyhedron.rim(number) {
+                let position = polyhedron.vertices[rim.start as usize].position;
+                let star = stars.entry((surface_of[index], position_key(&position))).or_default();
+                star.normal_sum += face.normal;
+                star.active_faces += 1;
+            }
+        }
+    }
+    stars
+}
+
+/// `None` unless exactly two active faces meet.
+fn fold(faces: &[FaceAtEdge]) -> Option<Fold> {
+    let [a, b] = faces else { return None };
+    // Where the solid is convex, each face rises to the edge from below the other's plane.
+    let sines = [a.normal.dot(&b.outward), b.normal.dot(&a.outward)];
+    if sines.iter().all(|&sine| sine > FLAT_SINE) {
+        return Some(Fold::Convex);
+    }
+    Some(if sines.iter().any(|&sine| sine < -FLAT_SINE) { Fold::Concave } else { Fold::Flat })
+}
+
+fn push(faces: &[FaceAtEdge]) -> EdgePush {
+    EdgePush { normals: [faces[0].normal, faces[1].normal], outwards: [faces[0].outward, faces[1].outward] }
+}
+
+fn note_edge(
+    stars: &mut WordMap<VertexKey, VertexStar>,
+    surface: u32,
+    polyhedron: &Polyhedron,
+    edge: usize,
+    fold: Option<Fold>,
+) {
+    let edge = &polyhedron.edges[edge];
+    for (vertex, away) in [(edge.vertices[0], edge.direction), (edge.vertices[1], -edge.direction)] {
+        let position = polyhedron.vertices[vertex as usize].position;
+        let star = stars.entry((surface, position_key(&position))).or_default();
+        star.spoiled |= !matches!(fold, Some(Fold::Convex | Fold::Flat));
+        star.directions.push(away);
+    }
+}
+
+/// Gives the vertices their cones; the first piece that asks for a star takes it.
+fn set_cones(polyhedron: &mut Polyhedron, surface: u32, stars: &mut WordMap<VertexKey, VertexStar>) {
+    for vertex in &mut polyhedron.vertices {
+        let Some(star) = stars.remove(&(surface, position_key(&vertex.position))) else { continue };
+        if star.has_cone() {
+            vertex.pushes = true;
+            vertex.first_cone = polyhedron.cone_edges.len() as u32;
+            vertex.cone_count = star.directions.len() as u32;
+            polyhedron.cone_edges.extend(star.directions);
+        }
+    }
+}
+
+impl VertexStar {
+    /// Whether some normal points away from every edge: where the surface is convex, the mean normal does.
+    fn has_cone(&self) -> bool {
+        if self.spoiled || self.active_faces < 3 {
+            return false;
+        }
+        let mean = self.normal_sum / f64::from(self.active_faces);
+        self.directions.iter().all(|away| mean.dot(away) < -FLAT_SINE)
+    }
+}

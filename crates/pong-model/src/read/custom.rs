@@ -1,0 +1,43 @@
+//! Primitives of kinds that the user has registered.
+
+use super::{Reader, primitive::Primitive};
+use pong_geometry::primitive::CustomPrimitive;
+use std::sync::Arc;
+
+/// A custom primitive is made in the frame of its movable group: its kind knows no poses.
+pub(super) fn custom(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> Option<Arc<dyn CustomPrimitive>> {
+    let kind = p.fields.required(reader, "kind").and_then(|node| reader.text(node, &p.path));
+    let parameters = match p.fields.optional("parameters") {
+        Some(node) => reader.numbers(node, &p.path)?,
+        None => Vec::new(),
+    };
+    let kind = kind?;
+    let Some(factory) = reader.ext.primitive(&kind).cloned() else {
+        let cause = format!("no primitive of the kind \"{kind}\" is registered");
+        let cure = "register it with Extensions::add_primitive before loading";
+        reader.fault(p.at, &p.path, "unknown-primitive", cause, cure);
+        return None;
+    };
+    if p.x != pong_geometry::Transform::identity() {
+        let cause = "a custom primitive below a posed group that does not move on its own";
+        let cure = "its parameters are in the frame of the movable group: put it into a group without a pose";
+        reader.fault(p.at, &p.path, "custom-under-pose", cause, cure);
+        return None;
+    }
+    match factory(&parameters) {
+        Ok(primitive) => {
+            p.draft.custom_parameters.push((kind, parameters));
+            Some(primitive)
+        }
+        Err(reason) => {
+            reader.fault(
+                p.at,
+                &p.path,
+                "custom-parameters",
+                reason,
+                format!("see the description of \"{kind}\""),
+            );
+            None
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! The top level of a model file.
+
+use super::group::{GroupReader, read_root};
+use super::{Fields, Reader, surface};
+use crate::draft::{BodyDraft, ModelDraft};
+use crate::ron_tree::{Node, Value};
+
+const FIELDS: [&str; 7] = ["format", "version", "name", "entry_memory", "surfaces", "pairs", "root"];
+
+/// Reads the whole file; `None` only if it is no struct. Faults are with the reader.
+pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraft> {
+    let fields = Fields::open(reader, node, "model", &FIELDS)?;
+    check_format(reader, &fields);
+    let name = fields.required(reader, "name").and_then(|node| model_name(reader, node));
+    let entry_memory = match fields.optional("entry_memory") {
+        Some(node) => reader.boolean(node, "model"),
+        None => Some(true),
+    };
+    let surfaces = match fields.required(reader, "surfaces") {
+        Some(node) => surface::surfaces(reader, node),
+        None => Vec::new(),
+    };
+    let pair_overrides = match fields.optional("pairs") {
+        Some(node) => surface::pairs(reader, node, &surfaces),
+        None => Vec::new(),
+    };
+    let mut bodies: Vec<BodyDraft> = Vec::new();
+    if let Some(root) = fields.required(reader, "root") {
+        read_root(&mut GroupReader { reader, surfaces: &surfaces, bodies: &mut bodies }, root);
+    }
+    Some(ModelDraft {
+        name: name.unwrap_or_default(),
+        entry_memory: entry_memory.unwrap_or(true),
+        surfaces,
+        pair_overrides,
+        bodies,
+    })
+}
+
+fn check_format(reader: &mut Reader<'_>, fields: &Fields<'_>) {
+    if let Some(node) = fields.required(reader, "format") {
+        if node.value != Value::Text("pong-model".to_owned()) {
+            let cause = format!("the format is {}", describe(&node.value));
+            reader.fault(node.at, "model", "format", cause, "write format: \"pong-model\"");
+        }
+    }
+    if let Some(node) = fields.required(reader, "version") {
+        if node.value != Value::Number(1.0) {
+            let cause = format!("the version is {}", describe(&node.value));
+            reader.fault(node.at, "model", "version", cause, "this engine reads version: 1");
+        }
+    }
+}
+
+fn describe(value: &Value) -> String {
+    match value {
+        Value::Text(text) => format!("{text:?}"),
+        other => other.describe(),
+    }
+}
+
+fn model_name(reader: &mut Reader<'_>, node: &Node) -> Option<String> {
+    let name = reader.text(node, "model")?;
+    if name.is_empty() {
+        reader.fault(node.at, "model", "empty-name", "the model has no name", "name it");
+    }
+    Some(name)
+}

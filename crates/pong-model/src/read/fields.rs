@@ -1,0 +1,86 @@
+//! The named fields of a value.
+
+use super::{Reader, suggest};
+use crate::ron_tree::{Field, Node, Value};
+
+/// The fields of one struct, checked against the names it may have.
+pub(crate) struct Fields<'n> {
+    /// Where the struct begins.
+    pub(crate) at: u32,
+    path: String,
+    fields: &'n [Field],
+}
+
+impl<'n> Fields<'n> {
+    /// Opens a struct whose fields may be `allowed`; faults are noted for unknown and repeated ones.
+    ///
+    /// `None` only if the node is no struct at all.
+    pub(crate) fn open(
+        reader: &mut Reader<'_>,
+        node: &'n Node,
+        path: &str,
+        allowed: &[&str],
+    ) -> Option<Self> {
+        let fields: &[Field] = match &node.value {
+            Value::Struct(_, fields) => fields,
+            Value::Tuple(_, items) if items.is_empty() => &[],
+            Value::Name(_) => &[],
+            other => {
+                let cause = format!("expected named fields in parentheses, found {}", other.describe());
+                reader.fault(
+                    node.at,
+                    path,
+                    "wrong-type",
+                    cause,
+                    format!("write ({}: …)", allowed.join(": …, ")),
+                );
+                return None;
+            }
+        };
+        check_names(reader, fields, path, allowed);
+        Some(Self { at: node.at, path: path.to_owned(), fields })
+    }
+
+    /// A field that may be left out; `Some(x)` is `x`, `None` is as if it were left out.
+    pub(crate) fn optional(&self, name: &str) -> Option<&'n Node> {
+        let node = &self.fields.iter().find(|field| field.name.as_ref() == name)?.value;
+        match &node.value {
+            Value::Name(word) if word.as_ref() == "None" => None,
+            Value::Tuple(Some(word), items) if word.as_ref() == "Some" && items.len() == 1 => Some(&items[0]),
+            _ => Some(node),
+        }
+    }
+
+    /// A field as it stands, where `None` has a meaning of its own.
+    pub(crate) fn literal(&self, name: &str) -> Option<&'n Node> {
+        self.fields.iter().find(|field| field.name.as_ref() == name).map(|field| &field.value)
+    }
+
+    /// A field that must be there.
+    pub(crate) fn required(&self, reader: &mut Reader<'_>, name: &str) -> Option<&'n Node> {
+        let node = self.optional(name);
+        if node.is_none() {
+            let cause = format!("the field `{name}` is missing");
+            reader.fault(self.at, &self.path, "missing-field", cause, format!("add `{name}: …`"));
+        }
+        node
+    }
+
+    /// Where the name of a field stands, or the struct if it is left out.
+    pub(crate) fn at_field(&self, name: &str) -> u32 {
+        self.fields.iter().find(|field| field.name.as_ref() == name).map_or(self.at, |field| field.at)
+    }
+}
+
+fn check_names(reader: &mut Reader<'_>, fields: &[Field], path: &str, allowed: &[&str]) {
+    for (index, field) in fields.iter().enumerate() {
+        let name = field.name.as_ref();
+        if !allowed.contains(&name) {
+            let cause = format!("there is no field `{name}` here");
+            reader.fault(field.at, path, "unknown-field", cause, suggest::cure(name, allowed));
+        } else if fields[..index].iter().any(|earlier| earlier.name.as_ref() == name) {
+            let cause = format!("the field `{name}` is given twice");
+            reader.fault(field.at, path, "repeated-field", cause, "keep one of them");
+        }
+    }
+}

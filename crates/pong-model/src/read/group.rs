@@ -1,0 +1,275 @@
+//! Groups: names, poses, bounding volumes, surfaces, and what hangs below.
+
+use super::primitive::read_primitive;
+use super::{Fields, Reader, suggest};
+use crate::draft::{BodyDraft, GroupDraft};
+use crate::model::Body;
+use crate::ron_tree::{Node, Value};
+use crate::surface::Surface;
+use pong_geometry::Pose;
+use pong_geometry::bounding::BoundKind;
+use std::collections::HashSet;
+
+const FIELDS: [&str; 7] = ["name", "movable", "pose", "bound", "surface", "groups", "primitives"];
+
+/// What reading a group needs and fills.
+pub(super) struct GroupReader<'r, 'a> {
+    pub(super) reader: &'r mut Reader<'a>,
+    pub(super) surfaces: &'r [Surface],
+    pub(super) bodies: &'r mut Vec<BodyDraft>,
+}
+
+/// What a group inherits from the group above it.
+#[derive(Clone)]
+pub(super) struct Above {
+    /// Path of the group above; empty above the root.
+    path: String,
+    /// The body above and its group; `None` above the root.
+    owner: Option<(usize, usize)>,
+    /// Pose of the group above in the frame of that body.
+    x_bg: Pose,
+    surface: Option<u32>,
+}
+
+/// Where primitives go.
+pub(super) struct Place {
+    pub(super) path: String,
+    pub(super) body: usize,
+    pub(super) group: usize,
+    pub(super) x_bg: Pose,
+    pub(super) surface: Option<u32>,
+}
+
+/// Reads the root group with everything below it.
+pub(super) fn read_root(groups: &mut GroupReader<'_, '_>, node: &Node) {
+    let above = Above { path: String::new(), owner: None, x_bg: Pose::identity(), surface: None };
+    read_group(groups, node, &above, "root", &mut HashSet::new());
+}
+
+fn read_group(
+    groups: &mut GroupReader<'_, '_>,
+    node: &Node,
+    above: &Above,
+    nameless: &str,
+    siblings: &mut HashSet<String>,
+) {
+    let fallback = join(&above.path, nameless);
+    let Some(fields) = Fields::open(groups.reader, node, &fallback, &FIELDS) else { return };
+    let name = read_name(groups.reader, &fields, &fallback, siblings);
+    let path = name.as_ref().map_or(fallback, |name| join(&above.path, name));
+    let is_root = above.owner.is_none();
+    let movable = read_movable(groups.reader, &fields, &path, is_root);
+    let x_pg = read_pose(groups.reader, &fields, &path, is_root);
+    let surface = match fields.optional("surface") {
+        Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
+        None => above.surface,
+    };
+    let bound = read_bound(groups.reader, &fields, &path);
+    let x_bg = above.x_bg.compose(&x_pg);
+    let mut place = if movable {
+        new_body(groups, above, name, path, x_bg)
+    } else {
+        same_body(groups, above, path, x_bg)
+    };
+    place.surface = surface;
+    let draft = &mut groups.bodies[place.body].groups[place.group];
+    draft.bound = bound;
+    draft.at = node.at;
+    read_contents(groups, &fields, &place);
+}
+
+fn new_body(
+    groups: &mut GroupReader<'_, '_>,
+    above: &Above,
+    name: Option<String>,
+    path: String,
+    x_bg: Pose,
+) -> Place {
+    let parent = above.owner.map(|(body, _)| body);
+    let x_rb = match parent.and_then(|parent| groups.bodies[parent].body.initial_pose) {
+        Some(x_rp) => x_rp.compose(&x_bg),
+        None => Pose::identity(),
+    };
+    let body = Body {
+        name: name.unwrap_or_default(),
+        path: path.clone(),
+        parent: parent.map(|parent| parent as u32),
+        initial_pose: Some(x_rb),
+        ..Body::default()
+    };
+    groups.bodies.push(BodyDraft { body, groups: vec![empty_group(&path)], ..BodyDraft::default() });
+    Place { path, body: groups.bodies.len() - 1, group: 0, x_bg: Pose::identity(), surface: None }
+}
+
+fn same_body(groups: &mut GroupReader<'_, '_>, above: &Above, path: String, x_bg: Pose) -> Place {
+    let (body, parent) = above.owner.unwrap_or((0, 0));
+    let draft = &mut groups.bodies[body].groups;
+    draft.push(empty_group(&path));
+    let group = draft.len() - 1;
+    draft[parent].children.push(group);
+    Place { path, body, group, x_bg, surface: None }
+}
+
+fn empty_group(path: &str) -> GroupDraft {
+    GroupDraft { path: path.into(), at: 0, bound: BoundKind::Aabb, children: Vec::new(), items: Vec::new() }
+}
+
+fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &Place) {
+    let (below, primitives) = (fields.optional("groups"), fields.optional("primitives"));
+    if below.is_some() && primitives.is_some() {
+        let cure = "put the primitives into a group of their own";
+        let at = fields.at_field("primitives");
+        groups.reader.fault(
+            at,
+            &place.path,
+            "groups-and-primitives",
+            "a group holds groups or primitives, never both",
+            cure,
+        );
+    }
+    let mut siblings = HashSet::new();
+    let mut count = None;
+    if let Some(items) = below.and_then(|node| groups.reader.list(node, &place.path)) {
+        count = Some(items.len());
+        let above = Above {
+            path: place.path.clone(),
+            owner: Some((place.body, place.group)),
+            x_bg: place.x_bg,
+            surface: place.surface,
+        };
+        for (index, item) in items.iter().enumerate() {
+            read_group(groups, item, &above, &format!("groups[{index}]"), &mut siblings);
+        }
+    }
+    if let Some(items) = primitives.and_then(|node| groups.reader.list(node, &place.path)) {
+        count = Some(count.unwrap_or(0) + items.len());
+        for (index, item) in items.iter().enumerate() {
+            read_primitive(groups, item, place, index, &mut siblings);
+        }
+    }
+    let unreadable = count.is_none() && (below.is_some() || primitives.is_some());
+    if count.unwrap_or(0) == 0 && !unreadable {
+        let cure = "give it `groups: [..]` or `primitives: [..]`, or remove it";
+        groups.reader.fault(fields.at, &place.path, "empty-group", "a group without contents", cure);
+    }
+}
+
+/// The name of a group or primitive: there, not empty, without `/`, unique among its siblings.
+pub(super) fn read_name(
+    reader: &mut Reader<'_>,
+    fields: &Fields<'_>,
+    path: &str,
+    siblings: &mut HashSet<String>,
+) -> Option<String> {
+    let node = fields.required(reader, "name")?;
+    let name = reader.text(node, path)?;
+    if name.is_empty() {
+        reader.fault(node.at, path, "empty-name", "the name is empty", "name it");
+        return None;
+    }
+    if name.contains('/') {
+        let cause = format!("the name \"{name}\" contains a `/`");
+        reader.fault(
+            node.at,
+            path,
+            "slash-in-name",
+            cause,
+            "a `/` separates the names of a path; use another sign",
+        );
+    }
+    if !siblings.insert(name.clone()) {
+        let cause = format!("the name \"{name}\" is taken by a sibling");
+        reader.fault(node.at, path, "repeated-name", cause, "names are unique within a group; rename one");
+    }
+    Some(name)
+}
+
+fn read_movable(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: bool) -> bool {
+    let Some(node) = fields.optional("movable") else { return is_root };
+    let movable = reader.boolean(node, path);
+    if is_root && movable == Some(false) {
+        let cure = "leave `movable` out; a model that never moves is given a constant state";
+        reader.fault(node.at, path, "root-not-movable", "the root is always movable", cure);
+    }
+    is_root || movable.unwrap_or(false)
+}
+
+fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: bool) -> Pose {
+    let Some(node) = fields.optional("pose") else { return Pose::identity() };
+    if is_root {
+        let cure = "remove it; the host sets where the root is, or put a group below the root";
+        reader.fault(
+            node.at,
+            path,
+            "root-pose",
+            "the root has no group above that its pose could refer to",
+            cure,
+        );
+    }
+    let Some(fields) = Fields::open(reader, node, path, &["position", "orientation"]) else {
+        return Pose::identity();
+    };
+    let position = fields.optional("position").and_then(|node| reader.vector(node, path));
+    let orientation = fields.optional("orientation").and_then(|node| reader.rotation(node, path));
+    let identity = Pose::identity();
+    Pose {
+        position: position.unwrap_or(identity.position),
+        orientation: orientation.unwrap_or(identity.orientation),
+    }
+}
+
+fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> BoundKind {
+    let Some(node) = fields.optional("bound") else { return BoundKind::Aabb };
+    match reader.variant(node, path, &["Aabb", "Sphere", "Obb", "Custom"]) {
+        Some("Sphere") => BoundKind::Sphere,
+        Some("Obb") => BoundKind::Obb,
+        Some("Custom") => custom_bound(reader, node, path),
+        _ => BoundKind::Aabb,
+    }
+}
+
+fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {
+    let name = match &node.value {
+        Value::Tuple(_, items) if items.len() == 1 => reader.text(&items[0], path),
+        _ => {
+            let cause = "a custom volume without the name of its kind";
+            reader.fault(node.at, path, "wrong-type", cause, "write Custom(\"kind\")");
+            None
+        }
+    };
+    let Some(name) = name else { return BoundKind::Aabb };
+    if reader.ext.volume(&name).is_none() {
+        let cause = format!("no bounding volume of the kind \"{name}\" is registered");
+        reader.fault(
+            node.at,
+            path,
+            "unknown-volume",
+            cause,
+            "register it with Extensions::add_volume before loading",
+        );
+        return BoundKind::Aabb;
+    }
+    BoundKind::Custom(name)
+}
+
+/// The index of a surface by name.
+pub(super) fn surface_index(
+    reader: &mut Reader<'_>,
+    surfaces: &[Surface],
+    node: &Node,
+    path: &str,
+) -> Option<u32> {
+    let name = reader.text(node, path)?;
+    if let Some(index) = surfaces.iter().position(|surface| surface.name == name) {
+        return Some(index as u32);
+    }
+    let names: Vec<&str> = surfaces.iter().map(|surface| surface.name.as_str()).collect();
+    let cause = format!("there is no surface \"{name}\"");
+    reader.fault(node.at, path, "unknown-surface", cause, suggest::cure(&name, &names));
+    // Any index will do: the model is refused, and no second fault should follow from this one.
+    Some(0)
+}
+
+fn join(above: &str, name: &str) -> String {
+    if above.is_empty() { name.to_owned() } else { format!("{above}/{name}") }
+}

@@ -1,0 +1,168 @@
+//! Shapes from OBJ and STL files that lie beside the model file.
+
+use super::Reader;
+use crate::ron_tree::Node;
+use pong_geometry::Vec3;
+use std::io::Cursor;
+use std::path::{Component, Path, PathBuf};
+
+/// Vertices and faces, as written.
+#[derive(Default)]
+pub(super) struct Mesh {
+    pub(super) vertices: Vec<Vec3>,
+    /// Vertex indices, face after face.
+    pub(super) corners: Vec<u32>,
+    /// Where each face ends in `corners`.
+    pub(super) ends: Vec<u32>,
+    /// Where each face stands in the model file; empty if it does not.
+    pub(super) at: Vec<u32>,
+}
+
+impl Mesh {
+    pub(super) fn face_count(&self) -> usize {
+        self.ends.len()
+    }
+
+    pub(super) fn face(&self, face: usize) -> &[u32] {
+        let start = if face == 0 { 0 } else { self.ends[face - 1] as usize };
+        &self.corners[start..self.ends[face] as usize]
+    }
+
+    pub(super) fn face_at(&self, face: usize) -> Option<u32> {
+        self.at.get(face).copied()
+    }
+}
+
+/// Bytes of a binary STL file before its first triangle, and per triangle.
+const STL_HEAD: usize = 84;
+const STL_TRIANGLE: usize = 50;
+
+/// Reads the file named by `node`, every coordinate multiplied by the scale.
+pub(super) fn from_file(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    scale: Option<&Node>,
+    path: &str,
+) -> Option<Mesh> {
+    let scale = match scale {
+        Some(node) => reader.positive(node, path, "the scale"),
+        None => Some(1.0),
+    };
+    let name = reader.text(node, path)?;
+    let file = allowed_path(reader, node, path, &name)?;
+    let bytes = match std::fs::read(&file) {
+        Ok(bytes) => bytes,
+        Err(reason) => {
+            let cause = format!("\"{name}\" cannot be read: {reason}");
+            reader.fault(node.at, path, "mesh-file-unreadable", cause, "put the file beside the model file");
+            return None;
+        }
+    };
+    let mesh = match extension(&name).as_str() {
+        "obj" => obj(&bytes),
+        "stl" => stl(bytes),
+        _ => {
+            let cause = format!("\"{name}\" is neither .obj nor .stl");
+            reader.fault(node.at, path, "mesh-file-kind", cause, "export it as OBJ or STL");
+            return None;
+        }
+    };
+    match mesh {
+        Ok(mut mesh) => {
+            let scale = scale?;
+            if scale != 1.0 {
+                mesh.vertices.iter_mut().for_each(|v| *v *= scale);
+            }
+            Some(mesh)
+        }
+        Err(reason) => {
+            let cause = format!("\"{name}\" is damaged: {reason}");
+            reader.fault(node.at, path, "mesh-file-damaged", cause, "export it again");
+            None
+        }
+    }
+}
+
+fn extension(name: &str) -> String {
+    Path::new(name).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// A mesh lies in the model file's folder or below it, so that a model can be moved as a whole.
+fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) -> Option<PathBuf> {
+    let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
+    if name.contains(['\\', ':', '\0']) || !Path::new(name).components().all(inside) {
+        let cause = format!("\"{name}\" leads out of the model's folder");
+        reader.fault(
+            node.at,
+            path,
+            "mesh-file-outside",
+            cause,
+            "name a file beside the model file, with `/` alone",
+        );
+        return None;
+    }
+    let Some(folder) = reader.mesh_dir else {
+        let cause = format!("\"{name}\" cannot be found: the model was not read from a file");
+        reader.fault(
+            node.at,
+            path,
+            "mesh-file-no-folder",
+            cause,
+            "load the model by path, or name a folder for meshes",
+        );
+        return None;
+    };
+    Some(folder.join(name))
+}
+
+/// Faces of any number of corners; materials, normals and texture coordinates are left aside.
+fn obj(bytes: &[u8]) -> Result<Mesh, String> {
+    let options =
+        tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
+    let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) =
+        tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials).map_err(|e| e.to_string())?;
+    let mut mesh = Mesh::default();
+    for model in models {
+        let first = mesh.vertices.len() as u32;
+        let positions = model.mesh.positions.chunks_exact(3);
+        mesh.vertices.extend(positions.map(|p| Vec3::new(p[0], p[1], p[2])));
+        mesh.corners.extend(model.mesh.indices.iter().map(|index| first + index));
+        let mut end = mesh.ends.last().copied().unwrap_or(0);
+        if model.mesh.face_arities.is_empty() {
+            mesh.ends.extend((0..model.mesh.indices.len() / 3).map(|k| end + 3 * (k as u32 + 1)));
+            continue;
+        }
+        for arity in &model.mesh.face_arities {
+            end += arity;
+            mesh.ends.push(end);
+        }
+    }
+    Ok(mesh)
+}
+
+fn stl(mut bytes: Vec<u8>) -> Result<Mesh, String> {
+    blank_misleading_head(&mut bytes);
+    let mut cursor = Cursor::new(bytes);
+    let triangles = stl_io::create_stl_reader(&mut cursor).map_err(|e| e.to_string())?;
+    let mut mesh = Mesh::default();
+    for triangle in triangles {
+        let triangle = triangle.map_err(|e| e.to_string())?;
+        for vertex in triangle.vertices {
+            let [x, y, z] = vertex.0.map(f64::from);
+            mesh.corners.push(mesh.vertices.len() as u32);
+            mesh.vertices.push(Vec3::new(x, y, z));
+        }
+        mesh.ends.push(mesh.corners.len() as u32);
+    }
+    Ok(mesh)
+}
+
+/// Some programs begin binary files with "solid", the mark of text files; the length tells them apart.
+fn blank_misleading_head(bytes: &mut [u8]) {
+    let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()) else { return };
+    let count = u32::from_le_bytes(count) as usize;
+    if count.checked_mul(STL_TRIANGLE).and_then(|size| size.checked_add(STL_HEAD)) == Some(bytes.len()) {
+        bytes[..5].fill(0);
+    }
+}

@@ -1,0 +1,94 @@
+//! From the tree of values to drafts of bodies: every field of the format, with all faults collected.
+
+mod custom;
+mod document;
+mod fields;
+mod group;
+mod mesh_file;
+mod mesh_primitive;
+mod primitive;
+mod scalar;
+mod suggest;
+mod surface;
+
+pub(crate) use document::document;
+pub(crate) use fields::Fields;
+
+use crate::error::ModelError;
+use crate::ron_tree::SyntaxError;
+use pong_geometry::extension::Extensions;
+use std::path::Path;
+
+/// How many faults of one mesh are listed one by one before the rest is only counted.
+pub(crate) const LISTED_PER_MESH: usize = 20;
+
+/// The text being read and all that was found wrong with it.
+pub(crate) struct Reader<'a> {
+    text: &'a str,
+    file: &'a str,
+    pub(crate) mesh_dir: Option<&'a Path>,
+    pub(crate) ext: &'a Extensions,
+    /// Byte offset and fault.
+    faults: Vec<(u32, ModelError)>,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl<'a> Reader<'a> {
+    pub(crate) fn new(text: &'a str, file: &'a str, mesh_dir: Option<&'a Path>, ext: &'a Extensions) -> Self {
+        Self { text, file, mesh_dir, ext, faults: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Notes a fault.
+    pub(crate) fn fault(
+        &mut self,
+        at: u32,
+        path: &str,
+        rule: &'static str,
+        cause: impl Into<String>,
+        cure: impl Into<String>,
+    ) {
+        let (line, column) = self.line_and_column(at);
+        let error = ModelError {
+            file: self.file.to_owned(),
+            line,
+            column,
+            path: path.to_owned(),
+            rule,
+            cause: cause.into(),
+            cure: cure.into(),
+        };
+        self.faults.push((at, error));
+    }
+
+    pub(crate) fn syntax_fault(&mut self, error: SyntaxError) {
+        let cure = match error.rule {
+            "too-deep" => "flatten the tree of groups",
+            "text-too-long" => "keep large meshes in files of their own (OBJ or STL)",
+            _ => "correct the notation; nothing behind this place was read",
+        };
+        self.fault(error.at, "model", error.rule, error.cause, cure);
+    }
+
+    pub(crate) fn warn(&mut self, at: u32, path: &str, what: &str) {
+        let (line, _) = self.line_and_column(at);
+        self.warnings.push(format!("{}:{line}: {path}: {what}", self.file));
+    }
+
+    pub(crate) fn fault_count(&self) -> usize {
+        self.faults.len()
+    }
+
+    /// All faults in the order of the file.
+    pub(crate) fn into_faults(mut self) -> Vec<ModelError> {
+        self.faults.sort_by_key(|(at, _)| *at);
+        self.faults.into_iter().map(|(_, error)| error).collect()
+    }
+
+    fn line_and_column(&self, at: u32) -> (u32, u32) {
+        let before = &self.text[..self.text.floor_char_boundary(at as usize)];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        let lines = before.bytes().filter(|&b| b == b'\n').count();
+        let columns = before[line_start..].chars().count();
+        (lines as u32 + 1, columns as u32 + 1)
+    }
+}

@@ -1,0 +1,230 @@
+//! Primitives, one function each.
+
+use super::group::{GroupReader, Place, read_name, surface_index};
+use super::{Fields, Reader, custom, mesh_primitive};
+use crate::draft::BodyDraft;
+use crate::model::{Item, PrimitiveInfo};
+use crate::ron_tree::Node;
+use pong_geometry::primitive::{
+    Ellipsoid, LineSegment, Plane, Point, PrimitiveKind, Ray, RayResponse, Sphere,
+};
+use pong_geometry::{Quat, Transform};
+use std::collections::HashSet;
+
+const KINDS: [&str; 10] = [
+    "Point",
+    "Plane",
+    "LineSegment",
+    "Ray",
+    "Sphere",
+    "Ellipsoid",
+    "Triangle",
+    "TriangleMesh",
+    "Polyhedron",
+    "Custom",
+];
+
+/// A primitive being read.
+pub(super) struct Primitive<'n, 'd> {
+    pub(super) fields: Fields<'n>,
+    pub(super) at: u32,
+    pub(super) path: String,
+    pub(super) x: Transform,
+    pub(super) draft: &'d mut BodyDraft,
+}
+
+pub(super) fn read_primitive(
+    groups: &mut GroupReader<'_, '_>,
+    node: &Node,
+    place: &Place,
+    index: usize,
+    siblings: &mut HashSet<String>,
+) {
+    let fallback = format!("{}/primitives[{index}]", place.path);
+    let Some(kind) = groups.reader.variant(node, &fallback, &KINDS) else { return };
+    let Some(fields) = Fields::open(groups.reader, node, &fallback, &allowed(kind)) else { return };
+    let name = read_name(groups.reader, &fields, &fallback, siblings);
+    let path = name.as_ref().map_or(fallback, |name| format!("{}/{name}", place.path));
+    let surface = match fields.optional("surface") {
+        Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
+        None => place.surface,
+    };
+    if surface.is_none() {
+        let cure = "name one here (`surface: \"…\"`) or in a group above";
+        groups.reader.fault(node.at, &path, "no-surface", "this primitive has no surface", cure);
+    }
+    let draft = &mut groups.bodies[place.body];
+    let info = PrimitiveInfo {
+        name: name.unwrap_or_default(),
+        path: path.clone(),
+        kind: primitive_kind(kind),
+        surface: surface.unwrap_or(0),
+        elements: 0..0,
+        shell: 0,
+        thickness: None,
+        first_mirror: 0,
+    };
+    let mut primitive = Primitive { fields, at: node.at, path, x: place.x_bg.transform(), draft };
+    if let Some(info) = read_shape(groups.reader, &mut primitive, kind, info) {
+        place_items(draft, place.group, &info);
+        draft.body.primitives.push(info);
+        draft.primitive_at.push(node.at);
+        draft.lone_triangle.push(kind == "Triangle");
+    }
+}
+
+fn place_items(draft: &mut BodyDraft, group: usize, info: &PrimitiveInfo) {
+    let primitive = draft.body.primitives.len() as u32;
+    let items = info.elements.clone().map(|element| Item { primitive, element });
+    draft.groups[group].items.extend(items);
+}
+
+fn allowed(kind: &str) -> Vec<&'static str> {
+    let own: &[&str] = match kind {
+        "Point" => &["position"],
+        "Plane" => &["normal", "offset"],
+        "LineSegment" => &["ends"],
+        "Ray" => &["origin", "direction", "length", "reach", "response"],
+        "Sphere" => &["center", "radius"],
+        "Ellipsoid" => &["center", "semi_axes", "orientation"],
+        "Triangle" => &["vertices", "thickness", "two_sided"],
+        "TriangleMesh" => &["vertices", "triangles", "file", "scale", "thickness", "two_sided"],
+        "Polyhedron" => &["vertices", "faces", "file", "scale", "inactive_faces"],
+        _ => &["kind", "parameters"],
+    };
+    [&["name", "surface"], own].concat()
+}
+
+fn primitive_kind(kind: &str) -> PrimitiveKind {
+    let own = if kind == "TriangleMesh" { "Triangle" } else { kind };
+    PrimitiveKind::ALL.into_iter().find(|k| k.name() == own).unwrap_or(PrimitiveKind::Custom)
+}
+
+/// Reads the shape into the arrays of its kind; `None` if it is faulty.
+fn read_shape(
+    reader: &mut Reader<'_>,
+    p: &mut Primitive<'_, '_>,
+    kind: &str,
+    mut info: PrimitiveInfo,
+) -> Option<PrimitiveInfo> {
+    match kind {
+        "Triangle" => return mesh_primitive::triangle(reader, p, info),
+        "TriangleMesh" => return mesh_primitive::triangle_mesh(reader, p, info),
+        _ => {}
+    }
+    let count = match kind {
+        "Point" => {
+            let point = point(reader, p)?;
+            push(&mut p.draft.body.points, point)
+        }
+        "Plane" => {
+            let plane = plane(reader, p)?;
+            push(&mut p.draft.body.planes, plane)
+        }
+        "LineSegment" => {
+            let segment = segment(reader, p)?;
+            push(&mut p.draft.body.segments, segment)
+        }
+        "Ray" => {
+            let ray = ray(reader, p)?;
+            push(&mut p.draft.body.rays, ray)
+        }
+        "Sphere" => {
+            let sphere = sphere(reader, p)?;
+            push(&mut p.draft.body.spheres, sphere)
+        }
+        "Ellipsoid" => {
+            let ellipsoid = ellipsoid(reader, p)?;
+            push(&mut p.draft.body.ellipsoids, ellipsoid)
+        }
+        "Polyhedron" => {
+            let hull = mesh_primitive::polyhedron(reader, p)?;
+            push(&mut p.draft.hulls, hull)
+        }
+        _ => {
+            let primitive = custom::custom(reader, p)?;
+            push(&mut p.draft.body.customs, primitive)
+        }
+    };
+    info.elements = count - 1..count;
+    info.first_mirror = count;
+    Some(info)
+}
+
+fn push<T>(array: &mut Vec<T>, element: T) -> u32 {
+    array.push(element);
+    array.len() as u32
+}
+
+fn point(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Point> {
+    let position = p.fields.required(reader, "position").and_then(|node| reader.vector(node, &p.path))?;
+    Some(Point { position: p.x.point(&position) })
+}
+
+fn plane(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Plane> {
+    let normal = p
+        .fields
+        .required(reader, "normal")
+        .and_then(|node| reader.direction(node, &p.path, "the plane's normal"));
+    let offset = p.fields.required(reader, "offset").and_then(|node| reader.number(node, &p.path));
+    let normal = p.x.vector(&normal?).normalize();
+    Some(Plane { normal, offset: offset? + normal.dot(&p.x.translation) })
+}
+
+fn segment(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<LineSegment> {
+    let node = p.fields.required(reader, "ends")?;
+    let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
+    if ends[0] == ends[1] {
+        let cause = "both ends of the segment are the same place";
+        reader.fault(node.at, &p.path, "zero-length", cause, "move one end, or use a Point");
+        return None;
+    }
+    Some(LineSegment { ends })
+}
+
+fn ray(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Ray> {
+    let origin = p.fields.required(reader, "origin").and_then(|node| reader.vector(node, &p.path));
+    let direction = p
+        .fields
+        .required(reader, "direction")
+        .and_then(|node| reader.direction(node, &p.path, "the direction"));
+    let length =
+        p.fields.required(reader, "length").and_then(|node| reader.positive(node, &p.path, "the length"));
+    let reach = match p.fields.optional("reach") {
+        Some(node) => Some(reader.not_negative(node, &p.path, "the reach")?),
+        None => None,
+    };
+    let response = match p.fields.optional("response") {
+        Some(node) => reader.variant(node, &p.path, &["Normal", "Axial"])?,
+        None => "Normal",
+    };
+    let response = if response == "Axial" { RayResponse::Axial } else { RayResponse::Normal };
+    let direction = p.x.vector(&direction?).normalize();
+    Some(Ray { origin: p.x.point(&origin?), direction, length: length?, reach, response })
+}
+
+fn sphere(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Sphere> {
+    let center = p.fields.required(reader, "center").and_then(|node| reader.vector(node, &p.path));
+    let radius =
+        p.fields.required(reader, "radius").and_then(|node| reader.positive(node, &p.path, "the radius"));
+    Some(Sphere { center: p.x.point(&center?), radius: radius? })
+}
+
+fn ellipsoid(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Ellipsoid> {
+    let center = p.fields.required(reader, "center").and_then(|node| reader.vector(node, &p.path));
+    let semi_axes = p.fields.required(reader, "semi_axes").and_then(|node| {
+        let axes = reader.vector(node, &p.path)?;
+        if axes.min() > 0.0 {
+            return Some(axes);
+        }
+        let cause = format!("a semi-axis is {}", axes.min());
+        reader.fault(node.at, &p.path, "not-positive", cause, "all three must be above zero");
+        None
+    });
+    let orientation = match p.fields.optional("orientation") {
+        Some(node) => reader.rotation(node, &p.path)?,
+        None => Quat::identity(),
+    };
+    let axes = p.x.rotation * orientation.to_rotation_matrix().into_inner();
+    Some(Ellipsoid { center: p.x.point(&center?), axes, semi_axes: semi_axes? })
+}

@@ -1,0 +1,205 @@
+//! Numbers, texts, vectors and rotations, each refused with a reason where it makes no sense.
+
+use super::Reader;
+use crate::ron_tree::{Node, Value};
+use pong_geometry::{Quat, Vec3};
+
+/// How far the norm of an authored quaternion may be from 1.
+const QUATERNION_NORM_TOLERANCE: f64 = 1e-3;
+
+impl Reader<'_> {
+    fn wrong_type(&mut self, node: &Node, path: &str, expected: &str) {
+        let cause = format!("expected {expected}, found {}", node.value.describe());
+        self.fault(node.at, path, "wrong-type", cause, format!("write {expected}"));
+    }
+
+    /// Any number, infinite ones and NaN included.
+    pub(crate) fn any_number(&mut self, node: &Node, path: &str) -> Option<f64> {
+        match node.value {
+            Value::Number(value) => Some(value),
+            _ => {
+                self.wrong_type(node, path, "a number");
+                None
+            }
+        }
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&mut self, node: &Node, path: &str) -> Option<f64> {
+        let value = self.any_number(node, path)?;
+        self.require_finite(node.at, path, value).then_some(value)
+    }
+
+    pub(crate) fn require_finite(&mut self, at: u32, path: &str, value: f64) -> bool {
+        if !value.is_finite() {
+            self.fault(
+                at,
+                path,
+                "not-finite",
+                format!("{value} is no finite number"),
+                "give a finite number",
+            );
+        }
+        value.is_finite()
+    }
+
+    /// A finite number above zero.
+    pub(crate) fn positive(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
+        let value = self.number(node, path)?;
+        if value > 0.0 {
+            return Some(value);
+        }
+        let cause = format!("{what} is {value}");
+        self.fault(node.at, path, "not-positive", cause, format!("{what} must be above zero"));
+        None
+    }
+
+    /// A finite number, zero or above.
+    pub(crate) fn not_negative(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
+        let value = self.number(node, path)?;
+        if value >= 0.0 {
+            return Some(value);
+        }
+        let cause = format!("{what} is {value}");
+        self.fault(node.at, path, "negative", cause, format!("{what} must be zero or above"));
+        None
+    }
+
+    pub(crate) fn text(&mut self, node: &Node, path: &str) -> Option<String> {
+        match &node.value {
+            Value::Text(text) => Some(text.clone()),
+            _ => {
+                self.wrong_type(node, path, "a text in quotes");
+                None
+            }
+        }
+    }
+
+    pub(crate) fn boolean(&mut self, node: &Node, path: &str) -> Option<bool> {
+        match node.value {
+            Value::Bool(value) => Some(value),
+            _ => {
+                self.wrong_type(node, path, "true or false");
+                None
+            }
+        }
+    }
+
+    /// A list of numbers, finite ones.
+    pub(crate) fn numbers(&mut self, node: &Node, path: &str) -> Option<Vec<f64>> {
+        match &node.value {
+            Value::List(items) => {
+                let values: Vec<_> = items.iter().map(|item| self.number(item, path)).collect();
+                values.into_iter().collect()
+            }
+            Value::Rows(rows) if rows.len() == 0 => Some(Vec::new()),
+            _ => {
+                self.wrong_type(node, path, "a list of numbers");
+                None
+            }
+        }
+    }
+
+    /// Exactly `N` finite numbers in parentheses.
+    fn tuple<const N: usize>(&mut self, node: &Node, path: &str, form: &str) -> Option<[f64; N]> {
+        match &node.value {
+            Value::Tuple(None, items) if items.len() == N => {
+                let values = std::array::from_fn(|i| self.number(&items[i], path));
+                if values.iter().any(Option::is_none) {
+                    return None;
+                }
+                Some(values.map(Option::unwrap_or_default))
+            }
+            _ => {
+                self.wrong_type(node, path, form);
+                None
+            }
+        }
+    }
+
+    /// `(x, y, z)`.
+    pub(crate) fn vector(&mut self, node: &Node, path: &str) -> Option<Vec3> {
+        self.tuple::<3>(node, path, "a tuple of three numbers (x, y, z)").map(Vec3::from)
+    }
+
+    /// `N` tuples of three numbers.
+    pub(crate) fn vectors<const N: usize>(&mut self, node: &Node, path: &str) -> Option<[Vec3; N]> {
+        match &node.value {
+            Value::Tuple(None, items) if items.len() == N => {
+                let values = std::array::from_fn(|i| self.vector(&items[i], path));
+                if values.iter().any(Option::is_none) {
+                    return None;
+                }
+                Some(values.map(Option::unwrap_or_default))
+            }
+            _ => {
+                self.wrong_type(node, path, &format!("a tuple of {N} places ((x, y, z), …)"));
+                None
+            }
+        }
+    }
+
+    /// A vector that is not zero, made unit.
+    pub(crate) fn direction(&mut self, node: &Node, path: &str, what: &str) -> Option<Vec3> {
+        let vector = self.vector(node, path)?;
+        let largest = vector.amax();
+        if largest > 0.0 {
+            // Scaled first, so that neither tiny nor huge components spoil the norm.
+            return Some((vector / largest).normalize());
+        }
+        self.fault(
+            node.at,
+            path,
+            "zero-direction",
+            format!("{what} is zero"),
+            "give it a length; any will do",
+        );
+        None
+    }
+
+    /// `(w, x, y, z)`, normalised.
+    pub(crate) fn rotation(&mut self, node: &Node, path: &str) -> Option<Quat> {
+        let [w, x, y, z] = self.tuple::<4>(node, path, "a quaternion (w, x, y, z)")?;
+        let quaternion = nalgebra::Quaternion::new(w, x, y, z);
+        let norm = quaternion.norm();
+        if (norm - 1.0).abs() <= QUATERNION_NORM_TOLERANCE {
+            return Some(Quat::new_normalize(quaternion));
+        }
+        let cause = format!("the norm of the quaternion is {norm}");
+        self.fault(node.at, path, "quaternion-norm", cause, "give w, x, y, z with w² + x² + y² + z² = 1");
+        None
+    }
+
+    /// The tuple's or struct's name, and the node itself, for values like `Bristle(…)` or `None`.
+    pub(crate) fn variant<'n>(&mut self, node: &'n Node, path: &str, expected: &[&str]) -> Option<&'n str> {
+        let name = match &node.value {
+            Value::Name(name) => Some(name.as_ref()),
+            Value::Struct(name, _) | Value::Tuple(name, _) => name.as_deref(),
+            _ => None,
+        };
+        match name {
+            Some(name) if expected.contains(&name) => Some(name),
+            Some(name) => {
+                let cause = format!("`{name}` is not known here");
+                self.fault(node.at, path, "unknown-kind", cause, super::suggest::cure(name, expected));
+                None
+            }
+            None => {
+                self.wrong_type(node, path, &format!("one of {}", expected.join(", ")));
+                None
+            }
+        }
+    }
+
+    /// The items of a list.
+    pub(crate) fn list<'n>(&mut self, node: &'n Node, path: &str) -> Option<&'n [Node]> {
+        match &node.value {
+            Value::List(items) => Some(items),
+            Value::Rows(rows) if rows.len() == 0 => Some(&[]),
+            _ => {
+                self.wrong_type(node, path, "a list in brackets");
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! "Did you mean …?"
+
+/// The candidate nearest to `name`, if it is near enough to be a slip of the keyboard.
+pub(crate) fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    let limit = 1 + name.chars().count() / 4;
+    let best = candidates.into_iter().map(|c| (distance(name, c), c)).min_by_key(|(d, _)| *d)?;
+    (best.0 <= limit).then_some(best.1)
+}
+
+/// Cure for a name that is not among the candidates.
+pub(crate) fn cure<'c>(name: &str, candidates: &[&'c str]) -> String {
+    match nearest(name, candidates.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None if candidates.is_empty() => "there is none to choose from".to_owned(),
+        None => format!("choose from: {}", candidates.join(", ")),
+    }
+}
+
+/// Edits (insert, remove, replace) between two names, letter case counting as nothing.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.to_lowercase().chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &cb) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(ca != cb);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}

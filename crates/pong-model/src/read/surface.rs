@@ -1,0 +1,312 @@
+//! The tables of surfaces and of pairs of surfaces.
+
+use super::{Fields, Reader};
+use crate::restitution::{chi_for_restitution, zeta_for_restitution};
+use crate::ron_tree::{Node, Value};
+use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+
+/// Reads the `surfaces` map, in the order of the file.
+pub(super) fn surfaces(reader: &mut Reader<'_>, node: &Node) -> Vec<Surface> {
+    let Value::Map(entries) = &node.value else {
+        let cause = format!("expected a map of surfaces, found {}", node.value.describe());
+        reader.fault(node.at, "surfaces", "wrong-type", cause, "write { \"steel\": (stiffness: …), … }");
+        return Vec::new();
+    };
+    let mut surfaces: Vec<Surface> = Vec::new();
+    for (key, value) in entries {
+        let Some(name) = reader.text(key, "surfaces") else { continue };
+        let path = format!("surfaces/{name}");
+        if name.is_empty() {
+            reader.fault(key.at, &path, "empty-name", "a surface without a name", "name it");
+        }
+        if surfaces.iter().any(|earlier| earlier.name == name) {
+            let cause = format!("the surface \"{name}\" is defined twice");
+            reader.fault(key.at, &path, "repeated-surface", cause, "keep one of them or rename one");
+        }
+        surfaces.push(surface(reader, value, name, &path));
+    }
+    surfaces
+}
+
+/// A surface whose values could not be read still counts as defined, so that its users raise no second fault.
+fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Surface {
+    let mut surface = Surface {
+        name,
+        stiffness: 1.0,
+        normal: NormalLaw::Linear { damping: 0.0, ramp: 0.0 },
+        friction: FrictionLaw::None,
+    };
+    let Some(fields) = Fields::open(reader, node, path, &["stiffness", "normal", "friction"]) else {
+        return surface;
+    };
+    let stiffness = fields.required(reader, "stiffness").and_then(|node| stiffness(reader, node, path));
+    surface.stiffness = stiffness.unwrap_or(1.0);
+    if let Some(node) = fields.optional("normal") {
+        surface.normal = normal_law(reader, node, path, stiffness).unwrap_or(surface.normal);
+    }
+    if let Some(node) = fields.literal("friction") {
+        surface.friction = friction_law(reader, node, path).unwrap_or(FrictionLaw::None);
+    }
+    surface
+}
+
+/// Above zero; infinite means rigid.
+fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
+    let value = reader.any_number(node, path)?;
+    if value > 0.0 {
+        return Some(value);
+    }
+    let rule = if value.is_nan() { "not-finite" } else { "not-positive" };
+    reader.fault(
+        node.at,
+        path,
+        rule,
+        format!("the stiffness is {value}"),
+        "it must be above zero; `inf` is rigid",
+    );
+    None
+}
+
+/// `known_stiffness` is that of the surface or pair, if it could be read.
+fn normal_law(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    known_stiffness: Option<f64>,
+) -> Option<NormalLaw> {
+    match reader.variant(node, path, &["Linear", "HuntCrossley", "Custom"])? {
+        "Linear" => linear(reader, node, path, known_stiffness),
+        "HuntCrossley" => hunt_crossley(reader, node, path),
+        _ => custom(reader, node, path).map(|(name, parameters)| NormalLaw::Custom { name, parameters }),
+    }
+}
+
+fn linear(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f64>) -> Option<NormalLaw> {
+    let fields = Fields::open(reader, node, path, &["damping", "ramp", "restitution"])?;
+    either_or(reader, &fields, path, "damping", "restitution");
+    let ramp = match fields.optional("ramp") {
+        Some(node) => reader.not_negative(node, path, "the ramp")?,
+        None => 0.0,
+    };
+    let damping = match (fields.optional("damping"), fields.optional("restitution")) {
+        (Some(node), _) => reader.not_negative(node, path, "the damping")?,
+        (None, Some(node)) => linear_damping(reader, node, path, stiffness)?,
+        (None, None) => 0.0,
+    };
+    Some(NormalLaw::Linear { damping, ramp })
+}
+
+/// c = 2·ζ·√(k·m), with ζ from the law that never pulls.
+fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: Option<f64>) -> Option<f64> {
+    let fields = Fields::open(reader, node, path, &["e", "mass"])?;
+    let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
+    let mass = fields.required(reader, "mass").and_then(|node| reader.positive(node, path, "the mass"));
+    let (e, mass, stiffness) = (e?, mass?, stiffness?);
+    if stiffness.is_infinite() {
+        let cause = "a rigid surface has no damping that a restitution could set";
+        let cure = "give the damping, or the restitution on the softer surface or in `pairs`";
+        reader.fault(node.at, path, "restitution-of-rigid", cause, cure);
+        return None;
+    }
+    Some(2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt())
+}
+
+fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<NormalLaw> {
+    let fields = Fields::open(reader, node, path, &["dissipation", "exponent", "restitution"])?;
+    either_or(reader, &fields, path, "dissipation", "restitution");
+    let exponent = fields.required(reader, "exponent").and_then(|node| exponent(reader, node, path));
+    let dissipation = match (fields.optional("dissipation"), fields.optional("restitution")) {
+        (Some(node), _) => reader.not_negative(node, path, "the dissipation"),
+        (None, Some(node)) => chi(reader, node, path),
+        (None, None) => Some(0.0),
+    };
+    Some(NormalLaw::HuntCrossley { dissipation: dissipation?, exponent: exponent? })
+}
+
+fn exponent(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Exponent> {
+    let value = reader.number(node, path)?;
+    match value {
+        1.0 => Some(Exponent::One),
+        1.5 => Some(Exponent::ThreeHalves),
+        _ => {
+            reader.fault(node.at, path, "exponent", format!("the exponent is {value}"), "it is 1.0 or 1.5");
+            None
+        }
+    }
+}
+
+fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
+    let fields = Fields::open(reader, node, path, &["e", "speed"])?;
+    let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
+    let speed = fields.required(reader, "speed").and_then(|node| reader.positive(node, path, "the speed"));
+    Some(chi_for_restitution(e?, speed?))
+}
+
+fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
+    let e = reader.number(node, path)?;
+    if e > 0.0 && e <= 1.0 {
+        return Some(e);
+    }
+    let cause = format!("the restitution e is {e}");
+    reader.fault(node.at, path, "restitution-range", cause, "it lies above 0 and is at most 1");
+    None
+}
+
+fn either_or(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, one: &str, other: &str) {
+    if fields.optional(one).is_some() && fields.optional(other).is_some() {
+        let cause = format!("`{one}` and `{other}` say the same thing twice");
+        reader.fault(fields.at_field(other), path, "either-or", cause, "keep one of them");
+    }
+}
+
+fn friction_law(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
+    let node = match &node.value {
+        Value::Tuple(Some(name), items) if name.as_ref() == "Some" && items.len() == 1 => &items[0],
+        _ => node,
+    };
+    match reader.variant(node, path, &["None", "Bristle", "Coulomb", "Custom"])? {
+        "None" => Some(FrictionLaw::None),
+        "Bristle" => bristle(reader, node, path),
+        "Coulomb" => coulomb(reader, node, path),
+        _ => custom(reader, node, path).map(|(name, parameters)| FrictionLaw::Custom { name, parameters }),
+    }
+}
+
+fn bristle(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
+    let fields = Fields::open(reader, node, path, &["mu", "static_excess", "stiffness", "damping"])?;
+    let mu = fields.required(reader, "mu").and_then(|node| reader.not_negative(node, path, "mu"));
+    let static_excess = optional_not_negative(reader, &fields, path, "static_excess");
+    let damping = optional_not_negative(reader, &fields, path, "damping");
+    let stiffness = match fields.optional("stiffness") {
+        Some(node) => Some(reader.positive(node, path, "the bristle's stiffness")?),
+        None => None,
+    };
+    Some(FrictionLaw::Bristle { mu: mu?, static_excess: static_excess?, stiffness, damping: damping? })
+}
+
+fn optional_not_negative(
+    reader: &mut Reader<'_>,
+    fields: &Fields<'_>,
+    path: &str,
+    name: &str,
+) -> Option<f64> {
+    match fields.optional(name) {
+        Some(node) => reader.not_negative(node, path, name),
+        None => Some(0.0),
+    }
+}
+
+fn coulomb(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionLaw> {
+    let fields = Fields::open(reader, node, path, &["mu", "slip_speed"])?;
+    let mu = fields.required(reader, "mu").and_then(|node| reader.not_negative(node, path, "mu"));
+    let slip_speed =
+        fields.required(reader, "slip_speed").and_then(|node| reader.positive(node, path, "the slip speed"));
+    Some(FrictionLaw::Coulomb { mu: mu?, slip_speed: slip_speed? })
+}
+
+fn custom(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<(String, Vec<f64>)> {
+    let fields = Fields::open(reader, node, path, &["name", "parameters"])?;
+    let name = fields.required(reader, "name").and_then(|node| reader.text(node, path));
+    let parameters = match fields.optional("parameters") {
+        Some(node) => reader.numbers(node, path)?,
+        None => Vec::new(),
+    };
+    Some((name?, parameters))
+}
+
+/// Reads the `pairs` table.
+pub(super) fn pairs(reader: &mut Reader<'_>, node: &Node, defined: &[Surface]) -> Vec<PairOverride> {
+    let Some(items) = reader.list(node, "pairs") else { return Vec::new() };
+    let mut pairs: Vec<PairOverride> = Vec::new();
+    for (index, item) in items.iter().enumerate() {
+        let path = format!("pairs[{index}]");
+        let Some(pair) = pair(reader, item, &path, defined) else { continue };
+        let same = |other: &PairOverride| {
+            let [a, b] = &other.surfaces;
+            pair.surfaces == [a.clone(), b.clone()] || pair.surfaces == [b.clone(), a.clone()]
+        };
+        if pairs.iter().any(same) {
+            let cause = format!("the pair {:?} is listed twice", pair.surfaces);
+            reader.fault(item.at, &path, "repeated-pair", cause, "keep one entry");
+        }
+        pairs.push(pair);
+    }
+    pairs
+}
+
+fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surface]) -> Option<PairOverride> {
+    let fields = Fields::open(reader, node, path, &["surfaces", "stiffness", "normal", "friction"])?;
+    let names = fields.required(reader, "surfaces").and_then(|node| pair_names(reader, node, path, defined));
+    let stiffness = match fields.optional("stiffness") {
+        Some(node) => Some(pair_stiffness(reader, node, path)?),
+        None => None,
+    };
+    let normal = match fields.optional("normal") {
+        Some(node) => Some(pair_normal(reader, node, path, stiffness)?),
+        None => None,
+    };
+    let friction = match fields.literal("friction") {
+        Some(node) => Some(friction_law(reader, node, path)?),
+        None => None,
+    };
+    Some(PairOverride { surfaces: names?, stiffness, normal, friction })
+}
+
+fn pair_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
+    reader.positive(node, path, "the stiffness of a pair")
+}
+
+/// A restitution needs the stiffness of the pair, which only this entry can tell for certain.
+fn pair_normal(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    stiffness: Option<f64>,
+) -> Option<NormalLaw> {
+    if stiffness.is_none() && wants_linear_restitution(node) {
+        let cause = "a restitution of the pair needs the stiffness of the pair";
+        reader.fault(
+            node.at,
+            path,
+            "restitution-without-stiffness",
+            cause,
+            "add `stiffness: …` to this entry",
+        );
+        return None;
+    }
+    normal_law(reader, node, path, stiffness)
+}
+
+fn wants_linear_restitution(node: &Node) -> bool {
+    match &node.value {
+        Value::Struct(Some(name), fields) => {
+            name.as_ref() == "Linear" && fields.iter().any(|field| field.name.as_ref() == "restitution")
+        }
+        _ => false,
+    }
+}
+
+fn pair_names(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surface]) -> Option<[String; 2]> {
+    let Value::Tuple(None, items) = &node.value else {
+        let cause = format!("expected two names, found {}", node.value.describe());
+        reader.fault(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
+        return None;
+    };
+    let [first, second] = items.as_slice() else {
+        let cause = format!("expected two names, found {}", items.len());
+        reader.fault(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
+        return None;
+    };
+    let names = [reader.text(first, path)?, reader.text(second, path)?];
+    if !names.iter().any(|name| defined.iter().any(|surface| surface.name == *name)) {
+        let cause = format!("neither \"{}\" nor \"{}\" is defined in this file", names[0], names[1]);
+        reader.fault(
+            node.at,
+            path,
+            "unknown-surface",
+            cause,
+            "at least one must be; the other may be another model's",
+        );
+    }
+    Some(names)
+}

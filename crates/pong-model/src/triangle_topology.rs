@@ -1,0 +1,159 @@
+//! Neighbours and shells of the triangles of one body, and what is odd about them.
+//!
+//! Mirror images of two-sided meshes touch only mirror images. Everything sorts, nothing compares all with all.
+
+use crate::model::Body;
+use crate::pieces::Sets;
+use crate::t_junctions;
+use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
+use std::collections::BTreeSet;
+
+/// An oddity of a mesh.
+pub(crate) enum Oddity {
+    /// An edge shared by three or more triangles.
+    CrowdedEdge { triangle: u32, count: usize },
+    /// Two triangles that run along their common edge in the same direction.
+    Winding { triangle: u32, other: u32 },
+    /// A vertex within another triangle's free edge.
+    TJunction { triangle: u32, vertex: u32 },
+}
+
+/// What was found while knitting.
+#[derive(Default)]
+pub(crate) struct Findings {
+    pub(crate) oddities: Vec<Oddity>,
+    /// Triangles that repeat an earlier one: (repeated, earlier).
+    pub(crate) duplicates: Vec<(u32, u32)>,
+    /// For each triangle the lowest triangle of its shell.
+    pub(crate) shell_leader: Vec<u32>,
+}
+
+/// An edge of a triangle: the ends in rising order, then triangle and edge in one number.
+type HalfEdge = (u64, u32);
+
+/// Sets the neighbours of all triangles.
+pub(crate) fn knit(body: &mut Body) -> Findings {
+    let mut findings =
+        Findings { shell_leader: vec![0; body.triangles.triangles.len()], ..Findings::default() };
+    for mirrors in [false, true] {
+        let part = triangles_of(body, mirrors);
+        let set = &mut body.triangles;
+        let mut found = connect(set, &part);
+        lead_shells(set, &part, &mut findings.shell_leader);
+        if !mirrors {
+            let junctions = t_junctions::find(&set.vertices, &found.free_edges);
+            let odd =
+                |(vertex, edge): (u32, usize)| Oddity::TJunction { triangle: found.free_owner[edge], vertex };
+            found.oddities.extend(junctions.into_iter().map(odd));
+            findings.duplicates = duplicates(set, &found.suspects);
+            findings.oddities = found.oddities;
+        }
+    }
+    findings
+}
+
+/// Fronts, or mirror images, in order.
+fn triangles_of(body: &Body, mirrors: bool) -> Vec<u32> {
+    let meshes = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
+    meshes
+        .flat_map(|info| {
+            let (start, middle, end) = (info.elements.start, info.first_mirror, info.elements.end);
+            if mirrors { middle..end } else { start..middle }
+        })
+        .collect()
+}
+
+#[derive(Default)]
+struct Connections {
+    oddities: Vec<Oddity>,
+    /// Triangles at crowded or wrongly wound edges: only they can be duplicates.
+    suspects: BTreeSet<u32>,
+    free_edges: Vec<[u32; 2]>,
+    free_owner: Vec<u32>,
+}
+
+fn connect(set: &mut TriangleSet, part: &[u32]) -> Connections {
+    let edges = sorted_edges(set, part);
+    let mut found = Connections::default();
+    for group in edges.chunk_by(|a, b| a.0 == b.0) {
+        let triangle = |half: &HalfEdge| half.1 / 3;
+        match group {
+            [one] => {
+                found.free_edges.push([(one.0 >> 32) as u32, one.0 as u32]);
+                found.free_owner.push(triangle(one));
+            }
+            [one, other] if starts_at(set, one) != starts_at(set, other) => {
+                set_neighbor(set, one, triangle(other));
+                set_neighbor(set, other, triangle(one));
+            }
+            crowd => {
+                found.suspects.extend(crowd.iter().map(triangle));
+                let first = triangle(&crowd[0]);
+                found.oddities.push(match crowd {
+                    [_, other] => Oddity::Winding { triangle: first, other: triangle(other) },
+                    _ => Oddity::CrowdedEdge { triangle: first, count: crowd.len() },
+                });
+            }
+        }
+    }
+    found
+}
+
+fn sorted_edges(set: &TriangleSet, part: &[u32]) -> Vec<HalfEdge> {
+    let mut edges = Vec::with_capacity(3 * part.len());
+    for &triangle in part {
+        let [a, b, c] = set.triangles[triangle as usize].vertices;
+        for (k, (start, end)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+            let key = u64::from(start.min(end)) << 32 | u64::from(start.max(end));
+            edges.push((key, 3 * triangle + k as u32));
+        }
+    }
+    edges.sort_unstable();
+    edges
+}
+
+fn starts_at(set: &TriangleSet, half: &HalfEdge) -> u32 {
+    set.triangles[(half.1 / 3) as usize].vertices[(half.1 % 3) as usize]
+}
+
+fn set_neighbor(set: &mut TriangleSet, half: &HalfEdge, neighbor: u32) {
+    set.triangles[(half.1 / 3) as usize].neighbors[(half.1 % 3) as usize] = neighbor;
+}
+
+/// Triangles that share a vertex are one shell.
+fn lead_shells(set: &TriangleSet, part: &[u32], leader: &mut [u32]) {
+    let mut vertices = Sets::new(set.vertices.len());
+    for &triangle in part {
+        let [a, b, c] = set.triangles[triangle as usize].vertices;
+        vertices.join(a, b);
+        vertices.join(b, c);
+    }
+    let mut first_of = vec![NO_NEIGHBOR; set.vertices.len()];
+    for &triangle in part {
+        let first = &mut first_of[vertices.find(set.triangles[triangle as usize].vertices[0]) as usize];
+        *first = (*first).min(triangle);
+        leader[triangle as usize] = *first;
+    }
+}
+
+fn duplicates(set: &TriangleSet, suspects: &BTreeSet<u32>) -> Vec<(u32, u32)> {
+    let mut keyed: Vec<([u32; 3], u32)> =
+        suspects.iter().map(|&t| (rotated(&set.triangles[t as usize]), t)).collect();
+    keyed.sort_unstable();
+    let same = keyed.chunk_by(|a, b| a.0 == b.0);
+    same.flat_map(|group| group[1..].iter().map(|repeated| (repeated.1, group[0].1))).collect()
+}
+
+/// Its vertices from the lowest on; the winding stays.
+fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
+    let [a, b, c] = triangle.vertices;
+    match a.min(b).min(c) {
+        least if least == a => [a, b, c],
+        least if least == b => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+// A triangle index times three must fit a half edge's number.
+/// The most triangles one body may have.
+pub(crate) const TRIANGLE_LIMIT: usize = u32::MAX as usize / 3;

@@ -1,0 +1,91 @@
+//! Good models, and what becomes of them.
+
+mod common;
+use common::{CUBE_FACES, cube_vertices, load, model_of};
+use pong_geometry::Vec3;
+use pong_geometry::bounding::Volume;
+use pong_geometry::primitive::{PrimitiveKind, RayResponse};
+use pong_model::{Exponent, FrictionLaw, NormalLaw};
+
+#[test]
+fn every_primitive_and_option_is_read() {
+    let model = load(include_str!("models/everything.ron"));
+    assert_eq!(model.name, "everything");
+    assert!(!model.entry_memory);
+    assert_eq!(model.bodies.len(), 3);
+    let root = &model.bodies[0];
+    assert_eq!((root.name.as_str(), root.path.as_str(), root.parent), ("vehicle", "vehicle", None));
+    let arm = &model.bodies[1];
+    assert_eq!((arm.path.as_str(), arm.parent), ("vehicle/arm", Some(0)));
+    let tip = &model.bodies[2];
+    assert_eq!((tip.path.as_str(), tip.parent), ("vehicle/arm/tip", Some(1)));
+    let kinds: Vec<_> = root.primitives.iter().map(|p| p.kind).collect();
+    assert_eq!(kinds[..3], [PrimitiveKind::Point, PrimitiveKind::Plane, PrimitiveKind::LineSegment]);
+    assert_eq!(root.rays[0].response, RayResponse::Axial);
+    assert_eq!(root.rays[0].reach, Some(0.25));
+    assert_eq!(root.rays[0].direction, Vec3::new(0.0, 0.0, 1.0));
+    assert_eq!(root.planes[0].normal, Vec3::new(0.0, 0.0, 1.0));
+    assert_eq!(root.ellipsoids[0].semi_axes, Vec3::new(3.0, 2.0, 1.0));
+    assert_eq!(root.triangles.triangles.len(), 1 + 2 * 2);
+    assert!(matches!(root.tree.nodes[0].volume, Volume::Unbounded));
+    assert!(model.warnings.is_empty(), "{:?}", model.warnings);
+}
+
+#[test]
+fn surfaces_and_pairs_are_read() {
+    let model = load(include_str!("models/everything.ron"));
+    let by_name = |name: &str| model.surfaces.iter().find(|s| s.name == name).unwrap();
+    assert_eq!(by_name("steel").stiffness, f64::INFINITY);
+    assert_eq!(by_name("steel").normal, NormalLaw::Linear { damping: 0.0, ramp: 0.0 });
+    let NormalLaw::Linear { damping, .. } = by_name("rubber").normal else { panic!() };
+    // zeta 0.25528 gives e = 0.5 where the law never pulls; the textbook's formula would say 0.2155.
+    assert!((damping - 2.0 * 0.25528 * (1e4_f64 * 100.0).sqrt()).abs() < 0.02, "{damping}");
+    let NormalLaw::HuntCrossley { dissipation, exponent } = by_name("foam").normal else { panic!() };
+    assert_eq!(exponent, Exponent::ThreeHalves);
+    assert!((dissipation * 0.1 - 1.0).abs() < 1e-4);
+    let bristle = FrictionLaw::Bristle { mu: 0.2, static_excess: 0.1, stiffness: None, damping: 3.0 };
+    assert_eq!(by_name("rubber").friction, bristle);
+    assert_eq!(model.pair_overrides[0].surfaces, ["steel".to_owned(), "elsewhere".to_owned()]);
+    assert_eq!(model.pair_overrides[0].friction, Some(FrictionLaw::None));
+    assert_eq!(model.pair_overrides[0].normal, None);
+}
+
+#[test]
+fn poses_compose_down_to_the_movable_group_and_in_the_root_frame() {
+    let model = load(include_str!("models/everything.ron"));
+    let tip = &model.bodies[2];
+    // arm stands at (1, 0, 0) turned 90° about z; mount is 2 m along its x; tip is 1 m above the mount.
+    let x_rt = tip.initial_pose.unwrap();
+    assert!((x_rt.position - Vec3::new(1.0, 2.0, 1.0)).norm() < 1e-15);
+    // mount's point at its own (0, 0, 1) lies at (2, 0, 1) in the frame of arm.
+    let arm = &model.bodies[1];
+    assert!((arm.points[0].position - Vec3::new(2.0, 0.0, 1.0)).norm() < 1e-15);
+}
+
+#[test]
+fn a_cube_has_six_faces_twelve_pushing_edges_and_eight_pushing_vertices() {
+    let model = load(&model_of(&format!(
+        "Polyhedron(name: \"c\", vertices: {}, faces: {CUBE_FACES})",
+        cube_vertices([0.0; 3], [1.0; 3])
+    )));
+    let cube = &model.bodies[0].polyhedra[0];
+    assert_eq!((cube.faces.len(), cube.edges.len(), cube.vertices.len()), (6, 12, 8));
+    assert!(cube.edges.iter().all(|edge| edge.push.is_some()));
+    assert!(cube.vertices.iter().all(|v| v.pushes && v.cone_count == 3));
+    assert_eq!(cube.diameter, 3.0_f64.sqrt());
+    for (index, face) in cube.faces.iter().enumerate() {
+        for rim in cube.rim(index) {
+            let edge = &cube.edges[rim.edge as usize];
+            assert!(edge.faces.contains(&(index as u32)) && edge.faces.contains(&rim.neighbor));
+            assert_ne!(rim.neighbor, index as u32);
+            assert!(rim.outward.dot(&face.normal).abs() < 1e-15);
+            assert!(rim.outward.dot(&edge.direction).abs() < 1e-15);
+            assert!(rim.outward.dot(&(Vec3::repeat(0.5) - rim.anchor)) < 0.0);
+            assert_eq!(rim.anchor, cube.vertices[edge.vertices[0] as usize].position);
+        }
+    }
+    for vertex in 0..8 {
+        let out = cube.vertices[vertex].position - Vec3::repeat(0.5);
+        assert!(cube.cone(vertex).iter().all(|away| away.dot(&out) < 0.0));
+    }
+}
