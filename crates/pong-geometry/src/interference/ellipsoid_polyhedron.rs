@@ -30,9 +30,10 @@
 //! wall (`n·n_wall < 0`) which the centre is beyond and which is nearer (the centre lies in a neighbour).
 
 use super::ellipsoid_math::{
-    NormalFoot, PreparedEllipsoid, Shadow, nearest_on_ellipse, nearest_on_ellipsoid,
-    second_nearest_on_ellipse, second_nearest_on_ellipsoid,
+    NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
+    second_nearest_on_ellipsoid,
 };
+use super::ellipsoid_prepared::{PreparedEllipsoid, Shadow};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{EdgePush, Ellipsoid, Polyhedron};
@@ -209,7 +210,9 @@ impl<'a> Search<'a> {
         let edge = &self.polyhedron.edges[index];
         let from_edge = self.ellipsoid.center - self.position(edge.vertices[0]);
         let heights = push.normals.map(|n| n.dot(&from_edge));
-        if heights[0].max(heights[1]) <= self.near_height || self.arc_bound(push, &heights) > self.limit() {
+        if heights[0].max(heights[1]) <= self.near_height
+            || self.prepared.arc_bound(&push.normals, &heights) > self.limit()
+        {
             return;
         }
         let shadow = Shadow::new(self.prepared, &push.normals[0], &push.outwards[0]);
@@ -220,28 +223,6 @@ impl<'a> Search<'a> {
         if let Some(foot) = second_nearest_on_ellipse(shadow.semi_axes, y) {
             self.offer_edge(index, push, &shadow, &foot);
         }
-    }
-
-    /// A lower bound of the overlap over the normals between two faces.
-    ///
-    /// `D` extended to all lengths of n is convex, so on the chord between the two normals it lies above its two
-    /// tangents at the ends; and dividing by the length there, at most 1, lowers nothing that is positive.
-    fn arc_bound(&self, push: &EdgePush, heights: &[f64; 2]) -> f64 {
-        let widened = push.normals.map(|n| self.prepared.widened(&n));
-        let half_widths = widened.map(|w| w.norm());
-        let product = widened[0].dot(&widened[1]);
-        let depths = [half_widths[0] - heights[0], half_widths[1] - heights[1]];
-        // Tangent at one end, where it meets the other end.
-        let across = [product / half_widths[0] - heights[1], product / half_widths[1] - heights[0]];
-        let (fall_0, fall_1) = (depths[0] - across[1], depths[1] - across[0]);
-        let sum = fall_0 + fall_1;
-        if sum <= 0.0 {
-            return depths[0].min(depths[1]);
-        }
-        let share = fall_0 / sum;
-        // A linear function's least value over the part of the chord where it is the larger.
-        let crossing = depths[0] + share * (across[0] - depths[0]);
-        crossing.min(depths[0]).min(depths[1])
     }
 
     fn offer_edge(&mut self, index: usize, push: &EdgePush, shadow: &Shadow, foot: &NormalFoot<2>) {

@@ -6,6 +6,8 @@
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;
 pub mod ellipsoid_polyhedron;
+mod ellipsoid_prepared;
+pub mod ellipsoid_triangle;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
 pub mod point_ellipsoid;

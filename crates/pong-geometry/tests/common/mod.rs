@@ -2,7 +2,8 @@
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
 use pong_geometry::primitive::{
-    EdgePush, Ellipsoid, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
+    EdgePush, Ellipsoid, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
+    TriangleRecord, TriangleSet,
 };
 use pong_geometry::{Mat3, Quat, Transform, Vec3};
 
@@ -300,4 +301,54 @@ pub fn scaled(polyhedron: &Polyhedron, factor: f64) -> Polyhedron {
 /// An ellipsoid scaled about the origin.
 pub fn scaled_ellipsoid(e: &Ellipsoid, factor: f64) -> Ellipsoid {
     Ellipsoid { center: e.center * factor, axes: e.axes, semi_axes: e.semi_axes * factor }
+}
+
+/// A triangle set from corners and triangles, neighbours found by shared edges.
+pub fn triangle_set(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
+    let across = |a: u32, b: u32| {
+        let has = |t: &[u32; 3]| (0..3).any(|k| t[k] == b && t[(k + 1) % 3] == a);
+        triangles.iter().position(has).map_or(NO_NEIGHBOR, |t| t as u32)
+    };
+    let triangles = triangles
+        .iter()
+        .map(|t| TriangleRecord {
+            vertices: *t,
+            neighbors: [across(t[0], t[1]), across(t[1], t[2]), across(t[2], t[0])],
+            shell: 0,
+        })
+        .collect();
+    TriangleSet { vertices, triangles }
+}
+
+/// The surface of a polyhedron, each face cut into triangles from its first corner.
+pub fn surface_of(polyhedron: &Polyhedron) -> TriangleSet {
+    let mut triangles = Vec::new();
+    for face in 0..polyhedron.faces.len() {
+        let rim = polyhedron.rim(face);
+        for k in 1..rim.len() - 1 {
+            triangles.push([rim[0].start, rim[k].start, rim[k + 1].start]);
+        }
+    }
+    triangle_set(polyhedron.vertices.iter().map(|v| v.position).collect(), &triangles)
+}
+
+/// A level patch of `count`² squares, each cut in two, with corners jittered in the plane and lifted by `lift`.
+pub fn patch(count: u32, random: &mut Random, lift: &dyn Fn(f64, f64) -> f64) -> TriangleSet {
+    let mut vertices = Vec::new();
+    for i in 0..=count {
+        for j in 0..=count {
+            let x = f64::from(i) / f64::from(count) - 0.5 + random.between(-0.2, 0.2) / f64::from(count);
+            let y = f64::from(j) / f64::from(count) - 0.5 + random.between(-0.2, 0.2) / f64::from(count);
+            vertices.push(Vec3::new(x, y, lift(x, y)));
+        }
+    }
+    let mut triangles = Vec::new();
+    for i in 0..count {
+        for j in 0..count {
+            let at = |di: u32, dj: u32| (i + di) * (count + 1) + j + dj;
+            triangles.push([at(0, 0), at(1, 0), at(1, 1)]);
+            triangles.push([at(0, 0), at(1, 1), at(0, 1)]);
+        }
+    }
+    triangle_set(vertices, &triangles)
 }

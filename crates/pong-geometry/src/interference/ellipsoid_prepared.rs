@@ -1,0 +1,128 @@
+//! An ellipsoid made ready for many directions and points, and its outline seen along a direction.
+
+use crate::Vec3;
+use crate::primitive::Ellipsoid;
+
+/// An ellipsoid made ready for many directions and points.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PreparedEllipsoid {
+    /// Centre, m.
+    pub(crate) center: Vec3,
+    /// Rows: principal axes times semi-axes; takes a normal to its scaled one.
+    pub(crate) widen: [Vec3; 3],
+    /// Rows: principal axes over semi-axes; takes the ellipsoid to the unit ball.
+    shrink: [Vec3; 3],
+    /// Smallest semi-axis, m.
+    pub(crate) smallest: f64,
+    /// Largest semi-axis, m.
+    pub(crate) largest: f64,
+}
+
+impl PreparedEllipsoid {
+    pub(crate) fn new(e: &Ellipsoid) -> Self {
+        let axis = |i: usize| e.axes.column(i).into_owned();
+        Self {
+            center: e.center,
+            widen: std::array::from_fn(|i| axis(i) * e.semi_axes[i]),
+            shrink: std::array::from_fn(|i| axis(i) / e.semi_axes[i]),
+            smallest: e.semi_axes.min(),
+            largest: e.semi_axes.max(),
+        }
+    }
+
+    /// The scaled normal, whose length is the half width along `n`.
+    #[inline]
+    pub(crate) fn widened(&self, n: &Vec3) -> Vec3 {
+        Vec3::new(self.widen[0].dot(n), self.widen[1].dot(n), self.widen[2].dot(n))
+    }
+
+    /// The surface point along a scaled normal as seen from the centre, times the half width.
+    #[inline]
+    pub(crate) fn reach(&self, widened: &Vec3) -> Vec3 {
+        self.widen[0] * widened.x + self.widen[1] * widened.y + self.widen[2] * widened.z
+    }
+
+    /// A vector as seen where the ellipsoid is the unit ball.
+    #[inline]
+    pub(crate) fn shrunk(&self, v: &Vec3) -> Vec3 {
+        Vec3::new(self.shrink[0].dot(v), self.shrink[1].dot(v), self.shrink[2].dot(v))
+    }
+
+    /// The direction whose scaled normal is along `widened`, not of unit length.
+    #[inline]
+    pub(crate) fn direction_of(&self, widened: &Vec3) -> Vec3 {
+        self.shrink[0] * widened.x + self.shrink[1] * widened.y + self.shrink[2] * widened.z
+    }
+
+    /// The point of the ellipsoid deepest along −n.
+    #[inline]
+    pub(crate) fn deepest(&self, n: &Vec3) -> Vec3 {
+        let widened = self.widened(n);
+        self.center - self.reach(&widened) / widened.norm()
+    }
+
+    /// A lower bound of the overlap over the normals between two faces that the centre is `heights` above.
+    ///
+    /// `D` extended to all lengths of n is convex, so on the chord between the two normals it lies above its two
+    /// tangents at the ends; and dividing by the length there, at most 1, lowers nothing that is positive.
+    pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
+        let widened = normals.map(|n| self.widened(&n));
+        let half_widths = widened.map(|w| w.norm());
+        let product = widened[0].dot(&widened[1]);
+        let depths = [half_widths[0] - heights[0], half_widths[1] - heights[1]];
+        // Tangent at one end, where it meets the other end.
+        let across = [product / half_widths[0] - heights[1], product / half_widths[1] - heights[0]];
+        let (fall_0, fall_1) = (depths[0] - across[1], depths[1] - across[0]);
+        let sum = fall_0 + fall_1;
+        if sum <= 0.0 {
+            return depths[0].min(depths[1]);
+        }
+        let share = fall_0 / sum;
+        // A linear function's least value over the part of the chord where it is the larger.
+        let crossing = depths[0] + share * (across[0] - depths[0]);
+        crossing.min(depths[0]).min(depths[1])
+    }
+}
+
+/// The outline of an ellipsoid seen along a direction: an ellipse in the plane across it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shadow {
+    /// Principal axes, unit.
+    pub(crate) axes: [Vec3; 2],
+    /// Semi-axes, m.
+    pub(crate) semi_axes: [f64; 2],
+}
+
+impl Shadow {
+    /// `u` and `v` are orthonormal and span the plane.
+    ///
+    /// The half width along a direction of the plane is the length of its scaled normal: the principal axes are
+    /// those whose scaled normals are orthogonal, found by one rotation of Jacobi's, which keeps the small axis exact
+    /// to rounding of the large one.
+    #[inline]
+    pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
+        let (wide_u, wide_v) = (e.widened(u), e.widened(v));
+        let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
+        if uv == 0.0 {
+            return Self { axes: [*u, *v], semi_axes: [uu.sqrt(), vv.sqrt()] };
+        }
+        let zeta = (vv - uu) / (2.0 * uv);
+        let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+        let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
+        let sine = cosine * tangent;
+        let turned = |a: &Vec3, b: &Vec3| [a * cosine - b * sine, a * sine + b * cosine];
+        Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
+    }
+
+    /// A vector's components along the principal axes.
+    #[inline]
+    pub(crate) fn components(&self, v: &Vec3) -> [f64; 2] {
+        [self.axes[0].dot(v), self.axes[1].dot(v)]
+    }
+
+    /// A vector of the plane from its components.
+    #[inline]
+    pub(crate) fn vector(&self, components: &[f64; 2]) -> Vec3 {
+        self.axes[0] * components[0] + self.axes[1] * components[1]
+    }
+}

@@ -1,0 +1,309 @@
+//! Ellipsoid against triangles.
+//!
+//! Degenerate cases: feet on edges and vertices of a flat tessellation, on convex edges and vertices, on free edges;
+//! centre in the plane, behind by less and by more than the thickness; spheres; concave corners; upright feet on a
+//! ridge; grazing.
+
+mod common;
+
+use common::{Random, cuboid, patch, scaled_ellipsoid, stretched_hull, surface_of, triangle_set};
+use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
+use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
+use pong_geometry::interference::sphere_triangle::sphere_triangle;
+use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
+use pong_geometry::primitive::{Ellipsoid, Sphere, TriangleSet};
+use pong_geometry::{Mat3, Vec3};
+
+fn contacts(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleContact> {
+    let mut found = Vec::new();
+    for t in 0..set.triangles.len() as u32 {
+        ellipsoid_triangle(e, set, t, thickness, &mut |contact| found.push(contact));
+    }
+    found
+}
+
+/// The contacts that push, spare ones only where nothing else is as deep.
+fn pushing(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleContact> {
+    let (mut firm, spare): (Vec<_>, Vec<_>) =
+        contacts(e, set, thickness).into_iter().partition(|c| c.standing != Standing::Spare);
+    let deepest = firm.iter().map(|c| c.interference.depth).fold(0.0, f64::max);
+    firm.extend(spare.into_iter().filter(|c| c.interference.depth * (1.0 - 1e-9) > deepest));
+    firm
+}
+
+fn smallest_radius(semi_axes: &Vec3) -> f64 {
+    semi_axes.min() * semi_axes.min() / semi_axes.max()
+}
+
+#[test]
+fn flat_tessellation_is_one_plane() {
+    let mut random = Random(101);
+    let set = patch(6, &mut random, &|_, _| 0.0);
+    for case in 0..20_000 {
+        let semi_axes = Vec3::from_fn(|_, _| random.between(0.02, 0.1));
+        let mut e = Ellipsoid { center: Vec3::zeros(), axes: random.rotation(), semi_axes };
+        let depth = random.between(1e-6, 1.0) * 0.02;
+        e.center.z = e.half_width(&Vec3::z()) - depth;
+        // The foot: anywhere, or exactly over a vertex or the middle of an edge.
+        let foot = match case % 3 {
+            0 => Vec3::new(random.between(-0.25, 0.25), random.between(-0.25, 0.25), 0.0),
+            1 => set.vertices[16 + (random.bits() % 3) as usize + 7 * (random.bits() % 3) as usize],
+            _ => {
+                let [a, b, _] = set.corners([28, 29, 30, 31, 40, 41, 42, 43][(random.bits() % 8) as usize]);
+                (a + b) * 0.5
+            }
+        };
+        let drift = e.support(&-Vec3::z()) - e.center;
+        e.center.x = foot.x - drift.x;
+        e.center.y = foot.y - drift.y;
+        let found = pushing(&e, &set, semi_axes.min());
+        assert!(!found.is_empty(), "case {case}");
+        for contact in &found {
+            assert!((contact.interference.normal - Vec3::z()).norm() < 1e-12, "case {case}: {contact:?}");
+            assert!((contact.interference.depth - depth).abs() < 1e-14, "case {case}: {contact:?}");
+        }
+    }
+}
+
+#[test]
+fn convex_surfaces_push_as_the_polyhedron() {
+    let mut random = Random(102);
+    for p in
+        [cuboid(Vec3::new(-0.5, -0.4, -0.3), Vec3::new(0.5, 0.4, 0.3)), stretched_hull(18, Vec3::repeat(0.5))]
+    {
+        let set = surface_of(&p);
+        let (mut checked, mut not_faces) = (0, 0);
+        while checked < 3000 {
+            let semi_axes = Vec3::from_fn(|_, _| random.between(0.05, 0.15));
+            let e = Ellipsoid {
+                center: random.direction() * random.between(0.3, 0.8),
+                axes: random.rotation(),
+                semi_axes,
+            };
+            let Some(expected) = ellipsoid_polyhedron(&e, &p) else {
+                assert!(pushing(&e, &set, semi_axes.min()).is_empty());
+                continue;
+            };
+            if expected.depth > 0.9 * smallest_radius(&semi_axes) {
+                continue;
+            }
+            checked += 1;
+            not_faces += usize::from(!expected.feature.is_face());
+            let found = pushing(&e, &set, semi_axes.min());
+            assert!(!found.is_empty(), "lost {expected:?} of {e:?}");
+            for contact in &found {
+                let i = &contact.interference;
+                assert!((i.depth - expected.depth).abs() < 1e-13, "{contact:?} {expected:?} {e:?}");
+                assert!((i.normal - expected.normal).norm() < 1e-7, "{contact:?} {expected:?}");
+                assert!((i.point_a - expected.point_a).norm() < 1e-7);
+                assert_eq!(contact.standing, Standing::Front);
+            }
+        }
+        assert!(not_faces > 300);
+    }
+}
+
+#[test]
+fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
+    let mut random = Random(103);
+    let p = stretched_hull(18, Vec3::repeat(0.5));
+    let set = surface_of(&p);
+    let (mut checked, mut several) = (0, 0);
+    while checked < 3000 {
+        let semi_axes = Vec3::from_fn(|_, _| random.between(0.03, 0.3));
+        let e = Ellipsoid {
+            center: random.direction() * random.between(0.4, 0.8),
+            axes: random.rotation(),
+            semi_axes,
+        };
+        let Some(expected) = ellipsoid_polyhedron(&e, &p) else { continue };
+        checked += 1;
+        let found = pushing(&e, &set, f64::INFINITY);
+        several += usize::from(found.len() > 1);
+        assert!(
+            found.iter().any(|c| (c.interference.depth - expected.depth).abs() < 1e-13),
+            "{found:?} {expected:?} {e:?}"
+        );
+    }
+    println!("{checked} contacts, {several} with more than one minimum");
+}
+
+#[test]
+fn a_sphere_as_the_sphere_tester() {
+    let mut random = Random(104);
+    let bumpy = patch(5, &mut Random(7), &|x, y| 0.1 * (9.0 * x).sin() * (7.0 * y).cos());
+    let mut compared = 0;
+    for _ in 0..20_000 {
+        let sphere = Sphere {
+            center: Vec3::new(
+                random.between(-0.6, 0.6),
+                random.between(-0.6, 0.6),
+                random.between(-0.1, 0.2),
+            ),
+            radius: 0.12,
+        };
+        let e = Ellipsoid {
+            center: sphere.center,
+            axes: random.rotation(),
+            semi_axes: Vec3::repeat(sphere.radius),
+        };
+        let mut expected = Vec::new();
+        for t in 0..bumpy.triangles.len() as u32 {
+            sphere_triangle(&sphere, &bumpy, t, 0.03, &mut |contact| expected.push(contact));
+        }
+        // A face behind yields here to any less deep plane next to it; among spheres that is settled later.
+        let front = |list: &[TriangleContact]| {
+            let mut list: Vec<_> =
+                list.iter().filter(|c| c.standing == Standing::Front).map(|c| c.interference).collect();
+            list.sort_by_key(|i| i.feature);
+            list
+        };
+        let (expected, found) = (front(&expected), front(&contacts(&e, &bumpy, 0.03)));
+        assert_eq!(expected.len(), found.len(), "{expected:?} {found:?}");
+        for (a, b) in expected.iter().zip(&found) {
+            assert_eq!(a.feature, b.feature);
+            assert!((a.depth - b.depth).abs() < 1e-14 && (a.normal - b.normal).norm() < 1e-10);
+            compared += 1;
+        }
+    }
+    println!("{compared} contacts compared");
+    assert!(compared > 5000);
+}
+
+fn one_triangle() -> TriangleSet {
+    triangle_set(vec![Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)], &[[0, 1, 2]])
+}
+
+#[test]
+fn free_edge_and_corner_push_towards_the_centre_in_front() {
+    let set = one_triangle();
+    let semi_axes = Vec3::new(0.2, 0.3, 0.1);
+    let at = |center| Ellipsoid { center, axes: Mat3::identity(), semi_axes };
+    let reach =
+        |n: &Vec3| n.component_mul(&semi_axes).component_mul(&semi_axes) / n.component_mul(&semi_axes).norm();
+    let depth = 1e-3;
+    // Over the edge y = 0.
+    let n = Vec3::new(0.0, -0.6, 0.8);
+    let found = pushing(&at(Vec3::new(0.4, 0.0, 0.0) + reach(&n) - n * depth), &set, 0.1);
+    assert_eq!(found.len(), 1);
+    assert!((found[0].interference.depth - depth).abs() < 1e-15);
+    assert!((found[0].interference.normal - n).norm() < 1e-13);
+    // Over the corner at the origin.
+    let n = Vec3::new(-0.48, -0.36, 0.8);
+    let found = pushing(&at(reach(&n) - n * depth), &set, 0.1);
+    assert_eq!(found.len(), 1);
+    assert!(
+        (found[0].interference.normal - n).norm() < 1e-13
+            && (found[0].interference.depth - depth).abs() < 1e-15
+    );
+    // From behind neither pushes.
+    for n in [Vec3::new(0.0, -0.6, -0.8), Vec3::new(-0.48, -0.36, -0.8)] {
+        let e = at(Vec3::new(0.0, 0.0, 0.0) + reach(&n) - n * depth);
+        assert!(contacts(&e, &set, 0.1).is_empty(), "{:?}", contacts(&e, &set, 0.1));
+    }
+}
+
+#[test]
+fn behind_counts_less_than_the_thickness() {
+    let set = one_triangle();
+    let at = |z| Ellipsoid {
+        center: Vec3::new(0.25, 0.25, z),
+        axes: Mat3::identity(),
+        semi_axes: Vec3::new(0.05, 0.04, 0.1),
+    };
+    for (z, standing) in [
+        (0.05, Some(Standing::Front)),
+        (0.0, Some(Standing::Front)),
+        (-0.029, Some(Standing::Behind)),
+        (-0.031, None),
+    ] {
+        let found = contacts(&at(z), &set, 0.03);
+        assert_eq!(found.first().map(|c| c.standing), standing, "{z}");
+        if let Some(contact) = found.first() {
+            assert!((contact.interference.depth - (0.1 - z)).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn both_walls_of_a_concave_corner_push() {
+    let set = triangle_set(
+        vec![
+            Vec3::new(0.0, -1.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(1.0, 0.0, 0.0),
+            Vec3::new(0.0, 0.0, 1.0),
+        ],
+        &[[0, 2, 1], [1, 3, 0]],
+    );
+    let e = Ellipsoid {
+        center: Vec3::new(0.19, 0.0, 0.09),
+        axes: Mat3::identity(),
+        semi_axes: Vec3::new(0.2, 0.15, 0.1),
+    };
+    let found = pushing(&e, &set, 0.1);
+    assert_eq!(found.len(), 2, "{found:?}");
+    for (contact, n) in found.iter().zip([Vec3::z(), Vec3::x()]) {
+        assert!(
+            (contact.interference.normal - n).norm() < 1e-15
+                && (contact.interference.depth - 0.01).abs() < 1e-15
+        );
+    }
+}
+
+#[test]
+fn least_depth_is_continuous_over_a_ridge() {
+    let lift = |x: f64, _: f64| -0.8 * x.abs();
+    let set = patch(2, &mut Random(u64::MAX), &|x, y| if x.abs() < 0.3 { 0.0 } else { lift(x, y) });
+    let axes = Random(5).rotation();
+    let mut before = None;
+    const STEPS: usize = 20_000;
+    for k in 0..=STEPS {
+        let s = 0.5 * k as f64 / STEPS as f64 - 0.25;
+        let e = Ellipsoid {
+            center: Vec3::new(s, 0.02, 0.05 - 0.3 * s.abs()),
+            axes,
+            semi_axes: Vec3::new(0.12, 0.1, 0.09),
+        };
+        let depth =
+            pushing(&e, &set, 0.09).iter().map(|c| c.interference.depth).fold(f64::INFINITY, f64::min);
+        let depth = if depth.is_finite() { depth } else { 0.0 };
+        if let Some(before) = before {
+            let step: f64 = depth - before;
+            assert!(step.abs() < 1.1 * 0.5 / STEPS as f64, "at {s}: {before} {depth}");
+        }
+        before = Some(depth);
+    }
+}
+
+#[test]
+fn rigid_motion_and_scale_change_nothing() {
+    let mut random = Random(105);
+    let set = surface_of(&stretched_hull(18, Vec3::repeat(0.5)));
+    let changed = |f: &dyn Fn(&Vec3) -> Vec3| TriangleSet {
+        vertices: set.vertices.iter().map(f).collect(),
+        triangles: set.triangles.clone(),
+    };
+    for _ in 0..1000 {
+        let e = Ellipsoid {
+            center: random.direction() * random.between(0.5, 0.6),
+            axes: random.rotation(),
+            semi_axes: Vec3::new(0.15, 0.1, 0.12),
+        };
+        let expected = pushing(&e, &set, 0.1);
+        for factor in [1e-4, 1e4] {
+            let found = pushing(&scaled_ellipsoid(&e, factor), &changed(&|v| v * factor), 0.1 * factor);
+            assert_eq!(found.len(), expected.len());
+            for (a, b) in expected.iter().zip(&found) {
+                assert!((a.interference.depth * factor - b.interference.depth).abs() < 1e-12 * factor);
+            }
+        }
+        let x = random.motion(1.0);
+        let found = pushing(&e.carried(&x), &changed(&|v| x.point(v)), 0.1);
+        assert_eq!(found.len(), expected.len());
+        for (a, b) in expected.iter().zip(&found) {
+            assert!((a.interference.depth - b.interference.depth).abs() < 1e-12);
+            assert!((x.vector(&a.interference.normal) - b.interference.normal).norm() < 1e-8);
+        }
+    }
+}
