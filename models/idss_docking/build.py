@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""Builds two docking interfaces after the International Docking System Standard.
+
+Run it from anywhere: python3 build.py [folder]. It writes idss_active.ron and idss_passive.ron. Every dimension
+stands below; README.md says where each comes from.
+
+Both sides are drawn in their own docking frame: origin in the middle of the soft-capture ring's face, z out of the
+vehicle. Mated, the passive frame is the active one turned by 180 degrees about x. Petals are facets of a cone, so
+that a petal of one side fits between two of the other with the same clearance everywhere.
+"""
+
+import math
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import model_writer as w  # noqa: E402
+
+# --- dimensions, m and degrees -------------------------------------------------------------------------------------
+
+FACETS = 18  # of every ring and cone; the facet's middle lies on the radius given
+STEP = 360.0 / FACETS
+RIM_RADIUS = 0.600  # inner rim of the soft-capture ring: the standard's 1.2 m
+RING_OUTER_RADIUS = 0.660
+RING_HEIGHT = 0.060
+PASSAGE_RADIUS = 0.400  # the standard's 0.8 m, kept free by the petals
+
+PETAL_CLEARANCE = 0.003  # between a petal's root and the other side's rim when mated
+PETAL_THICKNESS = 0.018
+PETAL_ROOT_HALF_ANGLE = 29.8  # at the ring's face; 30 would touch the neighbour
+PETAL_TIP_HALF_ANGLE = 6.0
+PETAL_KNEE_HEIGHT = 0.1415  # where the petal's side crosses from the outer facet to the middle one
+PETAL_ANGLE = 45.0  # of the petals to the docking axis; drawn into the formulas below
+ACTIVE_PETALS = (0.0, 120.0, 240.0)
+PASSIVE_PETALS = (60.0, 180.0, 300.0)
+
+RING_EXTENSION = 0.300  # of the active ring above its vehicle's hard-capture plane
+HARD_RING_INNER_RADIUS = 0.620
+HARD_RING_OUTER_RADIUS = 0.700
+HARD_RING_HEIGHT = 0.040
+
+PAD_RADIUS = 0.632  # of the circle of points that stand for the active ring's face
+PADS_PER_RING = 12
+PLATE_INNER_RADIUS = 0.604  # striker plates on the passive ring's face
+PLATE_OUTER_RADIUS = 0.656
+PLATE_RELIEF = 0.001  # by which the ring's own face lies below its plates
+
+STRIKER_RECESS = 0.003  # of a striker's slope behind the cone through the ring's rim
+STRIKER_FRONT = 0.055  # depth of its front edge and of its back face below the ring's face
+STRIKER_BACK = 0.075
+STRIKER_HALF_WIDTH = 0.060
+
+LATCH_PLAY = 0.006  # between a latch's catch and the striker's back, mated
+LATCH_ENGAGEMENT = 0.014  # by which the catch reaches over the striker's back face
+LATCH_HALF_WIDTH = 0.020
+
+# --- surfaces --------------------------------------------------------------------------------------------------------
+
+SURFACES = {
+    "structure": "(stiffness: 1e6, normal: Linear(damping: 4400.0, ramp: 0.0002), friction: Bristle(mu: 0.2))",
+    "latch": "(stiffness: 2e5, normal: Linear(damping: 60.0, ramp: 0.0002), friction: Bristle(mu: 0.1))",
+}
+
+UP = (0.0, 0.0, 1.0)
+DOWN = (0.0, 0.0, -1.0)
+CONE_RADIUS = RIM_RADIUS - PETAL_CLEARANCE  # of the petals' outer side at the ring's face
+PETAL_HEIGHT = CONE_RADIUS - PASSAGE_RADIUS - PETAL_THICKNESS * math.sqrt(2.0)
+
+
+# --- rings ---------------------------------------------------------------------------------------------------------
+
+def radial_wall(azimuth, side):
+    """Half space on one side (+1: of smaller azimuth) of the half plane through the axis at an azimuth."""
+    return (w.scaled(w.cross(UP, w.on_circle(1.0, azimuth)), side), 0.0)
+
+
+def ring_sector(name, azimuth, radii, heights):
+    """One straight sector of a ring; its two ends are inner walls."""
+    outwards = w.on_circle(1.0, azimuth)
+    half_spaces = [
+        (w.scaled(outwards, -1.0), -radii[0]),
+        (outwards, radii[1]),
+        (UP, heights[1]),
+        (DOWN, -heights[0]),
+        radial_wall(azimuth + STEP / 2, 1),
+        radial_wall(azimuth - STEP / 2, -1),
+    ]
+    return w.polyhedron(name, half_spaces, inactive=(4, 5))
+
+
+def facet_corner(radius, azimuth, z=0.0):
+    """Corner of the polygon whose flats lie at `radius`, at the smaller azimuth of a facet."""
+    return w.on_circle(radius / math.cos(math.radians(STEP / 2)), azimuth - STEP / 2, z)
+
+
+def ring(radii, heights, prefix):
+    """A ring as a tree: three groups of sectors."""
+    thirds = []
+    for third in range(3):
+        sectors = []
+        for i in range(third * FACETS // 3, (third + 1) * FACETS // 3):
+            sectors.append(ring_sector(f"{prefix}_{i:02}", i * STEP, radii, heights))
+        thirds.append(w.group(f"{prefix}_third_{third}", primitives=sectors, bound="Obb"))
+    return thirds
+
+
+def rim_segments(petals, z):
+    """The inner rim between one's own petals, where the other side's petals slide in."""
+    lines = []
+    for i in range(FACETS):
+        azimuth = i * STEP
+        nearest = min(abs((azimuth - p + 180.0) % 360.0 - 180.0) for p in petals)
+        if nearest > 30.0:
+            ends = (facet_corner(RIM_RADIUS, azimuth, z), facet_corner(RIM_RADIUS, azimuth + STEP, z))
+            lines.append(w.segment(f"rim_{i:02}", *ends))
+    return lines
+
+
+# --- petals ----------------------------------------------------------------------------------------------------------
+
+def on_cone(azimuth, facet, z):
+    """Point on the outer side of the petals: facet given by its middle azimuth."""
+    radius = (CONE_RADIUS - z) / math.cos(math.radians(azimuth - facet))
+    return w.on_circle(radius, azimuth, z)
+
+
+def cone_normal(facet):
+    return w.unit(w.add(w.on_circle(1.0, facet), UP))
+
+
+def inner_of(corner, facet, neighbour):
+    """The petal's inner corner below an outer one on the border between two facets."""
+    n = cone_normal(facet)
+    both = w.unit(w.add(n, cone_normal(neighbour)))
+    return w.sub(corner, w.scaled(both, PETAL_THICKNESS / w.dot(both, n)))
+
+
+def petal(azimuth):
+    """A petal as three convex pieces and the segments of its outline: (pieces, segments)."""
+    middle = azimuth
+    pieces = []
+    segments = []
+    caps = [(DOWN, 0.0), (UP, PETAL_HEIGHT)]
+
+    def skins(facet):
+        n = cone_normal(facet)
+        outer = w.dot(n, on_cone(facet, facet, 0.0))
+        return [(n, outer), (w.scaled(n, -1.0), PETAL_THICKNESS - outer)]
+
+    side_planes = []
+    for side, label in ((-1, "left"), (1, "right")):
+        facet = middle + side * STEP
+        border = middle + side * STEP / 2
+        root = on_cone(middle + side * PETAL_ROOT_HALF_ANGLE, facet, 0.0)
+        knee = on_cone(border, middle, PETAL_KNEE_HEIGHT)
+        tip = on_cone(middle + side * PETAL_TIP_HALF_ANGLE, middle, PETAL_HEIGHT)
+        inner_knee = inner_of(knee, middle, facet)
+        low_side = w.plane_through(root, knee, inner_knee, on_cone(border, middle, 0.0))
+        side_planes.append(w.plane_through(knee, tip, inner_knee, on_cone(middle, middle, 0.0)))
+        wall = radial_wall(border, -side)  # keeps what lies outside the middle facet
+        pieces.append(w.polyhedron(f"{label}", skins(facet) + [low_side, wall, caps[0]], inactive=(3,)))
+        segments.append(w.segment(f"{label}_low_edge", root, knee))
+        segments.append(w.segment(f"{label}_high_edge", knee, tip))
+        inner_tip = w.meet(skins(middle)[1], side_planes[-1], caps[1])
+        segments.append(w.segment(f"{label}_tip_edge", tip, w.rounded(inner_tip)))
+    walls = [radial_wall(middle - STEP / 2, -1), radial_wall(middle + STEP / 2, 1)]
+    pieces.append(w.polyhedron("middle", skins(middle) + side_planes + walls + caps, inactive=(4, 5)))
+    tips = [on_cone(middle + side * PETAL_TIP_HALF_ANGLE, middle, PETAL_HEIGHT) for side in (-1, 1)]
+    segments.append(w.segment("tip", *tips))
+    return pieces, segments
+
+
+def petal_groups(azimuths):
+    groups = []
+    for i, azimuth in enumerate(azimuths):
+        pieces, segments = petal(azimuth)
+        parts = [
+            w.group("body", primitives=pieces, bound="Obb"),
+            w.group("edges", primitives=segments, bound="Aabb"),
+        ]
+        groups.append(w.group(f"petal_{i}", groups=parts, bound="Sphere"))
+    return groups
+
+
+# --- latches and strikers -----------------------------------------------------------------------------------------
+
+def latch_frame(azimuth):
+    """Axes of a latch: x out of the petal's outer side (its slide), y along the rim, z up along the petal."""
+    radial = w.on_circle(1.0, azimuth)
+    x = w.unit(w.add(radial, UP))
+    y = w.cross(UP, radial)
+    return x, y, w.cross(x, y)
+
+
+def latch_tip(azimuth):
+    """Middle of the catch's edge, latch extended."""
+    radius = RIM_RADIUS + STRIKER_RECESS * 1.0 - STRIKER_BACK + LATCH_ENGAGEMENT
+    return w.on_circle(radius, azimuth, STRIKER_BACK + LATCH_PLAY)
+
+
+def latch(i, azimuth):
+    """A sliding pawl: catch face across the docking axis, cam side along the petal, bevelled nose."""
+    profile = [(0.0, 0.0), (-0.005, 0.030), (-0.030, 0.060), (-0.030, 0.030)]  # (x, z): catch edge, cam, nose, back
+    half_spaces = []
+    for (x0, z0), (x1, z1) in zip(profile, profile[1:] + profile[:1]):
+        half_spaces.append(w.plane((z1 - z0, 0.0, x0 - x1), (x0, 0.0, z0)))
+    half_spaces += [((0.0, 1.0, 0.0), LATCH_HALF_WIDTH), ((0.0, -1.0, 0.0), LATCH_HALF_WIDTH)]
+
+    def across(name, x, z):
+        return w.segment(name, (x, -LATCH_HALF_WIDTH, z), (x, LATCH_HALF_WIDTH, z))
+
+    contents = [
+        w.polyhedron("pawl", half_spaces),
+        across("catch_edge", *profile[0]),
+        across("nose_edge", *profile[1]),
+    ]
+    axes = latch_frame(azimuth)
+    return w.group(
+        f"latch_{i}",
+        primitives=contents,
+        bound="Sphere",
+        surface="latch",
+        movable=True,
+        position=latch_tip(azimuth),
+        orientation=w.quaternion_of_axes(*axes),
+    )
+
+
+def striker(i, azimuth):
+    """A bar behind the ring's rim: its slope is the cam, its back face holds the latch. z points out of the ring."""
+    radial = w.on_circle(1.0, azimuth)
+    along = w.cross(UP, radial)
+    slope = w.unit(w.sub(UP, radial))  # towards the axis and out of the ring
+    slope_point = w.on_circle(RIM_RADIUS + STRIKER_RECESS - STRIKER_FRONT, azimuth, -STRIKER_FRONT)
+    half_spaces = [
+        w.plane(slope, slope_point),
+        (UP, -STRIKER_FRONT),
+        (DOWN, STRIKER_BACK),
+        (radial, RIM_RADIUS),
+        (along, STRIKER_HALF_WIDTH),
+        (w.scaled(along, -1.0), STRIKER_HALF_WIDTH),
+    ]
+
+    def edge(name, depth):
+        inner = w.on_circle(RIM_RADIUS + STRIKER_RECESS - depth, azimuth, -depth)
+        half = w.scaled(along, STRIKER_HALF_WIDTH)
+        return w.segment(name, w.sub(inner, half), w.add(inner, half))
+
+    contents = [w.polyhedron("bar", half_spaces), edge("front_edge", STRIKER_FRONT), edge("back_edge", STRIKER_BACK)]
+    return w.group(f"striker_{i}", primitives=contents, bound="Obb")
+
+
+# --- the two sides -------------------------------------------------------------------------------------------------
+
+def hard_ring(z):
+    radii = (HARD_RING_INNER_RADIUS, HARD_RING_OUTER_RADIUS)
+    return w.group("hard_ring", groups=ring(radii, (z - HARD_RING_HEIGHT, z), "hard"), bound="Aabb")
+
+
+def active():
+    pads = []
+    for i in range(PADS_PER_RING):
+        pads.append(w.point(f"pad_{i:02}", w.on_circle(PAD_RADIUS, (i + 0.5) * 360.0 / PADS_PER_RING)))
+    body = (RIM_RADIUS, RING_OUTER_RADIUS)
+    ring_parts = [
+        w.group("ring_body", groups=ring(body, (-RING_HEIGHT, 0.0), "sector"), bound="Aabb"),
+        w.group("rim", primitives=rim_segments(ACTIVE_PETALS, 0.0), bound="Aabb"),
+        w.group("pads", primitives=pads, bound="Aabb"),
+    ]
+    ring_parts += petal_groups(ACTIVE_PETALS)
+    ring_parts += [latch(i, azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
+    soft_ring = w.group(
+        "ring", groups=ring_parts, bound="Sphere", movable=True, position=(0.0, 0.0, RING_EXTENSION)
+    )
+    about = [
+        "Active docking interface after the International Docking System Standard. Written by build.py.",
+        "Origin: middle of the vehicle's hard-capture plane; z points out of the vehicle. The soft-capture ring and",
+        "its three latches are movable: the host supplies their states. A latch slides along its own x axis.",
+    ]
+    root = w.group("vehicle", groups=[hard_ring(0.0), soft_ring], bound="Aabb", surface="structure")
+    return w.model("idss_active", SURFACES, root, about)
+
+
+def passive():
+    plates = []
+    for i in range(FACETS // 3):
+        azimuth = i * 3 * STEP
+        for k in (-1, 0, 1):
+            facet = azimuth + k * STEP
+            radii = (PLATE_INNER_RADIUS, PLATE_OUTER_RADIUS)
+            sector = ring_sector(f"plate_{i}_{k + 1}", facet, radii, (-0.020, 0.0))
+            plates.append(sector)
+    body = (RIM_RADIUS, RING_OUTER_RADIUS)
+    parts = [
+        hard_ring(-RING_HEIGHT),
+        w.group("ring_body", groups=ring(body, (-RING_HEIGHT, -PLATE_RELIEF), "sector"), bound="Aabb"),
+        w.group("striker_plates", primitives=plates, bound="Aabb"),
+        w.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Aabb"),
+    ]
+    parts += petal_groups(PASSIVE_PETALS)
+    # Mated, azimuth a of the active side is -a here.
+    parts += [striker(i, -azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
+    about = [
+        "Passive docking interface after the International Docking System Standard. Written by build.py.",
+        "Origin: middle of the soft-capture ring's face; z points out of the vehicle.",
+    ]
+    return w.model("idss_passive", SURFACES, w.group("vehicle", groups=parts, bound="Aabb", surface="structure"), about)
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    w.write(folder / "idss_active.ron", active())
+    w.write(folder / "idss_passive.ron", passive())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Builds the peg and the hole (validation case V20). Run it from anywhere: python3 build.py [folder]."""
+
+import math
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+import model_writer as w  # noqa: E402
+
+SIDES = 16  # of the polygons that stand for peg and bore
+PEG_DIAMETER = 0.100  # across the peg's edges, m
+PEG_LENGTH = 0.200
+CLEARANCE = 0.001  # of the bore: its width across flats less the peg's diameter, m
+HOLE_DEPTH = 0.150
+BLOCK_RADIUS = 0.100  # across the flats of the block around the bore, m
+STIFFNESS = 1e6  # of each of the two surfaces, N/m
+DAMPING = 400.0  # N·s/m: see README
+FRICTION = 0.5
+
+STEP = 360.0 / SIDES
+
+
+def peg():
+    """Edges along the peg, each facing the middle of a flat of the bore; the tip is at z = 0, the peg above it."""
+    radius = PEG_DIAMETER / 2
+    edges = []
+    for i in range(SIDES):
+        tip = w.on_circle(radius, i * STEP, 0.0)
+        edges.append(w.segment(f"edge_{i:02}", tip, w.add(tip, (0.0, 0.0, PEG_LENGTH))))
+    about = [
+        "The peg of validation case V20. Written by build.py.",
+        "The origin is the centre of the tip; z points along the peg, away from the hole's bottom.",
+    ]
+    return w.model("peg", surfaces(), w.group("peg", primitives=edges, bound="Obb", surface="peg"), about)
+
+
+def wedge(i):
+    """One wedge of the block: its flat towards the bore, its two flanks inner walls."""
+    azimuth = i * STEP
+    outwards = w.on_circle(1.0, azimuth)
+    flanks = []
+    for side in (-1, 1):
+        along = w.on_circle(1.0, azimuth + side * STEP / 2)
+        flanks.append((w.scaled(w.cross((0.0, 0.0, 1.0), along), side), 0.0))
+    half_spaces = [
+        (w.scaled(outwards, -1.0), -(PEG_DIAMETER + CLEARANCE) / 2),
+        (outwards, BLOCK_RADIUS),
+        flanks[0],
+        flanks[1],
+        ((0.0, 0.0, 1.0), 0.0),
+        ((0.0, 0.0, -1.0), HOLE_DEPTH),
+    ]
+    return w.polyhedron(f"wedge_{i:02}", half_spaces, inactive=(2, 3))
+
+
+def hole():
+    wedges = [w.group(f"side_{i:02}", primitives=[wedge(i)], bound="Obb") for i in range(SIDES)]
+    about = [
+        "The hole of validation case V20: wedges around a bore. Written by build.py.",
+        "The origin is the centre of the mouth; z points out of the hole.",
+    ]
+    return w.model("hole", surfaces(), w.group("hole", groups=wedges, bound="Aabb", surface="peg"), about)
+
+
+def surfaces():
+    return {"peg": f"(stiffness: {STIFFNESS!r}, normal: Linear(damping: {DAMPING!r}), friction: Bristle(mu: {FRICTION}))"}
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
+    w.write(folder / "peg.ron", peg())
+    w.write(folder / "hole.ron", hole())
+    assert math.isclose(STEP * SIDES, 360.0)
+
+
+if __name__ == "__main__":
+    main()
