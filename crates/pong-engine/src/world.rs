@@ -259,6 +259,11 @@ impl World {
         Ok(self.frame.report)
     }
 
+    /// Whether the last frame belongs to the states presently set: a commit would accept it as it is.
+    pub fn is_evaluated(&self) -> bool {
+        self.evaluated
+    }
+
     /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated.
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.must_be_evaluated()?;
@@ -300,10 +305,13 @@ impl World {
 
     /// The contacts of the last frame, in the order of every sum.
     pub fn contacts(&self) -> Vec<Contact> {
-        match &self.sealed {
-            Some(sealed) => self.frame.list_contacts(&self.scene, sealed, self.stamp),
-            None => Vec::new(),
-        }
+        self.contacts_iter().collect()
+    }
+
+    /// As [`contacts`](Self::contacts), one by one and without a list of their own.
+    pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
+        let sealed = self.sealed.iter();
+        sealed.flat_map(|sealed| self.frame.list_contacts(&self.scene, sealed, self.stamp))
     }
 
     /// Number of contacts of the last frame.

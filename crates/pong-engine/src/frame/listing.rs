@@ -12,9 +12,14 @@ use pong_model::Body;
 
 impl Frame {
     /// Every contact that pushes, in key order.
-    pub fn list_contacts(&self, scene: &Scene, sealed: &Sealed, stamp: WorldStamp) -> Vec<Contact> {
+    pub fn list_contacts<'a>(
+        &'a self,
+        scene: &'a Scene,
+        sealed: &'a Sealed,
+        stamp: WorldStamp,
+    ) -> impl Iterator<Item = Contact> + 'a {
         let pushing = self.contacts.iter().filter(|contact| contact.role == Role::Pushes);
-        pushing.map(|contact| self.list_contact(contact, scene, sealed, stamp)).collect()
+        pushing.map(move |contact| self.list_contact(contact, scene, sealed, stamp))
     }
 
     fn list_contact(

@@ -1,0 +1,8 @@
+//! Prints `pong.h`: `cargo run -p pong-capi --example generate_header > include/pong.h`.
+
+#[path = "../tests/support/header.rs"]
+mod header;
+
+fn main() {
+    print!("{}", header::generate());
+}

@@ -1,0 +1,147 @@
+//! Contacts of the last frame.
+
+use crate::guard::with_world;
+use crate::ids::{pong_interface_id, pong_object_id, pong_pair_id};
+use crate::interfaces::too_small;
+use crate::pointers::{Out, OutArray};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use pong_engine::{Contact, ContactSide};
+
+/// `feature_kind` of a face, or of a surface as a whole.
+pub const PONG_FEATURE_FACE: u32 = 0;
+/// `feature_kind` of an edge.
+pub const PONG_FEATURE_EDGE: u32 = 1;
+/// `feature_kind` of a vertex.
+pub const PONG_FEATURE_VERTEX: u32 = 2;
+
+/// One side of a contact.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_contact_side {
+    /// The Object.
+    pub object: pong_object_id,
+    /// The movable group.
+    pub interface: pong_interface_id,
+    /// The primitive: an index within the movable group, see pong_primitive_path().
+    pub primitive: u32,
+    /// The triangle of a mesh, counted from its first; 0 otherwise.
+    pub element: u32,
+    /// From the group's origin to the place of the contact, m, along common axes.
+    pub arm: [f64; 3],
+}
+
+/// One contact. Vectors are expressed in the common frame; forces are those on A, B receives the opposite at the
+/// same place.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_contact {
+    /// The pair of Objects.
+    pub pair: pong_pair_id,
+    /// Side A: the primitive whose kind the tester names first.
+    pub a: pong_contact_side,
+    /// Side B.
+    pub b: pong_contact_side,
+    /// What of B pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
+    pub feature_kind: u32,
+    /// Which one of its kind.
+    pub feature_index: u32,
+    /// End of a segment, 0 or 1; 0 otherwise.
+    pub end: u32,
+    /// 1 if friction sticks, 0 if it slips.
+    pub sticks: i32,
+    /// Where the force acts, m.
+    pub point: [f64; 3],
+    /// Unit normal from B to A.
+    pub normal: [f64; 3],
+    /// Depth, m.
+    pub depth: f64,
+    /// Rate of the depth, m/s, positive while closing.
+    pub rate: f64,
+    /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
+    pub weight: f64,
+    /// Normal force, N, never negative.
+    pub normal_force: f64,
+    /// Friction force on A, N.
+    pub friction_force: [f64; 3],
+    /// Total force on A, N.
+    pub force: [f64; 3],
+    /// Tangential velocity of A against B, m/s.
+    pub slip_velocity: [f64; 3],
+    /// Energy stored in the normal spring and in friction, J.
+    pub stored: f64,
+}
+
+/// Number of contacts of the last frame; 0 before the first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_contact_count(world: *const pong_world, count: *mut usize) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(count, "count")?.set(inner.world.contact_count());
+            Ok(())
+        })
+    }
+}
+
+/// The contacts of the last frame, always in the same order for the same frame: the first `capacity` are copied,
+/// `count` gets their number. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; the contact capacity of the seal report
+/// is always enough. With capacity 0 `contacts` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_contacts(
+    world: *const pong_world,
+    contacts: *mut pong_contact,
+    capacity: usize,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (mut out, count) = (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
+            inner.law_faults.check()?;
+            let listed = inner.world.contacts_iter().enumerate();
+            listed.take(capacity).for_each(|(index, contact)| out.set(index, (&contact).into()));
+            let total = inner.world.contact_count();
+            count.set(total);
+            too_small("contacts", capacity, total)
+        })
+    }
+}
+
+const KIND_SHIFT: u32 = 30;
+
+impl From<&Contact> for pong_contact {
+    fn from(contact: &Contact) -> Self {
+        Self {
+            pair: contact.pair.into(),
+            a: (&contact.a).into(),
+            b: (&contact.b).into(),
+            feature_kind: contact.feature >> KIND_SHIFT,
+            feature_index: contact.feature & ((1 << KIND_SHIFT) - 1),
+            end: contact.end,
+            sticks: contact.sticks.into(),
+            point: contact.point.into(),
+            normal: contact.normal.into(),
+            depth: contact.depth,
+            rate: contact.rate,
+            weight: contact.weight,
+            normal_force: contact.normal_force,
+            friction_force: contact.friction_force.into(),
+            force: contact.force.into(),
+            slip_velocity: contact.slip_velocity.into(),
+            stored: contact.stored,
+        }
+    }
+}
+
+impl From<&ContactSide> for pong_contact_side {
+    fn from(side: &ContactSide) -> Self {
+        Self {
+            object: side.object.into(),
+            interface: side.interface.into(),
+            primitive: side.primitive,
+            element: side.element,
+            arm: side.arm.into(),
+        }
+    }
+}

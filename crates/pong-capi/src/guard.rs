@@ -1,0 +1,153 @@
+//! What stands between C and the engine at every entry.
+
+use crate::message;
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+use pong_engine::EngineError;
+use pong_model::ModelErrors;
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::TryLockError;
+
+/// Why a call failed.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub status: pong_status,
+    pub message: String,
+}
+
+pub(crate) type Outcome<T = ()> = Result<T, Failure>;
+
+impl Failure {
+    pub fn new(status: pong_status, message: impl Into<String>) -> Self {
+        Self { status, message: message.into() }
+    }
+}
+
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
+        let status = match &error {
+            EngineError::UnknownId { .. } => pong_status::UnknownId,
+            EngineError::UnknownName { .. } => pong_status::UnknownName,
+            EngineError::Duplicate { .. } => pong_status::Duplicate,
+            EngineError::WrongPhase { .. } => pong_status::WrongPhase,
+            EngineError::Seal { .. } => pong_status::SealFailed,
+            EngineError::BadState { .. } => pong_status::BadState,
+            EngineError::UnsetState { .. } => pong_status::UnsetState,
+            EngineError::BadValue { .. } => pong_status::BadValue,
+            EngineError::State(_) => pong_status::BadStateBlock,
+        };
+        Self::new(status, error.to_string())
+    }
+}
+
+impl From<ModelErrors> for Failure {
+    fn from(errors: ModelErrors) -> Self {
+        Self::new(pong_status::ModelError, errors.to_string())
+    }
+}
+
+/// Runs an entry that has no world: clears the message, catches panics, turns the outcome into a status.
+pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
+    message::clear();
+    let failure = match catch_unwind(AssertUnwindSafe(call)) {
+        Ok(Ok(())) => return pong_status::Ok,
+        Ok(Err(failure)) => failure,
+        Err(payload) => fault(payload),
+    };
+    message::set(&failure.message);
+    failure.status
+}
+
+/// As [`guarded`], with the world: one call at a time. A panic poisons the world's lock, and so the world.
+///
+/// # Safety
+/// `world` is NULL or a living world.
+pub(crate) unsafe fn with_world(
+    world: *const pong_world,
+    call: impl FnOnce(&mut Inner) -> Outcome,
+) -> pong_status {
+    guarded(|| {
+        // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
+        let Some(world) = (unsafe { world.as_ref() }) else {
+            return Err(Failure::new(pong_status::NullArgument, "`world` is NULL; give a world made by pong_create_world()"));
+        };
+        match world.inner.try_lock() {
+            Ok(mut inner) => call(&mut inner),
+            Err(TryLockError::WouldBlock) => Err(Failure::new(
+                pong_status::Busy,
+                "the world is in another call; call it from one thread at a time and never from inside a law",
+            )),
+            Err(TryLockError::Poisoned(_)) => Err(Failure::new(
+                pong_status::Panic,
+                "the world is unusable after an earlier fault inside the library; destroy it",
+            )),
+        }
+    })
+}
+
+fn fault(payload: Box<dyn Any + Send>) -> Failure {
+    let said = match (payload.downcast_ref::<&str>(), payload.downcast_ref::<String>()) {
+        (Some(text), _) => text,
+        (_, Some(text)) => text.as_str(),
+        _ => "no reason given",
+    };
+    let message = format!("a fault inside the library: {said}; destroy the world and report this");
+    // Dropping a payload runs code of unknown origin, outside the guard.
+    std::mem::forget(payload);
+    Failure::new(pong_status::Panic, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::pong_default_config;
+    use crate::frames::pong_step;
+    use crate::world::{pong_create_world, pong_destroy_world};
+    use std::ffi::CStr;
+
+    fn last_message() -> String {
+        // SAFETY: the message ends with a zero byte and lives until the next call.
+        unsafe { CStr::from_ptr(crate::message::pointer()) }.to_str().unwrap().to_owned()
+    }
+
+    #[test]
+    fn a_panic_becomes_a_status_and_poisons_the_world() {
+        let mut world = std::ptr::null_mut();
+        // SAFETY: valid places; the world is destroyed once, at the end.
+        unsafe {
+            assert_eq!(pong_create_world(&pong_default_config(), &mut world), pong_status::Ok);
+            let status = with_world(world, |_| panic!("index {} out of range", 7));
+            assert_eq!(status, pong_status::Panic);
+            assert!(last_message().contains("index 7 out of range"), "{}", last_message());
+            assert_eq!(pong_step(world), pong_status::Panic);
+            assert!(last_message().contains("destroy it"), "{}", last_message());
+            assert_eq!(pong_destroy_world(world), pong_status::Ok);
+        }
+    }
+
+    #[test]
+    fn a_call_from_inside_a_call_is_refused() {
+        let mut world = std::ptr::null_mut();
+        // SAFETY: valid places; the world is destroyed once, at the end.
+        unsafe {
+            assert_eq!(pong_create_world(&pong_default_config(), &mut world), pong_status::Ok);
+            let mut inner = pong_status::Ok;
+            let outer = with_world(world, |_| {
+                inner = pong_step(world);
+                Ok(())
+            });
+            assert_eq!((outer, inner), (pong_status::Ok, pong_status::Busy));
+            assert_eq!(pong_step(world), pong_status::WrongPhase);
+            assert_eq!(pong_destroy_world(world), pong_status::Ok);
+        }
+    }
+
+    #[test]
+    fn a_success_clears_the_message() {
+        assert_eq!(guarded(|| Err(Failure::new(pong_status::BadValue, "too\0long"))), pong_status::BadValue);
+        assert_eq!(last_message(), "too?long");
+        assert_eq!(guarded(|| Ok(())), pong_status::Ok);
+        assert_eq!(last_message(), "");
+    }
+}

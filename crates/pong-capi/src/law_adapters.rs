@@ -1,0 +1,146 @@
+//! C functions as laws of the engine.
+
+use crate::guard::{Failure, Outcome};
+use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input, pong_normal_law};
+use crate::status::pong_status;
+use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, NormalForce, NormalInput};
+use pong_geometry::Vec3;
+use std::ffi::c_void;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The caller's pointer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct User(pub *mut c_void);
+
+// SAFETY: the pointer is only handed back to the caller's functions, which may be called from any thread by the
+// contract of `pong_register_normal_law`.
+unsafe impl Send for User {}
+// SAFETY: as above; from several at once, too.
+unsafe impl Sync for User {}
+
+/// Whether a law has answered with a number that is not finite.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Fault(Arc<AtomicBool>);
+
+impl Fault {
+    /// The number, or zero and a note.
+    fn finite(&self, value: f64) -> f64 {
+        if value.is_finite() {
+            return value;
+        }
+        self.0.store(true, Ordering::Relaxed);
+        0.0
+    }
+}
+
+/// The faults of all laws of a world.
+#[derive(Debug, Default)]
+pub(crate) struct LawFaults {
+    watched: Vec<(String, Fault)>,
+    /// The law that spoilt the last frame.
+    failed: Option<usize>,
+}
+
+impl LawFaults {
+    /// A new law's fault.
+    pub fn watch(&mut self, name: &str) -> Fault {
+        let fault = Fault::default();
+        self.watched.push((name.to_owned(), fault.clone()));
+        fault
+    }
+
+    /// Takes note of what an evaluation has shown.
+    pub fn collect(&mut self) {
+        self.failed = None;
+        for (index, (_, fault)) in self.watched.iter().enumerate().rev() {
+            if fault.0.swap(false, Ordering::Relaxed) {
+                self.failed = Some(index);
+            }
+        }
+    }
+
+    /// Refuses to go on with a spoilt frame.
+    pub fn check(&self) -> Outcome {
+        let Some(index) = self.failed else { return Ok(()) };
+        let message = format!(
+            "law `{}`: it returned a number that is not finite; the frame does not count: mend the law or the states \
+             and evaluate again",
+            self.watched[index].0
+        );
+        Err(Failure::new(pong_status::LawFailed, message))
+    }
+}
+
+/// A normal force law given by callback.
+#[derive(Debug)]
+pub(crate) struct NormalCallback {
+    pub force: unsafe extern "C" fn(*const pong_normal_input, *mut c_void) -> f64,
+    pub stored: pong_normal_law,
+    pub user: User,
+    pub fault: Fault,
+}
+
+impl NormalForce for NormalCallback {
+    fn force(&self, input: &NormalInput<'_>) -> f64 {
+        // SAFETY: the caller vouched for the function when it was registered; the input lives during the call.
+        self.fault.finite(unsafe { (self.force)(&c_input(input), self.user.0) })
+    }
+
+    fn stored(&self, input: &NormalInput<'_>) -> f64 {
+        // SAFETY: as above.
+        self.stored.map_or(0.0, |stored| self.fault.finite(unsafe { stored(&c_input(input), self.user.0) }))
+    }
+}
+
+fn c_input(input: &NormalInput<'_>) -> pong_normal_input {
+    pong_normal_input {
+        depth: input.depth,
+        rate: input.rate,
+        stiffness: input.stiffness,
+        parameters: input.parameters.as_ptr(),
+        parameter_count: input.parameters.len(),
+    }
+}
+
+/// A friction law given by callback.
+#[derive(Debug)]
+pub(crate) struct FrictionCallback {
+    pub evaluate:
+        unsafe extern "C" fn(*const pong_friction_input, *mut f64, *mut pong_friction_output, *mut c_void),
+    pub state_len: usize,
+    pub user: User,
+    pub fault: Fault,
+}
+
+impl FrictionForce for FrictionCallback {
+    fn state_len(&self) -> usize {
+        self.state_len
+    }
+
+    fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
+        let c_input = pong_friction_input {
+            normal_force: input.normal_force,
+            normal: input.normal.into(),
+            slip: input.slip.into(),
+            slip_velocity: input.slip_velocity.into(),
+            share: input.share,
+            stiffness: input.stiffness,
+            parameters: input.parameters.as_ptr(),
+            parameter_count: input.parameters.len(),
+            stuck: input.stuck.into(),
+            reserved: 0,
+        };
+        let mut output = pong_friction_output::default();
+        // SAFETY: the caller vouched for the function when it was registered; all places live during the call and
+        // `state` has `state_len` numbers.
+        unsafe { (self.evaluate)(&c_input, state.as_mut_ptr(), &mut output, self.user.0) };
+        state.iter_mut().for_each(|number| *number = self.fault.finite(*number));
+        FrictionOutput {
+            force: Vec3::from(output.force.map(|component| self.fault.finite(component))),
+            bristle: Vec3::zeros(),
+            sticks: output.sticks != 0,
+            stored: self.fault.finite(output.stored),
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Registration of force laws by callback.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::law_adapters::{FrictionCallback, NormalCallback, User};
+use crate::law_types::{pong_friction_law, pong_normal_law};
+use crate::pointers::text;
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+use std::ffi::{c_char, c_void};
+use std::sync::Arc;
+
+/// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
+///
+/// `force` returns the force of a whole contact in N (negative counts as 0), `stored` the energy stored at this
+/// depth in J; NULL for `stored` counts none, and the ledger then takes it as dissipated. Both must be pure (same
+/// input, same answer) and may be called from any thread and from several at once; they must not throw, jump out
+/// or call this world. `user` is handed to them as it is and must live as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_register_normal_law(
+    world: *mut pong_world,
+    name: *const c_char,
+    force: pong_normal_law,
+    stored: pong_normal_law,
+    user: *mut c_void,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs; the functions are the caller's to vouch for.
+    unsafe {
+        with_world(world, |inner| {
+            let name = text(name, "name")?;
+            let force = force.ok_or_else(|| no_function("force"))?;
+            inner.claim_law_name(NORMAL, name)?;
+            let fault = inner.law_faults.watch(name);
+            let law = Arc::new(NormalCallback { force, stored, user: User(user), fault });
+            inner.world.laws_mut()?.add_normal(name, law);
+            Ok(())
+        })
+    }
+}
+
+/// Adds a friction law that remembers `state_len` numbers per contact (at most 64). The same rules as for
+/// pong_register_normal_law().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_register_friction_law(
+    world: *mut pong_world,
+    name: *const c_char,
+    state_len: usize,
+    law: pong_friction_law,
+    user: *mut c_void,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs; the function is the caller's to vouch for.
+    unsafe {
+        with_world(world, |inner| {
+            let name = text(name, "name")?;
+            let evaluate = law.ok_or_else(|| no_function("law"))?;
+            if state_len > MOST_NUMBERS {
+                let message = format!("law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers");
+                return Err(Failure::new(pong_status::BadValue, message));
+            }
+            inner.claim_law_name(FRICTION, name)?;
+            let fault = inner.law_faults.watch(name);
+            let law = Arc::new(FrictionCallback { evaluate, state_len, user: User(user), fault });
+            inner.world.laws_mut()?.add_friction(name, law);
+            Ok(())
+        })
+    }
+}
+
+const MOST_NUMBERS: usize = 64;
+const NORMAL: usize = 0;
+const FRICTION: usize = 1;
+
+fn no_function(name: &str) -> Failure {
+    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a function"))
+}
+
+impl Inner {
+    /// Refuses a law that may not be added.
+    fn claim_law_name(&mut self, kind: usize, name: &str) -> Outcome {
+        self.world.laws_mut()?;
+        if self.law_names[kind].iter().any(|known| known == name) {
+            let message = format!("law `{name}`: already there; use another name");
+            return Err(Failure::new(pong_status::Duplicate, message));
+        }
+        self.law_names[kind].push(name.to_owned());
+        Ok(())
+    }
+}

@@ -1,0 +1,106 @@
+//! The layout of every struct, as data: hashed for `pong_check_abi`, compared with what C compilers make of it.
+
+use crate::config::pong_config;
+use crate::contacts::{pong_contact, pong_contact_side};
+use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
+use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
+use crate::report::{pong_ledger, pong_report};
+use crate::seal::pong_seal_report;
+use crate::states::pong_state;
+use crate::status::pong_status;
+use crate::surfaces::pong_surface_values;
+use crate::wrenches::pong_wrench;
+use std::mem::offset_of;
+
+/// Layout of one struct.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StructLayout {
+    /// Name in C.
+    pub name: &'static str,
+    /// `sizeof`.
+    pub size: usize,
+    /// `_Alignof`.
+    pub align: usize,
+    /// Name and `offsetof` of every field.
+    pub fields: &'static [(&'static str, usize)],
+}
+
+macro_rules! layouts {
+    ($($name:ident { $($field:ident),* $(,)? })*) => {
+        /// Every struct of pong.h.
+        pub const LAYOUTS: &[StructLayout] = &[$(StructLayout {
+            name: stringify!($name),
+            size: size_of::<$name>(),
+            align: align_of::<$name>(),
+            fields: &[$((stringify!($field), offset_of!($name, $field))),*],
+        }),*];
+
+        // Does not compile if a field is missing above.
+        $(const _: fn($name) = |whole| { let $name { $($field: _),* } = whole; };)*
+    };
+}
+
+layouts! {
+    pong_config { struct_size, abi_version, cookie, contact_capacity, keep_ledger, reserved_u32, reserved }
+    pong_model_id { bits }
+    pong_object_id { bits }
+    pong_pair_id { bits }
+    pong_interface_id { bits }
+    pong_normal_input { depth, rate, stiffness, parameters, parameter_count }
+    pong_friction_input {
+        normal_force, normal, slip, slip_velocity, share, stiffness, parameters, parameter_count, stuck, reserved,
+    }
+    pong_friction_output { force, stored, sticks, reserved }
+    pong_seal_report { group_pairs, contact_capacity, contact_state_size, warning_count }
+    pong_state { position, orientation, linear_velocity, angular_velocity }
+    pong_wrench { force, moment }
+    pong_contact_side { object, interface, primitive, element, arm }
+    pong_contact {
+        pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, rate, weight, normal_force,
+        friction_force, force, slip_velocity, stored,
+    }
+    pong_report {
+        flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, primitives_tested,
+        evaluations, commits, evaluate_ns, commit_ns, reserved,
+    }
+    pong_ledger { stored, work, dissipated }
+    pong_surface_values {
+        normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,
+        friction_stiffness, friction_damping, friction_slip_speed,
+    }
+}
+
+/// FNV-1a over names, sizes, offsets and status numbers.
+pub fn layout_hash() -> u64 {
+    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+    for layout in LAYOUTS {
+        hash.text(layout.name);
+        hash.number(layout.size);
+        hash.number(layout.align);
+        for (field, offset) in layout.fields {
+            hash.text(field);
+            hash.number(*offset);
+        }
+    }
+    for status in pong_status::ALL {
+        hash.text(&format!("{status:?}"));
+        hash.number(status as usize);
+    }
+    hash.0
+}
+
+struct Fnv(u64);
+
+impl Fnv {
+    fn text(&mut self, text: &str) {
+        text.bytes().chain([0]).for_each(|byte| self.byte(byte));
+    }
+
+    fn number(&mut self, number: usize) {
+        (number as u64).to_le_bytes().into_iter().for_each(|byte| self.byte(byte));
+    }
+
+    fn byte(&mut self, byte: u8) {
+        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+}

@@ -1,0 +1,55 @@
+//! The C interface: names, handles, guards. No physics.
+//!
+//! The C side is described where C programmers read it: `include/pong.h` is generated from the comments of this
+//! crate, `include/README.md` tells calling order, ownership and threads. The files follow the calling order:
+//!
+//! | file | calls |
+//! |---|---|
+//! | `version.rs` | version, layout check |
+//! | `status.rs`, `message.rs` | status numbers, the last message |
+//! | `config.rs`, `world.rs` | create and destroy a world |
+//! | `laws.rs`, `law_types.rs` | force laws by callback |
+//! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
+//! | `seal.rs` | end of set-up |
+//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs` | frames |
+//! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
+//!
+//! Every entry goes through [`guard`]: a message of its own, one call at a time, no panic into C. Pointers are
+//! touched in `pointers.rs` alone.
+//!
+//! # Safety of all entries
+//!
+//! A pointer is NULL or points to what its type says, for as long as the call runs; a world is one that
+//! `pong_create_world` made and `pong_destroy_world` has not destroyed; text ends with a zero byte; an array has
+//! as many elements as the caller says. Everything else is checked.
+
+#![allow(non_camel_case_types)] // The names are those of pong.h.
+#![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
+
+pub mod config;
+pub mod contact_state;
+pub mod contacts;
+pub mod frames;
+mod guard;
+pub mod ids;
+pub mod interfaces;
+pub mod law_types;
+mod law_adapters;
+pub mod laws;
+pub mod layout;
+mod message;
+pub mod models;
+mod names;
+pub mod objects;
+pub mod pairs;
+mod pointers;
+pub mod primitives;
+pub mod report;
+pub mod seal;
+pub mod states;
+pub mod status;
+pub mod surfaces;
+pub mod user_data;
+pub mod version;
+pub mod world;
+pub mod wrenches;

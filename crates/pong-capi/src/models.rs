@@ -1,0 +1,109 @@
+//! Models: from a file or from text.
+
+use crate::guard::{Outcome, with_world};
+use crate::ids::pong_model_id;
+use crate::names::no_such;
+use crate::pointers::{Out, array, text};
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+use crate::guard::Failure;
+use pong_model::Model;
+use std::ffi::c_char;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
+/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_load_model(
+    world: *mut pong_world,
+    path: *const c_char,
+    model: *mut pong_model_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
+            let loaded = pong_model::load(Path::new(path), inner.world.extensions())?;
+            out.set(inner.add_model(loaded)?);
+            Ok(())
+        })
+    }
+}
+
+/// Loads a model from `length` bytes of UTF-8 text; it needs no zero byte at its end. Errors call it `name`.
+/// Meshes in files of their own are looked for in `mesh_dir`; with NULL they are refused. Otherwise as
+/// pong_load_model().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_load_model_text(
+    world: *mut pong_world,
+    text: *const c_char,
+    length: usize,
+    name: *const c_char,
+    mesh_dir: *const c_char,
+    model: *mut pong_model_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            if text.is_null() {
+                return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; give the text of a model"));
+            }
+            let bytes = array(text.cast::<u8>(), length, "text")?;
+            let name = crate::pointers::text(name, "name")?;
+            let mesh_dir = if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
+            let out = Out::new(model, "model")?;
+            let Ok(text) = std::str::from_utf8(bytes) else {
+                let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
+                return Err(Failure::new(pong_status::ModelError, message));
+            };
+            let loaded = pong_model::parse(text, name, mesh_dir.map(Path::new), inner.world.extensions())?;
+            out.set(inner.add_model(loaded)?);
+            Ok(())
+        })
+    }
+}
+
+impl Inner {
+    fn add_model(&mut self, model: Model) -> Outcome<pong_model_id> {
+        let model = Arc::new(model);
+        let id = self.world.add_model(Arc::clone(&model))?;
+        self.names.add_model(id, &model);
+        Ok(id.into())
+    }
+}
+
+/// How many warnings loading a model left: what its author should know though the model is valid.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_model_warning_count(
+    world: *const pong_world,
+    model: pong_model_id,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(count, "count")?.set(inner.names.model(model)?.warnings.len());
+            Ok(())
+        })
+    }
+}
+
+/// A warning of a model. The text lives as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_model_warning(
+    world: *const pong_world,
+    model: pong_model_id,
+    index: usize,
+    warning: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(warning, "warning")?;
+            let warnings = &inner.names.model(model)?.warnings;
+            out.set(warnings.get(index).ok_or_else(|| no_such("warning", index, warnings.len()))?.as_ptr());
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,70 @@
+//! Objects: instances of models.
+
+use crate::guard::with_world;
+use crate::ids::{pong_model_id, pong_object_id};
+use crate::pointers::{Out, text};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use std::ffi::c_char;
+
+/// Creates an Object from a model, under a name of its own. Objects of one model are independent. Before sealing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_create_object(
+    world: *mut pong_world,
+    model: pong_model_id,
+    name: *const c_char,
+    object: *mut pong_object_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
+            let id = inner.world.create_object(model.id(), name)?;
+            let interfaces = inner.world.interfaces(id)?;
+            inner.names.add_object(id, name, model.id(), &interfaces);
+            inner.states.reserve(interfaces.len());
+            out.set(id.into());
+            Ok(())
+        })
+    }
+}
+
+/// The Object of a name.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_find_object(
+    world: *const pong_world,
+    name: *const c_char,
+    object: *mut pong_object_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
+            out.set(inner.world.object(name)?.into());
+            Ok(())
+        })
+    }
+}
+
+/// Name of an Object. The text lives as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_object_name(
+    world: *const pong_world,
+    object: pong_object_id,
+    name: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(name, "name")?.set(inner.names.object(object)?.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+/// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_forget_object(world: *mut pong_world, object: pong_object_id) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe { with_world(world, |inner| Ok(inner.world.forget(object.id())?)) }
+}

@@ -1,0 +1,72 @@
+//! Pairs of Objects that are tested.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::ids::{pong_object_id, pong_pair_id};
+use crate::pointers::{Out, text};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use std::ffi::c_char;
+
+/// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each
+/// other. Before sealing. `pair` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_pair_objects(
+    world: *mut pong_world,
+    a: pong_object_id,
+    b: pong_object_id,
+    pair: *mut pong_pair_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::optional(pair, "pair")?;
+            let id = inner.world.pair(a.id(), b.id())?;
+            if let Some(out) = out {
+                out.set(id.into());
+            }
+            Ok(())
+        })
+    }
+}
+
+/// As pong_pair_objects(), by the names of the Objects.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_pair_by_name(
+    world: *mut pong_world,
+    a: *const c_char,
+    b: *const c_char,
+    pair: *mut pong_pair_id,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::optional(pair, "pair")?;
+            let (a, b) = (inner.world.object(text(a, "a")?)?, inner.world.object(text(b, "b")?)?);
+            let id = inner.world.pair(a, b)?;
+            if let Some(out) = out {
+                out.set(id.into());
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
+/// again it has no past.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_pair_enabled(
+    world: *mut pong_world,
+    pair: pong_pair_id,
+    enabled: i32,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe { with_world(world, |inner| Ok(inner.world.set_pair_enabled(pair.id(), yes_or_no(enabled)?)?)) }
+}
+
+fn yes_or_no(value: i32) -> Outcome<bool> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(Failure::new(pong_status::BadValue, format!("`enabled` is {other}; give 0 or 1"))),
+    }
+}

@@ -1,0 +1,139 @@
+//! Everything that C hands over by pointer, checked as far as that can be done.
+
+use crate::guard::{Failure, Outcome};
+use crate::status::pong_status;
+use std::ffi::{CStr, c_char};
+
+fn null(name: &str) -> Failure {
+    Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a place for it"))
+}
+
+fn check<T>(pointer: *const T, name: &str) -> Outcome {
+    if pointer.is_null() {
+        return Err(null(name));
+    }
+    if !pointer.is_aligned() {
+        let message = format!("`{name}` is not aligned to {} bytes; hand over a variable of its type", align_of::<T>());
+        return Err(Failure::new(pong_status::BadValue, message));
+    }
+    Ok(())
+}
+
+/// A place for one result.
+pub(crate) struct Out<T>(*mut T);
+
+impl<T> Out<T> {
+    /// # Safety
+    /// `pointer` is NULL or may be written for as long as the `Out` lives.
+    pub unsafe fn new(pointer: *mut T, name: &str) -> Outcome<Self> {
+        check(pointer, name)?;
+        Ok(Self(pointer))
+    }
+
+    /// As [`new`](Self::new), where NULL means that the caller does not want to know.
+    ///
+    /// # Safety
+    /// As [`new`](Self::new).
+    pub unsafe fn optional(pointer: *mut T, name: &str) -> Outcome<Option<Self>> {
+        if pointer.is_null() {
+            return Ok(None);
+        }
+        // SAFETY: by the contract of this function.
+        unsafe { Self::new(pointer, name) }.map(Some)
+    }
+
+    /// Writes the result.
+    pub fn set(&self, value: T) {
+        // SAFETY: `new` has checked the pointer and its caller vouches for the rest.
+        unsafe { self.0.write(value) }
+    }
+}
+
+/// Places for many results.
+pub(crate) struct OutArray<T> {
+    pointer: *mut T,
+    len: usize,
+}
+
+impl<T> OutArray<T> {
+    /// # Safety
+    /// `pointer` may be NULL if `len` is 0; else `len` elements may be written for as long as this lives.
+    pub unsafe fn new(pointer: *mut T, len: usize, name: &str) -> Outcome<Self> {
+        if len > 0 {
+            check(pointer, name)?;
+            check_len::<T>(len, name)?;
+        }
+        Ok(Self { pointer, len })
+    }
+
+    /// How many fit.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Writes one element; one that does not fit is left out.
+    pub fn set(&mut self, index: usize, value: T) {
+        if index < self.len {
+            // SAFETY: `new` has checked the pointer, the index is inside.
+            unsafe { self.pointer.add(index).write(value) }
+        }
+    }
+}
+
+impl OutArray<u8> {
+    /// The bytes, set to zero first: the caller's buffer may never have been written.
+    pub fn zeroed(&mut self) -> &mut [u8] {
+        if self.len == 0 {
+            return &mut [];
+        }
+        // SAFETY: `new` has checked the pointer; nothing else refers to the caller's buffer during the call.
+        unsafe {
+            self.pointer.write_bytes(0, self.len);
+            std::slice::from_raw_parts_mut(self.pointer, self.len)
+        }
+    }
+}
+
+/// An array that is only read.
+///
+/// # Safety
+/// `pointer` may be NULL if `len` is 0; else `len` elements can be read and do not change for `'a`.
+pub(crate) unsafe fn array<'a, T>(pointer: *const T, len: usize, name: &str) -> Outcome<&'a [T]> {
+    if len == 0 {
+        return Ok(&[]);
+    }
+    check(pointer, name)?;
+    check_len::<T>(len, name)?;
+    // SAFETY: checked above; the rest is the contract of this function.
+    Ok(unsafe { std::slice::from_raw_parts(pointer, len) })
+}
+
+/// One thing that is only read.
+///
+/// # Safety
+/// `pointer` is NULL or can be read and does not change for `'a`.
+pub(crate) unsafe fn one<'a, T>(pointer: *const T, name: &str) -> Outcome<&'a T> {
+    check(pointer, name)?;
+    // SAFETY: checked above; the rest is the contract of this function.
+    Ok(unsafe { &*pointer })
+}
+
+/// UTF-8 text that ends with a zero byte.
+///
+/// # Safety
+/// `pointer` is NULL or the text can be read and does not change for `'a`.
+pub(crate) unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Outcome<&'a str> {
+    if pointer.is_null() {
+        return Err(Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a text")));
+    }
+    // SAFETY: not NULL; the rest is the contract of this function.
+    let text = unsafe { CStr::from_ptr(pointer) };
+    text.to_str().map_err(|_| Failure::new(pong_status::BadValue, format!("`{name}` is no UTF-8 text")))
+}
+
+fn check_len<T>(len: usize, name: &str) -> Outcome {
+    match len.checked_mul(size_of::<T>()) {
+        Some(bytes) if bytes <= isize::MAX as usize => Ok(()),
+        _ => Err(Failure::new(pong_status::BadValue, format!("`{name}` cannot have {len} elements; give its true length"))),
+    }
+}

@@ -1,0 +1,63 @@
+//! The end of set-up.
+
+use crate::guard::with_world;
+use crate::names::{c_text, no_such};
+use crate::pointers::Out;
+use crate::status::pong_status;
+use crate::world::pong_world;
+use std::ffi::c_char;
+
+/// What sealing tells.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct pong_seal_report {
+    /// Pairs of movable groups that will be tested.
+    pub group_pairs: u64,
+    /// Most contacts of a frame.
+    pub contact_capacity: u64,
+    /// Size of the saved contact state, bytes.
+    pub contact_state_size: u64,
+    /// How many warnings there are: see pong_seal_warning().
+    pub warning_count: u64,
+}
+
+/// Ends set-up: checks that everything that may meet can be tested and combined, and sizes all memory. `report`
+/// may be NULL. After a failure the world is still in set-up, and the message lists every reason.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_seal_report) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::optional(report, "report")?;
+            let sealed = inner.world.seal()?;
+            inner.seal_warnings = sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
+            if let Some(out) = out {
+                out.set(pong_seal_report {
+                    group_pairs: sealed.group_pairs as u64,
+                    contact_capacity: sealed.contact_capacity as u64,
+                    contact_state_size: sealed.state_size as u64,
+                    warning_count: sealed.warnings.len() as u64,
+                });
+            }
+            Ok(())
+        })
+    }
+}
+
+/// A warning of sealing: something the author may not have intended. The text lives as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_seal_warning(
+    world: *const pong_world,
+    index: usize,
+    warning: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(warning, "warning")?;
+            let warnings = &inner.seal_warnings;
+            out.set(warnings.get(index).ok_or_else(|| no_such("warning", index, warnings.len()))?.as_ptr());
+            Ok(())
+        })
+    }
+}

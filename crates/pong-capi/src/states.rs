@@ -1,0 +1,120 @@
+//! States in.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::ids::pong_interface_id;
+use crate::pointers::{Out, array};
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+use pong_engine::State;
+use pong_geometry::{Pose, Twist};
+
+/// State of a movable group, relative to and expressed in the common frame: any frame that paired Objects share.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_state {
+    /// Position of the group's origin, m.
+    pub position: [f64; 3],
+    /// Quaternion (w, x, y, z), Hamilton, that takes group components to common components. Normalised on entry;
+    /// refused if its norm is off by more than 1e-3.
+    pub orientation: [f64; 4],
+    /// Velocity of the group's origin, m/s.
+    pub linear_velocity: [f64; 3],
+    /// Angular velocity, rad/s.
+    pub angular_velocity: [f64; 3],
+}
+
+/// At rest at the common origin.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_default_state() -> pong_state {
+    State::identity().into()
+}
+
+/// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. With n = 0 the
+/// arrays may be NULL. Groups that are not named keep their state.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_states(
+    world: *mut pong_world,
+    interfaces: *const pong_interface_id,
+    states: *const pong_state,
+    n: usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let ids = array(interfaces, n, "interfaces")?;
+            let states = array(states, n, "states")?;
+            inner.check_interfaces(ids)?;
+            inner.states.clear();
+            inner.states.extend(ids.iter().zip(states).map(|(id, state)| (id.id(), State::from(*state))));
+            Ok(inner.world.set_states(&inner.states)?)
+        })
+    }
+}
+
+/// Sets the state of one movable group.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_state(
+    world: *mut pong_world,
+    interface: pong_interface_id,
+    state: *const pong_state,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let state = State::from(*crate::pointers::one(state, "state")?);
+            Ok(inner.world.set_state(interface.id(), &state)?)
+        })
+    }
+}
+
+/// The state last set for a movable group, its quaternion normalised. PONG_STATUS_UNSET_STATE if there is none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_state(
+    world: *const pong_world,
+    interface: pong_interface_id,
+    state: *mut pong_state,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(state, "state")?;
+            let Some((pose, twist)) = inner.world.state(interface.id())? else {
+                let path = inner.names.path(interface)?.to_string_lossy();
+                let message = format!("state of `{path}`: never set; set it first");
+                return Err(Failure::new(pong_status::UnsetState, message));
+            };
+            out.set(pong_state::from_motion(&pose, &twist));
+            Ok(())
+        })
+    }
+}
+
+impl Inner {
+    /// Refuses ids of other worlds, telling their place in the caller's array.
+    pub(crate) fn check_interfaces(&self, ids: &[pong_interface_id]) -> Outcome {
+        match ids.iter().position(|id| !self.names.has_interface(*id)) {
+            None => Ok(()),
+            Some(index) => Err(crate::names::unknown(&format!("interfaces[{index}]"))),
+        }
+    }
+}
+
+impl pong_state {
+    pub(crate) fn from_motion(pose: &Pose, twist: &Twist) -> Self {
+        State::from_motion(pose, twist).into()
+    }
+}
+
+impl From<State> for pong_state {
+    fn from(state: State) -> Self {
+        let State { position, orientation, linear_velocity, angular_velocity } = state;
+        Self { position, orientation, linear_velocity, angular_velocity }
+    }
+}
+
+impl From<pong_state> for State {
+    fn from(state: pong_state) -> Self {
+        let pong_state { position, orientation, linear_velocity, angular_velocity } = state;
+        Self { position, orientation, linear_velocity, angular_velocity }
+    }
+}

@@ -1,0 +1,215 @@
+//! Surface values, changed between frames.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::ids::pong_model_id;
+use crate::names::no_such;
+use crate::pointers::{Out, one, text};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
+use std::ffi::c_char;
+
+/// F = k d + c d', with a ramp.
+pub const PONG_NORMAL_LINEAR: i32 = 0;
+/// F = k d (1 + chi d').
+pub const PONG_NORMAL_HUNT_CROSSLEY: i32 = 1;
+/// F = k d^(3/2) (1 + chi d').
+pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: i32 = 2;
+/// A law of the user's; its parameters stay as the model gives them.
+pub const PONG_NORMAL_CUSTOM: i32 = 3;
+
+/// No friction.
+pub const PONG_FRICTION_NONE: i32 = 0;
+/// Bristle with reset.
+pub const PONG_FRICTION_BRISTLE: i32 = 1;
+/// Regularised Coulomb friction.
+pub const PONG_FRICTION_COULOMB: i32 = 2;
+/// A law of the user's; its parameters stay as the model gives them.
+pub const PONG_FRICTION_CUSTOM: i32 = 3;
+
+/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
+/// do not use are 0 when got and ignored when set.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_surface_values {
+    /// Which normal law the surface has: PONG_NORMAL_...
+    pub normal_law: i32,
+    /// Which friction law the surface has: PONG_FRICTION_...
+    pub friction_law: i32,
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ); infinite means rigid.
+    pub stiffness: f64,
+    /// Linear: damping, N s/m.
+    pub damping: f64,
+    /// Linear: depth over which the damping sets in, m; 0 means at once.
+    pub ramp: f64,
+    /// Hunt-Crossley: chi, s/m.
+    pub dissipation: f64,
+    /// Bristle, Coulomb: kinetic friction coefficient.
+    pub friction: f64,
+    /// Bristle: a, so that the static coefficient is (1 + a) times the kinetic one.
+    pub friction_static_excess: f64,
+    /// Bristle: tangential stiffness, N/m; 0 takes two thirds of the normal stiffness.
+    pub friction_stiffness: f64,
+    /// Bristle: tangential damping, N s/m.
+    pub friction_damping: f64,
+    /// Coulomb: slip speed at which the full force is reached, m/s.
+    pub friction_slip_speed: f64,
+}
+
+/// Number of surfaces of a model.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_surface_count(
+    world: *const pong_world,
+    model: pong_model_id,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(count, "count")?.set(inner.names.model(model)?.surfaces.len());
+            Ok(())
+        })
+    }
+}
+
+/// Name of a surface of a model. The text lives as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_surface_name(
+    world: *const pong_world,
+    model: pong_model_id,
+    index: usize,
+    name: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(name, "name")?;
+            let surfaces = &inner.names.model(model)?.surfaces;
+            out.set(surfaces.get(index).ok_or_else(|| no_such("surface", index, surfaces.len()))?.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+/// The values of a surface as they are now.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_surface(
+    world: *const pong_world,
+    model: pong_model_id,
+    surface: *const c_char,
+    values: *mut pong_surface_values,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
+            out.set(inner.world.surface(model.id(), name)?.into());
+            Ok(())
+        })
+    }
+}
+
+/// Sets the values of a surface for all Objects of a model, from the next evaluation on. Allocates: between
+/// frames, not in them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_surface(
+    world: *mut pong_world,
+    model: pong_model_id,
+    surface: *const c_char,
+    values: *const pong_surface_values,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (name, values) = (text(surface, "surface")?, one(values, "values")?);
+            let old = inner.world.surface(model.id(), name)?;
+            let new = values.applied_to(old)?;
+            Ok(inner.world.set_surface(model.id(), &new)?)
+        })
+    }
+}
+
+impl From<&Surface> for pong_surface_values {
+    fn from(surface: &Surface) -> Self {
+        let mut values = Self {
+            normal_law: normal_number(&surface.normal),
+            friction_law: friction_number(&surface.friction),
+            stiffness: surface.stiffness,
+            damping: 0.0,
+            ramp: 0.0,
+            dissipation: 0.0,
+            friction: 0.0,
+            friction_static_excess: 0.0,
+            friction_stiffness: 0.0,
+            friction_damping: 0.0,
+            friction_slip_speed: 0.0,
+        };
+        match surface.normal {
+            NormalLaw::Linear { damping, ramp } => (values.damping, values.ramp) = (damping, ramp),
+            NormalLaw::HuntCrossley { dissipation, .. } => values.dissipation = dissipation,
+            NormalLaw::Custom { .. } => {}
+        }
+        match surface.friction {
+            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+                values.friction = mu;
+                values.friction_static_excess = static_excess;
+                values.friction_stiffness = stiffness.unwrap_or(0.0);
+                values.friction_damping = damping;
+            }
+            FrictionLaw::Coulomb { mu, slip_speed } => {
+                (values.friction, values.friction_slip_speed) = (mu, slip_speed);
+            }
+            FrictionLaw::None | FrictionLaw::Custom { .. } => {}
+        }
+        values
+    }
+}
+
+impl pong_surface_values {
+    /// A surface with these values and the laws of the old one.
+    fn applied_to(&self, old: &Surface) -> Outcome<Surface> {
+        if (self.normal_law, self.friction_law) != (normal_number(&old.normal), friction_number(&old.friction)) {
+            let message = format!(
+                "surface `{}`: values may change between frames, laws may not; get the surface and change its numbers",
+                old.name
+            );
+            return Err(Failure::new(pong_status::BadValue, message));
+        }
+        let mut new = Surface { stiffness: self.stiffness, ..old.clone() };
+        match &mut new.normal {
+            NormalLaw::Linear { damping, ramp } => (*damping, *ramp) = (self.damping, self.ramp),
+            NormalLaw::HuntCrossley { dissipation, .. } => *dissipation = self.dissipation,
+            NormalLaw::Custom { .. } => {}
+        }
+        match &mut new.friction {
+            FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+                (*mu, *static_excess) = (self.friction, self.friction_static_excess);
+                *stiffness = (self.friction_stiffness != 0.0).then_some(self.friction_stiffness);
+                *damping = self.friction_damping;
+            }
+            FrictionLaw::Coulomb { mu, slip_speed } => {
+                (*mu, *slip_speed) = (self.friction, self.friction_slip_speed);
+            }
+            FrictionLaw::None | FrictionLaw::Custom { .. } => {}
+        }
+        Ok(new)
+    }
+}
+
+fn normal_number(law: &NormalLaw) -> i32 {
+    match law {
+        NormalLaw::Linear { .. } => PONG_NORMAL_LINEAR,
+        NormalLaw::HuntCrossley { exponent: Exponent::One, .. } => PONG_NORMAL_HUNT_CROSSLEY,
+        NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => PONG_NORMAL_HUNT_CROSSLEY_HERTZ,
+        NormalLaw::Custom { .. } => PONG_NORMAL_CUSTOM,
+    }
+}
+
+fn friction_number(law: &FrictionLaw) -> i32 {
+    match law {
+        FrictionLaw::None => PONG_FRICTION_NONE,
+        FrictionLaw::Bristle { .. } => PONG_FRICTION_BRISTLE,
+        FrictionLaw::Coulomb { .. } => PONG_FRICTION_COULOMB,
+        FrictionLaw::Custom { .. } => PONG_FRICTION_CUSTOM,
+    }
+}

@@ -1,0 +1,96 @@
+//! A number of the host's on Objects and primitives.
+
+use crate::guard::with_world;
+use crate::ids::{pong_interface_id, pong_object_id};
+use crate::names::no_such;
+use crate::pointers::Out;
+use crate::status::pong_status;
+use crate::world::pong_world;
+use std::collections::HashMap;
+
+/// What was set; everything else is 0.
+#[derive(Default)]
+pub(crate) struct UserData {
+    objects: HashMap<u64, u64>,
+    primitives: HashMap<(u64, u32), u64>,
+}
+
+/// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_object_user_data(
+    world: *mut pong_world,
+    object: pong_object_id,
+    user_data: u64,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            inner.names.object(object)?;
+            inner.user_data.objects.insert(object.bits, user_data);
+            Ok(())
+        })
+    }
+}
+
+/// The number kept with an Object; 0 if none was set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_object_user_data(
+    world: *const pong_world,
+    object: pong_object_id,
+    user_data: *mut u64,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(user_data, "user_data")?;
+            inner.names.object(object)?;
+            out.set(inner.user_data.objects.get(&object.bits).copied().unwrap_or(0));
+            Ok(())
+        })
+    }
+}
+
+/// Keeps a number of the host's with a primitive of one Object.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_primitive_user_data(
+    world: *mut pong_world,
+    interface: pong_interface_id,
+    primitive: u32,
+    user_data: u64,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            inner.check_primitive(interface, primitive)?;
+            inner.user_data.primitives.insert((interface.bits, primitive), user_data);
+            Ok(())
+        })
+    }
+}
+
+/// The number kept with a primitive; 0 if none was set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_primitive_user_data(
+    world: *const pong_world,
+    interface: pong_interface_id,
+    primitive: u32,
+    user_data: *mut u64,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(user_data, "user_data")?;
+            inner.check_primitive(interface, primitive)?;
+            let kept = inner.user_data.primitives.get(&(interface.bits, primitive));
+            out.set(kept.copied().unwrap_or(0));
+            Ok(())
+        })
+    }
+}
+
+impl crate::world::Inner {
+    fn check_primitive(&self, interface: pong_interface_id, primitive: u32) -> crate::guard::Outcome {
+        let count = self.names.primitives(interface)?.len();
+        if (primitive as usize) < count { Ok(()) } else { Err(no_such("primitive", primitive as usize, count)) }
+    }
+}

@@ -1,0 +1,47 @@
+//! Which library this is, and whether the header fits it.
+
+use crate::guard::{Failure, guarded};
+use crate::layout::layout_hash;
+use crate::status::pong_status;
+use std::ffi::c_char;
+
+/// Number of the binary interface: the N of libpong.so.N.
+pub const PONG_ABI_VERSION: u32 = 0;
+
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
+
+/// Version of the library, "major.minor.patch". Lives as long as the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_version_string() -> *const c_char {
+    VERSION.as_ptr().cast()
+}
+
+/// PONG_ABI_VERSION of the library; compare it with that of your header, or use PONG_CHECK_ABI().
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_abi_version() -> u32 {
+    PONG_ABI_VERSION
+}
+
+/// Hash of the layout of every struct and of every status number in the library; PONG_LAYOUT_HASH is that of the
+/// header.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_layout_hash() -> u64 {
+    layout_hash()
+}
+
+/// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_check_abi(abi_version: u32, hash: u64) -> pong_status {
+    guarded(|| {
+        if abi_version == PONG_ABI_VERSION && hash == layout_hash() {
+            return Ok(());
+        }
+        let message = format!(
+            "pong.h is of ABI {abi_version} with layout {hash:#x}, the library of ABI {PONG_ABI_VERSION} with layout \
+             {:#x}; compile against the pong.h of version {}",
+            layout_hash(),
+            env!("CARGO_PKG_VERSION")
+        );
+        Err(Failure::new(pong_status::Config, message))
+    })
+}

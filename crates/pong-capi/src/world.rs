@@ -1,0 +1,72 @@
+//! A world and what the C side remembers with it.
+
+use crate::config::pong_config;
+use crate::frames::Counters;
+use crate::guard::guarded;
+use crate::law_adapters::LawFaults;
+use crate::names::Names;
+use crate::pointers::{Out, one};
+use crate::status::pong_status;
+use crate::user_data::UserData;
+use pong_engine::{InterfaceId, State, World};
+use std::ffi::CString;
+use std::sync::Mutex;
+
+/// A contact world: models, Objects, pairs and everything remembered between frames. Opaque.
+///
+/// One thread at a time may call it, any thread; a second call meanwhile returns PONG_STATUS_BUSY. Different
+/// worlds are independent.
+pub struct pong_world {
+    pub(crate) inner: Mutex<Inner>,
+}
+
+/// What the lock guards.
+pub(crate) struct Inner {
+    pub world: World,
+    pub names: Names,
+    pub user_data: UserData,
+    pub seal_warnings: Vec<CString>,
+    /// For `pong_set_states`: its memory stays.
+    pub states: Vec<(InterfaceId, State)>,
+    pub counters: Counters,
+    pub law_faults: LawFaults,
+    /// Names of the registered laws: of the normal force and of friction.
+    pub law_names: [Vec<String>; 2],
+}
+
+/// Creates a world. It is the caller's: destroy it with pong_destroy_world().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_create_world(
+    config: *const pong_config,
+    world: *mut *mut pong_world,
+) -> pong_status {
+    guarded(|| {
+        // SAFETY: see "Safety of all entries" in lib.rs.
+        let (config, out) = unsafe { (one(config, "config")?, Out::new(world, "world")?) };
+        let inner = Inner {
+            world: World::new(config.check()?),
+            names: Names::default(),
+            user_data: UserData::default(),
+            seal_warnings: Vec::new(),
+            states: Vec::new(),
+            counters: Counters::default(),
+            law_faults: LawFaults::default(),
+            law_names: [Vec::new(), Vec::new()],
+        };
+        out.set(Box::into_raw(Box::new(pong_world { inner: Mutex::new(inner) })));
+        Ok(())
+    })
+}
+
+/// Destroys a world and everything it gave out: ids become stale, names and warnings must not be read any more.
+/// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_status {
+    guarded(|| {
+        if !world.is_null() {
+            // SAFETY: `pong_create_world` made it by `Box::into_raw`, and the caller destroys it once.
+            drop(unsafe { Box::from_raw(world) });
+        }
+        Ok(())
+    })
+}

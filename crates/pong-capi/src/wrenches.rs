@@ -1,0 +1,85 @@
+//! Wrenches out.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::ids::pong_interface_id;
+use crate::pointers::{Out, OutArray, array};
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+
+/// In which frame a wrench is expressed: PONG_FRAME_GROUP or PONG_FRAME_COMMON.
+pub type pong_frame = i32;
+
+/// Along the axes of the movable group.
+pub const PONG_FRAME_GROUP: pong_frame = 0;
+/// Along the axes of the common frame.
+pub const PONG_FRAME_COMMON: pong_frame = 1;
+
+/// Wrench that the contacts put on a movable group. The moment is about the group's origin in either frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_wrench {
+    /// Force, N.
+    pub force: [f64; 3],
+    /// Moment about the group's origin, N m.
+    pub moment: [f64; 3],
+}
+
+/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_wrenches(
+    world: *const pong_world,
+    interfaces: *const pong_interface_id,
+    frame: pong_frame,
+    wrenches: *mut pong_wrench,
+    n: usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let ids = array(interfaces, n, "interfaces")?;
+            let mut out = OutArray::new(wrenches, n, "wrenches")?;
+            check_frame(frame)?;
+            inner.check_interfaces(ids)?;
+            for (index, id) in ids.iter().enumerate() {
+                out.set(index, inner.wrench(*id, frame)?);
+            }
+            Ok(())
+        })
+    }
+}
+
+/// Wrench of the last frame on one movable group.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_wrench(
+    world: *const pong_world,
+    interface: pong_interface_id,
+    frame: pong_frame,
+    wrench: *mut pong_wrench,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(wrench, "wrench")?;
+            check_frame(frame)?;
+            out.set(inner.wrench(interface, frame)?);
+            Ok(())
+        })
+    }
+}
+
+fn check_frame(frame: pong_frame) -> Outcome {
+    if frame == PONG_FRAME_GROUP || frame == PONG_FRAME_COMMON {
+        return Ok(());
+    }
+    let message = format!("`frame` is {frame}; give PONG_FRAME_GROUP or PONG_FRAME_COMMON");
+    Err(Failure::new(pong_status::BadValue, message))
+}
+
+impl Inner {
+    fn wrench(&self, id: pong_interface_id, frame: pong_frame) -> Outcome<pong_wrench> {
+        self.law_faults.check()?;
+        let common = frame == PONG_FRAME_COMMON;
+        let wrench = if common { self.world.wrench_common(id.id())? } else { self.world.wrench(id.id())? };
+        Ok(pong_wrench { force: wrench.force.into(), moment: wrench.moment.into() })
+    }
+}
