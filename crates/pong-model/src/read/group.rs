@@ -53,10 +53,9 @@ fn read_group(
     nameless: &str,
     siblings: &mut HashSet<String>,
 ) {
-    let fallback = join(&above.path, nameless);
-    let Some(fields) = Fields::open(groups.reader, node, &fallback, &FIELDS) else { return };
-    let name = read_name(groups.reader, &fields, &fallback, siblings);
-    let path = name.as_ref().map_or(fallback, |name| join(&above.path, name));
+    let path = join(&above.path, authored_name(node).unwrap_or(nameless));
+    let Some(fields) = Fields::open(groups.reader, node, &path, &FIELDS) else { return };
+    let name = read_name(groups.reader, &fields, &path, siblings);
     let is_root = above.owner.is_none();
     let movable = read_movable(groups.reader, &fields, &path, is_root);
     let x_pg = read_pose(groups.reader, &fields, &path, is_root);
@@ -151,6 +150,15 @@ fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &
     if count.unwrap_or(0) == 0 && !unreadable {
         let cure = "give it `groups: [..]` or `primitives: [..]`, or remove it";
         groups.reader.fault(fields.at, &place.path, "empty-group", "a group without contents", cure);
+    }
+}
+
+/// The name of a group or primitive, if it has a usable one, so that all its faults carry its path.
+pub(super) fn authored_name(node: &Node) -> Option<&str> {
+    let Value::Struct(_, fields) = &node.value else { return None };
+    match &fields.iter().find(|field| field.name.as_ref() == "name")?.value.value {
+        Value::Text(name) if !name.is_empty() => Some(name),
+        _ => None,
     }
 }
 

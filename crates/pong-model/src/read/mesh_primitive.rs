@@ -240,6 +240,7 @@ fn mesh(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, faces: &'static str) -> 
         if inline.iter().any(Option::is_some) {
             let cause = format!("`file` and `vertices`/`{faces}` both give the shape");
             reader.fault(node.at, &p.path, "either-or", cause, "keep one of them");
+            return None;
         }
         return mesh_file::from_file(reader, node, p.fields.optional("scale"), &p.path);
     }
@@ -279,18 +280,28 @@ fn rows(
         }
         return Some(());
     }
-    let before = reader.fault_count();
-    for item in reader.list(node, path)? {
-        let (Value::Tuple(None, numbers) | Value::List(numbers)) = &item.value else {
-            let cause = format!("expected {form}, found {}", item.value.describe());
-            reader.fault(item.at, path, "wrong-type", cause, format!("write {form}"));
-            continue;
-        };
-        for number in numbers {
-            reader.any_number(number, path);
+    let mut good = true;
+    for (index, item) in reader.list(node, path)?.iter().enumerate() {
+        match row_numbers(reader, item, path, form) {
+            Some(numbers) => each(reader, index, item.at, &numbers),
+            None => good = false,
         }
     }
-    (reader.fault_count() == before).then_some(())
+    good.then_some(())
+}
+
+fn row_numbers(reader: &mut Reader<'_>, item: &Node, path: &str, form: &str) -> Option<Vec<f64>> {
+    let numbers = match &item.value {
+        Value::Numbers(numbers) => return Some(numbers.to_vec()),
+        Value::Tuple(None, numbers) | Value::List(numbers) => numbers,
+        other => {
+            let cause = format!("expected {form}, found {}", other.describe());
+            reader.fault(item.at, path, "wrong-type", cause, format!("write {form}"));
+            return None;
+        }
+    };
+    let numbers: Vec<_> = numbers.iter().map(|number| reader.any_number(number, path)).collect();
+    numbers.into_iter().collect()
 }
 
 fn vertices(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Vec<Vec3>> {

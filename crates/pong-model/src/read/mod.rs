@@ -17,6 +17,7 @@ pub(crate) use fields::Fields;
 use crate::error::ModelError;
 use crate::ron_tree::SyntaxError;
 use pong_geometry::extension::Extensions;
+use std::cell::OnceCell;
 use std::path::Path;
 
 /// How many faults of one mesh are listed one by one before the rest is only counted.
@@ -30,12 +31,14 @@ pub(crate) struct Reader<'a> {
     pub(crate) ext: &'a Extensions,
     /// Byte offset and fault.
     faults: Vec<(u32, ModelError)>,
+    /// Where each line begins; found when the first fault needs it.
+    line_starts: OnceCell<Vec<u32>>,
     pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> Reader<'a> {
     pub(crate) fn new(text: &'a str, file: &'a str, mesh_dir: Option<&'a Path>, ext: &'a Extensions) -> Self {
-        Self { text, file, mesh_dir, ext, faults: Vec::new(), warnings: Vec::new() }
+        Self { text, file, mesh_dir, ext, faults: Vec::new(), line_starts: OnceCell::new(), warnings: Vec::new() }
     }
 
     /// Notes a fault.
@@ -85,10 +88,13 @@ impl<'a> Reader<'a> {
     }
 
     fn line_and_column(&self, at: u32) -> (u32, u32) {
-        let before = &self.text[..self.text.floor_char_boundary(at as usize)];
-        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-        let lines = before.bytes().filter(|&b| b == b'\n').count();
-        let columns = before[line_start..].chars().count();
-        (lines as u32 + 1, columns as u32 + 1)
+        let starts = self.line_starts.get_or_init(|| {
+            let breaks = self.text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
+            std::iter::once(0).chain(breaks.map(|(at, _)| at as u32 + 1)).collect()
+        });
+        let line = starts.partition_point(|&start| start <= at);
+        let start = starts[line - 1] as usize;
+        let end = self.text.floor_char_boundary(at as usize);
+        (line as u32, self.text[start..end].chars().count() as u32 + 1)
     }
 }

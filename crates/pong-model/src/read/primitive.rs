@@ -1,6 +1,6 @@
 //! Primitives, one function each.
 
-use super::group::{GroupReader, Place, read_name, surface_index};
+use super::group::{GroupReader, Place, authored_name, read_name, surface_index};
 use super::{Fields, Reader, custom, mesh_primitive};
 use crate::draft::BodyDraft;
 use crate::model::{Item, PrimitiveInfo};
@@ -40,11 +40,13 @@ pub(super) fn read_primitive(
     index: usize,
     siblings: &mut HashSet<String>,
 ) {
-    let fallback = format!("{}/primitives[{index}]", place.path);
-    let Some(kind) = groups.reader.variant(node, &fallback, &KINDS) else { return };
-    let Some(fields) = Fields::open(groups.reader, node, &fallback, &allowed(kind)) else { return };
-    let name = read_name(groups.reader, &fields, &fallback, siblings);
-    let path = name.as_ref().map_or(fallback, |name| format!("{}/{name}", place.path));
+    let path = match authored_name(node) {
+        Some(name) => format!("{}/{name}", place.path),
+        None => format!("{}/primitives[{index}]", place.path),
+    };
+    let Some(kind) = groups.reader.variant(node, &path, &KINDS) else { return };
+    let Some(fields) = Fields::open(groups.reader, node, &path, &allowed(kind)) else { return };
+    let name = read_name(groups.reader, &fields, &path, siblings);
     let surface = match fields.optional("surface") {
         Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
         None => place.surface,

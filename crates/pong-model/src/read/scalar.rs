@@ -103,6 +103,10 @@ impl Reader<'_> {
     /// Exactly `N` finite numbers in parentheses.
     fn tuple<const N: usize>(&mut self, node: &Node, path: &str, form: &str) -> Option<[f64; N]> {
         match &node.value {
+            Value::Numbers(numbers) if numbers.len() == N => {
+                let all = numbers.iter().all(|&x| self.require_finite(node.at, path, x));
+                all.then(|| std::array::from_fn(|i| numbers[i]))
+            }
             Value::Tuple(None, items) if items.len() == N => {
                 let values = std::array::from_fn(|i| self.number(&items[i], path));
                 if values.iter().any(Option::is_none) {

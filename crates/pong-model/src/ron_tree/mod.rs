@@ -6,9 +6,9 @@
 
 mod number;
 mod parser;
+mod text;
 #[cfg(test)]
 mod tests;
-mod text;
 
 pub(crate) use parser::parse;
 
@@ -34,12 +34,14 @@ pub(crate) enum Value {
     Struct(Option<Box<str>>, Vec<Field>),
     /// `Name(1, 2)` or `(1, 2)` or `()`.
     Tuple(Option<Box<str>>, Vec<Node>),
+    /// `(1, 2)`, numbers only.
+    Numbers(Box<[f64]>),
     /// `[1, 2]`.
     List(Vec<Node>),
     /// `{ key: value }`.
     Map(Vec<(Node, Node)>),
     /// `[(1, 2), (3, 4)]` or `[[1, 2], [3, 4]]`, numbers only.
-    Rows(Rows),
+    Rows(Box<Rows>),
 }
 
 /// A field of a struct and where its name stands.
@@ -92,6 +94,7 @@ impl Value {
             Self::Name(name) => format!("the name `{name}`"),
             Self::Struct(Some(name), _) | Self::Tuple(Some(name), _) => format!("`{name}(…)`"),
             Self::Struct(None, _) => "a group of named fields".to_owned(),
+            Self::Numbers(numbers) => format!("a tuple of {}", numbers.len()),
             Self::Tuple(None, items) => format!("a tuple of {}", items.len()),
             Self::List(items) => format!("a list of {}", items.len()),
             Self::Map(_) => "a map".to_owned(),

@@ -211,10 +211,25 @@ impl Parser<'_> {
         let open = self.position;
         self.position += 1;
         self.skip_blank()?;
+        if let Some(numbers) = name.is_none().then(|| self.number_tuple()).flatten() {
+            return Ok(Value::Numbers(numbers));
+        }
         if self.at_field()? {
             return self.fields(open).map(|fields| Value::Struct(name, fields));
         }
         self.items(open, ")").map(|items| Value::Tuple(name, items))
+    }
+
+    /// Tries to read the rest of a tuple as plain numbers; stays where it is if it is anything else.
+    fn number_tuple(&mut self) -> Option<Box<[f64]>> {
+        let start = self.position;
+        let mut numbers = Vec::new();
+        let found = self.depth < DEPTH_LIMIT && self.row_numbers(")", &mut numbers).is_some();
+        if found && !numbers.is_empty() {
+            return Some(numbers.into());
+        }
+        self.position = start;
+        None
     }
 
     /// Whether `name :` stands next.
@@ -297,7 +312,7 @@ impl Parser<'_> {
         self.position += 1;
         self.skip_blank()?;
         if let Some(rows) = self.rows()? {
-            return Ok(Value::Rows(rows));
+            return Ok(Value::Rows(Box::new(rows)));
         }
         self.items(open, "]").map(Value::List)
     }
