@@ -11,12 +11,13 @@ use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
     Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
-    line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
-    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
-    point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane,
-    ray_polyhedron::ray_polyhedron, ray_triangle::ray_triangle, sphere_plane::sphere_plane,
-    sphere_polyhedron::sphere_inside_polyhedron, sphere_polyhedron::sphere_outside_polyhedron,
-    sphere_sphere::sphere_sphere, sphere_triangle::sphere_triangle,
+    ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
+    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
+    point_plane::point_plane, point_polyhedron::point_below_face, point_sphere::point_sphere,
+    ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
+    ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
+    sphere_triangle::sphere_triangle,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 use pong_geometry::primitive::{Ray, Sphere};
@@ -289,14 +290,4 @@ fn element_ref(body: &Body, item: Item) -> PrimitiveRef<'_> {
         Plane => PrimitiveRef::Plane(&body.planes[i]),
         Custom => PrimitiveRef::Custom(&*body.customs[i]),
     }
-}
-
-// STANDIN until the tester lands.
-fn ellipsoid_triangle(
-    _: &pong_geometry::primitive::Ellipsoid,
-    _: &pong_geometry::primitive::TriangleSet,
-    _: u32,
-    _: f64,
-    _: &mut dyn FnMut(TriangleContact),
-) {
 }

@@ -5,6 +5,12 @@
 //! the polygon across an edge, the *crossing* measures the distance between the two lines. The face that stores
 //! the least energy pushes.
 //!
+//! A face takes part only if its crossings lie on the solid: at a crossing of the edge between the faces f and g
+//! the segment must be behind every other face. Without this, the side face of a box would claim a bar that lies
+//! through the top from the moment the bar's far tip rises above the top's plane, with half the force, although
+//! the bar leaves the box through the opposite side: closed paths would gain energy there. With it the energies of
+//! the two faces are equal where the claim begins.
+//!
 //! Degenerate cases: a segment along the face's normal has two tips; one along an edge of the outline belongs to
 //! the faces on both sides, of which the lower wins a tie; a segment that only touches has no contact.
 
@@ -17,24 +23,44 @@ pub type EndContacts = [Option<Interference>; 2];
 
 /// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
-    let mut best: EndContacts = [None, None];
     if !pierces(segment, polyhedron) {
-        return best;
+        return [None, None];
     }
-    let mut best_energy = f64::INFINITY;
-    for (index, face) in polyhedron.faces.iter().enumerate() {
-        if !face.active {
+    let of_solid = least_energy(segment, polyhedron, |index, end| match end.cut_by {
+        None => true,
+        Some(rim) => crosses_on_solid(segment, polyhedron, index, end.at, &rim),
+    });
+    // Where a bar leaves through the middle of undercut faces no crossing lies on the solid: any face may claim it.
+    of_solid.or_else(|| least_energy(segment, polyhedron, |_, _| true)).unwrap_or([None, None])
+}
+
+/// The contacts at the face of least energy among those whose part's ends are all admitted.
+fn least_energy(
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+    admits: impl Fn(usize, &PartEnd) -> bool,
+) -> Option<EndContacts> {
+    let mut best: Option<(f64, EndContacts)> = None;
+    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
+        if segment.ends.iter().all(|end| face.height(end) >= 0.0) {
             continue;
         }
-        let ends = ends_over_face(segment, polyhedron, index);
+        let Some(part) = part_over_face(segment, polyhedron, index) else { continue };
+        if !part.iter().all(|end| admits(index, end)) {
+            continue;
+        }
+        let ends = [0, 1].map(|end| match part[end].cut_by {
+            None => tip_contact(&segment.ends[end], face, index),
+            Some(rim) if !polyhedron.faces[rim.neighbor as usize].active => None,
+            Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
+        });
         // Stored energy in units of k/4.
         let energy: f64 = ends.iter().flatten().map(|contact| contact.depth * contact.depth).sum();
-        if energy > 0.0 && energy < best_energy {
-            best_energy = energy;
-            best = ends;
+        if energy > 0.0 && best.as_ref().is_none_or(|(least, _)| energy < *least) {
+            best = Some((energy, ends));
         }
     }
-    best
+    best.map(|(_, ends)| ends)
 }
 
 /// Whether some point of the segment lies inside.
@@ -71,18 +97,11 @@ struct PartEnd {
     cut_by: Option<RimEdge>,
 }
 
-/// The contacts at both ends of the part over one face.
-fn ends_over_face(segment: &LineSegment, polyhedron: &Polyhedron, index: usize) -> EndContacts {
-    let face = &polyhedron.faces[index];
-    if segment.ends.iter().all(|end| face.height(end) >= 0.0) {
-        return [None, None];
-    }
-    let Some(part) = part_over_face(segment, polyhedron, index) else { return [None, None] };
-    [0, 1].map(|end| match part[end].cut_by {
-        None => tip_contact(&segment.ends[end], face, index),
-        Some(rim) if !polyhedron.faces[rim.neighbor as usize].active => None,
-        Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
-    })
+/// Whether the segment, where it crosses an edge of a face, is behind all faces that do not meet at this edge.
+fn crosses_on_solid(segment: &LineSegment, polyhedron: &Polyhedron, index: usize, at: f64, rim: &RimEdge) -> bool {
+    let place = segment.ends[0] + (segment.ends[1] - segment.ends[0]) * at;
+    let others = polyhedron.faces.iter().enumerate().filter(|(i, _)| *i != index && *i != rim.neighbor as usize);
+    others.map(|(_, face)| face.height(&place)).all(|height| height <= 0.0)
 }
 
 /// Clips the segment to the prism of a face along its normal; `None` if nothing is left.

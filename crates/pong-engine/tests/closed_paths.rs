@@ -1,0 +1,217 @@
+//! Without friction and damping a closed path does no net work (physics contract, 6): force is the gradient of a
+//! stored energy. Where memory, free edges or segment ends are involved it may lose, never gain.
+
+mod common;
+
+use common::*;
+use pong_geometry::{Quat, Vec3};
+
+const K: f64 = 1e4;
+
+/// A loop of the mover around and into the other body.
+struct Loop {
+    center: Vec3,
+    /// Complex amplitudes of the position and of the rotation vector.
+    swing: [Vec3; 4],
+}
+
+impl Loop {
+    fn random(random: &mut Random, center: Vec3, size: f64, turn: f64) -> Self {
+        let swing = [random.vector(size), random.vector(size), random.vector(turn), random.vector(turn)];
+        Self { center, swing }
+    }
+
+    fn pose(&self, s: f64) -> (Vec3, Quat) {
+        let (sin, cos) = (s * std::f64::consts::TAU).sin_cos();
+        let position = self.center + self.swing[0] * cos + self.swing[1] * sin;
+        (position, Quat::from_scaled_axis(self.swing[2] * cos + self.swing[3] * sin))
+    }
+}
+
+/// Energies of one lap.
+#[derive(Default)]
+struct Lap {
+    /// Work of the contact wrench on the mover, plus the change of stored energy, over smooth stretches: the error
+    /// of the quadrature.
+    smooth: f64,
+    /// The same at jumps: what appeared (positive) or vanished (negative) at once.
+    gained: f64,
+    lost: f64,
+    /// Largest stored energy on the way.
+    largest: f64,
+}
+
+/// Follows the loop, halving each interval until work and stored energy agree, down to intervals so short that
+/// what still disagrees is a jump.
+struct Follower<'a> {
+    rig: &'a mut Rig,
+    path: &'a Loop,
+    tolerance: f64,
+    lap: Lap,
+}
+
+/// A place on the loop with what the engine says there.
+#[derive(Clone, Copy)]
+struct Sample {
+    s: f64,
+    wrench: pong_geometry::Wrench,
+    stored: f64,
+}
+
+impl Follower<'_> {
+    fn sample(&mut self, s: f64) -> Sample {
+        let (position, orientation) = self.path.pose(s);
+        self.rig.place_a(position, orientation);
+        self.rig.world.evaluate().unwrap();
+        let stored = self.rig.world.contacts().iter().map(|c| c.stored).sum();
+        Sample { s, wrench: self.rig.wrench(0), stored }
+    }
+
+    fn commit_at(&mut self, s: f64) -> Sample {
+        let sample = self.sample(s);
+        self.rig.world.commit().unwrap();
+        self.lap.largest = self.lap.largest.max(sample.stored);
+        sample
+    }
+
+    /// From a committed sample to the place `to`, which is committed in turn.
+    fn advance(&mut self, from: Sample, to: f64, halvings: u32) -> Sample {
+        let middle = self.sample(0.5 * (from.s + to));
+        let end = self.sample(to);
+        let (p0, q0) = self.path.pose(from.s);
+        let (p1, q1) = self.path.pose(to);
+        let (shift, turn) = (p1 - p0, (q1 * q0.inverse()).scaled_axis());
+        let power = |w: &pong_geometry::Wrench| w.force.dot(&shift) + w.moment.dot(&turn);
+        let work = (power(&from.wrench) + 4.0 * power(&middle.wrench) + power(&end.wrench)) / 6.0;
+        let gain = work + end.stored - from.stored;
+        if gain.abs() <= self.tolerance * (to - from.s) {
+            self.lap.smooth += gain;
+        } else if halvings > 0 {
+            let half = self.advance(from, middle.s, halvings - 1);
+            return self.advance(half, to, halvings - 1);
+        } else if gain > 0.0 {
+            self.lap.gained += gain;
+        } else {
+            self.lap.lost -= gain;
+        }
+        self.commit_at(to)
+    }
+
+    fn lap(mut self) -> Lap {
+        const INTERVALS: usize = 200;
+        const HALVINGS: u32 = 22;
+        let mut at = self.commit_at(0.0);
+        for i in 1..=INTERVALS {
+            at = self.advance(at, i as f64 / INTERVALS as f64, HALVINGS);
+        }
+        self.lap
+    }
+}
+
+/// What a path may do with energy.
+#[derive(Clone, Copy, PartialEq)]
+enum Allowed {
+    Nothing,
+    Loss,
+}
+
+fn check_closed_paths(name: &str, a: &str, b: &str, (center, size, turn): (Vec3, f64, f64), allowed: Allowed) {
+    let mut random = Random(31);
+    let mut rig = Rig::new(a, b);
+    let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
+    for _ in 0..16 {
+        let path = Loop::random(&mut random, center, size, turn);
+        let object = rig.objects[0];
+        rig.world.forget(object).unwrap();
+        // The first lap settles what is remembered; the second starts and ends with the same past.
+        Follower { rig: &mut rig, path: &path, tolerance: 1e-3, lap: Lap::default() }.lap();
+        let tolerance = 1e-6;
+        let lap = Follower { rig: &mut rig, path: &path, tolerance, lap: Lap::default() }.lap();
+        if lap.largest > 0.0 {
+            touched += 1;
+            worst_gain = worst_gain.max(lap.gained / lap.largest);
+            worst_loss = worst_loss.max(lap.lost / lap.largest);
+        }
+    }
+    println!("{name}: {touched} loops, largest gain {worst_gain:.1e}, loss {worst_loss:.1e} of the stored energy");
+    assert!(touched >= 6, "{name}: the loops must touch");
+    // What the shortest intervals leave of a mere jump of the force.
+    const FORCE_JUMP_REST: f64 = 1e-6;
+    assert!(worst_gain <= FORCE_JUMP_REST, "{name}: gained {worst_gain:e}");
+    assert!(allowed == Allowed::Loss || worst_loss <= FORCE_JUMP_REST, "{name}: lost {worst_loss:e}");
+}
+
+fn elastic() -> String {
+    surface(K, "friction: None")
+}
+
+fn solid() -> String {
+    model("box", &elastic(), &box_polyhedron("b", [0.0, 0.0, 0.0], [0.5, 0.4, 0.3], ""))
+}
+
+#[test]
+fn sphere_around_a_box() {
+    let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
+    check_closed_paths("sphere–box", &ball, &solid(), (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.5), Allowed::Nothing);
+}
+
+#[test]
+fn ellipsoid_around_a_box() {
+    let egg = model("egg", &elastic(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.25,0.15,0.1))");
+    check_closed_paths("ellipsoid–box", &egg, &solid(), (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.8), Allowed::Nothing);
+}
+
+#[test]
+fn sphere_in_a_corner_of_triangles() {
+    let valley = "TriangleMesh(name: \"m\", vertices: [(0,0,0),(1,0,0.5),(0.8,0.9,0.4),(-0.9,0.6,0.6),(-0.5,-0.9,0.5),(0.7,-0.8,0.7)], \
+                  triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)])";
+    let valley = model("valley", &elastic(), valley);
+    let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
+    check_closed_paths("sphere–valley", &ball, &valley, (Vec3::new(0.0, 0.0, 0.3), 0.1, 0.3), Allowed::Nothing);
+}
+
+#[test]
+fn ellipsoid_over_a_ridge_of_triangles() {
+    let ridge = "TriangleMesh(name: \"m\", vertices: [(0,0,0.4),(1,0,0),(0.8,0.9,0),(-0.9,0.6,0),(-0.5,-0.9,0),(0.7,-0.8,0)], \
+                 triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)])";
+    let ridge = model("ridge", &elastic(), ridge);
+    let egg = model("egg", &elastic(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.25,0.15,0.1))");
+    check_closed_paths("ellipsoid–ridge", &egg, &ridge, (Vec3::new(0.0, 0.0, 0.48), 0.08, 0.5), Allowed::Nothing);
+}
+
+#[test]
+fn sphere_over_abutting_pieces() {
+    let roof = "Polyhedron(name: \"l\", vertices: [(-1,-1,0),(0,-1,0),(0,1,0),(-1,1,0),(0,-1,0.5),(0,1,0.5)], \
+                faces: [[0,3,2,1],[0,4,5,3],[1,2,5,4],[0,1,4],[2,3,5]], inactive_faces: [2]), \
+                Polyhedron(name: \"r\", vertices: [(1,-1,0),(0,-1,0),(0,1,0),(1,1,0),(0,-1,0.5),(0,1,0.5)], \
+                faces: [[0,1,2,3],[0,3,5,4],[1,4,5,2],[0,4,1],[3,2,5]], inactive_faces: [2])";
+    let roof = model("roof", &elastic(), roof);
+    let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.3)");
+    check_closed_paths("sphere–roof of two", &ball, &roof, (Vec3::new(0.0, 0.0, 0.7), 0.12, 0.3), Allowed::Nothing);
+}
+
+#[test]
+fn bar_over_a_box() {
+    let bar = model("bar", &elastic(), "LineSegment(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)))");
+    check_closed_paths("bar–box", &bar, &solid(), (Vec3::new(0.0, 0.0, 0.33), 0.06, 0.1), Allowed::Loss);
+}
+
+#[test]
+fn bar_over_an_undercut_prism() {
+    let prism = "Polyhedron(name: \"b\", vertices: [(-0.3,-0.2,-0.3),(0.35,-0.25,-0.3),(0.0,0.3,-0.3),(-0.5,-0.4,0.3),(0.6,-0.45,0.3),(0.05,0.6,0.3)], \
+                 faces: [[0,2,1],[3,4,5],[0,1,4,3],[1,2,5,4],[2,0,3,5]])";
+    // The side faces of this frustum must be planar: all edges meet in one point.
+    let prism = prism
+        .replace("(-0.5,-0.4,0.3)", "(-0.6,-0.4,0.3)")
+        .replace("(0.6,-0.45,0.3)", "(0.7,-0.5,0.3)")
+        .replace("(0.05,0.6,0.3)", "(0.0,0.6,0.3)");
+    let prism = model("prism", &elastic(), &prism);
+    let bar = model("bar", &elastic(), "LineSegment(name: \"l\", ends: ((-1.4,0.05,0),(1.5,0.1,0)))");
+    check_closed_paths("bar–prism", &bar, &prism, (Vec3::new(0.0, -0.1, 0.33), 0.06, 0.1), Allowed::Loss);
+}
+
+#[test]
+fn point_in_a_box() {
+    let tip = model("tip", &elastic(), "Point(name: \"p\", position: (0.05,0,0))");
+    check_closed_paths("point–box", &tip, &solid(), (Vec3::new(0.5, 0.4, 0.3), 0.08, 0.4), Allowed::Loss);
+}
