@@ -52,8 +52,14 @@ impl pong_config {
             == (expected.cookie, expected.struct_size, expected.abi_version);
         let known = self.reserved_u32 == 0 && self.reserved == [0; 4];
         if !made_here || !known {
-            let cause = if made_here { "has values in its reserved fields" } else { "was not filled in by pong_default_config()" };
-            let message = format!("config: it {cause}; start from pong_default_config() and change only what is documented");
+            let cause = if made_here {
+                "has values in its reserved fields"
+            } else {
+                "was not filled in by pong_default_config()"
+            };
+            let message = format!(
+                "config: it {cause}; start from pong_default_config() and change only what is documented"
+            );
             return Err(Failure::new(pong_status::Config, message));
         }
         let contact_capacity = match self.contact_capacity {

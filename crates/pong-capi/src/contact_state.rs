@@ -31,7 +31,8 @@ pub unsafe extern "C" fn pong_save_contact_state(
         with_world(world, |inner| {
             let needed = inner.world.state_size()?;
             if size < needed {
-                let message = format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
+                let message =
+                    format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
                 return Err(Failure::new(pong_status::BufferTooSmall, message));
             }
             let mut out = OutArray::new(buffer.cast::<u8>(), needed, "buffer")?;

@@ -97,7 +97,8 @@ pub unsafe extern "C" fn pong_get_contacts(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let (mut out, count) = (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
+            let (mut out, count) =
+                (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
             inner.law_faults.check()?;
             let listed = inner.world.contacts_iter().enumerate();
             listed.take(capacity).for_each(|(index, contact)| out.set(index, (&contact).into()));

@@ -5,7 +5,6 @@ use crate::ids::pong_pair_id;
 use crate::pointers::array;
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
-use pong_engine::PairId;
 use std::time::Instant;
 
 /// What the C side counts.
@@ -46,8 +45,12 @@ pub unsafe extern "C" fn pong_commit_pairs(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let ids: Vec<PairId> = array(pairs, n, "pairs")?.iter().map(|id| id.id()).collect();
-            inner.commit(|world| world.commit_pairs(&ids))
+            let mut ids = std::mem::take(&mut inner.pairs);
+            ids.clear();
+            ids.extend(array(pairs, n, "pairs")?.iter().map(|id| id.id()));
+            let outcome = inner.commit(|world| world.commit_pairs(&ids));
+            inner.pairs = ids;
+            outcome
         })
     }
 }
@@ -76,7 +79,10 @@ impl Inner {
     }
 
     /// Evaluates first where the engine would, so that a law's fault is seen before anything is accepted.
-    fn commit(&mut self, commit: impl FnOnce(&mut pong_engine::World) -> Result<(), pong_engine::EngineError>) -> Outcome {
+    fn commit(
+        &mut self,
+        commit: impl FnOnce(&mut pong_engine::World) -> Result<(), pong_engine::EngineError>,
+    ) -> Outcome {
         if !self.world.is_evaluated() {
             self.evaluate()?;
         }

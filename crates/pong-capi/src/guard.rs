@@ -70,7 +70,10 @@ pub(crate) unsafe fn with_world(
     guarded(|| {
         // SAFETY: by the contract of this function; shared access is enough, the lock guards the rest.
         let Some(world) = (unsafe { world.as_ref() }) else {
-            return Err(Failure::new(pong_status::NullArgument, "`world` is NULL; give a world made by pong_create_world()"));
+            return Err(Failure::new(
+                pong_status::NullArgument,
+                "`world` is NULL; give a world made by pong_create_world()",
+            ));
         };
         match world.inner.try_lock() {
             Ok(mut inner) => call(&mut inner),

@@ -40,7 +40,8 @@ pub unsafe extern "C" fn pong_list_interfaces(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let (mut out, count) = (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
+            let (mut out, count) =
+                (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
             let ids = inner.world.interfaces(object.id())?;
             ids.iter().enumerate().for_each(|(index, id)| out.set(index, (*id).into()));
             count.set(ids.len());

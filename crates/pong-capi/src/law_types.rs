@@ -60,7 +60,8 @@ pub struct pong_friction_output {
 }
 
 /// A normal force law, or the energy it stores: returns N, or J. See pong_register_normal_law().
-pub type pong_normal_law = Option<unsafe extern "C" fn(input: *const pong_normal_input, user: *mut c_void) -> f64>;
+pub type pong_normal_law =
+    Option<unsafe extern "C" fn(input: *const pong_normal_input, user: *mut c_void) -> f64>;
 
 /// A friction law. `state` holds the numbers that the law remembers for this contact, as committed (zero for a new
 /// contact), and takes the new ones, which count only if the host commits; vectors in it are the law's to turn with

@@ -53,7 +53,9 @@ pub unsafe extern "C" fn pong_register_friction_law(
             let name = text(name, "name")?;
             let evaluate = law.ok_or_else(|| no_function("law"))?;
             if state_len > MOST_NUMBERS {
-                let message = format!("law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers");
+                let message = format!(
+                    "law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers"
+                );
                 return Err(Failure::new(pong_status::BadValue, message));
             }
             inner.claim_law_name(FRICTION, name)?;

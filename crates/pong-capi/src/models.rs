@@ -1,12 +1,12 @@
 //! Models: from a file or from text.
 
+use crate::guard::Failure;
 use crate::guard::{Outcome, with_world};
 use crate::ids::pong_model_id;
 use crate::names::no_such;
 use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
-use crate::guard::Failure;
 use pong_model::Model;
 use std::ffi::c_char;
 use std::path::Path;
@@ -47,11 +47,15 @@ pub unsafe extern "C" fn pong_load_model_text(
     unsafe {
         with_world(world, |inner| {
             if text.is_null() {
-                return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; give the text of a model"));
+                return Err(Failure::new(
+                    pong_status::NullArgument,
+                    "`text` is NULL; give the text of a model",
+                ));
             }
             let bytes = array(text.cast::<u8>(), length, "text")?;
             let name = crate::pointers::text(name, "name")?;
-            let mesh_dir = if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
+            let mesh_dir =
+                if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
             let out = Out::new(model, "model")?;
             let Ok(text) = std::str::from_utf8(bytes) else {
                 let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");

@@ -95,7 +95,8 @@ impl Names {
 
 /// The refusal of an id.
 pub(crate) fn unknown(what: &str) -> Failure {
-    let message = format!("{what}: the id is zero, stale or of another world; use an id that this world returned");
+    let message =
+        format!("{what}: the id is zero, stale or of another world; use an id that this world returned");
     Failure::new(pong_status::UnknownId, message)
 }
 

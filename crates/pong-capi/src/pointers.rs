@@ -13,7 +13,8 @@ fn check<T>(pointer: *const T, name: &str) -> Outcome {
         return Err(null(name));
     }
     if !pointer.is_aligned() {
-        let message = format!("`{name}` is not aligned to {} bytes; hand over a variable of its type", align_of::<T>());
+        let message =
+            format!("`{name}` is not aligned to {} bytes; hand over a variable of its type", align_of::<T>());
         return Err(Failure::new(pong_status::BadValue, message));
     }
     Ok(())
@@ -134,6 +135,9 @@ pub(crate) unsafe fn text<'a>(pointer: *const c_char, name: &str) -> Outcome<&'a
 fn check_len<T>(len: usize, name: &str) -> Outcome {
     match len.checked_mul(size_of::<T>()) {
         Some(bytes) if bytes <= isize::MAX as usize => Ok(()),
-        _ => Err(Failure::new(pong_status::BadValue, format!("`{name}` cannot have {len} elements; give its true length"))),
+        _ => Err(Failure::new(
+            pong_status::BadValue,
+            format!("`{name}` cannot have {len} elements; give its true length"),
+        )),
     }
 }

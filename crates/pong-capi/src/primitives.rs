@@ -59,7 +59,8 @@ pub unsafe extern "C" fn pong_find_primitive(
             let paths = inner.names.primitives(interface)?;
             let found = paths.iter().position(|known| known.to_bytes() == path.as_bytes());
             let index = found.ok_or_else(|| {
-                let known: Vec<_> = paths.iter().take(MOST_NAMED).map(|known| known.to_string_lossy()).collect();
+                let known: Vec<_> =
+                    paths.iter().take(MOST_NAMED).map(|known| known.to_string_lossy()).collect();
                 let more = if paths.len() > MOST_NAMED { ", …" } else { "" };
                 let message = format!("primitive `{path}`: there is none; known: {}{more}", known.join(", "));
                 Failure::new(pong_status::UnknownName, message)

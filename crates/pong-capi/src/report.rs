@@ -9,7 +9,6 @@ use crate::world::pong_world;
 /// capacity.
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
 
-
 /// What the last frame did.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

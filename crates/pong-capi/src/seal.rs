@@ -30,7 +30,8 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
         with_world(world, |inner| {
             let out = Out::optional(report, "report")?;
             let sealed = inner.world.seal()?;
-            inner.seal_warnings = sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
+            inner.seal_warnings =
+                sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
             if let Some(out) = out {
                 out.set(pong_seal_report {
                     group_pairs: sealed.group_pairs as u64,

@@ -4,7 +4,7 @@ use std::ffi::c_char;
 
 /// What became of a call. The numbers never change and are never used again for something else.
 ///
-/// A call that does not return PONG_STATUS_OK has changed nothing; pong_last_message() tells the object, the cause
+/// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
 /// and what to do.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub enum pong_status {
     BadValue = 9,
     /// The bytes are not a contact state of this world.
     BadStateBlock = 10,
-    /// The caller's buffer is too small; the needed size was written to the place given for it.
+    /// The caller's buffer is too small; the message tells the size that is needed.
     BufferTooSmall = 11,
     /// The model has faults; the message has one line for each.
     ModelError = 12,
@@ -48,7 +48,7 @@ pub enum pong_status {
 
 impl pong_status {
     /// All of them, in order of their numbers.
-    pub const ALL: [Self; 17] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::Ok,
         Self::NullArgument,
         Self::UnknownId,

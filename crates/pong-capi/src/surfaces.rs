@@ -168,7 +168,9 @@ impl From<&Surface> for pong_surface_values {
 impl pong_surface_values {
     /// A surface with these values and the laws of the old one.
     fn applied_to(&self, old: &Surface) -> Outcome<Surface> {
-        if (self.normal_law, self.friction_law) != (normal_number(&old.normal), friction_number(&old.friction)) {
+        if (self.normal_law, self.friction_law)
+            != (normal_number(&old.normal), friction_number(&old.friction))
+        {
             let message = format!(
                 "surface `{}`: values may change between frames, laws may not; get the surface and change its numbers",
                 old.name

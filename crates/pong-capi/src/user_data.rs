@@ -91,6 +91,10 @@ pub unsafe extern "C" fn pong_get_primitive_user_data(
 impl crate::world::Inner {
     fn check_primitive(&self, interface: pong_interface_id, primitive: u32) -> crate::guard::Outcome {
         let count = self.names.primitives(interface)?.len();
-        if (primitive as usize) < count { Ok(()) } else { Err(no_such("primitive", primitive as usize, count)) }
+        if (primitive as usize) < count {
+            Ok(())
+        } else {
+            Err(no_such("primitive", primitive as usize, count))
+        }
     }
 }

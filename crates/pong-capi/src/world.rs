@@ -8,7 +8,7 @@ use crate::names::Names;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
 use crate::user_data::UserData;
-use pong_engine::{InterfaceId, State, World};
+use pong_engine::{InterfaceId, PairId, State, World};
 use std::ffi::CString;
 use std::sync::Mutex;
 
@@ -28,13 +28,15 @@ pub(crate) struct Inner {
     pub seal_warnings: Vec<CString>,
     /// For `pong_set_states`: its memory stays.
     pub states: Vec<(InterfaceId, State)>,
+    /// For `pong_commit_pairs`: its memory stays.
+    pub pairs: Vec<PairId>,
     pub counters: Counters,
     pub law_faults: LawFaults,
     /// Names of the registered laws: of the normal force and of friction.
     pub law_names: [Vec<String>; 2],
 }
 
-/// Creates a world. It is the caller's: destroy it with pong_destroy_world().
+/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_create_world(
     config: *const pong_config,
@@ -42,13 +44,17 @@ pub unsafe extern "C" fn pong_create_world(
 ) -> pong_status {
     guarded(|| {
         // SAFETY: see "Safety of all entries" in lib.rs.
-        let (config, out) = unsafe { (one(config, "config")?, Out::new(world, "world")?) };
+        let out = unsafe { Out::new(world, "world")? };
+        out.set(std::ptr::null_mut());
+        // SAFETY: as above.
+        let config = unsafe { one(config, "config")? };
         let inner = Inner {
             world: World::new(config.check()?),
             names: Names::default(),
             user_data: UserData::default(),
             seal_warnings: Vec::new(),
             states: Vec::new(),
+            pairs: Vec::new(),
             counters: Counters::default(),
             law_faults: LawFaults::default(),
             law_names: [Vec::new(), Vec::new()],

@@ -6,17 +6,34 @@ use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
 const FILES: [&str; 20] = [
-    "status", "version", "config", "ids", "states", "wrenches", "world", "law_types", "laws", "models", "objects",
-    "pairs", "interfaces", "primitives", "seal", "frames", "contacts", "report", "contact_state", "surfaces",
+    "status",
+    "version",
+    "config",
+    "ids",
+    "states",
+    "wrenches",
+    "world",
+    "law_types",
+    "laws",
+    "models",
+    "objects",
+    "pairs",
+    "interfaces",
+    "primitives",
+    "seal",
+    "frames",
+    "contacts",
+    "report",
+    "contact_state",
+    "surfaces",
 ];
 const LAST_FILE: &str = "user_data";
 
 const HEADER: &str = "\
-/* Pong: contact dynamics, states in, wrenches out.
- *
- * Generated from crates/pong-capi by ci/header; do not edit. Calling order, ownership and threads: README.md
- * beside this file. SI units: m, kg, s, N, rad.
- */";
+// Pong: contact dynamics, states in, wrenches out.
+//
+// Generated from crates/pong-capi by ci/header; do not edit. Calling order, ownership and threads: README.md
+// beside this file. SI units: m, kg, s, N, rad. C99 and C++11 or later.";
 
 /// The text of the header.
 pub fn generate() -> String {
@@ -33,8 +50,8 @@ pub fn generate() -> String {
 
 fn config() -> cbindgen::Config {
     let check = format!(
-        "/** Hash of every layout in this header; see PONG_CHECK_ABI(). */\n#define PONG_LAYOUT_HASH {:#018x}ULL\n\n\
-         /** Whether this header fits the library: call it first. */\n\
+        "\n/// Hash of every layout in this header; see PONG_CHECK_ABI().\n#define PONG_LAYOUT_HASH {:#018x}ULL\n\n\
+         /// Whether this header fits the library: call it first.\n\
          #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)",
         pong::layout::layout_hash()
     );
@@ -46,7 +63,7 @@ fn config() -> cbindgen::Config {
         no_includes: true,
         sys_includes: vec!["stddef.h".to_owned(), "stdint.h".to_owned()],
         after_includes: Some(check),
-        documentation_style: DocumentationStyle::C,
+        documentation_style: DocumentationStyle::Cxx,
         style: Style::Both,
         usize_is_size_t: true,
         line_length: 110,

@@ -1,0 +1,687 @@
+// Pong: contact dynamics, states in, wrenches out.
+//
+// Generated from crates/pong-capi by ci/header; do not edit. Calling order, ownership and threads: README.md
+// beside this file. SI units: m, kg, s, N, rad. C99 and C++11 or later.
+
+#ifndef PONG_H
+#define PONG_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/// Hash of every layout in this header; see PONG_CHECK_ABI().
+#define PONG_LAYOUT_HASH 0x0590f77165109b79ULL
+
+/// Whether this header fits the library: call it first.
+#define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
+
+/// Number of the binary interface: the N of libpong.so.N.
+#define PONG_ABI_VERSION 0
+
+/// `feature_kind` of a face, or of a surface as a whole.
+#define PONG_FEATURE_FACE 0
+
+/// `feature_kind` of an edge.
+#define PONG_FEATURE_EDGE 1
+
+/// `feature_kind` of a vertex.
+#define PONG_FEATURE_VERTEX 2
+
+/// The frame had more contacts than the world's capacity: the deepest were kept. `contacts_wanted` advises a
+/// capacity.
+#define PONG_FLAG_CONTACT_LIMIT 1
+
+/// F = k d + c d', with a ramp.
+#define PONG_NORMAL_LINEAR 0
+
+/// F = k d (1 + chi d').
+#define PONG_NORMAL_HUNT_CROSSLEY 1
+
+/// F = k d^(3/2) (1 + chi d').
+#define PONG_NORMAL_HUNT_CROSSLEY_HERTZ 2
+
+/// A law of the user's; its parameters stay as the model gives them.
+#define PONG_NORMAL_CUSTOM 3
+
+/// No friction.
+#define PONG_FRICTION_NONE 0
+
+/// Bristle with reset.
+#define PONG_FRICTION_BRISTLE 1
+
+/// Regularised Coulomb friction.
+#define PONG_FRICTION_COULOMB 2
+
+/// A law of the user's; its parameters stay as the model gives them.
+#define PONG_FRICTION_CUSTOM 3
+
+/// What became of a call. The numbers never change and are never used again for something else.
+///
+/// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
+/// and what to do.
+enum pong_status
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+    /// Done.
+    PONG_STATUS_OK = 0,
+    /// A pointer that must not be NULL is.
+    PONG_STATUS_NULL_ARGUMENT = 1,
+    /// An id is zero, stale, or of another world.
+    PONG_STATUS_UNKNOWN_ID = 2,
+    /// Nothing has this name; the message lists the names there are.
+    PONG_STATUS_UNKNOWN_NAME = 3,
+    /// The name or the pair is already there.
+    PONG_STATUS_DUPLICATE = 4,
+    /// The call is not allowed before (or after) sealing, or before a frame.
+    PONG_STATUS_WRONG_PHASE = 5,
+    /// The scene cannot be sealed; the message lists every reason.
+    PONG_STATUS_SEAL_FAILED = 6,
+    /// A state is not finite or its quaternion is not of unit length; the message names the interface.
+    PONG_STATUS_BAD_STATE = 7,
+    /// A paired movable group has no state yet; the message names the interface.
+    PONG_STATUS_UNSET_STATE = 8,
+    /// A value that this argument cannot have.
+    PONG_STATUS_BAD_VALUE = 9,
+    /// The bytes are not a contact state of this world.
+    PONG_STATUS_BAD_STATE_BLOCK = 10,
+    /// The caller's buffer is too small; the message tells the size that is needed.
+    PONG_STATUS_BUFFER_TOO_SMALL = 11,
+    /// The model has faults; the message has one line for each.
+    PONG_STATUS_MODEL_ERROR = 12,
+    /// The configuration was not made by pong_default_config(), or header and library differ.
+    PONG_STATUS_CONFIG = 13,
+    /// A fault inside the library. The world refuses every further call but pong_destroy_world().
+    PONG_STATUS_PANIC = 14,
+    /// Another call on this world is running: in another thread, or the one that called this law.
+    PONG_STATUS_BUSY = 15,
+    /// A law given by callback returned a number that is not finite; the message names the law. The frame does
+    /// not count: it is not committed.
+    PONG_STATUS_LAW_FAILED = 16,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum pong_status pong_status;
+#else
+typedef int32_t pong_status;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+/// A contact world: models, Objects, pairs and everything remembered between frames. Opaque.
+///
+/// One thread at a time may call it, any thread; a second call meanwhile returns PONG_STATUS_BUSY. Different
+/// worlds are independent.
+typedef struct pong_world pong_world;
+
+/// Settings of a world. Make it with pong_default_config(), change what you like, hand it to
+/// pong_create_world().
+typedef struct pong_config {
+    /// Set by pong_default_config(): size of this struct, bytes.
+    uint32_t struct_size;
+    /// Set by pong_default_config(): PONG_ABI_VERSION of the library.
+    uint32_t abi_version;
+    /// Set by pong_default_config(): checked by pong_create_world().
+    uint64_t cookie;
+    /// Most contacts of a frame; 0 takes the worst case of the scene, at most 65536. When a frame has more, the
+    /// deepest are kept and the report has PONG_FLAG_CONTACT_LIMIT.
+    uint64_t contact_capacity;
+    /// 1 keeps energies for pong_get_ledger(); 0 (default) does not and costs nothing.
+    uint32_t keep_ledger;
+    /// Zero.
+    uint32_t reserved_u32;
+    /// Zero.
+    uint64_t reserved[4];
+} pong_config;
+
+/// State of a movable group, relative to and expressed in the common frame: any frame that paired Objects share.
+typedef struct pong_state {
+    /// Position of the group's origin, m.
+    double position[3];
+    /// Quaternion (w, x, y, z), Hamilton, that takes group components to common components. Normalised on entry;
+    /// refused if its norm is off by more than 1e-3.
+    double orientation[4];
+    /// Velocity of the group's origin, m/s.
+    double linear_velocity[3];
+    /// Angular velocity, rad/s.
+    double angular_velocity[3];
+} pong_state;
+
+/// An Interface: state in and wrench out of one movable group of one Object. Zero is none.
+typedef struct pong_interface_id {
+    /// Do not build it yourself.
+    uint64_t bits;
+} pong_interface_id;
+
+/// In which frame a wrench is expressed: PONG_FRAME_GROUP or PONG_FRAME_COMMON.
+typedef int32_t pong_frame;
+
+/// Wrench that the contacts put on a movable group. The moment is about the group's origin in either frame.
+typedef struct pong_wrench {
+    /// Force, N.
+    double force[3];
+    /// Moment about the group's origin, N m.
+    double moment[3];
+} pong_wrench;
+
+/// What a normal force law is given.
+typedef struct pong_normal_input {
+    /// Depth, m; positive.
+    double depth;
+    /// Rate of the depth, m/s, positive while closing.
+    double rate;
+    /// Stiffness of the pair of surfaces.
+    double stiffness;
+    /// The law's parameters as the model gives them; valid during the call.
+    const double *parameters;
+    /// How many there are.
+    size_t parameter_count;
+} pong_normal_input;
+
+/// A normal force law, or the energy it stores: returns N, or J. See pong_register_normal_law().
+typedef double (*pong_normal_law)(const struct pong_normal_input *input, void *user);
+
+/// What a friction law is given. Vectors are expressed in the frame of B's movable group and lie in the present
+/// contact plane.
+typedef struct pong_friction_input {
+    /// Present normal force, N; positive.
+    double normal_force;
+    /// Unit normal, from B to A.
+    double normal[3];
+    /// Tangential displacement of A against B since the last commit, m; zero in the step a contact is born.
+    double slip[3];
+    /// Tangential velocity of A against B, m/s.
+    double slip_velocity[3];
+    /// Share of the pair's friction that this contact carries, 0 to 1: scale stiffness and damping by it.
+    double share;
+    /// Tangential stiffness of the pair, N/m.
+    double stiffness;
+    /// The law's parameters as the model gives them; valid during the call.
+    const double *parameters;
+    /// How many there are.
+    size_t parameter_count;
+    /// 1 if the contact stuck at the last commit or is new, else 0.
+    int32_t stuck;
+    /// Zero.
+    int32_t reserved;
+} pong_friction_input;
+
+/// What a friction law answers. It is all zero when the law is called.
+typedef struct pong_friction_output {
+    /// Force on A, N, in the frame of B's movable group. A part along the normal is removed.
+    double force[3];
+    /// Energy stored in the law's state, J; for the ledger.
+    double stored;
+    /// 1 if the contact sticks, 0 if it slips.
+    int32_t sticks;
+    /// Leave it.
+    int32_t reserved;
+} pong_friction_output;
+
+/// A friction law. `state` holds the numbers that the law remembers for this contact, as committed (zero for a new
+/// contact), and takes the new ones, which count only if the host commits; vectors in it are the law's to turn with
+/// the normal. See pong_register_friction_law().
+typedef void (*pong_friction_law)(const struct pong_friction_input *input,
+                                  double *state,
+                                  struct pong_friction_output *output,
+                                  void *user);
+
+/// A model of a world. Zero is none. Ids are plain numbers: copy, compare and store them freely. An id of another
+/// world, of one that was destroyed too, is told and refused.
+typedef struct pong_model_id {
+    /// Do not build it yourself.
+    uint64_t bits;
+} pong_model_id;
+
+/// An Object: an instance of a model. Zero is none.
+typedef struct pong_object_id {
+    /// Do not build it yourself.
+    uint64_t bits;
+} pong_object_id;
+
+/// Two Objects that are tested against each other. Zero is none.
+typedef struct pong_pair_id {
+    /// Do not build it yourself.
+    uint64_t bits;
+} pong_pair_id;
+
+/// What sealing tells.
+typedef struct pong_seal_report {
+    /// Pairs of movable groups that will be tested.
+    uint64_t group_pairs;
+    /// Most contacts of a frame.
+    uint64_t contact_capacity;
+    /// Size of the saved contact state, bytes.
+    uint64_t contact_state_size;
+    /// How many warnings there are: see pong_seal_warning().
+    uint64_t warning_count;
+} pong_seal_report;
+
+/// One side of a contact.
+typedef struct pong_contact_side {
+    /// The Object.
+    struct pong_object_id object;
+    /// The movable group.
+    struct pong_interface_id interface;
+    /// The primitive: an index within the movable group, see pong_primitive_path().
+    uint32_t primitive;
+    /// The triangle of a mesh, counted from its first; 0 otherwise.
+    uint32_t element;
+    /// From the group's origin to the place of the contact, m, along common axes.
+    double arm[3];
+} pong_contact_side;
+
+/// One contact. Vectors are expressed in the common frame; forces are those on A, B receives the opposite at the
+/// same place.
+typedef struct pong_contact {
+    /// The pair of Objects.
+    struct pong_pair_id pair;
+    /// Side A: the primitive whose kind the tester names first.
+    struct pong_contact_side a;
+    /// Side B.
+    struct pong_contact_side b;
+    /// What of B pushes: PONG_FEATURE_FACE, PONG_FEATURE_EDGE or PONG_FEATURE_VERTEX.
+    uint32_t feature_kind;
+    /// Which one of its kind.
+    uint32_t feature_index;
+    /// End of a segment, 0 or 1; 0 otherwise.
+    uint32_t end;
+    /// 1 if friction sticks, 0 if it slips.
+    int32_t sticks;
+    /// Where the force acts, m.
+    double point[3];
+    /// Unit normal from B to A.
+    double normal[3];
+    /// Depth, m.
+    double depth;
+    /// Rate of the depth, m/s, positive while closing.
+    double rate;
+    /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
+    double weight;
+    /// Normal force, N, never negative.
+    double normal_force;
+    /// Friction force on A, N.
+    double friction_force[3];
+    /// Total force on A, N.
+    double force[3];
+    /// Tangential velocity of A against B, m/s.
+    double slip_velocity[3];
+    /// Energy stored in the normal spring and in friction, J.
+    double stored;
+} pong_contact;
+
+/// What the last frame did.
+typedef struct pong_report {
+    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing.
+    uint32_t flags;
+    /// Contacts listed.
+    uint32_t contacts;
+    /// Contacts there would have been without the limit.
+    uint32_t contacts_wanted;
+    /// Largest `contacts_wanted` of any frame of this world.
+    uint32_t peak_contacts_wanted;
+    /// Pairs of bounding volumes tested.
+    uint64_t volumes_tested;
+    /// Pairs of leaves whose contents were tested.
+    uint64_t leaf_pairs;
+    /// Pairs of primitives tested.
+    uint64_t primitives_tested;
+    /// Evaluations since the world was made, those that a step or a commit asked for included.
+    uint64_t evaluations;
+    /// Commits since the world was made.
+    uint64_t commits;
+    /// Duration of the last evaluation, ns.
+    uint64_t evaluate_ns;
+    /// Duration of the last commit without the evaluation it may have asked for, ns.
+    uint64_t commit_ns;
+    /// Zero in this version.
+    uint64_t reserved[8];
+} pong_report;
+
+/// Energies of all contacts of a world, at the last commit.
+typedef struct pong_ledger {
+    /// Stored in normal springs and friction, J.
+    double stored;
+    /// Work done on the bodies since the world began, J, by the trapezoid rule between commits.
+    double work;
+    /// Dissipated since the world began, J.
+    double dissipated;
+} pong_ledger;
+
+/// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
+/// do not use are 0 when got and ignored when set.
+typedef struct pong_surface_values {
+    /// Which normal law the surface has: PONG_NORMAL_...
+    int32_t normal_law;
+    /// Which friction law the surface has: PONG_FRICTION_...
+    int32_t friction_law;
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ); infinite means rigid.
+    double stiffness;
+    /// Linear: damping, N s/m.
+    double damping;
+    /// Linear: depth over which the damping sets in, m; 0 means at once.
+    double ramp;
+    /// Hunt-Crossley: chi, s/m.
+    double dissipation;
+    /// Bristle, Coulomb: kinetic friction coefficient.
+    double friction;
+    /// Bristle: a, so that the static coefficient is (1 + a) times the kinetic one.
+    double friction_static_excess;
+    /// Bristle: tangential stiffness, N/m; 0 takes two thirds of the normal stiffness.
+    double friction_stiffness;
+    /// Bristle: tangential damping, N s/m.
+    double friction_damping;
+    /// Coulomb: slip speed at which the full force is reached, m/s.
+    double friction_slip_speed;
+} pong_surface_values;
+
+/// Along the axes of the movable group.
+#define PONG_FRAME_GROUP 0
+
+/// Along the axes of the common frame.
+#define PONG_FRAME_COMMON 1
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/// Name of a status number as this header spells it; "unknown status" for a number that is none. Lives as long
+/// as the library.
+const char *pong_status_name(int32_t status);
+
+/// What the last call of this thread had to say: empty after a success, never NULL.
+/// Valid until this thread's next call; calls of other threads do not touch it. This call and
+/// pong_status_name() leave it as it is.
+const char *pong_last_message(void);
+
+/// Version of the library, "major.minor.patch". Lives as long as the library.
+const char *pong_version_string(void);
+
+/// PONG_ABI_VERSION of the library; compare it with that of your header, or use PONG_CHECK_ABI().
+uint32_t pong_abi_version(void);
+
+/// Hash of the layout of every struct and of every status number in the library; PONG_LAYOUT_HASH is that of the
+/// header.
+uint64_t pong_layout_hash(void);
+
+/// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+pong_status pong_check_abi(uint32_t abi_version, uint64_t hash);
+
+/// The default settings.
+struct pong_config pong_default_config(void);
+
+/// At rest at the common origin.
+struct pong_state pong_default_state(void);
+
+/// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. With n = 0 the
+/// arrays may be NULL. Groups that are not named keep their state.
+pong_status pong_set_states(struct pong_world *world,
+                            const struct pong_interface_id *interfaces,
+                            const struct pong_state *states,
+                            size_t n);
+
+/// Sets the state of one movable group.
+pong_status pong_set_state(struct pong_world *world,
+                           struct pong_interface_id interface,
+                           const struct pong_state *state);
+
+/// The state last set for a movable group, its quaternion normalised. PONG_STATUS_UNSET_STATE if there is none.
+pong_status pong_get_state(const struct pong_world *world,
+                           struct pong_interface_id interface,
+                           struct pong_state *state);
+
+/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL.
+pong_status pong_get_wrenches(const struct pong_world *world,
+                              const struct pong_interface_id *interfaces,
+                              pong_frame frame,
+                              struct pong_wrench *wrenches,
+                              size_t n);
+
+/// Wrench of the last frame on one movable group.
+pong_status pong_get_wrench(const struct pong_world *world,
+                            struct pong_interface_id interface,
+                            pong_frame frame,
+                            struct pong_wrench *wrench);
+
+/// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
+pong_status pong_create_world(const struct pong_config *config, struct pong_world **world);
+
+/// Destroys a world and everything it gave out: ids become stale, names and warnings must not be read any more.
+/// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
+pong_status pong_destroy_world(struct pong_world *world);
+
+/// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
+///
+/// `force` returns the force of a whole contact in N (negative counts as 0), `stored` the energy stored at this
+/// depth in J; NULL for `stored` counts none, and the ledger then takes it as dissipated. Both must be pure (same
+/// input, same answer) and may be called from any thread and from several at once; they must not throw, jump out
+/// or call this world. `user` is handed to them as it is and must live as long as the world.
+pong_status pong_register_normal_law(struct pong_world *world,
+                                     const char *name,
+                                     pong_normal_law force,
+                                     pong_normal_law stored,
+                                     void *user);
+
+/// Adds a friction law that remembers `state_len` numbers per contact (at most 64). The same rules as for
+/// pong_register_normal_law().
+pong_status pong_register_friction_law(struct pong_world *world,
+                                       const char *name,
+                                       size_t state_len,
+                                       pong_friction_law law,
+                                       void *user);
+
+/// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
+/// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
+pong_status pong_load_model(struct pong_world *world,
+                            const char *path,
+                            struct pong_model_id *model);
+
+/// Loads a model from `length` bytes of UTF-8 text; it needs no zero byte at its end. Errors call it `name`.
+/// Meshes in files of their own are looked for in `mesh_dir`; with NULL they are refused. Otherwise as
+/// pong_load_model().
+pong_status pong_load_model_text(struct pong_world *world,
+                                 const char *text,
+                                 size_t length,
+                                 const char *name,
+                                 const char *mesh_dir,
+                                 struct pong_model_id *model);
+
+/// How many warnings loading a model left: what its author should know though the model is valid.
+pong_status pong_model_warning_count(const struct pong_world *world,
+                                     struct pong_model_id model,
+                                     size_t *count);
+
+/// A warning of a model. The text lives as long as the world.
+pong_status pong_model_warning(const struct pong_world *world,
+                               struct pong_model_id model,
+                               size_t index,
+                               const char **warning);
+
+/// Creates an Object from a model, under a name of its own. Objects of one model are independent. Before sealing.
+pong_status pong_create_object(struct pong_world *world,
+                               struct pong_model_id model,
+                               const char *name,
+                               struct pong_object_id *object);
+
+/// The Object of a name.
+pong_status pong_find_object(const struct pong_world *world, const char *name, struct pong_object_id *object);
+
+/// Name of an Object. The text lives as long as the world.
+pong_status pong_object_name(const struct pong_world *world, struct pong_object_id object, const char **name);
+
+/// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
+pong_status pong_forget_object(struct pong_world *world, struct pong_object_id object);
+
+/// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each
+/// other. Before sealing. `pair` may be NULL.
+pong_status pong_pair_objects(struct pong_world *world,
+                              struct pong_object_id a,
+                              struct pong_object_id b,
+                              struct pong_pair_id *pair);
+
+/// As pong_pair_objects(), by the names of the Objects.
+pong_status pong_pair_by_name(struct pong_world *world,
+                              const char *a,
+                              const char *b,
+                              struct pong_pair_id *pair);
+
+/// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
+/// again it has no past.
+pong_status pong_set_pair_enabled(struct pong_world *world,
+                                  struct pong_pair_id pair,
+                                  int32_t enabled);
+
+/// The Interface of a movable group: by its path in the model, "root/arm/latch"; by its bare name where only one
+/// movable group of the model has it; "" for the root.
+pong_status pong_find_interface(const struct pong_world *world,
+                                struct pong_object_id object,
+                                const char *path,
+                                struct pong_interface_id *interface);
+
+/// All Interfaces of an Object, the root's first, as many as `capacity`; `count` gets their number.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `interfaces` may be NULL.
+pong_status pong_list_interfaces(const struct pong_world *world,
+                                 struct pong_object_id object,
+                                 struct pong_interface_id *interfaces,
+                                 size_t capacity,
+                                 size_t *count);
+
+/// Path of an Interface's movable group in its model. The text lives as long as the world.
+pong_status pong_interface_path(const struct pong_world *world,
+                                struct pong_interface_id interface,
+                                const char **path);
+
+/// The Object an Interface belongs to.
+pong_status pong_interface_object(const struct pong_world *world,
+                                  struct pong_interface_id interface,
+                                  struct pong_object_id *object);
+
+/// Where the model's author placed a movable group in the frame of the root group, at rest: a place to start
+/// from. The identity for the root.
+pong_status pong_get_authored_state(const struct pong_world *world,
+                                    struct pong_interface_id interface,
+                                    struct pong_state *state);
+
+/// How many primitives a movable group has; a mesh is one.
+pong_status pong_primitive_count(const struct pong_world *world,
+                                 struct pong_interface_id interface,
+                                 uint32_t *count);
+
+/// Path of a primitive in its model. The text lives as long as the world.
+pong_status pong_primitive_path(const struct pong_world *world,
+                                struct pong_interface_id interface,
+                                uint32_t primitive,
+                                const char **path);
+
+/// Index of the primitive with this path in its model.
+pong_status pong_find_primitive(const struct pong_world *world,
+                                struct pong_interface_id interface,
+                                const char *path,
+                                uint32_t *primitive);
+
+/// Ends set-up: checks that everything that may meet can be tested and combined, and sizes all memory. `report`
+/// may be NULL. After a failure the world is still in set-up, and the message lists every reason.
+pong_status pong_seal(struct pong_world *world,
+                      struct pong_seal_report *report);
+
+/// A warning of sealing: something the author may not have intended. The text lives as long as the world.
+pong_status pong_seal_warning(const struct pong_world *world, size_t index, const char **warning);
+
+/// Computes contacts and wrenches from the states and the committed contact state. Changes nothing that a later
+/// evaluate or commit can see: integrators call it any number of times, at times in any order. A frame that hit a
+/// limit succeeds; its report has a flag.
+pong_status pong_evaluate(struct pong_world *world);
+
+/// Accepts the states presently set, evaluating them first if they are not the ones last evaluated. The only
+/// writer of contact state: call it once per accepted step, never from a stage of an integrator.
+pong_status pong_commit(struct pong_world *world);
+
+/// As pong_commit(), for some pairs only: the others keep their last committed state. For executives that run
+/// several rates. With n = 0 `pairs` may be NULL.
+pong_status pong_commit_pairs(struct pong_world *world, const struct pong_pair_id *pairs, size_t n);
+
+/// Evaluate and commit, for executives that call once a frame.
+pong_status pong_step(struct pong_world *world);
+
+/// Number of contacts of the last frame; 0 before the first.
+pong_status pong_contact_count(const struct pong_world *world, size_t *count);
+
+/// The contacts of the last frame, always in the same order for the same frame: the first `capacity` are copied,
+/// `count` gets their number. PONG_STATUS_BUFFER_TOO_SMALL if not all fit; the contact capacity of the seal report
+/// is always enough. With capacity 0 `contacts` may be NULL.
+pong_status pong_get_contacts(const struct pong_world *world,
+                              struct pong_contact *contacts,
+                              size_t capacity,
+                              size_t *count);
+
+/// Counts, times and flags of the last frame; all zero before the first.
+pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
+
+/// The energies; zero unless the configuration has keep_ledger.
+pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
+
+/// Size of the saved contact state, bytes; fixed when the world is sealed.
+pong_status pong_contact_state_size(const struct pong_world *world, size_t *size);
+
+/// Saves the committed contact state into the caller's buffer of `size` bytes, of which the first
+/// pong_contact_state_size() are written. The bytes hold no pointer: write them to a file, keep them, compare them.
+pong_status pong_save_contact_state(const struct pong_world *world,
+                                    void *buffer,
+                                    size_t size);
+
+/// Restores a contact state of exactly pong_contact_state_size() bytes, saved by this world or by one that was
+/// built by the same calls. The states of the movable groups are the host's and are not part of it.
+/// PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
+pong_status pong_restore_contact_state(struct pong_world *world,
+                                       const void *buffer,
+                                       size_t size);
+
+/// Number of surfaces of a model.
+pong_status pong_surface_count(const struct pong_world *world, struct pong_model_id model, size_t *count);
+
+/// Name of a surface of a model. The text lives as long as the world.
+pong_status pong_surface_name(const struct pong_world *world,
+                              struct pong_model_id model,
+                              size_t index,
+                              const char **name);
+
+/// The values of a surface as they are now.
+pong_status pong_get_surface(const struct pong_world *world,
+                             struct pong_model_id model,
+                             const char *surface,
+                             struct pong_surface_values *values);
+
+/// Sets the values of a surface for all Objects of a model, from the next evaluation on. Allocates: between
+/// frames, not in them.
+pong_status pong_set_surface(struct pong_world *world,
+                             struct pong_model_id model,
+                             const char *surface,
+                             const struct pong_surface_values *values);
+
+/// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
+pong_status pong_set_object_user_data(struct pong_world *world,
+                                      struct pong_object_id object,
+                                      uint64_t user_data);
+
+/// The number kept with an Object; 0 if none was set.
+pong_status pong_get_object_user_data(const struct pong_world *world,
+                                      struct pong_object_id object,
+                                      uint64_t *user_data);
+
+/// Keeps a number of the host's with a primitive of one Object.
+pong_status pong_set_primitive_user_data(struct pong_world *world,
+                                         struct pong_interface_id interface,
+                                         uint32_t primitive,
+                                         uint64_t user_data);
+
+/// The number kept with a primitive; 0 if none was set.
+pong_status pong_get_primitive_user_data(const struct pong_world *world,
+                                         struct pong_interface_id interface,
+                                         uint32_t primitive,
+                                         uint64_t *user_data);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* PONG_H */
