@@ -10,8 +10,17 @@
 //! * a vertex: `n` lies in its normal cone and is a local minimum for a point and an ellipsoid.
 //!
 //! A point has at most two local minima ([`ellipsoid_math`](super::ellipsoid_math)), so the candidates are few and
-//! the true minimum is one of them: no iteration over the shape, no sampling. The smallest candidate that may push
-//! is the contact (ties: the lower feature).
+//! the true minimum is one of them: no sampling. The smallest candidate that may push is the contact (ties: the lower
+//! feature).
+//!
+//! # How most candidates are spared
+//!
+//! `a`, the ellipsoid's deepest point below a face of overlap δ, lies δ below that face. For every n, `D(n)` is at
+//! least the depth of `a` along n. If `a` lies no less deep below any other face, then it does so along every n: that
+//! face is the minimum, and nothing else is looked at. Otherwise a smaller minimum can only belong to an edge or
+//! vertex of a face that `a` lies less deep below, a *suspect*: n is a sum of the feature's face normals with
+//! coefficients whose sum is at least 1. The face to start from is found by the same test: a face of less overlap is
+//! always a suspect.
 //!
 //! # Rounding
 //!
@@ -52,23 +61,117 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Tests an ellipsoid (A) against one convex piece (B).
 pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
     let prepared = PreparedEllipsoid::new(e);
-    let mut search = Search::start(e, &prepared, p)?;
-    let witness = search.overlap_witness()?;
-    if search.only_touches(&witness) {
-        return None;
-    }
-    search.try_faces();
-    search.try_edges();
-    search.try_vertices();
-    if search.best.is_none() && search.all_active {
-        search.stand_in(&witness);
-    }
-    search.best.map(|best| Interference {
-        depth: best.depth,
-        normal: best.normal,
-        point_a: prepared.deepest(&best.normal),
-        feature: best.feature,
+    let (lead, suspects) = Lead::find(&prepared, p)?;
+    let face =
+        Candidate { depth: lead.depth, normal: p.faces[lead.face].normal, feature: Feature::face(lead.face) };
+    let found = if suspects.count == 0 {
+        Some(face)
+    } else {
+        Search::new(e, &prepared, p, lead, face).least(&suspects)
+    };
+    found.map(|least| Interference {
+        depth: least.depth,
+        normal: least.normal,
+        point_a: prepared.deepest(&least.normal),
+        feature: least.feature,
     })
+}
+
+/// The active face of least overlap.
+#[derive(Clone, Copy)]
+struct Lead {
+    face: usize,
+    depth: f64,
+    /// The ellipsoid's deepest point below it.
+    deepest: Vec3,
+}
+
+/// The faces below which the lead's deepest point lies less deep than below the lead.
+struct Suspects {
+    faces: [u32; Self::CAPACITY],
+    /// May exceed the capacity: then every face is suspected.
+    count: usize,
+    /// Whether the deepest point is inside the polyhedron, so that the two overlap.
+    pierces: bool,
+}
+
+impl Lead {
+    /// `None` if a face's plane separates the two, or no face is active.
+    fn find(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
+        let mut lead = Self::at(e, p, highest_active_face(e, p)?);
+        if lead.depth <= 0.0 {
+            return None;
+        }
+        let mut suspects = Suspects::none();
+        let (mut index, mut agreed) = (0, 0);
+        // Round and round until all faces have agreed; every change of the lead lowers its overlap.
+        while agreed < p.faces.len() {
+            let under = -p.faces[index].height(&lead.deepest);
+            if under < lead.depth && index != lead.face {
+                let other = Self::at(e, p, index);
+                if other.depth <= 0.0 {
+                    return None;
+                }
+                if p.faces[index].active && (other.depth, index) < (lead.depth, lead.face) {
+                    lead = other;
+                    suspects = Suspects::none();
+                    agreed = 0;
+                } else {
+                    suspects.add(index, under);
+                }
+            }
+            agreed += 1;
+            index = if index + 1 == p.faces.len() { 0 } else { index + 1 };
+        }
+        Some((lead, suspects))
+    }
+
+    fn at(e: &PreparedEllipsoid, p: &Polyhedron, face: usize) -> Self {
+        let widened = e.widened(&p.faces[face].normal);
+        let half_width = widened.norm();
+        Self {
+            face,
+            depth: half_width - p.faces[face].height(&e.center),
+            deepest: e.center - e.reach(&widened) / half_width,
+        }
+    }
+}
+
+fn highest_active_face(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<usize> {
+    let mut highest = None;
+    let mut most = f64::NEG_INFINITY;
+    for (index, face) in p.faces.iter().enumerate() {
+        let height = face.height(&e.center);
+        if height >= e.largest {
+            return None;
+        }
+        if height > most && face.active {
+            most = height;
+            highest = Some(index);
+        }
+    }
+    highest
+}
+
+impl Suspects {
+    const CAPACITY: usize = 32;
+
+    fn none() -> Self {
+        Self { faces: [0; Self::CAPACITY], count: 0, pierces: true }
+    }
+
+    fn add(&mut self, face: usize, under: f64) {
+        if let Some(slot) = self.faces.get_mut(self.count) {
+            *slot = face as u32;
+        }
+        self.count += 1;
+        self.pierces &= under > 0.0;
+    }
+
+    /// `None` if there were too many to list.
+    fn listed(&self) -> Option<&[u32]> {
+        self.faces.get(..self.count)
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -78,15 +181,16 @@ struct Candidate {
     feature: Feature,
 }
 
+/// The search among the features of suspects.
 struct Search<'a> {
     ellipsoid: &'a Ellipsoid,
     prepared: &'a PreparedEllipsoid,
     polyhedron: &'a Polyhedron,
+    lead: Lead,
+    lead_face: Candidate,
     all_active: bool,
     /// The least overlap of an active face, an upper bound of the depth.
     bound: f64,
-    /// Faces this high or lower have no part in a minimum below `bound`.
-    near_height: f64,
     /// The largest length involved, which rounding is relative to, m.
     size: f64,
     foot_slack: f64,
@@ -94,37 +198,47 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// `None` if a face's plane separates the two.
-    fn start(e: &'a Ellipsoid, prepared: &'a PreparedEllipsoid, p: &'a Polyhedron) -> Option<Self> {
-        let mut all_active = true;
-        for face in &p.faces {
-            let height = face.height(&e.center);
-            all_active &= face.active;
-            if height >= prepared.smallest && height >= prepared.widened(&face.normal).norm() {
-                return None;
-            }
-        }
-        let mut bound = f64::INFINITY;
-        for face in p.faces.iter().filter(|face| face.active) {
-            let height = face.height(&e.center);
-            if prepared.smallest - height < bound {
-                bound = bound.min(prepared.widened(&face.normal).norm() - height);
-            }
-        }
-        bound += BOUND_SLACK * bound;
-        let near_height = (prepared.smallest - bound).min(0.0);
-        let size = p.diameter + prepared.largest + e.center.amax();
-        Some(Self {
-            ellipsoid: e,
+    fn new(
+        ellipsoid: &'a Ellipsoid,
+        prepared: &'a PreparedEllipsoid,
+        polyhedron: &'a Polyhedron,
+        lead: Lead,
+        lead_face: Candidate,
+    ) -> Self {
+        let size = polyhedron.diameter + prepared.largest + ellipsoid.center.amax();
+        Self {
+            ellipsoid,
             prepared,
-            polyhedron: p,
-            all_active,
-            bound,
-            near_height,
+            polyhedron,
+            lead,
+            lead_face,
+            all_active: polyhedron.faces.iter().all(|face| face.active),
+            bound: lead.depth * (1.0 + BOUND_SLACK),
             size,
             foot_slack: FOOT_SLACK * size,
             best: None,
-        })
+        }
+    }
+
+    fn least(mut self, suspects: &Suspects) -> Option<Candidate> {
+        let mut witness = None;
+        if !suspects.pierces {
+            let found = self.overlap_witness()?;
+            if self.only_touches(&found) {
+                return None;
+            }
+            witness = Some(found);
+        }
+        self.try_lead_face();
+        // A wall's edges may belong to the faces of other pieces, which no suspect of this one answers for.
+        match suspects.listed().filter(|_| self.all_active) {
+            Some(faces) => self.try_features_of(faces),
+            None => self.try_all_features(),
+        }
+        if self.best.is_none() && self.all_active {
+            self.stand_in(witness);
+        }
+        self.best
     }
 
     /// A point of the polyhedron in the ellipsoid, from the centre, where the ellipsoid is the unit ball.
@@ -133,30 +247,35 @@ impl<'a> Search<'a> {
     /// in front of: at the foot on the plane, or else on one of the edges that the foot is beyond.
     fn overlap_witness(&self) -> Option<Vec3> {
         let mut inside = true;
-        for (index, face) in self.polyhedron.faces.iter().enumerate() {
-            let height = face.height(&self.ellipsoid.center);
-            if height <= 0.0 {
-                continue;
-            }
-            inside = false;
-            let widened = self.prepared.widened(&face.normal);
-            let share = height / widened.norm_squared();
-            let foot = self.ellipsoid.center - self.prepared.reach(&widened) * share;
-            let mut in_outline = true;
-            for rim in self.polyhedron.rim(index) {
-                if rim.outward.dot(&(foot - rim.anchor)) > 0.0 {
-                    in_outline = false;
-                    let nearest = self.nearest_of_edge(rim.edge as usize);
-                    if nearest.norm_squared() < 1.0 {
-                        return Some(nearest);
-                    }
+        let all = 0..self.polyhedron.faces.len();
+        for index in std::iter::once(self.lead.face).chain(all) {
+            let height = self.polyhedron.height(index, &self.ellipsoid.center);
+            if height > 0.0 {
+                inside = false;
+                let witness = self.witness_on_face(index, height);
+                if witness.is_some() {
+                    return witness;
                 }
-            }
-            if in_outline {
-                return Some(widened * -share);
             }
         }
         inside.then(Vec3::zeros)
+    }
+
+    fn witness_on_face(&self, index: usize, height: f64) -> Option<Vec3> {
+        let widened = self.prepared.widened(&self.polyhedron.faces[index].normal);
+        let share = height / widened.norm_squared();
+        let foot = self.ellipsoid.center - self.prepared.reach(&widened) * share;
+        let mut in_outline = true;
+        for rim in self.polyhedron.rim(index) {
+            if rim.outward.dot(&(foot - rim.anchor)) > 0.0 {
+                in_outline = false;
+                let nearest = self.nearest_of_edge(rim.edge as usize);
+                if nearest.norm_squared() < 1.0 {
+                    return Some(nearest);
+                }
+            }
+        }
+        in_outline.then(|| widened * -share)
     }
 
     /// Whether the overlap found is nothing but rounding, told from the direction of a point hardly inside.
@@ -178,41 +297,41 @@ impl<'a> Search<'a> {
         start + along * share
     }
 
-    fn try_faces(&mut self) {
-        for (index, face) in self.polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
-            let height = face.height(&self.ellipsoid.center);
-            if self.prepared.smallest - height > self.limit() {
-                continue;
-            }
-            let widened = self.prepared.widened(&face.normal);
-            let half_width = widened.norm();
-            let depth = half_width - height;
-            if depth > self.limit() {
-                continue;
-            }
-            let deepest = self.ellipsoid.center - self.prepared.reach(&widened) / half_width;
-            let rims = self.polyhedron.rim(index);
-            if rims.iter().all(|rim| rim.outward.dot(&(deepest - rim.anchor)) <= self.foot_slack) {
-                self.offer(depth, &face.normal, Feature::face(index));
+    fn try_lead_face(&mut self) {
+        let rims = self.polyhedron.rim(self.lead.face);
+        if rims.iter().all(|rim| rim.outward.dot(&(self.lead.deepest - rim.anchor)) <= self.foot_slack) {
+            self.offer(self.lead_face);
+        }
+    }
+
+    fn try_features_of(&mut self, suspects: &[u32]) {
+        let polyhedron = self.polyhedron;
+        for &face in suspects {
+            for rim in polyhedron.rim(face as usize) {
+                let first_here = rim.neighbor > face || !suspects.contains(&rim.neighbor);
+                if first_here {
+                    self.try_edge(rim.edge as usize);
+                }
+                self.try_vertex(rim.start as usize);
             }
         }
     }
 
-    fn try_edges(&mut self) {
+    fn try_all_features(&mut self) {
         for index in 0..self.polyhedron.edges.len() {
-            if let Some(push) = &self.polyhedron.edges[index].push {
-                self.try_edge(index, push);
-            }
+            self.try_edge(index);
+        }
+        for index in 0..self.polyhedron.vertices.len() {
+            self.try_vertex(index);
         }
     }
 
-    fn try_edge(&mut self, index: usize, push: &EdgePush) {
+    fn try_edge(&mut self, index: usize) {
         let edge = &self.polyhedron.edges[index];
+        let Some(push) = &edge.push else { return };
         let from_edge = self.ellipsoid.center - self.position(edge.vertices[0]);
         let heights = push.normals.map(|n| n.dot(&from_edge));
-        if heights[0].max(heights[1]) <= self.near_height
-            || self.prepared.arc_bound(&push.normals, &heights) > self.limit()
-        {
+        if self.prepared.arc_bound(&push.normals, &heights) > self.limit() {
             return;
         }
         let shadow = Shadow::new(self.prepared, &push.normals[0], &push.outwards[0]);
@@ -220,7 +339,8 @@ impl<'a> Search<'a> {
         if y[0].abs() < shadow.semi_axes[0] && y[1].abs() < shadow.semi_axes[1] {
             self.offer_edge(index, push, &shadow, &nearest_on_ellipse(shadow.semi_axes, y));
         }
-        if let Some(foot) = second_nearest_on_ellipse(shadow.semi_axes, y) {
+        let second = self.prepared.allows_second(self.limit());
+        if let Some(foot) = second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten() {
             self.offer_edge(index, push, &shadow, &foot);
         }
     }
@@ -239,23 +359,28 @@ impl<'a> Search<'a> {
         let [first, second] = edge.vertices.map(|v| edge.direction.dot(&(deepest - self.position(v))));
         if first >= -self.foot_slack && second <= self.foot_slack {
             let depth = if least > 0.0 { foot.depth } else { self.whole_depth(&normal) };
-            self.offer(depth, &normal, Feature::edge(index));
+            self.offer(Candidate { depth, normal, feature: Feature::edge(index) });
         }
     }
 
-    fn try_vertices(&mut self) {
-        for index in 0..self.polyhedron.vertices.len() {
-            let vertex = &self.polyhedron.vertices[index];
-            if !vertex.pushes {
-                continue;
-            }
-            let from_vertex = self.ellipsoid.center - vertex.position;
-            let radius_square = self.prepared.shrunk(&from_vertex).norm_squared();
+    fn try_vertex(&mut self, index: usize) {
+        let vertex = &self.polyhedron.vertices[index];
+        if !vertex.pushes {
+            return;
+        }
+        let from_vertex = self.ellipsoid.center - vertex.position;
+        let semi_axes = &self.ellipsoid.semi_axes;
+        let radius_square = self.prepared.shrunk(&from_vertex).norm_squared();
+        let limit = self.limit();
+        // A point at that radius of the unit ball lies at least so deep.
+        let near = radius_square < 1.0 && self.prepared.smallest * (1.0 - radius_square.sqrt()) <= limit;
+        let second = self.prepared.allows_second(limit);
+        if near || second {
             let y = self.ellipsoid.axes.tr_mul(&from_vertex);
-            if radius_square < 1.0 && self.prepared.smallest * (1.0 - radius_square.sqrt()) <= self.limit() {
-                self.offer_vertex(index, &nearest_on_ellipsoid(&self.ellipsoid.semi_axes, &y));
+            if near {
+                self.offer_vertex(index, &nearest_on_ellipsoid(semi_axes, &y));
             }
-            if let Some(foot) = second_nearest_on_ellipsoid(&self.ellipsoid.semi_axes, &y) {
+            if let Some(foot) = second.then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten() {
                 self.offer_vertex(index, &foot);
             }
         }
@@ -269,27 +394,25 @@ impl<'a> Search<'a> {
         let most = self.polyhedron.cone(index).iter().fold(f64::NEG_INFINITY, |m, e| m.max(e.dot(&normal)));
         if most < CONE_SLACK {
             let depth = if most < 0.0 { foot.depth } else { self.whole_depth(&normal) };
-            self.offer(depth, &normal, Feature::vertex(index));
+            self.offer(Candidate { depth, normal, feature: Feature::vertex(index) });
         }
     }
 
     /// The contact where every feature's foot was lost to rounding (see the head of this file).
-    fn stand_in(&mut self, witness: &Vec3) {
-        for (index, face) in self.polyhedron.faces.iter().enumerate() {
-            let depth = self.prepared.widened(&face.normal).norm() - face.height(&self.ellipsoid.center);
-            self.offer(depth, &face.normal, Feature::face(index));
-        }
-        if *witness != Vec3::zeros() {
-            let normal = self.direction_from(witness);
-            let support = self.support_vertex(&normal);
-            self.offer(self.whole_depth(&normal), &normal, Feature::vertex(support));
+    fn stand_in(&mut self, witness: Option<Vec3>) {
+        self.offer(self.lead_face);
+        if let Some(witness) = witness.filter(|w| *w != Vec3::zeros()) {
+            let normal = self.direction_from(&witness);
+            let feature = Feature::vertex(self.support_vertex(&normal));
+            self.offer(Candidate { depth: self.whole_depth(&normal), normal, feature });
         }
     }
 
-    fn offer(&mut self, depth: f64, normal: &Vec3, feature: Feature) {
-        let wins = self.best.is_none_or(|best| (depth, feature) < (best.depth, best.feature));
-        if depth > 0.0 && wins && !self.pushes_into_a_wall(depth, normal) {
-            self.best = Some(Candidate { depth, normal: *normal, feature });
+    fn offer(&mut self, candidate: Candidate) {
+        let wins =
+            self.best.is_none_or(|best| (candidate.depth, candidate.feature) < (best.depth, best.feature));
+        if candidate.depth > 0.0 && wins && !self.pushes_into_a_wall(candidate.depth, &candidate.normal) {
+            self.best = Some(candidate);
         }
     }
 

@@ -61,6 +61,13 @@ impl PreparedEllipsoid {
         self.center - self.reach(&widened) / widened.norm()
     }
 
+    /// Whether a second local minimum can be as small as `depth`: it lies beyond `t = −a_min²`, so its depth `−t/h` is
+    /// at least the smallest radius of curvature.
+    #[inline]
+    pub(crate) fn allows_second(&self, depth: f64) -> bool {
+        depth * self.largest >= self.smallest * self.smallest
+    }
+
     /// A lower bound of the overlap over the normals between two faces that the centre is `heights` above.
     ///
     /// `D` extended to all lengths of n is convex, so on the chord between the two normals it lies above its two
