@@ -14,6 +14,10 @@ use std::collections::BTreeSet;
 /// The most contacts of a frame where the scene's worst case is larger and the host names no limit.
 const DEFAULT_CAPACITY_MAX: usize = 65_536;
 
+/// The least capacity where the host names no limit: a ball centred in a cone of many facets touches all of them,
+/// more than the worst case counts for it.
+const DEFAULT_CAPACITY_MIN: usize = 256;
+
 /// A pair of movable groups that are tested against each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupPair {
@@ -320,7 +324,7 @@ fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
             total = total.saturating_add(movers.saturating_mul(scene.body(b).shell_count as usize));
         }
     }
-    total.clamp(1, DEFAULT_CAPACITY_MAX)
+    total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)
 }
 
 fn warnings(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<SetupWarning> {

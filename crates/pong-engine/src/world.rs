@@ -17,7 +17,8 @@ pub use crate::frame::State;
 /// Settings of a world.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Config {
-    /// Most contacts of a frame; `None` takes the worst case of the scene, at most 65,536. When a frame has more,
+    /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
+    /// 65,536. When a frame has more,
     /// the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
     /// Whether energies are kept (physics contract, section 6).
