@@ -70,14 +70,20 @@ fn a_registered_primitive_is_made_and_bounded() {
 
 #[test]
 fn a_registered_volume_is_fitted() {
-    let text = model_of("Point(name: \"p\", position: (0,0,0))").replace("surface:", "bound: Custom(\"everything\"), surface:");
+    let text = model_of("Point(name: \"p\", position: (0,0,0))")
+        .replace("surface:", "bound: Custom(\"everything\"), surface:");
     let model = pong_model::parse(&text, "test.ron", None, &extensions()).expect("a good model");
-    assert!(matches!(&model.bodies[0].tree.nodes[0].volume, Volume::Custom(v) if v.kind_name() == "everything"));
+    assert!(
+        matches!(&model.bodies[0].tree.nodes[0].volume, Volume::Custom(v) if v.kind_name() == "everything")
+    );
 }
 
 #[test]
 fn what_a_factory_refuses_is_told() {
-    assert_eq!(rule(&model_of("Custom(name: \"ring\", kind: \"torus\", parameters: [2.0])")), ("custom-parameters", 3));
+    assert_eq!(
+        rule(&model_of("Custom(name: \"ring\", kind: \"torus\", parameters: [2.0])")),
+        ("custom-parameters", 3)
+    );
 }
 
 #[test]
@@ -92,7 +98,8 @@ fn a_custom_primitive_knows_no_pose() {
 fn a_fitter_that_returns_another_kind_is_told() {
     let mut ext = extensions();
     ext.add_volume("liar", Arc::new(|_| Arc::new(Everything)));
-    let text = model_of("Point(name: \"p\", position: (0,0,0))").replace("surface:", "bound: Custom(\"liar\"), surface:");
+    let text = model_of("Point(name: \"p\", position: (0,0,0))")
+        .replace("surface:", "bound: Custom(\"liar\"), surface:");
     let errors = pong_model::parse(&text, "test.ron", None, &ext).expect_err("a fault");
     assert_eq!(errors.0[0].rule, "bound");
 }

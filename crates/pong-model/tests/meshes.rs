@@ -85,7 +85,11 @@ fn an_stl_cube_is_one_closed_shell_of_welded_vertices() {
     for file in ["cube.stl", "solid.stl", "sub/ascii.STL"] {
         let model = folder.load(&format!("TriangleMesh(name: \"m\", file: \"{file}\", scale: 0.5)")).unwrap();
         let set = &model.bodies[0].triangles;
-        assert_eq!((set.vertices.len(), set.triangles.len(), model.bodies[0].shell_count), (8, 12, 1), "{file}");
+        assert_eq!(
+            (set.vertices.len(), set.triangles.len(), model.bodies[0].shell_count),
+            (8, 12, 1),
+            "{file}"
+        );
         assert!(set.triangles.iter().all(|t| t.neighbors.iter().all(|&n| n < 12)));
         assert!(set.vertices.iter().all(|v| v.amax() == 0.5));
         hashes.push(model.hash);
@@ -111,8 +115,7 @@ fn hulls_from_files_have_their_triangles_merged_into_faces() {
 fn inactive_faces_are_counted_as_in_the_file() {
     let folder = Folder::new("inactive");
     folder.write("cube.stl", &binary_stl(&cube_triangles(), b""));
-    let model =
-        folder.load("Polyhedron(name: \"h\", file: \"cube.stl\", inactive_faces: [2, 3])").unwrap();
+    let model = folder.load("Polyhedron(name: \"h\", file: \"cube.stl\", inactive_faces: [2, 3])").unwrap();
     let hull = &model.bodies[0].polyhedra[0];
     let inactive: Vec<_> = hull.faces.iter().filter(|face| !face.active).collect();
     assert_eq!(inactive.len(), 1);

@@ -68,7 +68,11 @@ fn faults_of_the_top_level() {
     let rest = "surfaces: {\"s\": (stiffness: 1)}, root: (name: \"root\", surface: \"s\", primitives: [Point(name: \"p\", position: (0,0,0))])";
     refused("format", "model", &format!("(\n/*!*/format: \"pong\", version: 1, name: \"m\", {rest})"));
     refused("version", "model", &format!("(format: \"pong-model\",\n/*!*/version: 2, name: \"m\", {rest})"));
-    refused("empty-name", "model", &format!("(format: \"pong-model\", version: 1,\n/*!*/name: \"\", {rest})"));
+    refused(
+        "empty-name",
+        "model",
+        &format!("(format: \"pong-model\", version: 1,\n/*!*/name: \"\", {rest})"),
+    );
     refused("missing-field", "model", &format!("\n/*!*/(version: 1, name: \"m\", {rest})"));
     refused("wrong-type", "model", "\n/*!*/[1, 2]");
     refused(
@@ -93,8 +97,16 @@ fn faults_of_surfaces() {
     surface("negative", "surfaces/t", "\"t\": (stiffness: 1, normal: Linear(/*!*/ramp: -1))");
     surface("unknown-kind", "surfaces/t", "\"t\": (stiffness: 1, normal:/*!*/ Linaer(damping: 1))");
     surface("wrong-type", "surfaces/t", "\"t\": (stiffness: 1, normal:/*!*/ 3)");
-    surface("exponent", "surfaces/t", "\"t\": (stiffness: 1, normal: HuntCrossley(dissipation: 1, /*!*/exponent: 2))");
-    surface("missing-field", "surfaces/t", "\"t\": (stiffness: 1, normal: /*!*/HuntCrossley(dissipation: 1))");
+    surface(
+        "exponent",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, normal: HuntCrossley(dissipation: 1, /*!*/exponent: 2))",
+    );
+    surface(
+        "missing-field",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, normal: /*!*/HuntCrossley(dissipation: 1))",
+    );
     for e in ["0", "-0.1", "1.1"] {
         let text = format!("\"t\": (stiffness: 1, normal: Linear(restitution: (/*!*/e: {e}, mass: 1)))");
         surface("restitution-range", "surfaces/t", &text);
@@ -110,9 +122,21 @@ fn faults_of_surfaces() {
         "\"t\": (stiffness: 1, normal: Linear(damping: 1,\n/*!*/ restitution: (e: 0.5, mass: 1)))",
     );
     surface("negative", "surfaces/t", "\"t\": (stiffness: 1, friction: Bristle(/*!*/mu: -0.1))");
-    surface("negative", "surfaces/t", "\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/static_excess: -0.1))");
-    surface("not-positive", "surfaces/t", "\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/stiffness: 0))");
-    surface("not-positive", "surfaces/t", "\"t\": (stiffness: 1, friction: Coulomb(mu: 1, /*!*/slip_speed: 0))");
+    surface(
+        "negative",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/static_excess: -0.1))",
+    );
+    surface(
+        "not-positive",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/stiffness: 0))",
+    );
+    surface(
+        "not-positive",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, friction: Coulomb(mu: 1, /*!*/slip_speed: 0))",
+    );
 }
 
 #[test]
@@ -136,7 +160,11 @@ fn faults_of_groups() {
     root("missing-field", "root", &format!("/*!*/(surface: \"s\", primitives: [{p}])"));
     root("empty-name", "root", &format!("(/*!*/name: \"\", surface: \"s\", primitives: [{p}])"));
     root("slash-in-name", "a/b", &format!("(/*!*/name: \"a/b\", surface: \"s\", primitives: [{p}])"));
-    root("root-not-movable", "r", &format!("(name: \"r\", /*!*/movable: false, surface: \"s\", primitives: [{p}])"));
+    root(
+        "root-not-movable",
+        "r",
+        &format!("(name: \"r\", /*!*/movable: false, surface: \"s\", primitives: [{p}])"),
+    );
     root("root-pose", "r", &format!("(name: \"r\", /*!*/pose: (), surface: \"s\", primitives: [{p}])"));
     root("empty-group", "r", "/*!*/(name: \"r\", surface: \"s\")");
     root("empty-group", "r", "/*!*/(name: \"r\", surface: \"s\", primitives: [])");
@@ -144,7 +172,9 @@ fn faults_of_groups() {
     root(
         "groups-and-primitives",
         "r",
-        &format!("(name: \"r\", surface: \"s\", groups: [(name: \"g\", primitives: [{p}])],\n/*!*/ primitives: [{p}])"),
+        &format!(
+            "(name: \"r\", surface: \"s\", groups: [(name: \"g\", primitives: [{p}])],\n/*!*/ primitives: [{p}])"
+        ),
     );
     root("unknown-surface", "r", &format!("(name: \"r\", /*!*/surface: \"x\", primitives: [{p}])"));
     root("no-surface", "r/p", &format!("(name: \"r\", primitives: [\n/*!*/{p}])"));
@@ -158,7 +188,11 @@ fn faults_of_groups() {
     root("not-finite", "r/g", &posed("/*!*/position: (1, 0, inf)"));
     root("wrong-type", "r/g", &posed("/*!*/position: (1, 0)"));
     root("wrong-type", "r", &format!("(name: \"r\", /*!*/movable: 1, surface: \"s\", primitives: [{p}])"));
-    root("unknown-volume", "r", &format!("(name: \"r\", /*!*/bound: Custom(\"k\"), surface: \"s\", primitives: [{p}])"));
+    root(
+        "unknown-volume",
+        "r",
+        &format!("(name: \"r\", /*!*/bound: Custom(\"k\"), surface: \"s\", primitives: [{p}])"),
+    );
     root("unknown-kind", "r", &format!("(name: \"r\", /*!*/bound: Box, surface: \"s\", primitives: [{p}])"));
     root("unknown-kind", "r/c", "(name: \"r\", surface: \"s\", primitives: [\n/*!*/Cube(name: \"c\")])");
 }
@@ -169,10 +203,26 @@ fn faults_of_simple_primitives() {
     primitive("not-finite", "root/p", "Point(name: \"p\", /*!*/position: (0, NaN, 0))");
     primitive("zero-direction", "root/p", "Plane(name: \"p\", /*!*/normal: (0, 0, 0), offset: 0)");
     primitive("zero-length", "root/p", "LineSegment(name: \"p\", /*!*/ends: ((1, 0, 0), (1, 0, 0)))");
-    primitive("zero-direction", "root/p", "Ray(name: \"p\", origin: (0,0,0), /*!*/direction: (0, 0, 0), length: 1)");
-    primitive("not-positive", "root/p", "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), /*!*/length: 0)");
-    primitive("not-finite", "root/p", "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), /*!*/length: inf)");
-    primitive("negative", "root/p", "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: 1, /*!*/reach: -1)");
+    primitive(
+        "zero-direction",
+        "root/p",
+        "Ray(name: \"p\", origin: (0,0,0), /*!*/direction: (0, 0, 0), length: 1)",
+    );
+    primitive(
+        "not-positive",
+        "root/p",
+        "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), /*!*/length: 0)",
+    );
+    primitive(
+        "not-finite",
+        "root/p",
+        "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), /*!*/length: inf)",
+    );
+    primitive(
+        "negative",
+        "root/p",
+        "Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: 1, /*!*/reach: -1)",
+    );
     primitive("not-positive", "root/p", "Sphere(name: \"p\", center: (0,0,0), /*!*/radius: -1)");
     primitive("not-positive", "root/p", "Ellipsoid(name: \"p\", center: (0,0,0), /*!*/semi_axes: (1, 0, 1))");
     primitive("unknown-primitive", "root/p", "/*!*/Custom(name: \"p\", kind: \"torus\")");
@@ -181,7 +231,11 @@ fn faults_of_simple_primitives() {
 
 #[test]
 fn faults_of_triangles_and_meshes() {
-    primitive("sliver-triangle", "root/t", "/*!*/Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0.5,1e-10,0)))");
+    primitive(
+        "sliver-triangle",
+        "root/t",
+        "/*!*/Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0.5,1e-10,0)))",
+    );
     primitive("sliver-triangle", "root/t", "/*!*/Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(1,0,0)))");
     primitive("not-positive", "root/t", &format!("Triangle(name: \"t\", {TRIANGLE}, /*!*/thickness: 0)"));
     let mesh = |vertices: &str, triangles: &str| {
@@ -196,8 +250,16 @@ fn faults_of_triangles_and_meshes() {
     primitive("not-finite", "root/m/vertices[1]", &mesh("(0,0,0),\n/*!*/(1,0,inf),(0,1,0)", "(0,1,2)"));
     primitive("wrong-type", "root/m/vertices[1]", &mesh("(0,0,0),\n/*!*/(1,0),(0,1,0)", "(0,1,2)"));
     primitive("wrong-type", "root/m/vertices", &mesh("(0,0,0),\n/*!*/(1,0,\"a\"),(0,1,0)", "(0,1,2)"));
-    primitive("sliver-triangle", "root/m/triangles[1]", &mesh("(0,0,0),(1,0,0),(0,1,0),(2,0,0)", "(0,1,2),\n/*!*/(0,1,3)"));
-    primitive("duplicate-triangle", "root/m/triangles[1]", &format!("/*!*/{}", mesh(flat, "(0,1,2),(1,2,0)")));
+    primitive(
+        "sliver-triangle",
+        "root/m/triangles[1]",
+        &mesh("(0,0,0),(1,0,0),(0,1,0),(2,0,0)", "(0,1,2),\n/*!*/(0,1,3)"),
+    );
+    primitive(
+        "duplicate-triangle",
+        "root/m/triangles[1]",
+        &format!("/*!*/{}", mesh(flat, "(0,1,2),(1,2,0)")),
+    );
     primitive("empty-mesh", "root/m", &format!("/*!*/{}", mesh(flat, "")));
     primitive("missing-field", "root/m", "/*!*/TriangleMesh(name: \"m\")");
     primitive("missing-field", "root/m", "/*!*/TriangleMesh(name: \"m\", vertices: [(0,0,0)])");
@@ -232,7 +294,11 @@ fn a_polyhedron_that_is_none_is_refused() {
     primitive("index-out-of-range", "root/h/faces[3]", &poly(tet, "[[0,2,1],[0,1,3],[1,2,3],[2,0,4]]"));
     primitive("repeated-index", "root/h/faces[3]", &poly(tet, "[[0,2,1],[0,1,3],[1,2,3],[2,0,2]]"));
     primitive("inside-out", "root/h", &poly(tet, "[[0,1,2],[0,3,1],[1,3,2],[2,3,0]]"));
-    primitive("zero-volume", "root/h", &poly("[(0,0,0),(1,0,0),(0,1,0),(1,1,0)]", "[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]"));
+    primitive(
+        "zero-volume",
+        "root/h",
+        &poly("[(0,0,0),(1,0,0),(0,1,0),(1,1,0)]", "[[0,2,1],[0,1,3],[1,2,3],[2,0,3]]"),
+    );
     let foil = cube_vertices([0.0; 3], [1.0, 1.0, 1e-7]);
     primitive("zero-volume", "root/h", &poly(&foil, CUBE_FACES));
 }
@@ -260,8 +326,10 @@ fn an_open_or_dented_polyhedron_names_its_faces() {
     let dent = poly(&cube.replace(']', ",(0.5,0.5,0.9)]"), dented);
     assert!(dent.len() == 4 && dent.iter().all(|(rule, _)| *rule == "not-convex"), "{dent:?}");
     // An L seen from above.
-    let l = "[(0,0,0),(2,0,0),(2,1,0),(1,1,0),(1,2,0),(0,2,0),(0,0,1),(2,0,1),(2,1,1),(1,1,1),(1,2,1),(0,2,1)]";
-    let l_faces = "[[5,4,3,2,1,0],[6,7,8,9,10,11],[0,1,7,6],[1,2,8,7],[2,3,9,8],[3,4,10,9],[4,5,11,10],[5,0,6,11]]";
+    let l =
+        "[(0,0,0),(2,0,0),(2,1,0),(1,1,0),(1,2,0),(0,2,0),(0,0,1),(2,0,1),(2,1,1),(1,1,1),(1,2,1),(0,2,1)]";
+    let l_faces =
+        "[[5,4,3,2,1,0],[6,7,8,9,10,11],[0,1,7,6],[1,2,8,7],[2,3,9,8],[3,4,10,9],[4,5,11,10],[5,0,6,11]]";
     let rules: Vec<_> = poly(l, l_faces).into_iter().map(|(rule, _)| rule).collect();
     assert_eq!(rules, ["face-not-convex", "face-not-convex", "not-convex", "not-convex"]);
     let same = poly(&cube.replace("(1.0,0.0,0.0)", "(0.0,0.0,0.0)"), CUBE_FACES);
@@ -330,7 +398,8 @@ fn every_rule_of_the_source_is_described_in_the_format() {
 /// Every rule is used here or in the tests of meshes and extensions.
 #[test]
 fn every_rule_of_the_source_has_a_test() {
-    let tests = [include_str!("rejects.rs"), include_str!("meshes.rs"), include_str!("extensions.rs")].concat();
+    let tests =
+        [include_str!("rejects.rs"), include_str!("meshes.rs"), include_str!("extensions.rs")].concat();
     for rule in rules_of_the_source().into_iter().filter(|rule| !UNTESTED.contains(&rule.as_str())) {
         assert!(tests.contains(&format!("\"{rule}\"")), "no test for the rule `{rule}`");
     }

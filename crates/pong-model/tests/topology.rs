@@ -266,7 +266,8 @@ fn triangulated_prisms_rounded_to_f32_have_their_faces_back() {
 fn a_vertex_within_a_flat_face_or_edge_never_pushes() {
     // One side of the cube is a fan around its middle, one edge has a vertex more.
     let vertices = cube_vertices([0.0; 3], [1.0; 3]).replace(']', ", (0.5,0.5,1), (0.5,0,0)]");
-    let faces = "[[0,3,2,1,9], [4,5,8],[5,6,8],[6,7,8],[7,4,8], [0,9,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]";
+    let faces =
+        "[[0,3,2,1,9], [4,5,8],[5,6,8],[6,7,8],[7,4,8], [0,9,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]";
     let one = body(&format!("Polyhedron(name: \"h\", vertices: {vertices}, faces: {faces})"));
     let piece = &one.polyhedra[0];
     assert_eq!((piece.faces.len(), piece.vertices.len(), piece.edges.len()), (6, 9, 13));
@@ -300,18 +301,22 @@ fn triangles_are_welded_across_leaves_and_primitives() {
 
 #[test]
 fn negative_zero_is_zero() {
-    let one = body("Triangle(name: \"a\", vertices: ((0,0,0),(1,0,0),(0,1,0))),\n\
-         Triangle(name: \"b\", vertices: ((-0.0,-0.0,0),(-1,0,-0.0),(0,-1,0)))");
+    let one = body(
+        "Triangle(name: \"a\", vertices: ((0,0,0),(1,0,0),(0,1,0))),\n\
+         Triangle(name: \"b\", vertices: ((-0.0,-0.0,0),(-1,0,-0.0),(0,-1,0)))",
+    );
     assert_eq!((one.triangles.vertices.len(), one.shell_count), (5, 1));
     assert!(one.triangles.vertices.iter().all(|v| v.iter().all(|x| x.to_bits() != (-0.0_f64).to_bits())));
 }
 
 #[test]
 fn triangles_that_share_a_vertex_only_are_one_shell_without_being_neighbors() {
-    let one = body("Triangle(name: \"a\", vertices: ((0,0,0),(1,0,0),(0,1,0))),\n\
+    let one = body(
+        "Triangle(name: \"a\", vertices: ((0,0,0),(1,0,0),(0,1,0))),\n\
          Triangle(name: \"b\", vertices: ((0,0,0),(-1,0,0),(0,-1,0))),\n\
          Sphere(name: \"c\", center: (0,0,0), radius: 1),\n\
-         Triangle(name: \"d\", vertices: ((9,0,0),(8,0,0),(9,-1,0)))");
+         Triangle(name: \"d\", vertices: ((9,0,0),(8,0,0),(9,-1,0)))",
+    );
     assert_eq!(one.shell_count, 3);
     let shells: Vec<_> = one.triangles.triangles.iter().map(|t| t.shell).collect();
     assert_eq!(shells, [0, 0, 2]);
@@ -353,15 +358,22 @@ fn an_edge_of_three_triangles_is_free_and_told() {
 
 #[test]
 fn triangles_wound_against_each_other_are_no_neighbors_and_told() {
-    let found = warnings("TriangleMesh(name: \"m\", vertices: [(0,0,0),(1,0,0),(1,1,0),(0,1,0)], triangles: [(0,1,2),(0,3,2)])");
+    let found = warnings(
+        "TriangleMesh(name: \"m\", vertices: [(0,0,0),(1,0,0),(1,1,0),(0,1,0)], triangles: [(0,1,2),(0,3,2)])",
+    );
     assert_eq!(found.len(), 1);
-    assert!(found[0].contains("root/m/triangles[0]") && found[0].contains("root/m/triangles[1]"), "{found:?}");
+    assert!(
+        found[0].contains("root/m/triangles[0]") && found[0].contains("root/m/triangles[1]"),
+        "{found:?}"
+    );
 }
 
 #[test]
 fn a_vertex_within_a_free_edge_is_told_once_and_nowhere_else() {
-    let found = warnings("TriangleMesh(name: \"m\", vertices: [(0,0,0),(2,0,0),(1,2,0),(1,0,0),(0,-1,0),(2,-1,0)],\n\
-        triangles: [(0,1,2),(0,4,3),(3,5,1),(3,4,5)])");
+    let found = warnings(
+        "TriangleMesh(name: \"m\", vertices: [(0,0,0),(2,0,0),(1,2,0),(1,0,0),(0,-1,0),(2,-1,0)],\n\
+        triangles: [(0,1,2),(0,4,3),(3,5,1),(3,4,5)])",
+    );
     assert_eq!(found.len(), 1, "{found:?}");
     assert!(found[0].contains("T-junction") && found[0].contains("(1, 0, 0)"), "{found:?}");
     assert!(found[0].contains("root/m/triangles[0]"));
@@ -374,7 +386,11 @@ fn t_junctions_are_found_at_any_place_and_size() {
         let p = |x: f64, y: f64| format!("({:?},{:?},{:?})", at + scale * x, scale * y, scale * (x + y));
         let mesh = format!(
             "TriangleMesh(name: \"m\", vertices: [{},{},{},{},{}], triangles: [(0,1,2),(0,3,4)])",
-            p(0.0, 0.0), p(4.0, 4.0), p(0.0, 4.0), p(4.0, 0.0), p(1.0, 1.0)
+            p(0.0, 0.0),
+            p(4.0, 4.0),
+            p(0.0, 4.0),
+            p(4.0, 0.0),
+            p(1.0, 1.0)
         );
         assert_eq!(warnings(&mesh).len(), 1, "{scale} {at}");
     }
@@ -386,10 +402,16 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
         let balls: Vec<_> = (0..500_u32)
             .map(|i| {
                 let f = |p: u32| f64::from(i.wrapping_mul(p) % 1009) / 100.0;
-                format!("Sphere(name: \"b{i}\", center: ({:?},{:?},{:?}), radius: 0.1)", f(7919), f(104_729), f(31))
+                format!(
+                    "Sphere(name: \"b{i}\", center: ({:?},{:?},{:?}), radius: 0.1)",
+                    f(7919),
+                    f(104_729),
+                    f(31)
+                )
             })
             .collect();
-        let text = model_of(&balls.join(",\n")).replace("surface: \"steel\"", &format!("bound: {bound}, surface: \"steel\""));
+        let text = model_of(&balls.join(",\n"))
+            .replace("surface: \"steel\"", &format!("bound: {bound}, surface: \"steel\""));
         let model = load(&text);
         let body = &model.bodies[0];
         check_tree(body, 0, &mut BTreeSet::new());
@@ -435,7 +457,8 @@ fn check_tree(body: &Body, node: usize, seen: &mut BTreeSet<usize>) -> Vec<usize
 
 #[test]
 fn a_plane_makes_its_leaf_and_all_above_unbounded_but_not_its_neighbours() {
-    let balls: Vec<_> = (0..40).map(|i| format!("Sphere(name: \"b{i}\", center: ({i},0,0), radius: 0.1)")).collect();
+    let balls: Vec<_> =
+        (0..40).map(|i| format!("Sphere(name: \"b{i}\", center: ({i},0,0), radius: 0.1)")).collect();
     let text = format!(
         "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1) }},\n\
          root: (name: \"root\", surface: \"s\", groups: [\n\
@@ -446,7 +469,8 @@ fn a_plane_makes_its_leaf_and_all_above_unbounded_but_not_its_neighbours() {
     );
     let model = load(&text);
     let tree = &model.bodies[0].tree;
-    let unbounded = |i: u32| matches!(tree.nodes[i as usize].volume, pong_geometry::bounding::Volume::Unbounded);
+    let unbounded =
+        |i: u32| matches!(tree.nodes[i as usize].volume, pong_geometry::bounding::Volume::Unbounded);
     assert!(unbounded(0));
     assert_eq!(tree.nodes[0].children, 1..3, "c holds nothing of this body");
     assert!(unbounded(1) && !unbounded(2));
@@ -473,7 +497,9 @@ fn the_hash_knows_what_decides_the_numbers_and_nothing_else() {
     assert_eq!(hash(&text), 0xa745_5f68_b962_ec36, "stable on every machine and from version to version");
     assert_eq!(hash(&text), hash(&text.replace("\"c\"", "\"other name\"")));
     assert_eq!(hash(&text), hash(&text.replace("surface:", "bound: Obb, surface:")));
-    for (old, new) in [("1e6", "2e6"), ("1.0,1.0,1.0", "1.0,1.0000001,1.0"), ("inactive_faces: []", "inactive_faces: [1]")] {
+    for (old, new) in
+        [("1e6", "2e6"), ("1.0,1.0,1.0", "1.0,1.0000001,1.0"), ("inactive_faces: []", "inactive_faces: [1]")]
+    {
         assert_ne!(hash(&text), hash(&text.replace(old, new)), "{old}");
     }
     assert_ne!(hash(&text), hash(&text.replace("version: 1,", "version: 1, entry_memory: false,")));

@@ -38,7 +38,15 @@ pub(crate) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub(crate) fn new(text: &'a str, file: &'a str, mesh_dir: Option<&'a Path>, ext: &'a Extensions) -> Self {
-        Self { text, file, mesh_dir, ext, faults: Vec::new(), line_starts: OnceCell::new(), warnings: Vec::new() }
+        Self {
+            text,
+            file,
+            mesh_dir,
+            ext,
+            faults: Vec::new(),
+            line_starts: OnceCell::new(),
+            warnings: Vec::new(),
+        }
     }
 
     /// Notes a fault.

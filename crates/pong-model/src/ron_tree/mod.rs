@@ -6,9 +6,9 @@
 
 mod number;
 mod parser;
-mod text;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub(crate) use parser::parse;
 
