@@ -91,8 +91,10 @@ impl Builder<'_> {
 
     fn authored_volume(&mut self, index: usize, items: &[Item]) -> Volume {
         let kind = &self.groups[index].bound;
-        if *kind == BoundKind::Aabb {
-            return box_around(&self.boxed(items));
+        if *kind == BoundKind::Aabb
+            && let Some(volume) = box_around(&self.boxed(items))
+        {
+            return volume;
         }
         self.fitted(kind, items).unwrap_or_else(|reason| {
             self.faults.push((index, reason));
@@ -198,12 +200,13 @@ fn extent(boxed: &[Boxed]) -> (Vec3, Vec3) {
     rest.iter().fold((first.low, first.high), |(low, high), b| (low.inf(&b.low), high.sup(&b.high)))
 }
 
-fn box_around(boxed: &[Boxed]) -> Volume {
-    if boxed.iter().all(Boxed::is_bounded) {
-        let (low, high) = extent(boxed);
-        return fit_aabb_bounds(low, high);
+/// `None` if anything is unbounded, or not a number.
+fn box_around(boxed: &[Boxed]) -> Option<Volume> {
+    if !boxed.iter().all(Boxed::is_bounded) {
+        return None;
     }
-    Volume::Unbounded
+    let (low, high) = extent(boxed);
+    Some(fit_aabb_bounds(low, high))
 }
 
 fn longest_axis(boxed: &[Boxed]) -> usize {

@@ -62,7 +62,7 @@ impl CustomPrimitive for Torus {
 
 fn write_meshes(folder: &Path) {
     std::fs::create_dir_all(folder).expect("a folder");
-    let stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid t\n";
+    let stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 5 0 9\nvertex 6 0 9\nvertex 5 1 9\nendloop\nendfacet\nendsolid t\n";
     std::fs::write(folder.join("terrain.stl"), stl).expect("a file");
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     std::fs::write(folder.join("block.obj"), obj).expect("a file");

@@ -38,17 +38,17 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
 }
 
 fn check_format(reader: &mut Reader<'_>, fields: &Fields<'_>) {
-    if let Some(node) = fields.required(reader, "format") {
-        if node.value != Value::Text("pong-model".to_owned()) {
-            let cause = format!("the format is {}", describe(&node.value));
-            reader.fault(node.at, "model", "format", cause, "write format: \"pong-model\"");
-        }
+    if let Some(node) = fields.required(reader, "format")
+        && node.value != Value::Text("pong-model".to_owned())
+    {
+        let cause = format!("the format is {}", describe(&node.value));
+        reader.fault(node.at, "model", "format", cause, "write format: \"pong-model\"");
     }
-    if let Some(node) = fields.required(reader, "version") {
-        if node.value != Value::Number(1.0) {
-            let cause = format!("the version is {}", describe(&node.value));
-            reader.fault(node.at, "model", "version", cause, "this engine reads version: 1");
-        }
+    if let Some(node) = fields.required(reader, "version")
+        && node.value != Value::Number(1.0)
+    {
+        let cause = format!("the version is {}", describe(&node.value));
+        reader.fault(node.at, "model", "version", cause, "this engine reads version: 1");
     }
 }
 

@@ -8,7 +8,7 @@ pub(crate) fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c s
 }
 
 /// Cure for a name that is not among the candidates.
-pub(crate) fn cure<'c>(name: &str, candidates: &[&'c str]) -> String {
+pub(crate) fn cure(name: &str, candidates: &[&str]) -> String {
     match nearest(name, candidates.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
         None if candidates.is_empty() => "there is none to choose from".to_owned(),
