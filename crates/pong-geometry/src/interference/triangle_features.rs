@@ -124,8 +124,9 @@ impl TriangleView {
         }
     }
 
-    /// Whether the triangle holds the foot of `p`: inside its outline, or in the seam that rounding leaves at a
-    /// silent edge, which belongs to the lower of the two faces.
+    /// Whether the triangle holds the foot of `p`: inside its outline, or beyond both faces of a silent edge,
+    /// which belongs to the lower of the two: in front that is the seam that rounding leaves, behind the wedge
+    /// between the two prisms.
     pub fn holds_foot(&self, set: &TriangleSet, p: &Vec3) -> bool {
         (0..3).all(|k| {
             if self.beyond_edge(k, p) <= 0.0 {
@@ -133,11 +134,20 @@ impl TriangleView {
             }
             match self.classify_edge(set, k) {
                 EdgeClass::Silent { neighbor, outward } => {
-                    self.index < neighbor && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
+                    self.index < neighbor
+                        && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
+                        && self.is_seam_or_behind(set, neighbor, p)
                 }
                 EdgeClass::Free | EdgeClass::Convex { .. } => false,
             }
         })
+    }
+
+    /// For a point beyond both faces of a silent edge: two faces folded to less than a right angle have such
+    /// points in front of one of them, outside the fold, where neither pushes.
+    fn is_seam_or_behind(&self, set: &TriangleSet, neighbor: u32, p: &Vec3) -> bool {
+        let other = Self::new(set, neighbor);
+        self.normal.dot(&other.normal) > 0.0 || (self.height(p) <= 0.0 && other.height(p) <= 0.0)
     }
 
     /// Whether this triangle is the owner of edge `k`: the lower of the two that share it.
@@ -185,9 +195,15 @@ pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn
 }
 
 /// Whether a normal lies in the cone of a vertex, `Some(strictly)`; `None` if it is outside by more than
-/// rounding, if the vertex belongs to a lower triangle, or if an open fan has its centre behind all its faces.
+/// rounding, if the vertex belongs to a lower triangle, if an open fan has its centre behind all its faces, or a
+/// closed fan is seen from its back (the bottom of a pit, from within the solid).
 ///
-/// `direction` points from the vertex to the centre (any length), `center_in_front` answers for one triangle.
+/// `direction` points from the vertex to the centre (any length), `center_in_front` answers for one triangle of
+/// an open fan.
+///
+/// All edges of a fan around its cone lie in the half space below `direction`. Seen along it from the vertex
+/// they pierce a plane in the corners of a polygon without crossings, which runs counter-clockwise if the front
+/// is seen and clockwise if the back is. The sum of its triangles with the vertex' own foot gives the sense.
 pub fn vertex_pushes(
     set: &TriangleSet,
     triangle: u32,
@@ -200,17 +216,23 @@ pub fn vertex_pushes(
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
     let (mut strictly, mut nearly, mut in_front) = (true, true, false);
+    let mut turn = 0.0;
     let fan = walk_fan(set, triangle, corner, &mut |t, at| {
         let corners = set.corners(t);
-        for other in [corners[(at + 1) % 3], corners[(at + 2) % 3]] {
-            let edge = other - apex;
-            let product = direction.dot(&edge);
+        let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
+        let mut below = 1.0;
+        for edge in &edges {
+            let product = direction.dot(edge);
+            let edge_length = edge.norm();
             strictly &= product < 0.0;
-            nearly &= product <= CONE_COSINE_SLACK * length * edge.norm();
+            nearly &= product <= CONE_COSINE_SLACK * length * edge_length;
+            below *= edge_length * (-product / (length * edge_length)).max(CONE_COSINE_SLACK);
         }
+        turn += direction.dot(&edges[0].cross(&edges[1])) / (length * below);
         in_front |= center_in_front(&TriangleView::new(set, t));
     });
-    let allowed = nearly && fan.lowest == triangle && (!fan.open || in_front);
+    let seen_from_front = if fan.open { in_front } else { length == 0.0 || turn > 0.0 };
+    let allowed = nearly && fan.lowest == triangle && seen_from_front;
     allowed.then_some(strictly)
 }
 
