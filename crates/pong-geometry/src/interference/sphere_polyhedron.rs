@@ -1,8 +1,7 @@
 //! Sphere (A) – polyhedron (B): centre outside, the nearest point of the surface; centre inside, as a point plus
 //! the radius (physics contract, 2 and 2.4).
 //!
-//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex it is pushed along the mean of
-//! the normals there.
+//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest face there pushes.
 
 use super::point_polyhedron::point_below_face;
 use super::{Feature, Interference, ball_over_point};
