@@ -1,0 +1,207 @@
+//! What a Rust user can add: force laws, primitives, bounding volumes.
+
+mod common;
+
+use common::*;
+use pong_engine::*;
+use pong_geometry::bounding::{Bounded, CustomVolume, Volume};
+use pong_geometry::extension::{Extensions, PrimitiveRef};
+use pong_geometry::interference::{Feature, Interference};
+use pong_geometry::primitive::CustomPrimitive;
+use pong_geometry::{Quat, Transform, Vec3};
+use std::sync::Arc;
+
+/// F = k·δ²: not built in.
+#[derive(Debug)]
+struct Quadratic;
+
+impl NormalForce for Quadratic {
+    fn force(&self, input: &NormalInput<'_>) -> f64 {
+        input.parameters[0] * input.depth * input.depth
+    }
+
+    fn stored(&self, input: &NormalInput<'_>) -> f64 {
+        input.parameters[0] * input.depth.powi(3) / 3.0
+    }
+}
+
+/// A spring to the place of first touch: remembers three numbers.
+#[derive(Debug)]
+struct Glue;
+
+impl FrictionForce for Glue {
+    fn state_len(&self) -> usize {
+        3
+    }
+
+    fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
+        let stretch = Vec3::new(state[0], state[1], state[2]) + input.slip;
+        state.copy_from_slice(stretch.as_slice());
+        FrictionOutput {
+            force: stretch * -input.parameters[0],
+            bristle: Vec3::zeros(),
+            sticks: true,
+            stored: 0.5 * input.parameters[0] * stretch.norm_squared(),
+        }
+    }
+}
+
+fn custom_laws() -> (String, String) {
+    let own = surface(
+        1.0,
+        "normal: Custom(name: \"quadratic\", parameters: [3e7]), friction: Custom(name: \"glue\", parameters: [500.0])",
+    );
+    (
+        model("tip", &own, "Point(name: \"p\", position: (0,0,0))"),
+        model("floor", &own, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)"),
+    )
+}
+
+fn sealed_with(laws: Laws) -> Result<(World, [InterfaceId; 2]), EngineError> {
+    let (a, b) = custom_laws();
+    let mut world = World::with_extensions(Config { ledger: true, ..Config::default() }, Extensions::new(), laws);
+    let models = [load(&mut world, &a), load(&mut world, &b)];
+    let objects = [world.create_object(models[0], "a")?, world.create_object(models[1], "b")?];
+    world.pair(objects[0], objects[1])?;
+    world.seal()?;
+    let interfaces = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+    Ok((world, interfaces))
+}
+
+#[test]
+fn registered_laws_are_used_and_their_state_is_saved() {
+    let mut laws = Laws::default();
+    laws.add_normal("quadratic", Arc::new(Quadratic));
+    laws.add_friction("glue", Arc::new(Glue));
+    let (mut world, [tip, floor]) = sealed_with(laws.clone()).unwrap();
+    let place = |world: &mut World, x: f64| {
+        world.set_state(floor, &State::identity()).unwrap();
+        world.set_state(tip, &at(Vec3::new(x, 0.0, -2e-3), Quat::identity())).unwrap();
+        world.step().unwrap();
+        world.wrench(tip).unwrap().force
+    };
+    let first = place(&mut world, 0.0);
+    assert!((first - Vec3::new(0.0, 0.0, 120.0)).norm() < 1e-9, "{first:?}");
+    place(&mut world, 0.01);
+    let mut block = vec![0; world.state_size().unwrap()];
+    world.save_state(&mut block).unwrap();
+    let last = place(&mut world, 0.03);
+    assert!((last - Vec3::new(-15.0, 0.0, 120.0)).norm() < 1e-9, "{last:?}");
+    world.restore_state(&block).unwrap();
+    assert_eq!(place(&mut world, 0.03), last);
+}
+
+#[test]
+fn a_law_that_nobody_registered_is_refused_at_seal() {
+    let error = sealed_with(Laws::default()).err().unwrap().to_string();
+    assert!(error.contains("quadratic") && error.contains("register"), "{error}");
+}
+
+/// A vertical cylinder without ends: `x² + y² ≤ r²`.
+#[derive(Debug)]
+struct Post {
+    radius: f64,
+}
+
+impl CustomPrimitive for Post {
+    fn kind_name(&self) -> &str {
+        "Post"
+    }
+
+    fn support(&self, direction: &Vec3) -> f64 {
+        if direction.z != 0.0 { f64::INFINITY } else { self.radius * direction.norm() }
+    }
+
+    fn as_any(&self) -> &dyn std::any::Any {
+        self
+    }
+}
+
+#[derive(Debug)]
+struct Everywhere;
+
+impl CustomVolume for Everywhere {
+    fn kind_name(&self) -> &str {
+        "Everywhere"
+    }
+
+    fn as_any(&self) -> &dyn std::any::Any {
+        self
+    }
+}
+
+fn extensions(with_volume_test: bool) -> Extensions {
+    let mut extensions = Extensions::new();
+    extensions.add_primitive(
+        "Post",
+        Arc::new(|parameters: &[f64]| match parameters {
+            [radius] if *radius > 0.0 => Ok(Arc::new(Post { radius: *radius }) as Arc<dyn CustomPrimitive>),
+            _ => Err("a Post takes one positive parameter, its radius".to_owned()),
+        }),
+    );
+    extensions.add_contact_test(
+        "Point",
+        "Post",
+        Arc::new(|a: PrimitiveRef<'_>, b: PrimitiveRef<'_>, x_ba: &Transform| {
+            let (PrimitiveRef::Point(point), PrimitiveRef::Custom(post)) = (a, b) else { return None };
+            let post = post.as_any().downcast_ref::<Post>()?;
+            let p = x_ba.point(&point.position);
+            let out = Vec3::new(p.x, p.y, 0.0);
+            let depth = post.radius - out.norm();
+            (depth > 0.0).then(|| Interference {
+                depth,
+                normal: out.normalize(),
+                point_a: p,
+                feature: Feature::WHOLE,
+            })
+        }),
+    );
+    extensions.add_volume("Everywhere", Arc::new(|_: &[&dyn Bounded]| Arc::new(Everywhere) as Arc<dyn CustomVolume>));
+    if with_volume_test {
+        for kind in ["Aabb", "Sphere", "Obb", "Everywhere"] {
+            extensions.add_volume_test("Everywhere", kind, Arc::new(|_: &Volume, _: &Volume, _: &Transform| true));
+        }
+    }
+    extensions
+}
+
+fn post_world(with_volume_test: bool) -> Result<(World, [InterfaceId; 2]), EngineError> {
+    let extensions = extensions(with_volume_test);
+    let mut world = World::with_extensions(Config::default(), extensions.clone(), Laws::default());
+    let steel = surface(2e5, "");
+    let tip = model("tip", &steel, "Point(name: \"p\", position: (0,0,0))")
+        .replace("root: (", "root: (bound: Custom(\"Everywhere\"), ");
+    // A box around a ball beside the unbounded post: a pair of volumes that needs a test.
+    let post = "Custom(name: \"c\", kind: \"Post\", parameters: [0.1])";
+    let post = if with_volume_test { post } else { "Sphere(name: \"c\", center: (0,0,0), radius: 0.1)" };
+    let post = model("post", &steel, post);
+    let mut objects = Vec::new();
+    for (name, text) in [("tip", tip), ("post", post)] {
+        let parsed = pong_model::parse(&text, name, None, &extensions).unwrap_or_else(|errors| panic!("{errors}"));
+        let id = world.add_model(Arc::new(parsed))?;
+        objects.push(world.create_object(id, name)?);
+    }
+    world.pair(objects[0], objects[1])?;
+    world.seal()?;
+    let interfaces = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+    Ok((world, interfaces))
+}
+
+#[test]
+fn a_registered_primitive_and_volume_take_part() {
+    let (mut world, [tip, post]) = post_world(true).unwrap();
+    world.set_state(post, &State::identity()).unwrap();
+    world.set_state(tip, &at(Vec3::new(0.06, -0.07, 3.0), Quat::identity())).unwrap();
+    world.step().unwrap();
+    let expected = Vec3::new(0.06, -0.07, 0.0).normalize() * 1e5 * (0.1 - Vec3::new(0.06, -0.07, 0.0).norm());
+    assert!((world.wrench(tip).unwrap().force - expected).norm() < 1e-9);
+}
+
+#[test]
+fn a_missing_pair_of_volumes_is_an_error_at_seal() {
+    match post_world(false) {
+        Err(EngineError::Seal { problems }) => assert!(problems[0].contains("Everywhere"), "{problems:?}"),
+        Ok(_) => panic!("sealed without a test of the volumes"),
+        Err(other) => panic!("{other}"),
+    }
+}

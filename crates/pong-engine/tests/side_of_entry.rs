@@ -1,0 +1,191 @@
+//! From which side something came in (physics contract, 2.2 and 2.4).
+
+mod common;
+
+use common::*;
+use pong_geometry::{Quat, Vec3};
+
+const K: f64 = 1e5;
+
+fn steel() -> String {
+    surface(K, "")
+}
+
+fn tip() -> String {
+    model("tip", &steel(), "Point(name: \"p\", position: (0,0,0))")
+}
+
+fn ball(radius: f64) -> String {
+    model("ball", &steel(), &format!("Sphere(name: \"s\", center: (0,0,0), radius: {radius:?})"))
+}
+
+/// A wall 10 mm thick, its faces across x.
+fn wall() -> String {
+    model("wall", &steel(), &box_polyhedron("w", [0.0, 0.0, 0.0], [0.005, 0.5, 0.5], ""))
+}
+
+fn push_at(rig: &mut Rig, x: f64) -> Vec3 {
+    rig.place_a(Vec3::new(x, 0.01, 0.02), Quat::identity());
+    rig.world.step().unwrap();
+    rig.wrench(0).force
+}
+
+/// A point pushed through a plate is pushed back to where it came in until it has left.
+#[test]
+fn a_point_is_pushed_back_to_its_side_of_entry() {
+    for from in [-1.0, 1.0] {
+        let mut rig = Rig::new(&tip(), &wall());
+        push_at(&mut rig, from * 0.006);
+        for step in 0..9 {
+            let depth = 1e-3 * (f64::from(step) + 0.5);
+            let force = push_at(&mut rig, from * (0.005 - depth));
+            // Two surfaces of the same stiffness in series.
+            assert!((force.x * from - 0.5 * K * depth).abs() < 1e-9, "{from} {depth}: {force:?}");
+        }
+        // Out on the other side: no contact; back in from there: pushed to that side.
+        assert_eq!(push_at(&mut rig, -from * 0.0051), Vec3::zeros());
+        assert!(push_at(&mut rig, -from * 0.0049).x * -from > 0.0);
+    }
+}
+
+#[test]
+fn a_sphere_whose_centre_goes_under_keeps_its_side() {
+    let mut rig = Rig::new(&ball(0.02), &wall());
+    for step in 0..30 {
+        let x = 0.024 - 1e-3 * f64::from(step);
+        let force = push_at(&mut rig, x);
+        let expected = if x > -0.005 { 0.5 * K * (0.025 - x) } else { f64::NAN };
+        if expected.is_finite() {
+            assert!((force.x - expected).abs() < 1e-9 * K, "x = {x}: {force:?}");
+        }
+    }
+}
+
+#[test]
+fn without_memory_the_least_deep_face_pushes() {
+    let forgetful = wall().replace("name: \"wall\", surfaces", "name: \"wall\", entry_memory: false, surfaces");
+    let mut rig = Rig::new(&tip(), &forgetful);
+    push_at(&mut rig, -0.006);
+    assert!(push_at(&mut rig, -0.001).x < 0.0);
+    assert!(push_at(&mut rig, 0.001).x > 0.0);
+}
+
+/// Fast through an active face and on through the inner wall within one frame: the face of entry counts.
+#[test]
+fn the_face_of_entry_is_found_through_inner_walls() {
+    let pieces = [
+        box_polyhedron("near", [-0.5, 0.0, 0.0], [0.5, 0.5, 0.5], "5"),
+        box_polyhedron("far", [0.5, 0.0, 0.0], [0.5, 0.5, 0.5], "4"),
+    ];
+    let body = model("pieces", &steel(), &pieces.join(","));
+    let mut rig = Rig::new(&tip(), &body);
+    let mut put = |x: f64, z: f64| {
+        rig.place_a(Vec3::new(x, 0.0, z), Quat::identity());
+        rig.world.step().unwrap();
+        rig.wrench(0).force
+    };
+    put(-0.3, 0.8);
+    // Through the top of the near piece, then through the wall: the far piece pushes up as well.
+    let force = put(0.2, 0.3);
+    assert!((force - Vec3::new(0.0, 0.0, 0.5 * K * 0.2)).norm() < 1e-6, "{force:?}");
+    let force = put(-0.2, 0.3);
+    assert!((force - Vec3::new(0.0, 0.0, 0.5 * K * 0.2)).norm() < 1e-6, "{force:?}");
+}
+
+/// Memory follows a faceted curve, but never goes round a sharp rim.
+#[test]
+fn memory_follows_a_faceted_curve() {
+    // A prism of 24 sides, a drum of radius 0.5 around y.
+    let n = 24;
+    let mut vertices = Vec::new();
+    for i in 0..n {
+        let angle = std::f64::consts::TAU * f64::from(i) / f64::from(n);
+        for y in [-0.5, 0.5] {
+            vertices.push(format!("({:?},{y:?},{:?})", 0.5 * angle.cos(), 0.5 * angle.sin()));
+        }
+    }
+    let mut faces: Vec<String> = (0..n)
+        .map(|i| {
+            let j = (i + 1) % n;
+            format!("[{},{},{},{}]", 2 * i, 2 * i + 1, 2 * j + 1, 2 * j)
+        })
+        .collect();
+    let low: Vec<String> = (0..n).map(|i| (2 * i).to_string()).collect();
+    let high: Vec<String> = (0..n).rev().map(|i| (2 * i + 1).to_string()).collect();
+    faces.push(format!("[{}]", low.join(",")));
+    faces.push(format!("[{}]", high.join(",")));
+    let drum = format!("Polyhedron(name: \"d\", vertices: [{}], faces: [{}])", vertices.join(","), faces.join(","));
+    let drum = model("drum", &steel(), &drum);
+    let mut rig = Rig::new(&tip(), &drum);
+    let mut around = |angle: f64, radius: f64, y: f64| {
+        rig.place_a(Vec3::new(radius * angle.cos(), y, radius * angle.sin()), Quat::identity());
+        rig.world.step().unwrap();
+        rig.wrench(0).force
+    };
+    around(0.1, 0.51, 0.0);
+    for step in 0..400 {
+        let angle = 0.1 + 0.02 * f64::from(step);
+        let force = around(angle, 0.45, 0.0);
+        let outward = Vec3::new(angle.cos(), 0.0, angle.sin());
+        assert!(force.normalize().dot(&outward) > 0.99, "{angle}: {force:?}");
+    }
+    // Deep towards the end cap, but never pushed out of it while another neighbour is remembered only as such.
+    let force = around(0.1 + 0.02 * 400.0, 0.45, 0.2);
+    assert!(force.y.abs() < 1e-9);
+}
+
+fn sheet() -> String {
+    let mesh = plate_mesh("m", 6, 1.0, |x, y| Vec3::new(0.0, x, y));
+    model("sheet", &steel(), &mesh)
+}
+
+/// The front of `sheet` looks along +x: what comes from behind passes through and is not pushed to the front.
+#[test]
+fn a_ball_from_behind_is_not_pushed_to_the_front() {
+    let mut rig = Rig::new(&ball(0.05), &sheet());
+    let mut x = -0.2;
+    while x < 0.2 {
+        assert_eq!(push_at(&mut rig, x), Vec3::zeros(), "x = {x}");
+        x += 0.007;
+    }
+    // From the front it is stopped, and pushed back even with its centre behind, within its own radius.
+    while x > -0.045 {
+        let force = push_at(&mut rig, x);
+        let expected = if x < 0.05 { 0.5 * K * (0.05 - x) } else { 0.0 };
+        assert!((force - Vec3::new(expected, 0.0, 0.0)).norm() < 1e-9 * K, "x = {x}: {force:?}");
+        x -= 0.007;
+    }
+    // Farther behind than its thickness the sheet lets go, for good.
+    assert_eq!(push_at(&mut rig, -0.06), Vec3::zeros());
+    assert_eq!(push_at(&mut rig, -0.03), Vec3::zeros());
+}
+
+#[test]
+fn a_two_sided_sheet_stops_from_both_sides() {
+    let both = sheet().replace("TriangleMesh(name", "TriangleMesh(two_sided: true, name");
+    for side in [-1.0, 1.0] {
+        let mut rig = Rig::new(&ball(0.05), &both);
+        for step in 0..24 {
+            let x = side * (0.06 - 0.0045 * f64::from(step));
+            let force = push_at(&mut rig, x);
+            let expected = (0.5 * K * (0.05 - side * x)).max(0.0) * side;
+            assert!((force - Vec3::new(expected, 0.0, 0.0)).norm() < 1e-9 * K, "x = {x}: {force:?}");
+        }
+    }
+}
+
+/// Walking round a free edge is not coming from behind.
+#[test]
+fn a_ball_that_goes_round_the_rim_is_stopped_in_front() {
+    let mut rig = Rig::new(&ball(0.05), &sheet());
+    let mut put = |x: f64, y: f64| {
+        rig.place_a(Vec3::new(x, y, 0.02), Quat::identity());
+        rig.world.step().unwrap();
+        rig.wrench(0).force
+    };
+    put(-0.2, 0.0);
+    put(-0.2, 0.8);
+    put(0.2, 0.8);
+    put(0.2, 0.1);
+    assert!((put(0.04, 0.1).x - 0.5 * K * 0.01).abs() < 1e-9 * K);
+}
