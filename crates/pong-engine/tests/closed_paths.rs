@@ -115,7 +115,13 @@ enum Allowed {
     Loss,
 }
 
-fn check_closed_paths(name: &str, a: &str, b: &str, (center, size, turn): (Vec3, f64, f64), allowed: Allowed) {
+fn check_closed_paths(
+    name: &str,
+    a: &str,
+    b: &str,
+    (center, size, turn): (Vec3, f64, f64),
+    allowed: Allowed,
+) {
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
@@ -133,7 +139,9 @@ fn check_closed_paths(name: &str, a: &str, b: &str, (center, size, turn): (Vec3,
             worst_loss = worst_loss.max(lap.lost / lap.largest);
         }
     }
-    println!("{name}: {touched} loops, largest gain {worst_gain:.1e}, loss {worst_loss:.1e} of the stored energy");
+    println!(
+        "{name}: {touched} loops, largest gain {worst_gain:.1e}, loss {worst_loss:.1e} of the stored energy"
+    );
     assert!(touched >= 6, "{name}: the loops must touch");
     // What the shortest intervals leave of a mere jump of the force.
     const FORCE_JUMP_REST: f64 = 1e-6;
@@ -152,13 +160,25 @@ fn solid() -> String {
 #[test]
 fn sphere_around_a_box() {
     let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
-    check_closed_paths("sphere–box", &ball, &solid(), (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.5), Allowed::Nothing);
+    check_closed_paths(
+        "sphere–box",
+        &ball,
+        &solid(),
+        (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.5),
+        Allowed::Nothing,
+    );
 }
 
 #[test]
 fn ellipsoid_around_a_box() {
     let egg = model("egg", &elastic(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.25,0.15,0.1))");
-    check_closed_paths("ellipsoid–box", &egg, &solid(), (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.8), Allowed::Nothing);
+    check_closed_paths(
+        "ellipsoid–box",
+        &egg,
+        &solid(),
+        (Vec3::new(0.55, 0.45, 0.36), 0.15, 0.8),
+        Allowed::Nothing,
+    );
 }
 
 #[test]
@@ -167,7 +187,13 @@ fn sphere_in_a_corner_of_triangles() {
                   triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)])";
     let valley = model("valley", &elastic(), valley);
     let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
-    check_closed_paths("sphere–valley", &ball, &valley, (Vec3::new(0.0, 0.0, 0.3), 0.1, 0.3), Allowed::Nothing);
+    check_closed_paths(
+        "sphere–valley",
+        &ball,
+        &valley,
+        (Vec3::new(0.0, 0.0, 0.3), 0.1, 0.3),
+        Allowed::Nothing,
+    );
 }
 
 #[test]
@@ -176,7 +202,13 @@ fn ellipsoid_over_a_ridge_of_triangles() {
                  triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)])";
     let ridge = model("ridge", &elastic(), ridge);
     let egg = model("egg", &elastic(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.25,0.15,0.1))");
-    check_closed_paths("ellipsoid–ridge", &egg, &ridge, (Vec3::new(0.0, 0.0, 0.48), 0.08, 0.5), Allowed::Nothing);
+    check_closed_paths(
+        "ellipsoid–ridge",
+        &egg,
+        &ridge,
+        (Vec3::new(0.0, 0.0, 0.48), 0.08, 0.5),
+        Allowed::Nothing,
+    );
 }
 
 #[test]
@@ -187,7 +219,13 @@ fn sphere_over_abutting_pieces() {
                 faces: [[0,1,2,3],[0,3,5,4],[1,4,5,2],[0,4,1],[3,2,5]], inactive_faces: [2])";
     let roof = model("roof", &elastic(), roof);
     let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.3)");
-    check_closed_paths("sphere–roof of two", &ball, &roof, (Vec3::new(0.0, 0.0, 0.7), 0.12, 0.3), Allowed::Nothing);
+    check_closed_paths(
+        "sphere–roof of two",
+        &ball,
+        &roof,
+        (Vec3::new(0.0, 0.0, 0.7), 0.12, 0.3),
+        Allowed::Nothing,
+    );
 }
 
 #[test]

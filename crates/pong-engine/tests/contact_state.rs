@@ -7,7 +7,8 @@ use pong_engine::{EngineError, State, World};
 use pong_geometry::{Quat, Vec3};
 
 fn sliding_pair() -> (String, String) {
-    let rubber = surface(1e5, "normal: Linear(damping: 100.0), friction: Bristle(mu: 0.4, static_excess: 0.5)");
+    let rubber =
+        surface(1e5, "normal: Linear(damping: 100.0), friction: Bristle(mu: 0.4, static_excess: 0.5)");
     let movers = "Sphere(name: \"ball\", center: (0.0,0.0,0.0), radius: 0.1), \
                   LineSegment(name: \"bar\", ends: ((-0.2,0.05,-0.1),(0.2,0.05,-0.1))), \
                   Point(name: \"tip\", position: (0.05,-0.05,-0.1))";
@@ -128,7 +129,8 @@ fn a_foreign_or_damaged_block_is_refused_and_loses_nothing() {
     let middle = damaged.len() / 2;
     damaged[middle] ^= 1;
     let (a, _) = sliding_pair();
-    let other = Rig::new(&a, &model("other", &surface(1.0, ""), "Plane(name: \"p\", normal: (0,0,1), offset: 0.0)"));
+    let other =
+        Rig::new(&a, &model("other", &surface(1.0, ""), "Plane(name: \"p\", normal: (0,0,1), offset: 0.0)"));
     let foreign = saved(&other.world);
     for block in [&damaged[..], &foreign[..], &good[..good.len() - 1], &[][..]] {
         assert!(matches!(rig.world.restore_state(block), Err(EngineError::State(_))));
@@ -171,7 +173,9 @@ fn a_pair_switched_off_has_no_contacts_and_comes_back_without_a_past() {
 fn bad_states_are_refused_by_name_and_the_frame_before_stays() {
     let mut rig = rig();
     let object = rig.interfaces[0];
-    assert!(matches!(rig.world.evaluate(), Err(EngineError::UnsetState { interface }) if interface == "a/movers"));
+    assert!(
+        matches!(rig.world.evaluate(), Err(EngineError::UnsetState { interface }) if interface == "a/movers")
+    );
     rig.place([path(0.0), State::identity()]);
     rig.world.step().unwrap();
     let before = (bits(&rig), saved(&rig.world));
@@ -189,7 +193,11 @@ fn bad_states_are_refused_by_name_and_the_frame_before_stays() {
         assert!(rig.world.set_states(&batch).is_err());
         assert_eq!((bits(&rig), saved(&rig.world)), before);
         rig.world.evaluate().unwrap();
-        assert_eq!(bits(&rig), { let mut again = common_rig_at_zero(); again.world.evaluate().unwrap(); bits_after_step(&mut again) });
+        assert_eq!(bits(&rig), {
+            let mut again = common_rig_at_zero();
+            again.world.evaluate().unwrap();
+            bits_after_step(&mut again)
+        });
     }
 }
 

@@ -59,7 +59,8 @@ fn custom_laws() -> (String, String) {
 
 fn sealed_with(laws: Laws) -> Result<(World, [InterfaceId; 2]), EngineError> {
     let (a, b) = custom_laws();
-    let mut world = World::with_extensions(Config { ledger: true, ..Config::default() }, Extensions::new(), laws);
+    let mut world =
+        World::with_extensions(Config { ledger: true, ..Config::default() }, Extensions::new(), laws);
     let models = [load(&mut world, &a), load(&mut world, &b)];
     let objects = [world.create_object(models[0], "a")?, world.create_object(models[1], "b")?];
     world.pair(objects[0], objects[1])?;
@@ -156,10 +157,17 @@ fn extensions(with_volume_test: bool) -> Extensions {
             })
         }),
     );
-    extensions.add_volume("Everywhere", Arc::new(|_: &[&dyn Bounded]| Arc::new(Everywhere) as Arc<dyn CustomVolume>));
+    extensions.add_volume(
+        "Everywhere",
+        Arc::new(|_: &[&dyn Bounded]| Arc::new(Everywhere) as Arc<dyn CustomVolume>),
+    );
     if with_volume_test {
         for kind in ["Aabb", "Sphere", "Obb", "Everywhere"] {
-            extensions.add_volume_test("Everywhere", kind, Arc::new(|_: &Volume, _: &Volume, _: &Transform| true));
+            extensions.add_volume_test(
+                "Everywhere",
+                kind,
+                Arc::new(|_: &Volume, _: &Volume, _: &Transform| true),
+            );
         }
     }
     extensions
@@ -177,7 +185,8 @@ fn post_world(with_volume_test: bool) -> Result<(World, [InterfaceId; 2]), Engin
     let post = model("post", &steel, post);
     let mut objects = Vec::new();
     for (name, text) in [("tip", tip), ("post", post)] {
-        let parsed = pong_model::parse(&text, name, None, &extensions).unwrap_or_else(|errors| panic!("{errors}"));
+        let parsed =
+            pong_model::parse(&text, name, None, &extensions).unwrap_or_else(|errors| panic!("{errors}"));
         let id = world.add_model(Arc::new(parsed))?;
         objects.push(world.create_object(id, name)?);
     }

@@ -24,7 +24,11 @@ fn everything_scaled(s: f64) -> (String, String) {
     let movers = [
         format!("Point(name: \"p\", position: {})", v(0.02, 0.01, -0.205)),
         format!("LineSegment(name: \"l\", ends: ({}, {}))", v(-0.3, 0.1, -0.202), v(0.25, -0.1, -0.207)),
-        format!("Ray(name: \"r\", origin: {}, direction: (0.1,0.05,-1.0), length: {:?})", v(0.1, 0.1, 0.0), 0.24 * s),
+        format!(
+            "Ray(name: \"r\", origin: {}, direction: (0.1,0.05,-1.0), length: {:?})",
+            v(0.1, 0.1, 0.0),
+            0.24 * s
+        ),
         format!("Sphere(name: \"b\", center: {}, radius: {:?})", v(-0.15, 0.15, -0.05), 0.17 * s),
         format!("Sphere(name: \"b2\", center: {}, radius: {:?})", v(0.05, 0.05, -0.1), 0.12 * s),
         format!(
@@ -120,8 +124,10 @@ fn scaling_the_scene_scales_the_result() {
         let (a, b) = everything();
         let (a_scaled, b_scaled) = everything_scaled(s);
         // Forces go with s² when stiffness goes with s; damping in N·s/m must then go with s as well.
-        let damp = |text: &str| text.replace("damping: 300.0", &format!("damping: {:?}", 300.0 * s))
-            .replace("damping: 40.0", &format!("damping: {:?}", 40.0 * s));
+        let damp = |text: &str| {
+            text.replace("damping: 300.0", &format!("damping: {:?}", 300.0 * s))
+                .replace("damping: 40.0", &format!("damping: {:?}", 40.0 * s))
+        };
         let mut one = Rig::new(&a, &b);
         let mut other = Rig::new(&damp(&a_scaled), &damp(&b_scaled));
         let mut random = Random(5);
@@ -142,7 +148,10 @@ fn scaling_the_scene_scales_the_result() {
                 let force = (got.force / (s * s) - expected.force).norm();
                 let moment = (got.moment / (s * s * s) - expected.moment).norm();
                 let size = expected.force.norm();
-                assert!(force <= 1e-10 * size && moment <= 1e-10 * size, "scale {s}: {force} {moment} of {size}");
+                assert!(
+                    force <= 1e-10 * size && moment <= 1e-10 * size,
+                    "scale {s}: {force} {moment} of {size}"
+                );
             }
         }
     }
@@ -210,7 +219,8 @@ fn the_order_of_pairing_does_not_matter() {
             let interfaces = objects.map(|object| world.interface(object, "").unwrap());
             world.set_states(&[(interfaces[0], states[0]), (interfaces[1], states[1])]).unwrap();
             world.step().unwrap();
-            let forces: Vec<_> = world.contacts().iter().map(|c| (c.a.primitive, c.b.primitive, c.force)).collect();
+            let forces: Vec<_> =
+                world.contacts().iter().map(|c| (c.a.primitive, c.b.primitive, c.force)).collect();
             (interfaces.map(|interface| world.wrench(interface).unwrap()), forces)
         });
         assert!(frames[0].1.len() > 5);

@@ -82,7 +82,10 @@ fn a_plate_of_two_to_twenty_thousand_triangles_is_one_plane() {
         for q in &turns {
             let places = places(cells, &mut random);
             let (along, across) = worst_difference(&mesh(cells, q, false), q, &mut random, &places);
-            println!("{} triangles: normal force off by {along:.1e}, side force {across:.1e}", 2 * cells * cells);
+            println!(
+                "{} triangles: normal force off by {along:.1e}, side force {across:.1e}",
+                2 * cells * cells
+            );
             assert!(along <= 1e-9 && across <= 1e-9, "{cells} cells: {along:e} {across:e}");
         }
     }
@@ -99,7 +102,10 @@ fn f32_vertices_show_only_their_own_waviness() {
         let (along, across) = worst_difference(&mesh(cells, &q, true), &q, &mut random, &places);
         let rounding = f64::from(f32::EPSILON) * SIZE;
         let (height, slope) = (4.0 * rounding / 1e-3, 8.0 * rounding * cells as f64 / SIZE);
-        println!("{} f32 triangles: normal force off by {along:.1e}, side force {across:.1e}", 2 * cells * cells);
+        println!(
+            "{} f32 triangles: normal force off by {along:.1e}, side force {across:.1e}",
+            2 * cells * cells
+        );
         assert!(along <= height + slope && across <= slope, "{cells} cells: {along:e} {across:e}");
     }
 }

@@ -63,7 +63,8 @@ fn a_sphere_whose_centre_goes_under_keeps_its_side() {
 
 #[test]
 fn without_memory_the_least_deep_face_pushes() {
-    let forgetful = wall().replace("name: \"wall\", surfaces", "name: \"wall\", entry_memory: false, surfaces");
+    let forgetful =
+        wall().replace("name: \"wall\", surfaces", "name: \"wall\", entry_memory: false, surfaces");
     let mut rig = Rig::new(&tip(), &forgetful);
     push_at(&mut rig, -0.006);
     assert!(push_at(&mut rig, -0.001).x < 0.0);
@@ -114,7 +115,8 @@ fn memory_follows_a_faceted_curve() {
     let high: Vec<String> = (0..n).rev().map(|i| (2 * i + 1).to_string()).collect();
     faces.push(format!("[{}]", low.join(",")));
     faces.push(format!("[{}]", high.join(",")));
-    let drum = format!("Polyhedron(name: \"d\", vertices: [{}], faces: [{}])", vertices.join(","), faces.join(","));
+    let drum =
+        format!("Polyhedron(name: \"d\", vertices: [{}], faces: [{}])", vertices.join(","), faces.join(","));
     let drum = model("drum", &steel(), &drum);
     let mut rig = Rig::new(&tip(), &drum);
     let mut around = |angle: f64, radius: f64, y: f64| {

@@ -1,7 +1,7 @@
 //! Small scenes for the tests, written as an author would write them.
 #![allow(dead_code)]
 
-use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World};
+use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use std::sync::Arc;
@@ -34,6 +34,7 @@ impl Random {
 /// Two Objects, paired and sealed.
 pub struct Rig {
     pub world: World,
+    pub models: [ModelId; 2],
     pub objects: [ObjectId; 2],
     pub interfaces: [InterfaceId; 2],
     pub pair: PairId,
@@ -52,7 +53,7 @@ pub fn surface(stiffness: f64, rest: &str) -> String {
     format!("\"s\": (stiffness: {stiffness:?}, {rest})")
 }
 
-pub fn load(world: &mut World, text: &str) -> pong_engine::ModelId {
+pub fn load(world: &mut World, text: &str) -> ModelId {
     let model = pong_model::parse(text, "test.ron", None, &Extensions::new());
     world.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}")))).unwrap()
 }
@@ -70,7 +71,7 @@ impl Rig {
         let pair = world.pair(objects[0], objects[1]).unwrap();
         let interfaces = objects.map(|object| world.interface(object, "").unwrap());
         world.seal().unwrap();
-        Self { world, objects, interfaces, pair }
+        Self { world, models, objects, interfaces, pair }
     }
 
     /// Sets both states.
