@@ -1,0 +1,88 @@
+//! Bodies: what moves, and what decides how.
+
+use crate::mass::MassProperties;
+use crate::path::Path;
+use pong_engine::InterfaceId;
+use pong_geometry::{Pose, Twist};
+
+/// A body of one simulation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct BodyId(pub(crate) usize);
+
+impl BodyId {
+    /// Position in the order in which the bodies were added.
+    pub fn index(self) -> usize {
+        self.0
+    }
+}
+
+/// What decides a body's motion.
+#[derive(Clone, Debug)]
+pub enum Motion {
+    /// Newton and Euler.
+    Free(MassProperties),
+    /// It stays where it is.
+    Fixed,
+    /// It follows a path whatever pushes it.
+    Prescribed(Path),
+}
+
+/// A rigid body, often a movable group of an Object; several groups of one Object are several bodies.
+#[derive(Clone, Debug)]
+pub struct RigidBody {
+    /// Name for messages and records.
+    pub name: String,
+    /// What decides its motion.
+    pub motion: Motion,
+    /// Where it starts: pose of the group frame in the common frame. A prescribed body starts where its path does.
+    pub pose: Pose,
+    /// How it starts: velocity of the group's origin and angular velocity, along the common axes.
+    pub twist: Twist,
+    /// The Interface whose contact wrench acts on it; `None` for a body that touches nothing.
+    pub interface: Option<InterfaceId>,
+}
+
+impl RigidBody {
+    /// A body free to move, at rest at the common origin.
+    pub fn free(name: &str, mass: MassProperties) -> Self {
+        Self::with_motion(name, Motion::Free(mass))
+    }
+
+    /// A body that never moves, at the common origin.
+    pub fn fixed(name: &str) -> Self {
+        Self::with_motion(name, Motion::Fixed)
+    }
+
+    /// A body that follows a path.
+    pub fn prescribed(name: &str, path: Path) -> Self {
+        Self::with_motion(name, Motion::Prescribed(path))
+    }
+
+    fn with_motion(name: &str, motion: Motion) -> Self {
+        let (pose, twist) = (Pose::identity(), Twist::zero());
+        Self { name: name.to_owned(), motion, pose, twist, interface: None }
+    }
+
+    /// The same body starting at a pose.
+    pub fn at(self, pose: Pose) -> Self {
+        Self { pose, ..self }
+    }
+
+    /// The same body starting with a twist.
+    pub fn moving(self, twist: Twist) -> Self {
+        Self { twist, ..self }
+    }
+
+    /// The same body, feeling the contacts of an Interface.
+    pub fn touching(self, interface: InterfaceId) -> Self {
+        Self { interface: Some(interface), ..self }
+    }
+
+    /// Mass properties of a free body.
+    pub fn mass(&self) -> Option<&MassProperties> {
+        match &self.motion {
+            Motion::Free(mass) => Some(mass),
+            _ => None,
+        }
+    }
+}

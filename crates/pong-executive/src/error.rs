@@ -1,0 +1,58 @@
+//! What can go wrong, told as thing, cause and cure.
+
+use pong_engine::EngineError;
+
+/// An error of the executive.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ExecutiveError {
+    /// The engine refused a call.
+    Engine(EngineError),
+    /// Something that was handed in cannot be used.
+    Invalid {
+        /// The thing.
+        what: String,
+        /// What is wrong with it.
+        cause: String,
+        /// What to give instead.
+        cure: String,
+    },
+    /// A state left the range of numbers.
+    Diverged {
+        /// The body.
+        body: String,
+        /// When it was noticed, s.
+        time: f64,
+    },
+}
+
+impl ExecutiveError {
+    pub(crate) fn invalid(
+        what: impl Into<String>,
+        cause: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Self {
+        Self::Invalid { what: what.into(), cause: cause.into(), cure: cure.into() }
+    }
+}
+
+impl std::fmt::Display for ExecutiveError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Engine(error) => error.fmt(f),
+            Self::Invalid { what, cause, cure } => write!(f, "{what}: {cause}; {cure}"),
+            Self::Diverged { body, time } => write!(
+                f,
+                "body `{body}`: its state is no longer finite at t = {time} s; the step is too long for the \
+                 stiffness and mass at hand: shorten it"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ExecutiveError {}
+
+impl From<EngineError> for ExecutiveError {
+    fn from(error: EngineError) -> Self {
+        Self::Engine(error)
+    }
+}

@@ -1,0 +1,34 @@
+//! Integrators: how a step uses the contact wrench.
+
+mod euler;
+mod hold;
+mod runge_kutta;
+
+pub(crate) use euler::euler;
+pub(crate) use hold::{Held, hold};
+pub(crate) use runge_kutta::{Contact, runge_kutta};
+
+use crate::state::Rates;
+
+/// How the motion of the free bodies is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// Velocities from the loads at the start of the step, then places from the new velocities. First order; one
+    /// contact evaluation a step.
+    SemiImplicitEuler,
+    /// The classic fourth-order method; contact is evaluated at every stage and committed at the end of the step.
+    RungeKutta4,
+    /// A host that calls the contact engine once a frame (one frame = one step): the wrench of the frame's start
+    /// acts, unchanged along the common axes about the group's origin, until the next. All other loads and the
+    /// motion are integrated in between by Runge-Kutta.
+    ZeroOrderHold {
+        /// Runge-Kutta steps in a frame, at least 1. With no other loads than gravity one is exact in translation.
+        substeps: u32,
+        /// How many whole frames the wrench comes late.
+        delay: u32,
+    },
+}
+
+/// Room for derivatives, kept from step to step.
+#[derive(Debug, Default)]
+pub(crate) struct Stages(pub [Vec<Rates>; 4]);

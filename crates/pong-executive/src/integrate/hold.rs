@@ -1,0 +1,45 @@
+//! Zero-order hold: one contact wrench a frame, held until the next, perhaps late.
+
+use super::Stages;
+use super::runge_kutta::{Contact, runge_kutta};
+use crate::error::ExecutiveError;
+use crate::state::FreeState;
+use crate::system::System;
+use pong_geometry::Wrench;
+use std::collections::VecDeque;
+
+/// Wrenches on their way from the contact engine to the bodies.
+#[derive(Debug, Default)]
+pub(crate) struct Held {
+    waiting: VecDeque<Vec<Wrench>>,
+}
+
+impl Held {
+    /// Takes in the wrenches of this frame and gives out those of `delay` frames ago; none came before the first.
+    fn exchange(&mut self, fresh: &[Wrench], delay: u32) -> Vec<Wrench> {
+        self.waiting.push_back(fresh.to_vec());
+        if self.waiting.len() <= delay as usize {
+            return vec![Wrench::zero(); fresh.len()];
+        }
+        self.waiting.pop_front().unwrap_or_default()
+    }
+}
+
+/// Advances the states over a frame.
+pub(crate) fn hold(
+    system: &mut System,
+    states: &mut [FreeState],
+    (stages, held): (&mut Stages, &mut Held),
+    (substeps, delay): (u32, u32),
+    time: f64,
+    frame: f64,
+) -> Result<(), ExecutiveError> {
+    let wrenches = held.exchange(&system.contact, delay);
+    let h = frame / f64::from(substeps);
+    for substep in 0..substeps {
+        let start = time + h * f64::from(substep);
+        system.place(start, states);
+        runge_kutta(system, states, stages, &Contact::Held(&wrenches), start, h)?;
+    }
+    Ok(())
+}

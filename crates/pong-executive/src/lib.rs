@@ -1,0 +1,57 @@
+//! A small rigid-body executive: bodies, loads, springs and integrators around a contact [`World`].
+//!
+//! Only as much dynamics as demonstrations and verification need; real multibody work belongs to the host.
+//! It has no physics of contact of its own: every contact wrench comes from the engine.
+//!
+//! ```
+//! use pong_executive::{Integrator, MassProperties, RigidBody, Simulation, Vec3};
+//! use pong_engine::{Config, World};
+//!
+//! # fn main() -> Result<(), pong_executive::ExecutiveError> {
+//! let mut world = World::new(Config::default());
+//! world.seal()?;
+//! let mut simulation = Simulation::new(world, Integrator::RungeKutta4, 1e-3)?;
+//! simulation.set_gravity(Vec3::new(0.0, 0.0, -9.81));
+//! let ball = simulation.add_body(RigidBody::free("ball", MassProperties::sphere(1.0, 0.1)))?;
+//! simulation.run_for(1.0)?;
+//! assert!((simulation.pose(ball).position.z + 0.5 * 9.81).abs() < 1e-12);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Conventions
+//!
+//! A body is a movable group. Its pose and twist are those of the group frame, relative to and expressed in the
+//! common frame; its wrenches are about the group's origin along the axes of the common frame.
+//!
+//! Outside [`Simulation::step`] the world has always been evaluated *and committed* at the present states, so that
+//! its contacts and wrenches belong to the time that [`Simulation::time`] tells.
+
+#![forbid(unsafe_code)]
+
+mod body;
+mod energy;
+mod error;
+mod integrate;
+mod load;
+mod mass;
+mod math;
+mod path;
+mod simulation;
+mod spring;
+mod state;
+mod system;
+
+pub use body::{BodyId, Motion, RigidBody};
+pub use energy::Energy;
+pub use error::ExecutiveError;
+pub use integrate::Integrator;
+pub use load::{Axes, Load, LoadHistory, LoadRow};
+pub use mass::MassProperties;
+pub use path::{Oscillation, Path, PathRow, PathTable};
+pub use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
+pub use simulation::{Observer, Simulation};
+pub use spring::{Spring, SpringEnd};
+
+#[doc(no_inline)]
+pub use pong_engine::World;

@@ -1,0 +1,140 @@
+//! Bodies and everything that acts on them, at one instant.
+
+use crate::body::{Motion, RigidBody};
+use crate::error::ExecutiveError;
+use crate::load::Load;
+use crate::spring::{Spring, SpringAction, SpringEnd};
+use crate::state::{FreeState, Inertia, Rates};
+use pong_engine::{InterfaceId, State, World};
+use pong_geometry::{Pose, Twist, Vec3, Wrench};
+
+/// The ground as the end of a spring.
+const GROUND: usize = usize::MAX;
+
+pub(crate) struct System {
+    pub world: World,
+    pub bodies: Vec<RigidBody>,
+    pub gravity: Vec3,
+    pub loads: Vec<Load>,
+    pub springs: Vec<Spring>,
+    /// The bodies that are free, in order, and their inertia.
+    pub free: Vec<(usize, Inertia)>,
+    /// Motion of every group frame at the instant last placed.
+    pub motions: Vec<(Pose, Twist)>,
+    /// Contact wrench on every body, about its group's origin along the common axes.
+    pub contact: Vec<Wrench>,
+    /// Loads and springs, likewise.
+    applied: Vec<Wrench>,
+    states_in: Vec<(InterfaceId, State)>,
+}
+
+impl System {
+    pub fn new(world: World) -> Self {
+        Self {
+            world,
+            bodies: Vec::new(),
+            gravity: Vec3::zeros(),
+            loads: Vec::new(),
+            springs: Vec::new(),
+            free: Vec::new(),
+            motions: Vec::new(),
+            contact: Vec::new(),
+            applied: Vec::new(),
+            states_in: Vec::new(),
+        }
+    }
+
+    /// Adds a checked body.
+    pub fn push(&mut self, body: RigidBody, inertia: Option<Inertia>) {
+        let index = self.bodies.len();
+        if let Some(inertia) = inertia {
+            self.free.push((index, inertia));
+        }
+        self.motions.push((body.pose, body.twist));
+        self.contact.push(Wrench::zero());
+        self.applied.push(Wrench::zero());
+        self.bodies.push(body);
+    }
+
+    /// Puts every group frame where the states of the free bodies and the time say.
+    pub fn place(&mut self, time: f64, states: &[FreeState]) {
+        for ((index, inertia), state) in self.free.iter().zip(states) {
+            self.motions[*index] = state.motion(inertia);
+        }
+        for (body, motion) in self.bodies.iter().zip(&mut self.motions) {
+            if let Motion::Prescribed(path) = &body.motion {
+                *motion = path.at(time);
+            }
+        }
+    }
+
+    /// Hands the states to the world and takes the contact wrenches.
+    pub fn touch(&mut self) -> Result<(), ExecutiveError> {
+        self.hand_in()?;
+        self.world.evaluate()?;
+        self.take_wrenches()
+    }
+
+    /// As [`touch`](Self::touch), and the world accepts the states.
+    pub fn touch_and_commit(&mut self) -> Result<(), ExecutiveError> {
+        self.hand_in()?;
+        self.world.step()?;
+        self.take_wrenches()
+    }
+
+    fn hand_in(&mut self) -> Result<(), ExecutiveError> {
+        self.states_in.clear();
+        for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
+            if let Some(interface) = body.interface {
+                self.states_in.push((interface, State::from_motion(pose, twist)));
+            }
+        }
+        Ok(self.world.set_states(&self.states_in)?)
+    }
+
+    fn take_wrenches(&mut self) -> Result<(), ExecutiveError> {
+        for (body, wrench) in self.bodies.iter().zip(&mut self.contact) {
+            if let Some(interface) = body.interface {
+                *wrench = self.world.wrench_common(interface)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Derivatives of the free bodies, which must have been placed, under a contact wrench for every body.
+    pub fn rates(&mut self, time: f64, states: &[FreeState], contact: &[Wrench], out: &mut Vec<Rates>) {
+        self.apply(time);
+        out.clear();
+        for ((index, inertia), state) in self.free.iter().zip(states) {
+            let mut wrench = contact[*index];
+            wrench += self.applied[*index];
+            out.push(state.rates(inertia, &wrench, &self.gravity));
+        }
+    }
+
+    /// Sums loads and springs.
+    fn apply(&mut self, time: f64) {
+        self.applied.fill(Wrench::zero());
+        for load in &self.loads {
+            let index = load.body.index();
+            self.applied[index] += load.wrench(time, &self.motions[index].0);
+        }
+        for spring in &self.springs {
+            let action = self.spring_action(spring);
+            for (end, wrench) in [(spring.first, action.on_first), (spring.second, action.on_second)] {
+                if let Some(body) = end.body {
+                    self.applied[body.index()] += wrench;
+                }
+            }
+        }
+    }
+
+    pub fn spring_action(&self, spring: &Spring) -> SpringAction {
+        let ground = (Pose::identity(), Twist::zero());
+        let motion = |end: &SpringEnd| {
+            let index = end.body.map_or(GROUND, |body| body.index());
+            *self.motions.get(index).unwrap_or(&ground)
+        };
+        spring.act(&motion(&spring.first), &motion(&spring.second))
+    }
+}
