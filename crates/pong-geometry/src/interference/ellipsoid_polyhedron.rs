@@ -67,7 +67,7 @@ pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interferenc
     let found = if suspects.count == 0 {
         Some(face)
     } else {
-        Search::new(e, &prepared, p, lead, face).least(&suspects)
+        Search::new(e, &prepared, p, lead, face, suspects.all_active).least(&suspects)
     };
     found.map(|least| Interference {
         depth: least.depth,
@@ -86,6 +86,16 @@ struct Lead {
     deepest: Vec3,
 }
 
+/// What faces say of a lead.
+enum Verdict {
+    /// None has less overlap.
+    Agreed,
+    /// A face's plane separates the two.
+    Apart,
+    /// A face of less overlap.
+    Less(Lead),
+}
+
 /// The faces below which the lead's deepest point lies less deep than below the lead.
 struct Suspects {
     faces: [u32; Self::CAPACITY],
@@ -93,37 +103,74 @@ struct Suspects {
     count: usize,
     /// Whether the deepest point is inside the polyhedron, so that the two overlap.
     pierces: bool,
+    /// Whether the polyhedron has no inner wall.
+    all_active: bool,
 }
 
 impl Lead {
     /// `None` if a face's plane separates the two, or no face is active.
     fn find(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
-        let mut lead = Self::at(e, p, highest_active_face(e, p)?);
+        let (highest, all_active) = highest_active_face(e, p)?;
+        let mut lead = Self::at(e, p, highest);
+        while let Some(better) = lead.better_neighbor(e, p) {
+            lead = better;
+        }
         if lead.depth <= 0.0 {
             return None;
         }
-        let mut suspects = Suspects::none();
-        let (mut index, mut agreed) = (0, 0);
+        let mut suspects = Suspects::none(all_active);
         // Round and round until all faces have agreed; every change of the lead lowers its overlap.
-        while agreed < p.faces.len() {
-            let under = -p.faces[index].height(&lead.deepest);
-            if under < lead.depth && index != lead.face {
-                let other = Self::at(e, p, index);
-                if other.depth <= 0.0 {
-                    return None;
-                }
-                if p.faces[index].active && (other.depth, index) < (lead.depth, lead.face) {
+        let mut start = 0;
+        loop {
+            let verdict = match lead.ask(e, p, start..p.faces.len(), &mut suspects) {
+                Verdict::Agreed => lead.ask(e, p, 0..start, &mut suspects),
+                other => other,
+            };
+            match verdict {
+                Verdict::Agreed => return Some((lead, suspects)),
+                Verdict::Apart => return None,
+                Verdict::Less(other) => {
                     lead = other;
-                    suspects = Suspects::none();
-                    agreed = 0;
-                } else {
-                    suspects.add(index, under);
+                    start = other.face;
+                    suspects = Suspects::none(all_active);
                 }
             }
-            agreed += 1;
-            index = if index + 1 == p.faces.len() { 0 } else { index + 1 };
         }
-        Some((lead, suspects))
+    }
+
+    /// Asks faces whether one of them has less overlap, and lists the suspects among them.
+    fn ask(
+        &self,
+        e: &PreparedEllipsoid,
+        p: &Polyhedron,
+        range: std::ops::Range<usize>,
+        suspects: &mut Suspects,
+    ) -> Verdict {
+        let first = range.start;
+        for (k, face) in p.faces[range].iter().enumerate() {
+            let under = -face.height(&self.deepest);
+            let index = first + k;
+            if under >= self.depth || index == self.face {
+                continue;
+            }
+            let other = Self::at(e, p, index);
+            if other.depth <= 0.0 {
+                return Verdict::Apart;
+            }
+            if face.active && (other.depth, index) < (self.depth, self.face) {
+                return Verdict::Less(other);
+            }
+            suspects.add(index, under);
+        }
+        Verdict::Agreed
+    }
+
+    fn better_neighbor(&self, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<Self> {
+        p.rim(self.face).iter().find_map(|rim| {
+            let neighbor = rim.neighbor as usize;
+            let suspect = p.faces[neighbor].active && -p.faces[neighbor].height(&self.deepest) < self.depth;
+            suspect.then(|| Self::at(e, p, neighbor)).filter(|other| other.depth < self.depth)
+        })
     }
 
     fn at(e: &PreparedEllipsoid, p: &Polyhedron, face: usize) -> Self {
@@ -137,27 +184,30 @@ impl Lead {
     }
 }
 
-fn highest_active_face(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<usize> {
+/// The active face that the centre is highest above, and whether all are active.
+fn highest_active_face(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(usize, bool)> {
     let mut highest = None;
+    let mut all_active = true;
     let mut most = f64::NEG_INFINITY;
     for (index, face) in p.faces.iter().enumerate() {
         let height = face.height(&e.center);
         if height >= e.largest {
             return None;
         }
+        all_active &= face.active;
         if height > most && face.active {
             most = height;
             highest = Some(index);
         }
     }
-    highest
+    highest.map(|index| (index, all_active))
 }
 
 impl Suspects {
     const CAPACITY: usize = 32;
 
-    fn none() -> Self {
-        Self { faces: [0; Self::CAPACITY], count: 0, pierces: true }
+    fn none(all_active: bool) -> Self {
+        Self { faces: [0; Self::CAPACITY], count: 0, pierces: true, all_active }
     }
 
     fn add(&mut self, face: usize, under: f64) {
@@ -204,6 +254,7 @@ impl<'a> Search<'a> {
         polyhedron: &'a Polyhedron,
         lead: Lead,
         lead_face: Candidate,
+        all_active: bool,
     ) -> Self {
         let size = polyhedron.diameter + prepared.largest + ellipsoid.center.amax();
         Self {
@@ -212,7 +263,7 @@ impl<'a> Search<'a> {
             polyhedron,
             lead,
             lead_face,
-            all_active: polyhedron.faces.iter().all(|face| face.active),
+            all_active,
             bound: lead.depth * (1.0 + BOUND_SLACK),
             size,
             foot_slack: FOOT_SLACK * size,
@@ -306,13 +357,20 @@ impl<'a> Search<'a> {
 
     fn try_features_of(&mut self, suspects: &[u32]) {
         let polyhedron = self.polyhedron;
+        // Each vertex is met once per suspect around it; those beyond the capacity are simply tried again.
+        let mut tried = [u32::MAX; Suspects::CAPACITY];
+        let mut count = 0;
         for &face in suspects {
             for rim in polyhedron.rim(face as usize) {
                 let first_here = rim.neighbor > face || !suspects.contains(&rim.neighbor);
                 if first_here {
                     self.try_edge(rim.edge as usize);
                 }
-                self.try_vertex(rim.start as usize);
+                if !tried[..count].contains(&rim.start) {
+                    self.try_vertex(rim.start as usize);
+                    tried[count] = rim.start;
+                    count = (count + 1).min(tried.len() - 1);
+                }
             }
         }
     }
@@ -336,10 +394,10 @@ impl<'a> Search<'a> {
         }
         let shadow = Shadow::new(self.prepared, &push.normals[0], &push.outwards[0]);
         let y = shadow.components(&from_edge);
-        if y[0].abs() < shadow.semi_axes[0] && y[1].abs() < shadow.semi_axes[1] {
+        if shadow.may_hold(&y, self.limit()) {
             self.offer_edge(index, push, &shadow, &nearest_on_ellipse(shadow.semi_axes, y));
         }
-        let second = self.prepared.allows_second(self.limit());
+        let second = shadow.allows_second(self.limit());
         if let Some(foot) = second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten() {
             self.offer_edge(index, push, &shadow, &foot);
         }

@@ -24,7 +24,7 @@ impl PreparedEllipsoid {
         Self {
             center: e.center,
             widen: std::array::from_fn(|i| axis(i) * e.semi_axes[i]),
-            shrink: std::array::from_fn(|i| axis(i) / e.semi_axes[i]),
+            shrink: std::array::from_fn(|i| axis(i) * (1.0 / e.semi_axes[i])),
             smallest: e.semi_axes.min(),
             largest: e.semi_axes.max(),
         }
@@ -70,8 +70,9 @@ impl PreparedEllipsoid {
 
     /// A lower bound of the overlap over the normals between two faces that the centre is `heights` above.
     ///
-    /// `D` extended to all lengths of n is convex, so on the chord between the two normals it lies above its two
-    /// tangents at the ends; and dividing by the length there, at most 1, lowers nothing that is positive.
+    /// `D` extended to all lengths of n is convex, so between the two normals it lies above its two tangents at the
+    /// ends. Along the arc a tangent is a sine wave, concave where it is positive: the larger of the two is least at an
+    /// end or where they cross. The crossing is found on the chord and divided by its distance from the origin.
     pub(crate) fn arc_bound(&self, normals: &[Vec3; 2], heights: &[f64; 2]) -> f64 {
         let widened = normals.map(|n| self.widened(&n));
         let half_widths = widened.map(|w| w.norm());
@@ -85,8 +86,10 @@ impl PreparedEllipsoid {
             return depths[0].min(depths[1]);
         }
         let share = fall_0 / sum;
-        // A linear function's least value over the part of the chord where it is the larger.
-        let crossing = depths[0] + share * (across[0] - depths[0]);
+        let chord = depths[0] + share * (across[0] - depths[0]);
+        let bend = 1.0 - normals[0].dot(&normals[1]);
+        let crossing =
+            if chord > 0.0 { chord / (1.0 - 2.0 * share * (1.0 - share) * bend).sqrt() } else { chord };
         crossing.min(depths[0]).min(depths[1])
     }
 }
@@ -119,6 +122,22 @@ impl Shadow {
         let sine = cosine * tangent;
         let turned = |a: &Vec3, b: &Vec3| [a * cosine - b * sine, a * sine + b * cosine];
         Self { axes: turned(u, v), semi_axes: turned(&wide_u, &wide_v).map(|w| w.norm()) }
+    }
+
+    /// Whether a point at `components` may be inside and no deeper than `depth`; the depth is at least the share of
+    /// the smaller semi-axis that is left of the radius.
+    #[inline]
+    pub(crate) fn may_hold(&self, components: &[f64; 2], depth: f64) -> bool {
+        let [x, y] = [components[0] / self.semi_axes[0], components[1] / self.semi_axes[1]];
+        let square = x * x + y * y;
+        square < 1.0 && self.semi_axes[0].min(self.semi_axes[1]) * (1.0 - square.sqrt()) <= depth
+    }
+
+    /// As [`PreparedEllipsoid::allows_second`].
+    #[inline]
+    pub(crate) fn allows_second(&self, depth: f64) -> bool {
+        let [a, b] = self.semi_axes;
+        depth * a.max(b) >= a.min(b) * a.min(b)
     }
 
     /// A vector's components along the principal axes.

@@ -49,6 +49,9 @@ pub fn ellipsoid_triangle(
     if height >= half_width || height <= -thickness.max(half_width) {
         return;
     }
+    if passes_beside(&prepared, &view) {
+        return;
+    }
     let extent = view.corners.iter().map(|c| (c - ellipsoid.center).amax()).fold(0.0, f64::max);
     let foot_slack = FOOT_SLACK * (extent + prepared.largest + ellipsoid.center.amax());
     let tester = Tester { ellipsoid, prepared, set, view, height, half_width, thickness, foot_slack };
@@ -59,6 +62,16 @@ pub fn ellipsoid_triangle(
     for corner in 0..3 {
         tester.emit_vertex(corner, emit);
     }
+}
+
+/// Whether the ellipsoid lies wholly beyond a plane through an edge, across the triangle.
+fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
+    (0..3).any(|k| {
+        let from = view.corners[k];
+        let outward = (view.corners[(k + 1) % 3] - from).cross(&view.normal);
+        let beyond = outward.dot(&(e.center - from));
+        beyond > 0.0 && beyond * beyond > e.widened(&outward).norm_squared()
+    })
 }
 
 struct Tester<'a> {
@@ -172,7 +185,7 @@ impl Tester<'_> {
                 }
             }
         };
-        if y[0].abs() < shadow.semi_axes[0] && y[1].abs() < shadow.semi_axes[1] {
+        if shadow.may_hold(&y, f64::INFINITY) {
             try_foot(&nearest_on_ellipse(shadow.semi_axes, y), f64::INFINITY);
         }
         if let Some(foot) = second_nearest_on_ellipse(shadow.semi_axes, y) {
