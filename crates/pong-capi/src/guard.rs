@@ -47,11 +47,14 @@ impl From<ModelErrors> for Failure {
     }
 }
 
-/// Runs an entry that has no world: clears the message, catches panics, turns the outcome into a status.
+/// Runs an entry that has no world: catches panics, turns the outcome into a status and leaves its message, or none.
 pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
-    message::clear();
     let failure = match catch_unwind(AssertUnwindSafe(call)) {
-        Ok(Ok(())) => return pong_status::Ok,
+        Ok(Ok(())) => {
+            // At the end, not at the beginning: a law that this call called may have made a call of its own.
+            message::clear();
+            return pong_status::Ok;
+        }
         Ok(Err(failure)) => failure,
         Err(payload) => fault(payload),
     };

@@ -1,0 +1,101 @@
+// The C++ header in use: a ball dropped on the ground, stepped by a small explicit integrator.
+//
+//     c++ -std=c++17 cpp_smoke.cpp -I../include -L../target/debug -lpong -o cpp_smoke
+
+#include <pong.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+const std::string head =
+    "(format: \"pong-model\", version: 1, surfaces: {\"rubber\": (stiffness: 2e4, friction: Bristle(mu: 0.5))}, ";
+const std::string ball_model = head + "name: \"ball\", root: (name: \"ball\", surface: \"rubber\", "
+                                      "primitives: [Sphere(name: \"shell\", center: (0, 0, 0), radius: 0.1)]))";
+const std::string ground_model = head + "name: \"ground\", root: (name: \"ground\", surface: \"rubber\", "
+                                        "primitives: [Plane(name: \"floor\", normal: (0, 0, 1), offset: 0)]))";
+
+void require(bool holds, const char* what) {
+    if (!holds) {
+        std::fprintf(stderr, "not so: %s\n", what);
+        std::exit(1);
+    }
+}
+
+pong::World build() {
+    pong::World world;
+    world.create_object(world.load_model_text(ball_model, "ball"), "ball");
+    world.create_object(world.load_model_text(ground_model, "ground"), "ground");
+    world.pair("ball", "ground");
+    world.seal();
+    return world;
+}
+
+// A ball without losses comes back to where it was dropped.
+void drop(pong::World& world) {
+    const double mass = 1.0, gravity = 9.81, dt = 1e-5, height = 0.12;
+    const pong::InterfaceId ball = world.interface(world.object("ball"));
+    world.set_state(world.interface(world.object("ground")), pong::State());
+    pong::State state;
+    state.position[2] = height;
+    double lowest = height, highest = 0.0;
+    for (int frame = 0; frame < 20000; ++frame) {
+        world.set_state(ball, state);
+        world.step();
+        const double up = world.wrench(ball, pong::Frame::common).force[2];
+        state.linear_velocity[2] += dt * (up / mass - gravity);
+        state.position[2] += dt * state.linear_velocity[2];
+        lowest = std::fmin(lowest, state.position[2]);
+        highest = frame > 10000 ? std::fmax(highest, state.position[2]) : highest;
+    }
+    std::printf("lowest %.6f m, back to %.6f m\n", lowest, highest);
+    require(lowest < 0.1 && std::fabs(highest - height) < 1e-4, "the ball bounces back");
+}
+
+void refuse(pong::World& world) {
+    try {
+        world.object("moon");
+        require(false, "an unknown name throws");
+    } catch (const pong::Error& error) {
+        require(error.status() == PONG_STATUS_UNKNOWN_NAME, "the status comes along");
+        require(std::string(error.what()).find("`moon`") != std::string::npos, "the message comes along");
+    }
+}
+
+void list_and_restore(pong::World& world) {
+    const pong::InterfaceId ball = world.interfaces(world.object("ball")).front();
+    pong::State state;
+    state.position = {1e-4, 0.0, 0.098};
+    world.forget(world.object("ball"));
+    world.set_state(ball, pong::State(pong_state(state)));
+    world.step();
+    const auto saved = world.save_contact_state();
+    const std::vector<pong::Contact> contacts = world.contacts();
+    require(contacts.size() == 1 && std::fabs(contacts[0].depth - 0.002) < 1e-12, "one contact, 2 mm deep");
+    require(std::string(world.primitive_path(contacts[0].a.interface, contacts[0].a.primitive)) == "ball/shell",
+            "the contact names the sphere");
+    world.restore_contact_state(saved);
+    require(world.save_contact_state() == saved, "the contact state survives a round trip");
+}
+
+} // namespace
+
+int main() {
+    try {
+        pong::World built = build();
+        pong::World world = std::move(built);
+        drop(world);
+        refuse(world);
+        list_and_restore(world);
+    } catch (const pong::Error& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+    std::printf("cpp_smoke: passed\n");
+    return 0;
+}

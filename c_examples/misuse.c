@@ -1,0 +1,241 @@
+/* Everything a host can do wrong that the library can tell: wrong order, stale and foreign ids, NULLs, NaN, buffers
+ * that are too small. Each must be an error with a message, and the next good frame as if it had never been. */
+#include "testing/check.h"
+#include <math.h>
+
+static pong_wrench good_frame(scene *s)
+{
+    pong_wrench wrench;
+    memset(&wrench, 0, sizeof wrench);
+    OK(pong_set_states(s->world, s->interfaces, s->states, 3));
+    OK(pong_evaluate(s->world));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench));
+    return wrench;
+}
+
+static void versions(void)
+{
+    OK(PONG_CHECK_ABI());
+    REFUSED(pong_check_abi(PONG_ABI_VERSION + 1, PONG_LAYOUT_HASH), CONFIG, "compile against");
+    REFUSED(pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH + 1), CONFIG, "layout");
+    TEST(pong_abi_version() == PONG_ABI_VERSION && pong_layout_hash() == PONG_LAYOUT_HASH);
+    TEST(strchr(pong_version_string(), '.') != NULL);
+    TEST(strcmp(pong_status_name(PONG_STATUS_UNKNOWN_ID), "PONG_STATUS_UNKNOWN_ID") == 0);
+    TEST(strcmp(pong_status_name(-7), "unknown status") == 0);
+}
+
+static void configurations(void)
+{
+    pong_world *world = (pong_world *)&world;
+    pong_config config;
+    memset(&config, 0, sizeof config);
+    REFUSED(pong_create_world(&config, &world), CONFIG, "pong_default_config()");
+    TEST(world == NULL);
+    config = pong_default_config();
+    config.struct_size -= 8;
+    REFUSED(pong_create_world(&config, &world), CONFIG, "pong_default_config()");
+    config = pong_default_config();
+    config.abi_version += 1;
+    REFUSED(pong_create_world(&config, &world), CONFIG, "pong_default_config()");
+    config = pong_default_config();
+    config.reserved[3] = 1;
+    REFUSED(pong_create_world(&config, &world), CONFIG, "reserved");
+    config = pong_default_config();
+    config.keep_ledger = 2;
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "keep_ledger is 2");
+    config = pong_default_config();
+    config.contact_capacity = (uint64_t)1 << 60;
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "contact_capacity");
+    REFUSED(pong_create_world(NULL, &world), NULL_ARGUMENT, "`config`");
+    config = pong_default_config();
+    REFUSED(pong_create_world(&config, NULL), NULL_ARGUMENT, "`world`");
+    OK(pong_destroy_world(NULL));
+}
+
+static void models(scene *s)
+{
+    static const char two_faults[] = "(format: \"pong-model\", version: 1, name: \"x\",\n"
+        " surfaces: {\"rubber\": (stiffness: -2)},\n"
+        " root: (name: \"x\", surface: \"rubber\", primitives: [\n"
+        "  Sphere(name: \"shell\", center: (0, 0, 0), radius: 0)]))";
+    pong_model_id model = { 77 };
+    REFUSED(load_text(s->world, two_faults, &model), MODEL_ERROR, "text:2:");
+    REFUSED(load_text(s->world, two_faults, &model), MODEL_ERROR, "text:4:");
+    REFUSED(load_text(s->world, "", &model), MODEL_ERROR, "text:1:");
+    REFUSED(pong_load_model_text(s->world, "\xff\xfe", 2, "t", NULL, &model), MODEL_ERROR, "UTF-8");
+    REFUSED(pong_load_model_text(s->world, NULL, 0, "t", NULL, &model), NULL_ARGUMENT, "`text`");
+    REFUSED(pong_load_model_text(s->world, "()", 2, NULL, NULL, &model), NULL_ARGUMENT, "`name`");
+    REFUSED(pong_load_model_text(s->world, "()", (size_t)-1, "t", NULL, &model), BAD_VALUE, "true length");
+    REFUSED(pong_load_model(s->world, "no/such/file.ron", &model), MODEL_ERROR, "no/such/file.ron");
+    REFUSED(pong_load_model(s->world, NULL, &model), NULL_ARGUMENT, "`path`");
+    REFUSED(pong_load_model(s->world, "\xff", &model), BAD_VALUE, "UTF-8");
+    REFUSED(pong_load_model(s->world, "x.ron", NULL), NULL_ARGUMENT, "`model`");
+    TEST(model.bits == 77);
+}
+
+static void names_and_ids(scene *s)
+{
+    pong_object_id object = { 77 };
+    pong_interface_id interface = { 77 };
+    pong_model_id no_model = { 0 };
+    pong_object_id no_object = { 0 }, wild = { (uint64_t)-1 };
+    const char *text = NULL;
+    REFUSED(pong_create_object(s->world, s->ball_model, "ball", &object), DUPLICATE, "`ball`");
+    REFUSED(pong_create_object(s->world, no_model, "new", &object), UNKNOWN_ID, "model");
+    REFUSED(pong_create_object(s->world, s->ball_model, "\xff", &object), BAD_VALUE, "UTF-8");
+    REFUSED(pong_pair_objects(s->world, s->ground, s->ball, NULL), DUPLICATE, "`ground`");
+    REFUSED(pong_pair_objects(s->world, s->ground, s->ground, NULL), BAD_VALUE, "paired with itself");
+    REFUSED(pong_pair_objects(s->world, s->ground, no_object, NULL), UNKNOWN_ID, "object");
+    REFUSED(pong_pair_by_name(s->world, "ball", "moon", NULL), UNKNOWN_NAME, "`moon`");
+    REFUSED(pong_find_object(s->world, "moon", &object), UNKNOWN_NAME, "known: ball, ground");
+    REFUSED(pong_find_interface(s->world, s->ball, "leg", &interface), UNKNOWN_NAME, "ball/leg");
+    REFUSED(pong_find_interface(s->world, wild, "", &interface), UNKNOWN_ID, "object");
+    REFUSED(pong_object_name(s->world, wild, &text), UNKNOWN_ID, "object");
+    REFUSED(pong_interface_path(s->world, interface, &text), UNKNOWN_ID, "interface");
+    REFUSED(pong_primitive_path(s->world, s->interfaces[0], 1, &text), UNKNOWN_ID, "primitive 1");
+    REFUSED(pong_model_warning(s->world, s->ball_model, 0, &text), UNKNOWN_ID, "warning 0");
+    REFUSED(pong_seal_warning(s->world, 9, &text), UNKNOWN_ID, "warning 9");
+    REFUSED(pong_surface_name(s->world, s->ball_model, 1, &text), UNKNOWN_ID, "surface 1");
+    REFUSED(pong_set_primitive_user_data(s->world, s->interfaces[0], 1, 5), UNKNOWN_ID, "primitive 1");
+    REFUSED(pong_set_pair_enabled(s->world, s->pair, 2), BAD_VALUE, "`enabled` is 2");
+    TEST(object.bits == 77 && interface.bits == 77 && text == NULL);
+}
+
+static void order_before_seal(scene *s)
+{
+    pong_wrench wrench;
+    size_t size;
+    REFUSED(pong_step(s->world), WRONG_PHASE, "seal");
+    REFUSED(pong_evaluate(s->world), WRONG_PHASE, "seal");
+    REFUSED(pong_commit(s->world), WRONG_PHASE, "seal");
+    REFUSED(pong_commit_pairs(s->world, &s->pair, 1), WRONG_PHASE, "seal");
+    REFUSED(pong_forget_object(s->world, s->ball), WRONG_PHASE, "seal");
+    REFUSED(pong_contact_state_size(s->world, &size), WRONG_PHASE, "seal");
+    REFUSED(pong_save_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
+    REFUSED(pong_restore_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
+}
+
+static void order_after_seal(scene *s)
+{
+    pong_wrench wrench;
+    pong_model_id model;
+    pong_object_id object;
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
+    REFUSED(pong_step(s->world), UNSET_STATE, "ball/ball");
+    REFUSED(pong_commit(s->world), UNSET_STATE, "ball/ball");
+    REFUSED(pong_seal(s->world, NULL), WRONG_PHASE, "before the world is sealed");
+    REFUSED(load_text(s->world, BALL_MODEL, &model), WRONG_PHASE, "sealed");
+    REFUSED(pong_create_object(s->world, s->ball_model, "late", &object), WRONG_PHASE, "sealed");
+    REFUSED(pong_pair_objects(s->world, s->ball, s->ball, NULL), WRONG_PHASE, "sealed");
+}
+
+static void bad_states(scene *s)
+{
+    pong_wrench before = good_frame(s), after;
+    pong_state states[3];
+    pong_interface_id ids[3];
+    int round;
+    for (round = 0; round < 13; round += 1) {
+        memcpy(states, s->states, sizeof states);
+        states[0].position[2] = 0.05;
+        ((double *)&states[1])[round] = round % 2 == 0 ? NAN : INFINITY;
+        REFUSED(pong_set_states(s->world, s->interfaces, states, 3), BAD_STATE, "ball/ball/arm");
+    }
+    states[1] = s->states[1];
+    memset(states[1].orientation, 0, sizeof states[1].orientation);
+    REFUSED(pong_set_state(s->world, s->interfaces[1], &states[1]), BAD_STATE, "norm");
+    memcpy(ids, s->interfaces, sizeof ids);
+    ids[2].bits += 1;
+    REFUSED(pong_set_states(s->world, ids, s->states, 3), UNKNOWN_ID, "interfaces[2]");
+    REFUSED(pong_set_states(s->world, NULL, s->states, 3), NULL_ARGUMENT, "`interfaces`");
+    REFUSED(pong_set_states(s->world, ids, NULL, 3), NULL_ARGUMENT, "`states`");
+    REFUSED(pong_set_states(s->world, ids, s->states, (size_t)-1), BAD_VALUE, "true length");
+    REFUSED(pong_set_states(s->world, (pong_interface_id *)((char *)ids + 1), s->states, 1), BAD_VALUE, "aligned");
+    OK(pong_set_states(s->world, NULL, NULL, 0));
+    OK(pong_evaluate(s->world));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &after));
+    TEST(memcmp(&before, &after, sizeof after) == 0);
+}
+
+static void bad_results(scene *s)
+{
+    pong_wrench wrench;
+    pong_contact contact;
+    pong_interface_id wild = { 12345 };
+    pong_pair_id no_pair = { 0 };
+    size_t count = 77;
+    good_frame(s);
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], 2, &wrench), BAD_VALUE, "`frame` is 2");
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, NULL), NULL_ARGUMENT, "`wrench`");
+    REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, &wrench, 1), UNKNOWN_ID, "interfaces[0]");
+    REFUSED(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, &wrench, 1), NULL_ARGUMENT, "`interfaces`");
+    REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, NULL, 1), NULL_ARGUMENT, "`wrenches`");
+    OK(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, NULL, 0));
+    REFUSED(pong_get_contacts(s->world, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 1");
+    TEST(count == 1);
+    REFUSED(pong_get_contacts(s->world, &contact, 1, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_contacts(s->world, NULL, 1, &count), NULL_ARGUMENT, "`contacts`");
+    OK(pong_get_contacts(s->world, &contact, 1, &count));
+    REFUSED(pong_get_report(s->world, NULL), NULL_ARGUMENT, "`report`");
+    REFUSED(pong_get_ledger(s->world, NULL), NULL_ARGUMENT, "`ledger`");
+    REFUSED(pong_commit_pairs(s->world, &no_pair, 1), UNKNOWN_ID, "pair");
+    REFUSED(pong_commit_pairs(s->world, NULL, 1), NULL_ARGUMENT, "`pairs`");
+    OK(pong_commit_pairs(s->world, NULL, 0));
+}
+
+static void no_world(void)
+{
+    pong_interface_id interface = { 0 };
+    pong_state state = pong_default_state();
+    pong_wrench wrench;
+    size_t size;
+    REFUSED(pong_seal(NULL, NULL), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_set_states(NULL, &interface, &state, 1), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_step(NULL), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_evaluate(NULL), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_commit(NULL), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_get_wrench(NULL, interface, PONG_FRAME_GROUP, &wrench), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_contact_count(NULL, &size), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_contact_state_size(NULL, &size), NULL_ARGUMENT, "`world`");
+}
+
+/* Ids of a world that is gone, used in a living one that was built by the same calls. */
+static void stale_ids(scene *s)
+{
+    scene gone;
+    pong_config config = pong_default_config();
+    pong_wrench wrench;
+    open_scene(&gone, &config);
+    OK(pong_destroy_world(gone.world));
+    REFUSED(pong_set_state(s->world, gone.interfaces[0], &s->states[0]), UNKNOWN_ID, "interface");
+    REFUSED(pong_get_wrench(s->world, gone.interfaces[0], PONG_FRAME_GROUP, &wrench), UNKNOWN_ID, "interface");
+    REFUSED(pong_forget_object(s->world, gone.ball), UNKNOWN_ID, "object");
+    REFUSED(pong_set_pair_enabled(s->world, gone.pair, 0), UNKNOWN_ID, "pair");
+    REFUSED(pong_set_object_user_data(s->world, gone.ball, 1), UNKNOWN_ID, "object");
+}
+
+int main(void)
+{
+    scene s;
+    pong_config config = pong_default_config();
+    pong_wrench first, last;
+    versions();
+    configurations();
+    no_world();
+    open_scene(&s, &config);
+    models(&s);
+    names_and_ids(&s);
+    order_before_seal(&s);
+    OK(pong_seal(s.world, NULL));
+    order_after_seal(&s);
+    first = good_frame(&s);
+    TEST(first.force[2] > 9.9 && first.force[2] < 10.1);
+    bad_states(&s);
+    bad_results(&s);
+    stale_ids(&s);
+    last = good_frame(&s);
+    TEST(memcmp(&first, &last, sizeof first) == 0);
+    OK(pong_destroy_world(s.world));
+    return report_failures("misuse");
+}

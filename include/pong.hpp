@@ -1,0 +1,255 @@
+// Pong for C++17: pong.h with owners and exceptions. Thin: every call is one call of pong.h.
+
+#ifndef PONG_HPP
+#define PONG_HPP
+
+#include "pong.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pong {
+
+/// A call that failed: what() is the message, with the name of the status before it.
+class Error : public std::runtime_error {
+public:
+    explicit Error(pong_status status)
+        : std::runtime_error(std::string(pong_status_name(status)) + ": " + pong_last_message()), status_(status) {}
+
+    pong_status status() const noexcept { return status_; }
+
+private:
+    pong_status status_;
+};
+
+/// Throws unless the call succeeded.
+inline void check(pong_status status) {
+    if (status != PONG_STATUS_OK) {
+        throw Error(status);
+    }
+}
+
+using ModelId = pong_model_id;
+using ObjectId = pong_object_id;
+using PairId = pong_pair_id;
+using InterfaceId = pong_interface_id;
+using Contact = pong_contact;
+using Report = pong_report;
+using SealReport = pong_seal_report;
+using Ledger = pong_ledger;
+using SurfaceValues = pong_surface_values;
+
+using Vec3 = std::array<double, 3>;
+
+/// State of a movable group; see pong_state for frames and units. Begins at rest at the common origin.
+struct State {
+    Vec3 position{};
+    std::array<double, 4> orientation{1.0, 0.0, 0.0, 0.0};
+    Vec3 linear_velocity{};
+    Vec3 angular_velocity{};
+
+    State() = default;
+    State(const pong_state& c) {
+        copy(c.position, position);
+        copy(c.orientation, orientation);
+        copy(c.linear_velocity, linear_velocity);
+        copy(c.angular_velocity, angular_velocity);
+    }
+
+    operator pong_state() const noexcept {
+        pong_state c;
+        copy(position, c.position);
+        copy(orientation, c.orientation);
+        copy(linear_velocity, c.linear_velocity);
+        copy(angular_velocity, c.angular_velocity);
+        return c;
+    }
+
+private:
+    template <class From, class To>
+    static void copy(const From& from, To& to) noexcept {
+        for (std::size_t i = 0; i < std::size(from); ++i) {
+            to[i] = from[i];
+        }
+    }
+};
+
+/// Wrench on a movable group about its origin.
+struct Wrench {
+    Vec3 force{};
+    Vec3 moment{};
+
+    Wrench() = default;
+    Wrench(const pong_wrench& c) noexcept
+        : force{c.force[0], c.force[1], c.force[2]}, moment{c.moment[0], c.moment[1], c.moment[2]} {}
+};
+
+/// In which frame a wrench is expressed.
+enum class Frame : pong_frame { group = PONG_FRAME_GROUP, common = PONG_FRAME_COMMON };
+
+/// Owner of a world. Moves, does not copy; texts that it returns by pointer live as long as it does.
+class World {
+public:
+    explicit World(const pong_config& config = pong_default_config()) {
+        check(PONG_CHECK_ABI());
+        pong_world* made = nullptr;
+        check(pong_create_world(&config, &made));
+        world_.reset(made);
+    }
+
+    /// For calls that this class does not have.
+    pong_world* get() const noexcept { return world_.get(); }
+
+    // Set-up.
+
+    void register_normal_law(const char* name, pong_normal_law force, pong_normal_law stored, void* user) {
+        check(pong_register_normal_law(get(), name, force, stored, user));
+    }
+    void register_friction_law(const char* name, std::size_t state_len, pong_friction_law law, void* user) {
+        check(pong_register_friction_law(get(), name, state_len, law, user));
+    }
+    ModelId load_model(const std::string& path) {
+        return result<ModelId>([&](ModelId* out) { return pong_load_model(get(), path.c_str(), out); });
+    }
+    ModelId load_model_text(const std::string& text, const std::string& name, const char* mesh_dir = nullptr) {
+        return result<ModelId>([&](ModelId* out) {
+            return pong_load_model_text(get(), text.data(), text.size(), name.c_str(), mesh_dir, out);
+        });
+    }
+    ObjectId create_object(ModelId model, const std::string& name) {
+        return result<ObjectId>([&](ObjectId* out) { return pong_create_object(get(), model, name.c_str(), out); });
+    }
+    PairId pair(ObjectId a, ObjectId b) {
+        return result<PairId>([&](PairId* out) { return pong_pair_objects(get(), a, b, out); });
+    }
+    PairId pair(const std::string& a, const std::string& b) {
+        return result<PairId>([&](PairId* out) { return pong_pair_by_name(get(), a.c_str(), b.c_str(), out); });
+    }
+    SealReport seal() {
+        return result<SealReport>([&](SealReport* out) { return pong_seal(get(), out); });
+    }
+    const char* seal_warning(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_seal_warning(get(), index, out); });
+    }
+
+    // Look-up.
+
+    ObjectId object(const std::string& name) const {
+        return result<ObjectId>([&](ObjectId* out) { return pong_find_object(get(), name.c_str(), out); });
+    }
+    InterfaceId interface(ObjectId object, const std::string& path = "") const {
+        return result<InterfaceId>(
+            [&](InterfaceId* out) { return pong_find_interface(get(), object, path.c_str(), out); });
+    }
+    std::vector<InterfaceId> interfaces(ObjectId object) const {
+        return list<InterfaceId>([&](InterfaceId* out, std::size_t capacity, std::size_t* count) {
+            return pong_list_interfaces(get(), object, out, capacity, count);
+        });
+    }
+    const char* name(ObjectId object) const {
+        return result<const char*>([&](const char** out) { return pong_object_name(get(), object, out); });
+    }
+    const char* path(InterfaceId interface) const {
+        return result<const char*>([&](const char** out) { return pong_interface_path(get(), interface, out); });
+    }
+    const char* primitive_path(InterfaceId interface, std::uint32_t primitive) const {
+        return result<const char*>(
+            [&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
+    }
+    State authored_state(InterfaceId interface) const {
+        return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
+    }
+
+    // Frames.
+
+    void set_state(InterfaceId interface, const State& state) {
+        const pong_state c = state;
+        check(pong_set_state(get(), interface, &c));
+    }
+    /// One call for all: `n` ids and as many states of pong.h.
+    void set_states(const InterfaceId* interfaces, const pong_state* states, std::size_t n) {
+        check(pong_set_states(get(), interfaces, states, n));
+    }
+    void evaluate() { check(pong_evaluate(get())); }
+    void commit() { check(pong_commit(get())); }
+    void commit(const std::vector<PairId>& pairs) { check(pong_commit_pairs(get(), pairs.data(), pairs.size())); }
+    void step() { check(pong_step(get())); }
+
+    Wrench wrench(InterfaceId interface, Frame frame = Frame::group) const {
+        return result<pong_wrench>([&](pong_wrench* out) {
+            return pong_get_wrench(get(), interface, static_cast<pong_frame>(frame), out);
+        });
+    }
+    /// One call for all: `n` ids and room for as many wrenches of pong.h.
+    void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
+        check(pong_get_wrenches(get(), interfaces, static_cast<pong_frame>(frame), out, n));
+    }
+    std::vector<Contact> contacts() const {
+        return list<Contact>([&](Contact* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contacts(get(), out, capacity, count);
+        });
+    }
+    Report report() const {
+        return result<Report>([&](Report* out) { return pong_get_report(get(), out); });
+    }
+    Ledger ledger() const {
+        return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
+    }
+
+    // Between frames.
+
+    std::vector<unsigned char> save_contact_state() const {
+        std::vector<unsigned char> bytes(
+            result<std::size_t>([&](std::size_t* out) { return pong_contact_state_size(get(), out); }));
+        check(pong_save_contact_state(get(), bytes.data(), bytes.size()));
+        return bytes;
+    }
+    void restore_contact_state(const std::vector<unsigned char>& bytes) {
+        check(pong_restore_contact_state(get(), bytes.data(), bytes.size()));
+    }
+    void forget(ObjectId object) { check(pong_forget_object(get(), object)); }
+    void set_pair_enabled(PairId pair, bool enabled) { check(pong_set_pair_enabled(get(), pair, enabled ? 1 : 0)); }
+    SurfaceValues surface(ModelId model, const std::string& name) const {
+        return result<SurfaceValues>(
+            [&](SurfaceValues* out) { return pong_get_surface(get(), model, name.c_str(), out); });
+    }
+    void set_surface(ModelId model, const std::string& name, const SurfaceValues& values) {
+        check(pong_set_surface(get(), model, name.c_str(), &values));
+    }
+
+private:
+    struct Destroy {
+        void operator()(pong_world* world) const noexcept { pong_destroy_world(world); }
+    };
+
+    template <class T, class Call>
+    static T result(Call&& call) {
+        T out{};
+        check(std::forward<Call>(call)(&out));
+        return out;
+    }
+
+    template <class T, class Call>
+    static std::vector<T> list(Call&& call) {
+        std::size_t count = 0;
+        const pong_status status = call(nullptr, 0, &count);
+        if (status != PONG_STATUS_BUFFER_TOO_SMALL) {
+            check(status);
+        }
+        std::vector<T> all(count);
+        check(call(all.data(), all.size(), &count));
+        return all;
+    }
+
+    std::unique_ptr<pong_world, Destroy> world_;
+};
+
+} // namespace pong
+
+#endif
