@@ -1,6 +1,8 @@
 //! Where the energy is, and where it went.
 //!
-//!     kinetic + potential + springs + contacts + dissipated − work_in = constant
+//! ```text
+//! kinetic + potential + springs + contacts + dissipated − work_in = constant
+//! ```
 //!
 //! up to the order of the integrator. Contact terms are the engine's ledger: they are zero unless the world keeps it.
 

@@ -2,8 +2,10 @@
 //!
 //! With e the attachment frame of the first end and f that of the second, both fixed to their bodies:
 //!
-//!     d = place of f in e, less that at rest        θ = rotation vector of f in e, less that at rest
-//!     F = P − K·d − C·ḋ                             M = J⁻ᵀ·(P_r − K_r·θ) − C_r·ω
+//! ```text
+//! d = place of f in e, less that at rest        θ = rotation vector of f in e, less that at rest
+//! F = P − K·d − C·ḋ                             M = J⁻ᵀ·(P_r − K_r·θ) − C_r·ω
+//! ```
 //!
 //! F (along the axes of e) acts on the second body at the origin of f, −F on the first at the same place; M and −M
 //! alike. ω is the angular velocity of f seen from e and θ̇ = J⁻¹·ω, so that the undamped part is the gradient of

@@ -1,7 +1,9 @@
 //! The classic Runge-Kutta method of fourth order:
 //!
-//!     k₁ = f(t, x)   k₂ = f(t + h/2, x + h/2·k₁)   k₃ = f(t + h/2, x + h/2·k₂)   k₄ = f(t + h, x + h·k₃)
-//!     x' = x + h·(k₁ + 2k₂ + 2k₃ + k₄)/6
+//! ```text
+//! k₁ = f(t, x)   k₂ = f(t + h/2, x + h/2·k₁)   k₃ = f(t + h/2, x + h/2·k₂)   k₄ = f(t + h, x + h·k₃)
+//! x' = x + h·(k₁ + 2k₂ + 2k₃ + k₄)/6
+//! ```
 //!
 //! Quaternions are integrated by component and made unit at the end of the step; within it their length is taken
 //! out only where a rotation is needed, which keeps the order.

@@ -1,0 +1,111 @@
+//! Bodies that touch: the executive and the engine together.
+
+use pong_engine::{Config, World};
+use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+const G: f64 = 9.81;
+
+/// A ball (r 0.1 m, 1 kg) on or above a plane z = 0; k 1e5 N/m of the pair.
+fn ball_on_plane(damping: f64, height: f64, integrator: Integrator, step: f64) -> (Simulation, BodyId) {
+    let ball = format!(
+        r#"(format: "pong-model", version: 1, name: "ball",
+            surfaces: {{ "soft": (stiffness: 1e5, normal: Linear(damping: {damping})) }},
+            root: (name: "ball", surface: "soft", primitives: [
+                Sphere(name: "skin", center: (0.0, 0.0, 0.0), radius: 0.1)]))"#
+    );
+    let ground = r#"(format: "pong-model", version: 1, name: "ground",
+            surfaces: { "rigid": (stiffness: inf) },
+            root: (name: "ground", surface: "rigid", primitives: [
+                Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#;
+    let mut world = World::new(Config { ledger: true, ..Config::default() });
+    let mut touching = Vec::new();
+    for (name, text) in [("ball", ball.as_str()), ("ground", ground)] {
+        let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
+        let model = world.add_model(Arc::new(model)).unwrap();
+        touching.push(world.create_object(model, name).unwrap());
+    }
+    world.pair(touching[0], touching[1]).unwrap();
+    world.seal().unwrap();
+    let interfaces = [0, 1].map(|i| world.interface(touching[i], "").unwrap());
+    let mut simulation = Simulation::new(world, integrator, step).unwrap();
+    simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
+    let pose = Pose::new(Vec3::new(0.0, 0.0, 0.1 + height), [1.0, 0.0, 0.0, 0.0]);
+    let ball = RigidBody::free("ball", MassProperties::sphere(1.0, 0.1)).at(pose);
+    let ball = simulation.add_body(ball.touching(interfaces[0])).unwrap();
+    simulation.add_body(RigidBody::fixed("ground").touching(interfaces[1])).unwrap();
+    (simulation, ball)
+}
+
+#[test]
+fn v1_a_ball_comes_to_rest_at_its_weight_over_its_stiffness() {
+    // Critical damping; after 100 time constants nothing moves.
+    for integrator in [Integrator::SemiImplicitEuler, Integrator::RungeKutta4] {
+        let (mut simulation, ball) = ball_on_plane(632.4, 0.0, integrator, 1e-3);
+        simulation.run_for(0.5).unwrap();
+        let depth = simulation.world().contacts()[0].depth;
+        assert!((depth / (G / 1e5) - 1.0).abs() < 1e-9, "{integrator:?}: {depth}");
+        assert!((simulation.contact_wrench(ball).force.z / G - 1.0).abs() < 1e-9);
+        assert!(simulation.twist(ball).linear.norm() < 1e-12);
+    }
+}
+
+#[test]
+fn an_elastic_ball_bounces_to_its_height_and_the_ledger_closes() {
+    let (mut simulation, ball) = ball_on_plane(0.0, 0.05, Integrator::RungeKutta4, 2e-5);
+    let start = simulation.energy();
+    let mut deepest = 0.0_f64;
+    let mut energy_error = 0.0_f64;
+    for _ in 0..12_000 {
+        simulation.step().unwrap();
+        deepest = deepest.max(0.1 - simulation.pose(ball).position.z);
+        energy_error = energy_error.max((simulation.energy().mechanical() - start.mechanical()).abs());
+    }
+    // ½kδ² = mg(h + δ).
+    let expected = (G + (G * G + 2.0 * 1e5 * G * 0.05).sqrt()) / 1e5;
+    assert!((deepest / expected - 1.0).abs() < 1e-4, "{deepest} against {expected}");
+    assert!(energy_error < 1e-5 * start.mechanical(), "{energy_error} J of {}", start.mechanical());
+    assert!((simulation.energy().balance() / start.balance() - 1.0).abs() < 1e-4);
+}
+
+/// Rebound of an undamped ball at 1 m/s without gravity, averaged over the phase of touch.
+fn mean_rebound(omega_t: f64, delay: u32) -> f64 {
+    let frame = omega_t / 1e5_f64.sqrt();
+    let phases = 32;
+    let mut sum = 0.0;
+    for phase in 0..phases {
+        let height = frame * (3.0 + f64::from(phase) / f64::from(phases));
+        let integrator = Integrator::ZeroOrderHold { substeps: 2, delay };
+        let (mut simulation, ball) = ball_on_plane(0.0, height, integrator, frame);
+        simulation.set_gravity(Vec3::zeros());
+        let pose = simulation.pose(ball);
+        simulation.set_motion(ball, pose, Twist { linear: -Vec3::z(), angular: Vec3::zeros() }).unwrap();
+        simulation.run_for(frame * (3.2 / omega_t + 10.0 + 2.0 * f64::from(delay)).ceil()).unwrap();
+        assert_eq!(simulation.world().contact_count(), 0);
+        sum += simulation.twist(ball).linear.z;
+    }
+    sum / f64::from(phases)
+}
+
+#[test]
+fn v28_a_held_wrench_gains_energy_as_it_must() {
+    for (omega_t, tolerance) in [(0.01, 0.01), (0.1, 0.02)] {
+        let expected = (std::f64::consts::PI * omega_t / 4.0).exp();
+        let measured = mean_rebound(omega_t, 0);
+        assert!((measured - expected).abs() < tolerance * (expected - 1.0), "{measured} against {expected}");
+    }
+    // n frames late: the spring lags by T/2 + nT.
+    let late = mean_rebound(0.01, 2);
+    assert!((late.ln() / (std::f64::consts::PI * 0.01 * 1.25) - 1.0).abs() < 0.05, "{late}");
+}
+
+#[test]
+fn the_same_run_gives_the_same_bits() {
+    let end = || {
+        let (mut simulation, ball) = ball_on_plane(10.0, 0.02, Integrator::RungeKutta4, 1e-3);
+        simulation.run_for(0.4).unwrap();
+        (simulation.pose(ball), simulation.twist(ball))
+    };
+    assert_eq!(end(), end());
+}
