@@ -40,6 +40,10 @@ pub struct Contact {
     pub sticks: bool,
     /// Energy stored in normal spring and bristle, J.
     pub stored: f64,
+    /// Work done on the two bodies since the contact began, J; 0 unless the world keeps the ledger.
+    pub work: f64,
+    /// Energy dissipated since the contact began, J: −work − stored; 0 unless the world keeps the ledger.
+    pub dissipated: f64,
 }
 
 /// One side of a contact.

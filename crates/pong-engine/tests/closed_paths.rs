@@ -125,7 +125,7 @@ fn check_closed_paths(
     let mut random = Random(31);
     let mut rig = Rig::new(a, b);
     let (mut touched, mut worst_gain, mut worst_loss) = (0, 0.0_f64, 0.0_f64);
-    for _ in 0..16 {
+    for _ in 0..10 {
         let path = Loop::random(&mut random, center, size, turn);
         let object = rig.objects[0];
         rig.world.forget(object).unwrap();

@@ -231,6 +231,9 @@ fn the_ledger_closes() {
                     work += 0.5 * (force + before.1).dot(&(position - before.0));
                 }
                 before = (position, force);
+                for c in rig.world.contacts() {
+                    assert!((c.work + c.stored + c.dissipated).abs() < 1e-15);
+                }
             }
             let ledger = rig.world.ledger();
             assert_eq!(ledger.stored, 0.0);

@@ -93,6 +93,30 @@ fn the_face_of_entry_is_found_through_inner_walls() {
     assert!((force - Vec3::new(0.0, 0.0, 0.5 * K * 0.2)).norm() < 1e-6, "{force:?}");
 }
 
+/// Out of one piece and into another within one frame: the old face is forgotten, the new one is that of entry.
+#[test]
+fn leaving_one_piece_ends_the_memory_before_another_is_entered() {
+    // A step: the low piece ends where the tall one begins; its wall is the lower part of the tall one's side.
+    let low = "Polyhedron(name: \"low\", vertices: [(-1,-1,-1),(0,-1,-1),(0,1,-1),(-1,1,-1),(-1,-1,0),(0,-1,0),(0,1,0),(-1,1,0)], \
+               faces: [[0,3,2,1],[4,5,6,7],[0,1,5,4],[2,3,7,6],[0,4,7,3],[1,2,6,5]], inactive_faces: [5])";
+    let base = "Polyhedron(name: \"base\", vertices: [(0,-1,-1),(1,-1,-1),(1,1,-1),(0,1,-1),(0,-1,0),(1,-1,0),(1,1,0),(0,1,0)], \
+                faces: [[0,3,2,1],[4,5,6,7],[0,1,5,4],[2,3,7,6],[0,4,7,3],[1,2,6,5]], inactive_faces: [4,1])";
+    let top = "Polyhedron(name: \"top\", vertices: [(0,-1,0),(1,-1,0),(1,1,0),(0,1,0),(0,-1,1),(1,-1,1),(1,1,1),(0,1,1)], \
+               faces: [[0,3,2,1],[4,5,6,7],[0,1,5,4],[2,3,7,6],[0,4,7,3],[1,2,6,5]], inactive_faces: [0])";
+    let body = model("step", &steel(), &[low, base, top].join(","));
+    let mut rig = Rig::new(&tip(), &body);
+    let mut put = |x: f64, z: f64| {
+        rig.place_a(Vec3::new(x, 0.0, z), Quat::identity());
+        rig.world.step().unwrap();
+        rig.wrench(0).force
+    };
+    put(-0.2, 0.05);
+    assert!((put(-0.2, -0.05) - Vec3::new(0.0, 0.0, 0.5 * K * 0.05)).norm() < 1e-6);
+    // Up through the low top face, then through the riser: pushed out of the riser.
+    let force = put(0.05, 0.2);
+    assert!((force - Vec3::new(-0.5 * K * 0.05, 0.0, 0.0)).norm() < 1e-6, "{force:?}");
+}
+
 /// Memory follows a faceted curve, but never goes round a sharp rim.
 #[test]
 fn memory_follows_a_faceted_curve() {

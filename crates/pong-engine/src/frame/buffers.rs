@@ -65,6 +65,9 @@ pub(crate) struct FrameContact {
     pub stored: f64,
     /// The committed record that this contact continues.
     pub continues: Option<u32>,
+    // ledger
+    pub work: f64,
+    pub dissipated: f64,
 }
 
 /// How a contact stands among those of the same surface.
@@ -108,6 +111,8 @@ impl FrameContact {
             sticks: true,
             stored: 0.0,
             continues: None,
+            work: 0.0,
+            dissipated: 0.0,
         }
     }
 

@@ -50,6 +50,8 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         let dissipated = -work - (record.stored - before.stored);
         record.work = before.work + work;
         record.dissipated = before.dissipated + dissipated;
+        let totals = (record.work, record.dissipated);
+        (frame.contacts[index].work, frame.contacts[index].dissipated) = totals;
         frame.trial.work += work;
         frame.trial.dissipated += dissipated;
     }

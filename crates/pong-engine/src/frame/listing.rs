@@ -62,6 +62,8 @@ impl Frame {
             slip_velocity: to_common(&contact.slip_velocity),
             sticks: contact.sticks,
             stored: contact.stored,
+            work: contact.work,
+            dissipated: contact.dissipated,
         }
     }
 }

@@ -58,18 +58,24 @@ impl PolyhedronEntry<'_> {
         &self.body.polyhedra[self.piece as usize]
     }
 
-    /// The committed face; carried over if it belongs to another piece of the same surface.
+    /// The committed face; carried over if it belongs to another piece of the same surface and the straight line
+    /// since the last commit came from there through an inner wall.
     fn remembered(&self, key: &ContactKey) -> Option<usize> {
         let (_, records) = self.memory.under(key);
         let with_face = || records.iter().filter(|record| record.entry_face != NO_FACE);
-        let record =
-            with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
+        let record = with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
         let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
         let old = faces.get(record.entry_face as usize)?;
-        if record.element_b == self.piece && old.active {
-            return Some(record.entry_face as usize);
+        if record.element_b == self.piece {
+            return Some(record.entry_face as usize).filter(|_| old.active);
         }
-        face_most_along(&old.normal, self.polyhedron())
+        let polyhedron = self.polyhedron();
+        let entry = self.earlier.and_then(|earlier| entry_of_line(&earlier, &self.point, polyhedron));
+        match entry {
+            // Out of the old piece and in again: leaving has ended the memory.
+            Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
+            _ => face_most_along(&old.normal, polyhedron),
+        }
     }
 
     /// The face by which the straight line since the last commit came in; the least deep one without a line.
