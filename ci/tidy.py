@@ -1,0 +1,95 @@
+"""House rules that a program can check: arrows between crates, where unsafe lives, file lengths, dead links."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+# Crate -> crates of ours that it may use (docs/architecture.md).
+ARROWS = {
+    "pong-geometry": set(),
+    "pong-model": {"pong-geometry"},
+    "pong-engine": {"pong-geometry", "pong-model"},
+    "pong-executive": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-verify": {"pong-geometry", "pong-model", "pong-engine", "pong-executive"},
+    "pong-capi": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-cli": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-verify"},
+}
+MAY_BE_UNSAFE = {"pong-capi"}
+LINES_MAX = 800
+# No part of the product may use the platform's mathematics or fuse operations: other machines, other bits.
+FORBIDDEN_IN_ENGINE = re.compile(r"\.(mul_add|sin|cos|tan|exp|ln|powf|powi|cbrt|hypot|atan2|acos|asin)\(")
+ENGINE_CRATES = ["pong-geometry", "pong-model", "pong-engine"]
+
+
+def tracked(*patterns):
+    listing = subprocess.run(["git", "ls-files", *patterns], cwd=ROOT, check=True, capture_output=True, text=True)
+    return [ROOT / line for line in listing.stdout.splitlines()]
+
+
+def product_code(text):
+    """The text before the tests of a file, without comments."""
+    text = text.split("#[cfg(test)]")[0]
+    return "\n".join(line.split("//")[0] for line in text.splitlines())
+
+
+def arrows():
+    for crate, allowed in ARROWS.items():
+        manifest = ROOT / "crates" / crate / "Cargo.toml"
+        if not manifest.exists():
+            yield f"{manifest}: missing"
+            continue
+        section = None
+        for line in manifest.read_text().splitlines():
+            if line.startswith("["):
+                section = line.strip("[]")
+            used = re.match(r"(pong-[a-z]+)", line)
+            if section == "dependencies" and used and used[1] not in allowed:
+                yield f"{manifest}: {crate} must not use {used[1]}"
+
+
+def unsafe_code():
+    for path in tracked("crates/*/src/*.rs", "crates/*/src/**/*.rs"):
+        crate = path.relative_to(ROOT).parts[1]
+        if crate not in MAY_BE_UNSAFE and re.search(r"\bunsafe\b(?!_code)", product_code(path.read_text())):
+            yield f"{path}: unsafe outside {sorted(MAY_BE_UNSAFE)}"
+
+
+def platform_mathematics():
+    for path in tracked("crates/*/src/*.rs", "crates/*/src/**/*.rs"):
+        if path.relative_to(ROOT).parts[1] not in ENGINE_CRATES:
+            continue
+        for number, line in enumerate(product_code(path.read_text()).splitlines(), 1):
+            if FORBIDDEN_IN_ENGINE.search(line):
+                yield f"{path}:{number}: {line.strip()} (use sqrt and arithmetic, or libm while loading)"
+
+
+def file_lengths():
+    for path in tracked("*.rs", "*.py", "*.c", "*.h", "*.hpp"):
+        if path.name == "pong.h":
+            continue
+        lines = len(path.read_text().splitlines())
+        if lines > LINES_MAX:
+            yield f"{path}: {lines} lines, at most {LINES_MAX}"
+
+
+def dead_links():
+    for path in tracked("*.md"):
+        for target in re.findall(r"\]\(([^)#\s]+)", path.read_text()):
+            if "://" in target or target.startswith("mailto:"):
+                continue
+            if not (path.parent / target).exists():
+                yield f"{path}: link to {target} leads nowhere"
+
+
+def main():
+    checks = (arrows, unsafe_code, platform_mathematics, file_lengths, dead_links)
+    problems = [problem for check in checks for problem in check()]
+    for problem in problems:
+        print(problem.replace(str(ROOT) + "/", ""))
+    sys.exit(1 if problems else 0)
+
+
+main()
