@@ -209,5 +209,5 @@ int main(void)
     threads(&s);
     OK(pong_destroy_world(s.world));
     energies_and_limits();
-    return report_failures("all_calls");
+    return report_failures("calls");
 }

@@ -1,0 +1,18 @@
+//! The committed `include/pong.h` is what the sources generate.
+
+#[path = "support/header.rs"]
+mod header;
+
+use std::path::Path;
+
+#[test]
+fn the_committed_header_is_current() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../include/pong.h");
+    let committed = std::fs::read_to_string(&path).unwrap();
+    let generated = header::generate();
+    let difference = committed.lines().zip(generated.lines()).enumerate().find(|(_, (old, new))| old != new);
+    assert!(
+        committed == generated,
+        "include/pong.h is not current; run `ci/header --write`. First difference (line from 0, old, new): {difference:?}"
+    );
+}
