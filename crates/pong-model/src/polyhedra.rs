@@ -15,6 +15,9 @@ use std::cmp::Ordering;
 /// makes of flat must keep its (tiny) range of normals, or a ball could fall between its two faces.
 const FLAT_SINE: f64 = 1e-12;
 
+/// How often a vertex's normal is turned before its cone counts as empty.
+const TURNS: usize = 1000;
+
 type EdgeKey = (u32, PositionKey, PositionKey);
 type VertexKey = (u32, PositionKey);
 
@@ -31,16 +34,6 @@ struct VertexStar {
     directions: Vec<Vec3>,
     normal_sum: Vec3,
     active_faces: u32,
-    /// An edge here is concave, or the surface is not closed by active faces.
-    spoiled: bool,
-}
-
-/// How two active faces meet.
-#[derive(Clone, Copy, PartialEq)]
-enum Fold {
-    Convex,
-    Flat,
-    Concave,
 }
 
 /// Builds the polyhedra of a body; `surface_of` gives each piece the lowest piece of its surface.
@@ -59,15 +52,12 @@ pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec
             if faces.is_empty() || done.insert(key, ()).is_some() {
                 continue;
             }
-            let fold = fold(faces);
             if faces.len() > 2 {
                 tangled
                     .push((index, polyhedron.vertices[polyhedron.edges[edge].vertices[0] as usize].position));
             }
-            if fold == Some(Fold::Convex) {
-                polyhedron.edges[edge].push = Some(push(faces));
-            }
-            note_edge(&mut stars, surface_of[index], polyhedron, edge, fold);
+            polyhedron.edges[edge].push = push(faces);
+            note_edge(&mut stars, surface_of[index], polyhedron, edge);
         }
     }
     for (index, polyhedron) in polyhedra.iter_mut().enumerate() {
@@ -183,33 +173,20 @@ fn stars_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<Ve
     stars
 }
 
-/// `None` unless exactly two active faces meet.
-fn fold(faces: &[FaceAtEdge]) -> Option<Fold> {
+/// What a convex edge pushes between; `None` unless exactly two active faces meet, and convexly.
+fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
     let [a, b] = faces else { return None };
     // Where the solid is convex, each face rises to the edge from below the other's plane.
-    let sines = [a.normal.dot(&b.outward), b.normal.dot(&a.outward)];
-    if sines.iter().all(|&sine| sine > FLAT_SINE) {
-        return Some(Fold::Convex);
-    }
-    Some(if sines.iter().any(|&sine| sine < -FLAT_SINE) { Fold::Concave } else { Fold::Flat })
+    let convex = a.normal.dot(&b.outward) > FLAT_SINE && b.normal.dot(&a.outward) > FLAT_SINE;
+    convex.then(|| EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
 }
 
-fn push(faces: &[FaceAtEdge]) -> EdgePush {
-    EdgePush { normals: [faces[0].normal, faces[1].normal], outwards: [faces[0].outward, faces[1].outward] }
-}
-
-fn note_edge(
-    stars: &mut WordMap<VertexKey, VertexStar>,
-    surface: u32,
-    polyhedron: &Polyhedron,
-    edge: usize,
-    fold: Option<Fold>,
-) {
+/// An edge with an active face bounds the cones at both its ends.
+fn note_edge(stars: &mut WordMap<VertexKey, VertexStar>, surface: u32, polyhedron: &Polyhedron, edge: usize) {
     let edge = &polyhedron.edges[edge];
     for (vertex, away) in [(edge.vertices[0], edge.direction), (edge.vertices[1], -edge.direction)] {
         let position = polyhedron.vertices[vertex as usize].position;
         let star = stars.entry((surface, position_key(&position))).or_default();
-        star.spoiled |= !matches!(fold, Some(Fold::Convex | Fold::Flat));
         star.directions.push(away);
     }
 }
@@ -228,12 +205,23 @@ fn set_cones(polyhedron: &mut Polyhedron, surface: u32, stars: &mut WordMap<Vert
 }
 
 impl VertexStar {
-    /// Whether some normal points away from every edge: where the surface is convex, the mean normal does.
+    /// Whether some normal points away from every edge.
+    ///
+    /// Where the surface is convex the mean of its normals does. At the tip of a spire with grooves it need not;
+    /// there the normal is turned away from the worst edge until it suits all.
     fn has_cone(&self) -> bool {
-        if self.spoiled || self.active_faces < 3 {
+        if self.active_faces < 3 {
             return false;
         }
-        let mean = self.normal_sum / f64::from(self.active_faces);
-        self.directions.iter().all(|away| mean.dot(away) < -FLAT_SINE)
+        let mut normal = self.normal_sum / f64::from(self.active_faces);
+        for _ in 0..TURNS {
+            let height = |away: &&Vec3| normal.dot(away);
+            let worst = self.directions.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
+            match worst {
+                Some(away) if normal.dot(away) >= -FLAT_SINE => normal -= away,
+                _ => return true,
+            }
+        }
+        false
     }
 }

@@ -78,8 +78,8 @@ fn a_cube_has_six_faces_twelve_pushing_edges_and_eight_pushing_vertices() {
             let edge = &cube.edges[rim.edge as usize];
             assert!(edge.faces.contains(&(index as u32)) && edge.faces.contains(&rim.neighbor));
             assert_ne!(rim.neighbor, index as u32);
-            assert!(rim.outward.dot(&face.normal).abs() < 1e-15);
-            assert!(rim.outward.dot(&edge.direction).abs() < 1e-15);
+            assert!(rim.outward.dot(&face.normal).abs() < 1e-14);
+            assert!(rim.outward.dot(&edge.direction).abs() < 1e-14);
             assert!(rim.outward.dot(&(Vec3::repeat(0.5) - rim.anchor)) < 0.0);
             assert_eq!(rim.anchor, cube.vertices[edge.vertices[0] as usize].position);
         }
@@ -88,4 +88,29 @@ fn a_cube_has_six_faces_twelve_pushing_edges_and_eight_pushing_vertices() {
         let out = cube.vertices[vertex].position - Vec3::repeat(0.5);
         assert!(cube.cone(vertex).iter().all(|away| away.dot(&out) < 0.0));
     }
+}
+
+#[test]
+fn poses_of_nested_groups_turn_one_after_the_other() {
+    // Half a turn about z, 2 m along x and 5 m up; below it a quarter turn about x.
+    let model = load(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: { \"s\": (stiffness: 1) },
+         root: (name: \"root\", surface: \"s\", groups: [
+           (name: \"a\", pose: (position: (2, 0, 5), orientation: (0, 0, 0, 1)), groups: [
+             (name: \"b\", pose: (position: (0, 1, 0), orientation: (0.7071067811865476, 0.7071067811865476, 0, 0)),
+              primitives: [
+                Point(name: \"p\", position: (1, 2, 3)),
+                Plane(name: \"q\", normal: (0, 1, 0), offset: 2),
+                Ray(name: \"r\", origin: (0, 0, 0), direction: (1, 0, 0), length: 1),
+                Ellipsoid(name: \"e\", center: (0, 0, 0), semi_axes: (1, 2, 3)),
+              ])])]))",
+    );
+    let body = &model.bodies[0];
+    let near = |a: Vec3, b: [f64; 3]| (a - Vec3::from(b)).norm() < 1e-14;
+    // b takes (1, 2, 3) to (1, 1 − 3, 2); a takes that to (2 − 1, 2, 5 + 2).
+    assert!(near(body.points[0].position, [1.0, 2.0, 7.0]), "{}", body.points[0].position);
+    assert!(near(body.planes[0].normal, [0.0, 0.0, 1.0]));
+    assert!((body.planes[0].offset - 7.0).abs() < 1e-14);
+    assert!(near(body.rays[0].direction, [-1.0, 0.0, 0.0]));
+    assert!((body.ellipsoids[0].half_width(&Vec3::z()) - 2.0).abs() < 1e-14);
 }

@@ -79,7 +79,7 @@ const OBJ: &str = "mtllib none.mtl\no cube\nv -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 
 fn an_stl_cube_is_one_closed_shell_of_welded_vertices() {
     let folder = Folder::new("stl");
     folder.write("cube.stl", &binary_stl(&cube_triangles(), b"made by nobody"));
-    folder.write("solid.stl", &binary_stl(&cube_triangles(), b"solid but binary"));
+    folder.write("solid.stl", &binary_stl(&cube_triangles(), b"solid but binary\n"));
     folder.write("sub/ascii.STL", ascii_stl(&cube_triangles()).as_bytes());
     let mut hashes = Vec::new();
     for file in ["cube.stl", "solid.stl", "sub/ascii.STL"] {

@@ -104,8 +104,10 @@ fn a_cube_in_eight_is_the_cube_and_each_point_of_the_walls_has_one_owner() {
     assert_eq!(edge_lines(&eighths.polyhedra), edge_lines(&whole.polyhedra));
     assert_eq!(pushing_vertices(&eighths.polyhedra), pushing_vertices(&whole.polyhedra));
     for p in [[1.0, 0.5, 0.5], [0.5, 1.0, 1.5], [1.0, 1.0, 0.5], [1.0, 1.0, 1.0]] {
-        let owners = eighths.polyhedra.iter().filter(|piece| piece.contains(&Vec3::from(p))).count();
-        assert_eq!(owners, 1, "{p:?}");
+        let p = Vec3::from(p);
+        let owners: Vec<_> = (0..8).filter(|&piece| eighths.polyhedra[piece].contains(&p)).collect();
+        let lowest = (0..8).find(|&piece| (0..6).all(|f| eighths.polyhedra[piece].height(f, &p) <= 0.0));
+        assert_eq!(owners, [lowest.unwrap()], "{p:?}");
     }
 }
 
@@ -503,4 +505,115 @@ fn the_hash_knows_what_decides_the_numbers_and_nothing_else() {
         assert_ne!(hash(&text), hash(&text.replace(old, new)), "{old}");
     }
     assert_ne!(hash(&text), hash(&text.replace("version: 1,", "version: 1, entry_memory: false,")));
+}
+
+#[test]
+fn volumes_have_room_for_radius_reach_and_thickness() {
+    use pong_geometry::bounding::Volume;
+    let extent = |primitive: &str| {
+        let Volume::Aabb { center, half } = body(primitive).tree.nodes[0].volume else { panic!() };
+        (center - half, center + half)
+    };
+    let near = |a: Vec3, b: [f64; 3]| (a - Vec3::from(b)).norm() < 1e-9;
+    let (low, high) = extent("Ray(name: \"r\", origin: (0,0,0), direction: (0,0,1), length: 2, reach: 0.5)");
+    assert!(near(low, [0.0, 0.0, -0.5]) && near(high, [0.0, 0.0, 2.0]));
+    let (low, high) = extent("Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0,1,0)), thickness: 0.25)");
+    // Half a ball behind the front: a ray that still hits may start beside the prism.
+    assert!(near(low, [-0.25, -0.25, -0.25]) && near(high, [1.25, 1.25, 0.0]), "{low} {high}");
+    let (low, high) = extent(
+        "Ellipsoid(name: \"e\", center: (1,0,0), semi_axes: (3,2,1), \
+         orientation: (0.7071067811865476,0,0,0.7071067811865476))",
+    );
+    assert!(near(low, [-1.0, -3.0, -1.0]) && near(high, [3.0, 3.0, 1.0]));
+}
+
+/// A piece under a triangle with its lowest corner on the axis: a slice of a spire.
+fn slice(name: &str, [a, b]: [[f64; 2]; 2], inactive: &str) -> String {
+    let ([ax, ay], [bx, by]) = (a, b);
+    format!(
+        "Polyhedron(name: \"{name}\", vertices: [(0,0,0), ({ax:?},{ay:?},0), ({bx:?},{by:?},0), (0,0,1)], \
+         faces: [[0,2,1], [1,2,3], [0,1,3], [2,0,3]], inactive_faces: {inactive})"
+    )
+}
+
+#[test]
+fn a_ridge_shared_by_two_pieces_pushes_once_between_the_faces_of_both() {
+    let whole = body(
+        "Polyhedron(name: \"roof\", vertices: [(-1,0,0),(1,0,0),(0,0,1),(-1,3,0),(1,3,0),(0,3,1)], \
+         faces: [[0,1,2],[4,3,5],[0,3,4,1],[1,4,5,2],[3,0,2,5]])",
+    );
+    let halves = body(
+        "Polyhedron(name: \"left\", vertices: [(-1,0,0),(0,0,0),(0,0,1),(-1,3,0),(0,3,0),(0,3,1)], \
+         faces: [[0,1,2],[4,3,5],[0,3,4,1],[1,4,5,2],[3,0,2,5]], inactive_faces: [3]),\n\
+         Polyhedron(name: \"right\", vertices: [(0,0,0),(1,0,0),(0,0,1),(0,3,0),(1,3,0),(0,3,1)], \
+         faces: [[0,1,2],[4,3,5],[0,3,4,1],[1,4,5,2],[3,0,2,5]], inactive_faces: [4])",
+    );
+    assert_eq!(edge_lines(&halves.polyhedra), edge_lines(&whole.polyhedra));
+    let places =
+        |body: &Body| pushing_vertices(&body.polyhedra).into_iter().map(|(at, _)| at).collect::<Vec<_>>();
+    assert_eq!(places(&halves), places(&whole));
+    let pushing: Vec<_> =
+        halves.polyhedra.iter().map(|p| p.vertices.iter().filter(|v| v.pushes).count()).collect();
+    assert_eq!(pushing, [4, 2], "common corners belong to the lower piece");
+}
+
+#[test]
+fn the_tip_of_a_spire_with_grooves_pushes_and_its_grooves_do_not() {
+    let corners = [
+        [1.0, 0.0],
+        [0.2, 0.2],
+        [0.0, 1.0],
+        [-0.2, 0.2],
+        [-1.0, 0.0],
+        [-0.2, -0.2],
+        [0.0, -1.0],
+        [0.2, -0.2],
+    ];
+    let slices: Vec<_> =
+        (0..8).map(|i| slice(&format!("s{i}"), [corners[i], corners[(i + 1) % 8]], "[2, 3]")).collect();
+    let spire = body(&slices.join(",\n"));
+    assert_eq!(spire.shell_count, 1);
+    let at_tip = |(place, _): &&(String, BTreeSet<String>)| place == &text(&Vec3::z());
+    let vertices = pushing_vertices(&spire.polyhedra);
+    assert_eq!(vertices.iter().find(at_tip).map(|(_, cone)| cone.len()), Some(8));
+    let steep = pushing_edges(&spire.polyhedra).iter().filter(|(a, b)| a.z != b.z).count();
+    assert_eq!(steep, 4, "four ridges, four grooves");
+}
+
+#[test]
+fn the_tip_of_a_leaning_spire_pushes_though_the_mean_normal_does_not_suit_it() {
+    let corners = [[0.2, 0.1], [-0.4, 0.9], [-0.1, 0.1], [0.3, -0.9], [0.2, -0.2], [0.4, 0.0]];
+    let leaning = |i: usize| {
+        let upright = slice(&format!("s{i}"), [corners[i], corners[(i + 1) % 6]], "[2, 3]");
+        upright.replace("(0,0,1)", "(-3,-3,1)")
+    };
+    let spire = body(&(0..6).map(leaning).collect::<Vec<_>>().join(",\n"));
+    let tip = text(&Vec3::new(-3.0, -3.0, 1.0));
+    assert_eq!(pushing_vertices(&spire.polyhedra).iter().filter(|(place, _)| *place == tip).count(), 1);
+}
+
+#[test]
+fn a_vertex_of_an_inactive_face_pushes_where_three_active_faces_meet() {
+    let pyramid = |inactive: &str| {
+        let model = load(&model_of(&format!(
+            "Polyhedron(name: \"p\", vertices: [(0,0,0),(1,0,0),(1,1,0),(0,1,0),(0.5,0.5,1)], \
+             faces: [[0,3,2,1],[0,1,4],[1,2,4],[2,3,4],[3,0,4]], inactive_faces: {inactive})"
+        )));
+        pushing_vertices(&model.bodies[0].polyhedra)
+    };
+    assert_eq!(pyramid("[]").len(), 5);
+    let one = pyramid("[1]");
+    assert_eq!(one.len(), 3, "the tip and the two far corners");
+    assert!(one.iter().all(|(_, cone)| cone.len() >= 3));
+    assert_eq!(pyramid("[1, 3]").len(), 0);
+}
+
+#[test]
+fn slivers_whose_normals_are_noise_merge_into_their_face() {
+    // The top has a vertex 3e-8 beside the middle of an edge and 6e-8 below the plane.
+    let vertices = cube_vertices([0.0; 3], [1.0; 3]).replace(']', ", (0.5, 3e-8, 0.99999994)]");
+    let faces = "[[0,3,2,1], [4,5,8],[5,6,8],[6,7,8],[7,4,8], [0,1,5,4], [1,2,6,5], [2,3,7,6], [3,0,4,7]]";
+    let one = body(&format!("Polyhedron(name: \"h\", vertices: {vertices}, faces: {faces})"));
+    assert_eq!(one.polyhedra[0].faces.len(), 6);
+    assert_eq!(pushing_vertices(&one.polyhedra).len(), 8);
 }
