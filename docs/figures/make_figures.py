@@ -85,7 +85,7 @@ def sharing():
 def bar():
     d = Drawing(660, 220)
     d.polygon([(180, 20), (480, 20), (480, 110), (180, 110)])
-    a, b = (60, 128), (600, 62)
+    a, b = (30, 118), (600, 60)
     d.line(a, b, BLUE, 3)
     slope = (b[1] - a[1]) / (b[0] - a[0])
     length = math.hypot(1, slope)
