@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -44,7 +45,6 @@ using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
 using SurfaceValues = pong_surface_values;
-
 using Vec3 = std::array<double, 3>;
 
 /// State of a movable group; see pong_state for frames and units. Begins at rest at the common origin.
@@ -133,9 +133,6 @@ public:
     }
     SealReport seal() {
         return result<SealReport>([&](SealReport* out) { return pong_seal(get(), out); });
-    }
-    const char* seal_warning(std::size_t index) const {
-        return result<const char*>([&](const char** out) { return pong_seal_warning(get(), index, out); });
     }
 
     // Look-up.
