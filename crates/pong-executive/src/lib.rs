@@ -37,6 +37,7 @@ mod load;
 mod mass;
 mod math;
 mod path;
+pub mod scene;
 mod simulation;
 mod spring;
 mod state;

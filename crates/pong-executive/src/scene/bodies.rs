@@ -1,0 +1,199 @@
+//! The bodies of a scene: one for every movable group of every object.
+
+use super::document::{BodyEntry, Document, InertiaEntry, MotionEntry, ObjectEntry, PathEntry};
+use super::error::Faults;
+use super::poses::pose;
+use super::setting::Setting;
+use crate::body::{Motion, RigidBody};
+use crate::mass::MassProperties;
+use crate::path::{Oscillation, Path, PathRow, PathTable};
+use pong_engine::InterfaceId;
+use pong_geometry::{Mat3, Pose, Twist, Vec3};
+
+/// All bodies that could be made; faults are told.
+pub(crate) fn bodies(document: &Document, setting: &Setting, faults: &mut Faults<'_>) -> Vec<RigidBody> {
+    let mut bodies: Vec<RigidBody> = Vec::new();
+    for (index, entry) in document.objects.iter().enumerate() {
+        let mut maker = ObjectBodies { document, setting, object: entry, root: root_pose(entry) };
+        let first = bodies.len();
+        for (number, body) in entry.bodies.iter().enumerate() {
+            let thing = format!("objects/{}/bodies[{number}]", entry.name);
+            bodies.extend(maker.body(body, &thing, faults));
+            if repeats_last(&bodies) {
+                bodies.pop();
+                faults.note(&thing, "this group already has a body", "list each movable group once");
+            }
+        }
+        tell_missing(entry, index, setting, &bodies[first..], faults);
+    }
+    bodies
+}
+
+fn repeats_last(bodies: &[RigidBody]) -> bool {
+    let Some((last, before)) = bodies.split_last() else { return false };
+    before.iter().any(|body| body.interface == last.interface)
+}
+
+fn tell_missing(
+    entry: &ObjectEntry,
+    index: usize,
+    setting: &Setting,
+    bodies: &[RigidBody],
+    faults: &mut Faults<'_>,
+) {
+    // A body at fault is missing too, but told already.
+    if bodies.len() < entry.bodies.len() {
+        return;
+    }
+    let Some(object) = setting.objects[index] else { return };
+    for interface in setting.world.interfaces(object).unwrap_or_default() {
+        if !bodies.iter().any(|body| body.interface == Some(interface)) {
+            let path = setting.world.interface_path(interface).unwrap_or_default();
+            let cause = format!("the movable group `{path}` has no body");
+            let cure = "list it in `bodies`, if only with motion: Fixed";
+            faults.note(format!("objects/{}", entry.name), cause, cure);
+        }
+    }
+}
+
+/// Where the root of an object starts: its other groups are placed from there unless they say otherwise.
+fn root_pose(entry: &ObjectEntry) -> Pose {
+    let root = entry.bodies.iter().find(|body| body.group.is_empty());
+    let mut unheard = Faults::new("");
+    root.map_or(Pose::identity(), |root| {
+        pose(&root.position.unwrap_or_default(), &root.orientation, "", &mut unheard)
+    })
+}
+
+struct ObjectBodies<'a> {
+    document: &'a Document,
+    setting: &'a Setting,
+    object: &'a ObjectEntry,
+    root: Pose,
+}
+
+impl ObjectBodies<'_> {
+    fn body(&mut self, entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Option<RigidBody> {
+        let name = match entry.group.as_str() {
+            "" => self.object.name.clone(),
+            group => format!("{}/{group}", self.object.name),
+        };
+        let interface = self.setting.interface(self.document, &name, thing, faults);
+        let start = self.start(entry, interface, thing, faults);
+        let twist = start_twist(entry, thing, faults);
+        let motion = motion(entry, &start, &twist, thing, faults);
+        Some(RigidBody { name, motion: motion?, pose: start, twist, interface: Some(interface?) })
+    }
+
+    /// The pose given, or that which the model's author gave the group.
+    fn start(
+        &self,
+        entry: &BodyEntry,
+        interface: Option<InterfaceId>,
+        thing: &str,
+        faults: &mut Faults<'_>,
+    ) -> Pose {
+        let given = pose(&entry.position.unwrap_or_default(), &entry.orientation, thing, faults);
+        let authored = interface.and_then(|id| self.setting.world.authored_pose(id).ok());
+        let authored = authored.map_or(Pose::identity(), |x_rg| self.root.compose(&x_rg));
+        let by_author = !entry.group.is_empty();
+        Pose {
+            position: if by_author && entry.position.is_none() { authored.position } else { given.position },
+            orientation: if by_author && entry.orientation.is_none() {
+                authored.orientation
+            } else {
+                given.orientation
+            },
+        }
+    }
+}
+
+fn start_twist(entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Twist {
+    let linear = entry.linear_velocity.unwrap_or_default();
+    let angular = entry.angular_velocity.unwrap_or_default();
+    faults.finite(thing, "linear_velocity", &linear);
+    faults.finite(thing, "angular_velocity", &angular);
+    Twist { linear: linear.into(), angular: angular.into() }
+}
+
+fn motion(
+    entry: &BodyEntry,
+    start: &Pose,
+    twist: &Twist,
+    thing: &str,
+    faults: &mut Faults<'_>,
+) -> Option<Motion> {
+    let keeps_velocity =
+        matches!(entry.motion, MotionEntry::Free | MotionEntry::Prescribed(PathEntry::ConstantTwist));
+    if !keeps_velocity && (entry.linear_velocity.is_some() || entry.angular_velocity.is_some()) {
+        let cause = "a velocity is given, but the motion does not have one";
+        faults.note(thing, cause, "leave it out, or use motion: Prescribed(ConstantTwist)");
+    }
+    match &entry.motion {
+        MotionEntry::Fixed => Some(Motion::Fixed),
+        MotionEntry::Free => mass(entry, thing, faults).map(Motion::Free),
+        MotionEntry::Prescribed(path) => {
+            path_of(path, entry, start, twist, thing, faults).map(Motion::Prescribed)
+        }
+    }
+}
+
+fn mass(entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Option<MassProperties> {
+    let (Some(mass), Some(inertia)) = (entry.mass, entry.inertia) else {
+        faults.note(thing, "a free body needs `mass` and `inertia`", "give both, or another motion");
+        return None;
+    };
+    let inertia = match inertia {
+        InertiaEntry::Diagonal(x, y, z) => Mat3::from_diagonal(&Vec3::new(x, y, z)),
+        InertiaEntry::Full { xx, yy, zz, xy, xz, yz } => Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+    };
+    let mass = MassProperties { mass, inertia, mass_center: entry.mass_center.into() };
+    let wrong = mass.faults();
+    wrong.iter().for_each(|(cause, cure)| faults.note(thing, cause, cure));
+    wrong.is_empty().then_some(mass)
+}
+
+fn path_of(
+    path: &PathEntry,
+    entry: &BodyEntry,
+    start: &Pose,
+    twist: &Twist,
+    thing: &str,
+    faults: &mut Faults<'_>,
+) -> Option<Path> {
+    match path {
+        PathEntry::ConstantTwist => Some(Path::ConstantTwist { pose: *start, twist: *twist }),
+        PathEntry::Sinusoid { axis, travel, angle, frequency, phase } => {
+            let values = [*travel, *angle, *frequency, *phase];
+            let finite = faults.finite(thing, "Sinusoid", &values);
+            let axis = direction(axis, thing, faults).filter(|_| finite)?;
+            let [travel, angle, frequency, phase] = values;
+            Some(Path::Oscillation(Oscillation { pose: *start, axis, travel, angle, frequency, phase }))
+        }
+        PathEntry::Table(rows) => {
+            if entry.position.is_some() || entry.orientation.is_some() {
+                let cause = "a pose is given beside a table of poses";
+                faults.note(thing, cause, "leave `position` and `orientation` to the rows");
+            }
+            let rows: Vec<PathRow> = rows
+                .iter()
+                .map(|row| PathRow {
+                    time: row.time,
+                    pose: pose(&row.position, &row.orientation, thing, faults),
+                })
+                .collect();
+            PathTable::new(&rows).map_err(|line| faults.note_line(thing, &line)).ok().map(Path::Table)
+        }
+    }
+}
+
+fn direction(axis: &[f64; 3], thing: &str, faults: &mut Faults<'_>) -> Option<Vec3> {
+    if !faults.finite(thing, "axis", axis) {
+        return None;
+    }
+    let unit = Vec3::from(*axis).try_normalize(0.0);
+    if unit.is_none() {
+        faults.note(thing, "the axis is zero", "give a direction");
+    }
+    unit
+}

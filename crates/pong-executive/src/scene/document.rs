@@ -1,0 +1,211 @@
+//! What a scene file says, field by field (docs/scene_format.md).
+
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, Visitor};
+
+pub(crate) type Triple = [f64; 3];
+pub(crate) type Six = [f64; 6];
+
+/// (w, x, y, z).
+pub(crate) type Quaternion = [f64; 4];
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "scene")]
+pub(crate) struct Document {
+    pub format: String,
+    pub version: u32,
+    pub name: String,
+    #[serde(deserialize_with = "pairs_of_map")]
+    pub models: Vec<(String, String)>,
+    pub objects: Vec<ObjectEntry>,
+    #[serde(default)]
+    pub pairs: Vec<(String, String)>,
+    #[serde(default)]
+    pub gravity: Triple,
+    #[serde(default)]
+    pub loads: Vec<LoadEntry>,
+    #[serde(default)]
+    pub springs: Vec<SpringEntry>,
+    pub integrator: IntegratorEntry,
+    pub step: f64,
+    pub duration: f64,
+    #[serde(default = "one")]
+    pub record_every: u64,
+    #[serde(default)]
+    pub ledger: bool,
+    pub contact_capacity: Option<usize>,
+}
+
+fn one() -> u64 {
+    1
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "object")]
+pub(crate) struct ObjectEntry {
+    pub name: String,
+    pub model: String,
+    pub bodies: Vec<BodyEntry>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "body")]
+pub(crate) struct BodyEntry {
+    #[serde(default)]
+    pub group: String,
+    pub motion: MotionEntry,
+    pub mass: Option<f64>,
+    pub inertia: Option<InertiaEntry>,
+    #[serde(default)]
+    pub mass_center: Triple,
+    pub position: Option<Triple>,
+    pub orientation: Option<Quaternion>,
+    pub linear_velocity: Option<Triple>,
+    pub angular_velocity: Option<Triple>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum InertiaEntry {
+    Diagonal(f64, f64, f64),
+    Full { xx: f64, yy: f64, zz: f64, xy: f64, xz: f64, yz: f64 },
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum MotionEntry {
+    Free,
+    Fixed,
+    Prescribed(PathEntry),
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum PathEntry {
+    ConstantTwist,
+    Table(Vec<PathRowEntry>),
+    Sinusoid {
+        axis: Triple,
+        #[serde(default)]
+        travel: f64,
+        #[serde(default)]
+        angle: f64,
+        frequency: f64,
+        #[serde(default)]
+        phase: f64,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "path row")]
+pub(crate) struct PathRowEntry {
+    pub time: f64,
+    pub position: Triple,
+    pub orientation: Option<Quaternion>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "load")]
+pub(crate) struct LoadEntry {
+    pub body: String,
+    #[serde(default)]
+    pub point: Triple,
+    #[serde(default)]
+    pub axes: AxesEntry,
+    pub force: Option<Triple>,
+    pub moment: Option<Triple>,
+    pub table: Option<Vec<LoadRowEntry>>,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+pub(crate) enum AxesEntry {
+    #[default]
+    Common,
+    Body,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "load row")]
+pub(crate) struct LoadRowEntry {
+    pub time: f64,
+    #[serde(default)]
+    pub force: Triple,
+    #[serde(default)]
+    pub moment: Triple,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "spring")]
+pub(crate) struct SpringEntry {
+    pub first: EndEntry,
+    pub second: EndEntry,
+    pub stiffness: Six,
+    #[serde(default)]
+    pub damping: Six,
+    #[serde(default)]
+    pub preload: Six,
+    #[serde(default)]
+    pub rest: PoseEntry,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum EndEntry {
+    Ground {
+        #[serde(default)]
+        position: Triple,
+        orientation: Option<Quaternion>,
+    },
+    On {
+        body: String,
+        #[serde(default)]
+        position: Triple,
+        orientation: Option<Quaternion>,
+    },
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename = "pose")]
+pub(crate) struct PoseEntry {
+    #[serde(default)]
+    pub position: Triple,
+    pub orientation: Option<Quaternion>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum IntegratorEntry {
+    SemiImplicitEuler,
+    RungeKutta4,
+    ZeroOrderHold {
+        #[serde(default = "one_substep")]
+        substeps: u32,
+        #[serde(default)]
+        delay: u32,
+    },
+}
+
+fn one_substep() -> u32 {
+    1
+}
+
+/// A map in the order of the file, with repeated keys: they are told later, by name.
+fn pairs_of_map<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<(String, String)>, D::Error> {
+    struct InOrder;
+    impl<'de> Visitor<'de> for InOrder {
+        type Value = Vec<(String, String)>;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str("a map from names to model files")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut pairs = Vec::new();
+            while let Some(pair) = map.next_entry()? {
+                pairs.push(pair);
+            }
+            Ok(pairs)
+        }
+    }
+    deserializer.deserialize_map(InOrder)
+}

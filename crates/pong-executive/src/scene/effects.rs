@@ -1,0 +1,127 @@
+//! Loads, springs and the integrator of a scene.
+
+use super::document::{AxesEntry, Document, EndEntry, IntegratorEntry, LoadEntry, SpringEntry};
+use super::error::Faults;
+use super::poses::{pose, pose_entry};
+use super::setting::Setting;
+use crate::body::{BodyId, RigidBody};
+use crate::integrate::Integrator;
+use crate::load::{Axes, Load, LoadHistory, LoadRow};
+use crate::spring::{Spring, SpringEnd};
+use pong_geometry::Wrench;
+
+pub(crate) fn integrator(document: &Document) -> Integrator {
+    match document.integrator {
+        IntegratorEntry::SemiImplicitEuler => Integrator::SemiImplicitEuler,
+        IntegratorEntry::RungeKutta4 => Integrator::RungeKutta4,
+        IntegratorEntry::ZeroOrderHold { substeps, delay } => Integrator::ZeroOrderHold { substeps, delay },
+    }
+}
+
+/// Finds a body by its name in the scene.
+fn body_named(
+    document: &Document,
+    setting: &Setting,
+    bodies: &[RigidBody],
+    name: &str,
+    thing: &str,
+    faults: &mut Faults<'_>,
+) -> Option<BodyId> {
+    let interface = setting.interface(document, name, thing, faults)?;
+    // A body at fault is missing here, but told already.
+    bodies.iter().position(|body| body.interface == Some(interface)).map(BodyId)
+}
+
+pub(crate) fn loads(
+    document: &Document,
+    setting: &Setting,
+    bodies: &[RigidBody],
+    faults: &mut Faults<'_>,
+) -> Vec<Load> {
+    let mut loads = Vec::new();
+    for (number, entry) in document.loads.iter().enumerate() {
+        let thing = format!("loads[{number}]");
+        let body = body_named(document, setting, bodies, &entry.body, &thing, faults);
+        faults.finite(&thing, "point", &entry.point);
+        let history = history(entry, &thing, faults);
+        if let Some(line) = history.fault() {
+            faults.note_line(&thing, &line);
+        }
+        let axes = match entry.axes {
+            AxesEntry::Common => Axes::Common,
+            AxesEntry::Body => Axes::Body,
+        };
+        loads.extend(body.map(|body| Load { body, point: entry.point.into(), axes, history }));
+    }
+    loads
+}
+
+fn history(entry: &LoadEntry, thing: &str, faults: &mut Faults<'_>) -> LoadHistory {
+    if entry.table.is_some() == (entry.force.is_some() || entry.moment.is_some()) {
+        let cause = "it is neither a constant nor a table";
+        faults.note(thing, cause, "give `force` and/or `moment`, or `table`, not both");
+    }
+    let mut wrench = |force: [f64; 3], moment: [f64; 3]| {
+        faults.finite(thing, "force", &force);
+        faults.finite(thing, "moment", &moment);
+        Wrench { force: force.into(), moment: moment.into() }
+    };
+    match &entry.table {
+        None => {
+            LoadHistory::Constant(wrench(entry.force.unwrap_or_default(), entry.moment.unwrap_or_default()))
+        }
+        Some(rows) => LoadHistory::Table(
+            rows.iter()
+                .map(|row| LoadRow { time: row.time, wrench: wrench(row.force, row.moment) })
+                .collect(),
+        ),
+    }
+}
+
+pub(crate) fn springs(
+    document: &Document,
+    setting: &Setting,
+    bodies: &[RigidBody],
+    faults: &mut Faults<'_>,
+) -> Vec<Spring> {
+    let mut springs = Vec::new();
+    for (number, entry) in document.springs.iter().enumerate() {
+        let thing = format!("springs[{number}]");
+        let mut end = |end: &EndEntry| match end {
+            EndEntry::Ground { position, orientation } => {
+                Some(SpringEnd::ground(pose(position, orientation, &thing, faults)))
+            }
+            EndEntry::On { body, position, orientation } => {
+                let frame = pose(position, orientation, &thing, faults);
+                let body = body_named(document, setting, bodies, body, &thing, faults);
+                body.map(|body| SpringEnd::on(body, frame))
+            }
+        };
+        let ends = (end(&entry.first), end(&entry.second));
+        if let (Some(first), Some(second)) = ends {
+            springs.push(spring(entry, first, second, &thing, faults));
+        }
+    }
+    springs
+}
+
+fn spring(
+    entry: &SpringEntry,
+    first: SpringEnd,
+    second: SpringEnd,
+    thing: &str,
+    faults: &mut Faults<'_>,
+) -> Spring {
+    let spring = Spring {
+        first,
+        second,
+        stiffness: entry.stiffness,
+        damping: entry.damping,
+        preload: entry.preload,
+        rest: pose_entry(&entry.rest, thing, faults),
+    };
+    if let Some(line) = spring.fault() {
+        faults.note_line(thing, &line);
+    }
+    spring
+}

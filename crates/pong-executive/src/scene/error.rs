@@ -1,0 +1,81 @@
+//! What is wrong with a scene file, where, and what to do about it.
+
+/// One fault of a scene.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneError {
+    /// The file as the caller named it.
+    pub file: String,
+    /// Line and column, from 1, where the notation is at fault.
+    pub at: Option<(usize, usize)>,
+    /// The thing, `objects/ball/bodies[0]`.
+    pub thing: String,
+    /// What is wrong with it, or all that another reader said.
+    pub cause: String,
+    /// What would make it right.
+    pub cure: String,
+}
+
+impl std::fmt::Display for SceneError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.file)?;
+        if let Some((line, column)) = self.at {
+            write!(f, ":{line}:{column}")?;
+        }
+        write!(f, ": {}: {}", self.thing, self.cause)?;
+        if self.cure.is_empty() { Ok(()) } else { write!(f, "; {}", self.cure) }
+    }
+}
+
+impl std::error::Error for SceneError {}
+
+/// Every fault of a scene, in the order of the file's sections.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneErrors(pub Vec<SceneError>);
+
+impl std::fmt::Display for SceneErrors {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for SceneErrors {}
+
+/// Collects faults of one file.
+pub(crate) struct Faults<'a> {
+    file: &'a str,
+    pub list: Vec<SceneError>,
+}
+
+impl<'a> Faults<'a> {
+    pub fn new(file: &'a str) -> Self {
+        Self { file, list: Vec::new() }
+    }
+
+    pub fn note(&mut self, thing: impl Into<String>, cause: impl Into<String>, cure: impl Into<String>) {
+        let (file, thing, cause, cure) = (self.file.to_owned(), thing.into(), cause.into(), cure.into());
+        self.list.push(SceneError { file, at: None, thing, cause, cure });
+    }
+
+    /// From a line that holds cause and cure.
+    pub fn note_line(&mut self, thing: impl Into<String>, line: &str) {
+        let (cause, cure) = line.split_once("; ").unwrap_or((line, ""));
+        self.note(thing, cause, cure);
+    }
+
+    /// The value if nothing was at fault.
+    pub fn unless_any<T>(self, value: Option<T>) -> Result<T, SceneErrors> {
+        match value {
+            Some(value) if self.list.is_empty() => Ok(value),
+            _ => Err(SceneErrors(self.list)),
+        }
+    }
+
+    pub fn finite(&mut self, thing: &str, name: &str, values: &[f64]) -> bool {
+        let found = values.iter().find(|value| !value.is_finite());
+        if let Some(value) = found {
+            self.note(thing, format!("`{name}` holds {value}"), "give finite numbers");
+        }
+        found.is_none()
+    }
+}

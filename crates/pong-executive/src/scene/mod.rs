@@ -1,0 +1,180 @@
+//! Scene files: which models, where they start, what acts on them, how to integrate (docs/scene_format.md).
+
+mod bodies;
+mod document;
+mod effects;
+mod error;
+mod poses;
+mod setting;
+
+pub use error::{SceneError, SceneErrors};
+
+use crate::body::BodyId;
+use crate::simulation::Simulation;
+use document::Document;
+use error::Faults;
+use pong_engine::{ObjectId, SealReport, World};
+use pong_geometry::extension::Extensions;
+use std::path::{Path, PathBuf};
+
+/// A scene file as read: its notation is right, the rest is found out by [`build`](Self::build).
+#[derive(Clone, Debug)]
+pub struct Scene {
+    file: String,
+    folder: PathBuf,
+    document: Document,
+}
+
+/// A scene ready to run.
+pub struct BuiltScene {
+    /// Name as given in the file.
+    pub name: String,
+    /// Bodies, loads, world.
+    pub simulation: Simulation,
+    /// The objects in the order of the file.
+    pub objects: Vec<SceneObject>,
+    /// What sealing the world told.
+    pub seal: SealReport,
+    /// What the models' authors should know.
+    pub warnings: Vec<String>,
+    /// Steps that make up the duration.
+    pub steps: u64,
+    /// Every how many steps a record is wanted.
+    pub record_every: u64,
+    /// Whether energies are kept.
+    pub ledger: bool,
+}
+
+/// An object of a scene.
+#[derive(Clone, Debug)]
+pub struct SceneObject {
+    /// Name as given in the file.
+    pub name: String,
+    /// Its id in the world.
+    pub object: ObjectId,
+    /// Its bodies, in the order of the model's movable groups.
+    pub bodies: Vec<BodyId>,
+}
+
+impl Scene {
+    /// Reads a scene file; models are looked for beside it.
+    pub fn load(path: &Path) -> Result<Self, SceneErrors> {
+        let file = path.display().to_string();
+        let folder = path.parent().unwrap_or(Path::new(""));
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&text, &file, folder),
+            Err(reason) => {
+                let mut faults = Faults::new(&file);
+                faults.note("scene", reason.to_string(), "name a scene file that can be read");
+                faults.unless_any(None)
+            }
+        }
+    }
+
+    /// Reads a scene from text. `file` is what errors call it; models are looked for in `folder`.
+    pub fn parse(text: &str, file: &str, folder: &Path) -> Result<Self, SceneErrors> {
+        let options =
+            ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
+        match options.from_str(text) {
+            Ok(document) => Ok(Self { file: file.to_owned(), folder: folder.to_owned(), document }),
+            Err(error) => Err(SceneErrors(vec![SceneError {
+                file: file.to_owned(),
+                at: Some((error.span.start.line, error.span.start.col)),
+                thing: "scene".to_owned(),
+                cause: error.code.to_string(),
+                cure: "docs/scene_format.md lists every field".to_owned(),
+            }])),
+        }
+    }
+
+    /// Loads the models and sets everything up, or tells everything that is wrong.
+    pub fn build(&self) -> Result<BuiltScene, SceneErrors> {
+        let mut faults = Faults::new(&self.file);
+        let document = &self.document;
+        check_head(document, &mut faults);
+        let mut setting = setting::Setting::new(document, &self.folder, &Extensions::new(), &mut faults);
+        let bodies = bodies::bodies(document, &setting, &mut faults);
+        let loads = effects::loads(document, &setting, &bodies, &mut faults);
+        let springs = effects::springs(document, &setting, &bodies, &mut faults);
+        setting.pair(document, &mut faults);
+        let seal = setting.seal(&mut faults);
+        if !faults.list.is_empty() {
+            return faults.unless_any(None);
+        }
+        let world = std::mem::replace(&mut setting.world, World::new(pong_engine::Config::default()));
+        let simulation = assemble(document, world, bodies, loads, springs);
+        let simulation = simulation.map_err(|error| faults.note_line("scene", &error.to_string())).ok();
+        let built = simulation.zip(seal).map(|(simulation, seal)| BuiltScene {
+            name: document.name.clone(),
+            objects: scene_objects(document, &setting, &simulation),
+            simulation,
+            seal,
+            warnings: setting.warnings,
+            steps: libm::round(document.duration / document.step) as u64,
+            record_every: document.record_every,
+            ledger: document.ledger,
+        });
+        faults.unless_any(built)
+    }
+}
+
+fn assemble(
+    document: &Document,
+    world: World,
+    bodies: Vec<crate::RigidBody>,
+    loads: Vec<crate::Load>,
+    springs: Vec<crate::Spring>,
+) -> Result<Simulation, crate::ExecutiveError> {
+    let mut simulation = Simulation::new(world, effects::integrator(document), document.step)?;
+    simulation.set_gravity(document.gravity.into());
+    for body in bodies {
+        simulation.add_body(body)?;
+    }
+    for load in loads {
+        simulation.add_load(load)?;
+    }
+    for spring in springs {
+        simulation.add_spring(spring)?;
+    }
+    Ok(simulation)
+}
+
+fn scene_objects(
+    document: &Document,
+    setting: &setting::Setting,
+    simulation: &Simulation,
+) -> Vec<SceneObject> {
+    let entries = document.objects.iter().zip(&setting.objects);
+    let made = entries.filter_map(|(entry, object)| object.map(|object| (entry, object)));
+    made.map(|(entry, object)| {
+        let interfaces = simulation.world().interfaces(object).unwrap_or_default();
+        let body_of = |interface| {
+            simulation.bodies().find(|(_, body)| body.interface == Some(interface)).map(|(id, _)| id)
+        };
+        let bodies = interfaces.into_iter().filter_map(body_of).collect();
+        SceneObject { name: entry.name.clone(), object, bodies }
+    })
+    .collect()
+}
+
+fn check_head(document: &Document, faults: &mut Faults<'_>) {
+    if document.format != "pong-scene" {
+        faults.note("format", format!("it is {:?}", document.format), "write format: \"pong-scene\"");
+    }
+    if document.version != 1 {
+        faults.note("version", format!("it is {}", document.version), "this program reads version: 1");
+    }
+    if !(document.step > 0.0 && document.step.is_finite()) {
+        faults.note("step", format!("it is {} s", document.step), "give a finite time above zero");
+    }
+    if !(document.duration >= 0.0 && document.duration.is_finite()) {
+        faults.note("duration", format!("it is {} s", document.duration), "give a finite time from zero up");
+    }
+    if document.record_every == 0 {
+        faults.note("record_every", "it is 0", "give the number of steps between records, at least 1");
+    }
+    if let document::IntegratorEntry::ZeroOrderHold { substeps: 0, .. } = document.integrator {
+        faults.note("integrator", "0 substeps leave nothing to integrate", "give at least one substep");
+    }
+    faults.finite("gravity", "gravity", &document.gravity);
+}

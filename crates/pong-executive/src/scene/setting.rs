@@ -1,0 +1,148 @@
+//! Models, objects and pairs of a scene, as a world.
+
+use super::document::Document;
+use super::error::Faults;
+use pong_engine::{Config, EngineError, InterfaceId, ObjectId, SealReport, World};
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+use std::path::Path;
+use std::sync::Arc;
+
+pub(crate) struct Setting {
+    pub world: World,
+    /// For each object of the file; `None` where it could not be made, which has been told.
+    pub objects: Vec<Option<ObjectId>>,
+    /// Model of each object that could be made.
+    pub models: Vec<Option<Arc<Model>>>,
+    pub warnings: Vec<String>,
+}
+
+/// A model under the name that the scene gives it; `None` if its file is at fault.
+type Named<'a> = (&'a str, Option<Arc<Model>>);
+
+impl Setting {
+    pub fn new(document: &Document, folder: &Path, extensions: &Extensions, faults: &mut Faults<'_>) -> Self {
+        #[allow(clippy::needless_update, reason = "settings that come later take their defaults")]
+        let config = Config {
+            contact_capacity: document.contact_capacity,
+            ledger: document.ledger,
+            ..Config::default()
+        };
+        let mut setting =
+            Self { world: World::new(config), objects: Vec::new(), models: Vec::new(), warnings: Vec::new() };
+        let named = load_models(document, folder, extensions, faults);
+        setting.warnings =
+            named.iter().flat_map(|(_, model)| model.iter().flat_map(|m| m.warnings.clone())).collect();
+        setting.create_objects(document, &named, faults);
+        setting
+    }
+
+    fn create_objects(&mut self, document: &Document, named: &[Named<'_>], faults: &mut Faults<'_>) {
+        let mut ids = vec![None; named.len()];
+        for entry in &document.objects {
+            let thing = format!("objects/{}", entry.name);
+            if entry.name.is_empty() || entry.name.contains('/') {
+                let cause = format!("the name {:?} cannot be told from a path", entry.name);
+                faults.note(&thing, cause, "give a name without `/`");
+            }
+            let found = named.iter().position(|(name, _)| *name == entry.model);
+            if found.is_none() {
+                let known: Vec<&str> = named.iter().map(|(name, _)| *name).collect();
+                let cause = format!("there is no model `{}`", entry.model);
+                faults.note(&thing, cause, format!("list it in `models`; known: {}", known.join(", ")));
+            }
+            let model = found.and_then(|index| named[index].1.clone().map(|model| (index, model)));
+            let made = model.as_ref().and_then(|(index, model)| {
+                let made = match ids[*index] {
+                    Some(id) => Ok(id),
+                    None => self.world.add_model(Arc::clone(model)),
+                };
+                let made = made.and_then(|id| {
+                    ids[*index] = Some(id);
+                    self.world.create_object(id, &entry.name)
+                });
+                made.map_err(|error| faults.note_line(&thing, &error.to_string())).ok()
+            });
+            self.objects.push(made);
+            self.models.push(model.map(|(_, model)| model));
+        }
+    }
+
+    /// The Interface that `object` or `object/path` names; a fault is told.
+    pub fn interface(
+        &self,
+        document: &Document,
+        name: &str,
+        thing: &str,
+        faults: &mut Faults<'_>,
+    ) -> Option<InterfaceId> {
+        let (object, path) = name.split_once('/').unwrap_or((name, ""));
+        let Some(index) = document.objects.iter().position(|entry| entry.name == object) else {
+            let known: Vec<&str> = document.objects.iter().map(|entry| entry.name.as_str()).collect();
+            let cure = format!("write `object` or `object/path of the group`; known: {}", known.join(", "));
+            faults.note(thing, format!("there is no object `{object}`"), cure);
+            return None;
+        };
+        // An object that could not be made has been told.
+        let id = self.objects[index]?;
+        match self.world.interface(id, path) {
+            Ok(interface) => Some(interface),
+            Err(error) => {
+                faults.note_line(thing, &error.to_string());
+                None
+            }
+        }
+    }
+
+    pub fn pair(&mut self, document: &Document, faults: &mut Faults<'_>) {
+        for (a, b) in &document.pairs {
+            let thing = format!("pairs/({a}, {b})");
+            let find = |name: &str| document.objects.iter().position(|entry| entry.name == name);
+            for name in [a, b].into_iter().filter(|name| find(name).is_none()) {
+                faults.note(&thing, format!("there is no object `{name}`"), "pair names from `objects`");
+            }
+            let made = |name| find(name).and_then(|index: usize| self.objects[index]);
+            if let (Some(a), Some(b)) = (made(a), made(b))
+                && let Err(error) = self.world.pair(a, b)
+            {
+                faults.note_line(&thing, &error.to_string());
+            }
+        }
+    }
+
+    pub fn seal(&mut self, faults: &mut Faults<'_>) -> Option<SealReport> {
+        match self.world.seal() {
+            Ok(report) => return Some(report),
+            Err(EngineError::Seal { problems }) => {
+                problems.iter().for_each(|problem| faults.note_line("pairs", problem));
+            }
+            Err(error) => faults.note_line("pairs", &error.to_string()),
+        }
+        None
+    }
+}
+
+fn load_models<'a>(
+    document: &'a Document,
+    folder: &Path,
+    extensions: &Extensions,
+    faults: &mut Faults<'_>,
+) -> Vec<Named<'a>> {
+    let mut named: Vec<Named<'a>> = Vec::new();
+    for (name, file) in &document.models {
+        let thing = format!("models/{name}");
+        if named.iter().any(|(earlier, _)| earlier == name) {
+            faults.note(&thing, "the name is given twice", "keep one of them or rename one");
+            continue;
+        }
+        let model = match pong_model::load(&folder.join(file), extensions) {
+            Ok(model) => Some(Arc::new(model)),
+            Err(errors) => {
+                errors.0.iter().for_each(|error| faults.note(&thing, error.to_string(), ""));
+                None
+            }
+        };
+        named.push((name, model));
+    }
+    named
+}

@@ -1,0 +1,98 @@
+//! Every example of docs/scene_format.md is read and run.
+
+use pong_executive::scene::{BuiltScene, Scene};
+use std::path::{Path, PathBuf};
+
+const DOCUMENT: &str = include_str!("../../../docs/scene_format.md");
+
+/// Blocks of the document: what follows `ron` in the fence, and the text.
+fn blocks() -> Vec<(&'static str, &'static str)> {
+    let mut blocks = Vec::new();
+    for (index, part) in DOCUMENT.split("\n```").enumerate() {
+        if index % 2 == 1 {
+            let (head, text) = part.split_once('\n').unwrap();
+            blocks.push((head.strip_prefix("ron ").unwrap_or_else(|| panic!("fence `{head}`")), text));
+        }
+    }
+    blocks
+}
+
+fn model_folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    std::fs::create_dir_all(&folder).unwrap();
+    for (head, text) in blocks() {
+        if let Some(name) = head.strip_prefix("model ") {
+            std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
+        }
+    }
+    folder
+}
+
+fn build(text: &str, folder: &Path) -> BuiltScene {
+    let scene = Scene::parse(text, "example.ron", folder).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    scene.build().unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// A scene with the objects that loads and springs name, and room for one example.
+fn around(objects: &str, section: &str, integrator: &str) -> String {
+    let models = r#""ball": "ball.ron", "ground": "ground.ron", "gripper": "gripper.ron""#;
+    format!(
+        "(format: \"pong-scene\", version: 1, name: \"example\", models: {{ {models} }}, objects: [{objects}], \
+         {section} {integrator} step: 1e-4, duration: 1e-2)"
+    )
+}
+
+const RUNGE_KUTTA: &str = "integrator: RungeKutta4,";
+
+#[test]
+fn every_example_builds_and_runs() {
+    let folder = model_folder("every_example");
+    let find = |kind: &'static str| {
+        blocks().into_iter().filter(move |(head, _)| *head == kind).map(|(_, text)| text)
+    };
+    let objects: Vec<&str> = find("objects").collect();
+    let with_bodies = objects[0].to_owned() + objects[1];
+    let mut scenes: Vec<String> = objects.iter().map(|text| around(text, "", RUNGE_KUTTA)).collect();
+    for section in ["loads", "springs"] {
+        let sections = find(section).map(|text| format!("{section}: [{text}],"));
+        scenes.extend(sections.map(|text| around(&with_bodies, &text, RUNGE_KUTTA)));
+    }
+    scenes.extend(find("field").map(|text| around(&with_bodies, "", text)));
+    assert_eq!(scenes.len(), 8, "3 of objects, loads, springs, 3 integrators");
+    for text in &scenes {
+        let mut built = build(text, &folder);
+        built.simulation.run_for(2e-3).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    }
+}
+
+#[test]
+fn the_whole_file_does_what_its_comment_says() {
+    let folder = model_folder("whole_file");
+    let (_, text) = blocks().into_iter().find(|(head, _)| *head == "scene").unwrap();
+    let mut built = build(text, &folder);
+    assert_eq!((built.name.as_str(), built.steps, built.record_every), ("drop", 3000, 10));
+    let ball = built.objects[0].bodies[0];
+    assert_eq!(built.simulation.bodies().len(), 2);
+    let touch = (2.0_f64 * 0.1 / 9.81).sqrt();
+    let mut first_touch = None;
+    let mut watch = |simulation: &pong_executive::Simulation| {
+        if simulation.world().contact_count() > 0 && first_touch.is_none() {
+            first_touch = Some(simulation.time());
+        }
+    };
+    built.simulation.observe(built.steps, 1, &mut watch).unwrap();
+    assert!((first_touch.unwrap() - touch).abs() < 2e-4, "{first_touch:?} against {touch}");
+    assert!(built.simulation.pose(ball).position.z > 0.1);
+}
+
+#[test]
+fn groups_start_where_their_author_put_them() {
+    let folder = model_folder("authored");
+    let (_, text) = blocks().into_iter().find(|(head, _)| *head == "objects").unwrap();
+    let built = build(&around(text, "", RUNGE_KUTTA), &folder);
+    let bodies = &built.objects[0].bodies;
+    assert_eq!(bodies.len(), 3);
+    let place = |index: usize| built.simulation.pose(bodies[index]).position;
+    assert_eq!([place(1).x, place(1).z], [0.05, 1.0]);
+    assert_eq!([place(2).x, place(2).z], [-0.05, 1.0]);
+}
