@@ -111,8 +111,8 @@ public:
     void register_normal_law(const char* name, pong_normal_law force, pong_normal_law stored, void* user) {
         check(pong_register_normal_law(get(), name, force, stored, user));
     }
-    void register_friction_law(const char* name, std::size_t state_len, pong_friction_law law, void* user) {
-        check(pong_register_friction_law(get(), name, state_len, law, user));
+    void register_friction_law(const char* name, std::size_t numbers, pong_friction_law law, void* user) {
+        check(pong_register_friction_law(get(), name, numbers, law, user));
     }
     ModelId load_model(const std::string& path) {
         return result<ModelId>([&](ModelId* out) { return pong_load_model(get(), path.c_str(), out); });
@@ -141,8 +141,7 @@ public:
         return result<ObjectId>([&](ObjectId* out) { return pong_find_object(get(), name.c_str(), out); });
     }
     InterfaceId interface(ObjectId object, const std::string& path = "") const {
-        return result<InterfaceId>(
-            [&](InterfaceId* out) { return pong_find_interface(get(), object, path.c_str(), out); });
+        return result<InterfaceId>([&](InterfaceId* out) { return pong_find_interface(get(), object, path.c_str(), out); });
     }
     std::vector<InterfaceId> interfaces(ObjectId object) const {
         return list<InterfaceId>([&](InterfaceId* out, std::size_t capacity, std::size_t* count) {
@@ -156,8 +155,7 @@ public:
         return result<const char*>([&](const char** out) { return pong_interface_path(get(), interface, out); });
     }
     const char* primitive_path(InterfaceId interface, std::uint32_t primitive) const {
-        return result<const char*>(
-            [&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
+        return result<const char*>([&](const char** out) { return pong_primitive_path(get(), interface, primitive, out); });
     }
     State authored_state(InterfaceId interface) const {
         return result<pong_state>([&](pong_state* out) { return pong_get_authored_state(get(), interface, out); });
