@@ -120,12 +120,100 @@ fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
         checked += 1;
         let found = pushing(&e, &set, f64::INFINITY);
         several += usize::from(found.len() > 1);
+        for contact in &found {
+            check_against_convex_neighbors(contact, &found, &set);
+            let height = contact.interference.normal.dot(&(e.center - touched(contact)));
+            assert_eq!(contact.standing == Standing::Behind, height < -1e-14, "{contact:?}");
+            // No deeper than any face that meets the pushing feature.
+            for t in faces_at(contact, &set) {
+                let corner = set.corners(t)[0];
+                let plane = e.half_width(&set.normal(t)) - set.normal(t).dot(&(e.center - corner));
+                assert!(contact.interference.depth <= plane * (1.0 + 1e-8), "{contact:?} {plane}");
+            }
+        }
         assert!(
             found.iter().any(|c| (c.interference.depth - expected.depth).abs() < 1e-13),
             "{found:?} {expected:?} {e:?}"
         );
     }
     println!("{checked} contacts, {several} with more than one minimum");
+}
+
+fn touched(contact: &TriangleContact) -> Vec3 {
+    contact.interference.point_a + contact.interference.normal * contact.interference.depth
+}
+
+/// The faces that meet at the pushing feature.
+fn faces_at(contact: &TriangleContact, set: &TriangleSet) -> Vec<u32> {
+    let index = contact.interference.feature.index();
+    match contact.interference.feature.0 >> 30 {
+        0 => vec![index as u32],
+        1 => vec![index as u32 / 3, set.triangles[index / 3].neighbors[index % 3]],
+        _ => {
+            let has = |t: &u32| set.triangles[*t as usize].vertices.contains(&(index as u32));
+            (0..set.triangles.len() as u32).filter(has).collect()
+        }
+    }
+}
+
+/// On a convex surface no two faces side by side push, nor a face and a less deep edge of it.
+fn check_against_convex_neighbors(contact: &TriangleContact, found: &[TriangleContact], set: &TriangleSet) {
+    if !contact.interference.feature.is_face() {
+        return;
+    }
+    let index = contact.interference.feature.index() as u32;
+    for other in found {
+        let feature = other.interference.feature;
+        let beside = match feature.0 >> 30 {
+            0 => set.triangles[index as usize].neighbors.contains(&(feature.index() as u32)),
+            1 => faces_at(other, set).contains(&index),
+            _ => false,
+        };
+        assert!(!beside, "{contact:?} {other:?}");
+    }
+}
+
+#[test]
+fn a_ridge_pushes_a_disc_back_while_the_centre_is_less_than_the_thickness_below() {
+    let set = triangle_set(
+        vec![
+            Vec3::new(0.0, -1.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(1.0, 0.0, -1.0),
+            Vec3::new(-1.0, 0.0, -1.0),
+        ],
+        &[[0, 2, 1], [1, 3, 0]],
+    );
+    let at = |z: f64| Ellipsoid {
+        center: Vec3::new(0.0, 0.01, z),
+        axes: Mat3::identity(),
+        semi_axes: Vec3::new(0.4, 0.4, 0.1),
+    };
+    for (z, standing) in
+        [(0.05, Some(Standing::Front)), (-0.02, Some(Standing::Behind)), (-0.04, None), (0.101, None)]
+    {
+        let found = contacts(&at(z), &set, 0.03);
+        let up: Vec<_> = found.iter().filter(|c| c.interference.normal.z > 0.9).collect();
+        assert_eq!(up.first().map(|c| c.standing), standing, "{z}: {found:?}");
+        for contact in up {
+            assert!((contact.interference.depth - (0.1 - z)).abs() < 1e-15);
+        }
+    }
+}
+
+#[test]
+fn a_foot_within_rounding_beyond_a_seam_is_spare() {
+    let set = triangle_set(
+        vec![Vec3::zeros(), Vec3::new(1.0, 0.0, 0.0), Vec3::new(1.0, 1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)],
+        &[[0, 1, 2], [0, 2, 3]],
+    );
+    let e = Ellipsoid {
+        center: Vec3::new(0.5 - 1e-13, 0.5, 0.09),
+        axes: Mat3::identity(),
+        semi_axes: Vec3::new(0.1, 0.2, 0.1),
+    };
+    let standings: Vec<_> = contacts(&e, &set, 0.1).iter().map(|c| c.standing).collect();
+    assert_eq!(standings, [Standing::Spare, Standing::Front]);
 }
 
 #[test]
