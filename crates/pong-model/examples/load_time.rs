@@ -1,6 +1,6 @@
 //! How long a terrain of a million triangles takes to load, inline and from STL and OBJ files.
 //!
-//! `cargo run --release -p pong-model --example load_time [cells along one side]`
+//! `cargo run --release -p pong-model --example load_time [cells along one side] [only this case]`
 
 use pong_geometry::extension::Extensions;
 use std::fmt::Write as _;
@@ -20,10 +20,18 @@ fn main() {
     time("STL", &model("file: \"terrain.stl\""), &folder);
     time("OBJ", &model("file: \"terrain.obj\""), &folder);
     time("inline", &model(&inline(&vertices, &triangles)), &folder);
+    let bounded =
+        |kind: &str| model("file: \"terrain.obj\"").replace("surface:", &format!("bound: {kind}, surface:"));
+    time("Sphere", &bounded("Sphere"), &folder);
+    time("Obb", &bounded("Obb"), &folder);
+    time("single", &singles(&vertices, &triangles), &folder);
     std::fs::remove_dir_all(&folder).expect("the folder is ours");
 }
 
 fn time(what: &str, text: &str, folder: &Path) {
+    if std::env::args().nth(2).is_some_and(|only| only != what) {
+        return;
+    }
     let start = Instant::now();
     let model = pong_model::parse(text, "terrain.ron", Some(folder), &Extensions::new());
     let seconds = start.elapsed().as_secs_f64();
@@ -45,6 +53,16 @@ fn model(shape: &str) -> String {
         "(format: \"pong-model\", version: 1, name: \"terrain\", surfaces: {{ \"soil\": (stiffness: 1e6) }},\n\
          root: (name: \"terrain\", surface: \"soil\", primitives: [TriangleMesh(name: \"grid\", {shape})]))"
     )
+}
+
+/// Every triangle a primitive of its own.
+fn singles(vertices: &[[f32; 3]], triangles: &[[usize; 3]]) -> String {
+    let mut text = String::new();
+    for (index, triangle) in triangles.iter().enumerate() {
+        let [a, b, c] = triangle.map(|v| vertices[v]).map(|[x, y, z]| format!("({x}, {y}, {z})"));
+        writeln!(text, "Triangle(name: \"t{index}\", vertices: ({a}, {b}, {c})),").expect("memory");
+    }
+    model("").replace("TriangleMesh(name: \"grid\", )", &text)
 }
 
 fn vertices(side: usize) -> Vec<[f32; 3]> {

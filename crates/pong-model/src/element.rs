@@ -63,6 +63,9 @@ impl<'b> Element<'b> {
             PrimitiveKind::Polyhedron => ask(&body.polyhedra[index]),
             PrimitiveKind::Plane => ask(&body.planes[index]),
             PrimitiveKind::Custom => ask(&CustomBounds(body.customs[index].as_ref())),
+            PrimitiveKind::Triangle if self.thickness().is_none() => {
+                ask(&PointCloud(&body.triangles.corners(self.item.element)))
+            }
             PrimitiveKind::Triangle => ask(&ThickTriangle {
                 corners: body.triangles.corners(self.item.element),
                 normal: body.triangles.normal(self.item.element),

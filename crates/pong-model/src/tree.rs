@@ -14,6 +14,8 @@ use std::sync::Arc;
 
 const LARGE_LEAF: usize = 16;
 const SMALL_LEAF: usize = 8;
+/// More things than this are not fitted one and all.
+const MANY: usize = 512;
 
 /// A group whose volume cannot be fitted: its index and the reason.
 pub(crate) type FitFault = (usize, String);
@@ -96,7 +98,7 @@ impl Builder<'_> {
         {
             return volume;
         }
-        self.fitted(kind, items).unwrap_or_else(|reason| {
+        self.fitted_around_many(kind, items).unwrap_or_else(|reason| {
             self.faults.push((index, reason));
             Volume::Unbounded
         })
@@ -106,6 +108,30 @@ impl Builder<'_> {
         let elements: Vec<Element<'_>> = items.iter().map(|&item| Element::new(self.body, item)).collect();
         let things: Vec<&dyn Bounded> = elements.iter().map(|element| element as &dyn Bounded).collect();
         fit(kind, &things, self.ext)
+    }
+
+    /// A fitted volume; of many things only the outermost choose where it stands, and all of them how large it
+    /// is.
+    fn fitted_around_many(&self, kind: &BoundKind, items: &[Item]) -> Result<Volume, String> {
+        if items.len() <= MANY || matches!(kind, BoundKind::Custom(_)) {
+            return self.fitted(kind, items);
+        }
+        let elements: Vec<Element<'_>> = items.iter().map(|&item| Element::new(self.body, item)).collect();
+        let most = |direction: &Vec3| elements.iter().map(|e| e.support(direction)).fold(f64::MIN, f64::max);
+        Ok(match self.fitted(kind, &outermost(&elements, items))? {
+            Volume::Sphere { center, .. } => {
+                let radius = elements.iter().map(|e| e.farthest(&center)).fold(0.0, f64::max);
+                Volume::Sphere { center, radius }.inflated()
+            }
+            Volume::Obb { axes, .. } => {
+                let along = |axis: usize| axes.column(axis).into_owned();
+                let high = Vec3::from([0, 1, 2].map(|axis| most(&along(axis))));
+                let low = Vec3::from([0, 1, 2].map(|axis| -most(&-along(axis))));
+                let (center, half) = (axes * (0.5 * (low + high)), 0.5 * (high - low));
+                Volume::Obb { center, axes, half }.inflated()
+            }
+            other => other,
+        })
     }
 
     fn boxed(&self, items: &[Item]) -> Vec<Boxed> {
@@ -175,12 +201,15 @@ impl Builder<'_> {
         (node, low, high)
     }
 
+    /// Parts are many: a ball stands where the box does, with the least radius there.
     fn part_volume(&self, kind: &BoundKind, boxed: &[Boxed], low: Vec3, high: Vec3) -> Volume {
         if *kind == BoundKind::Aabb {
             return fit_aabb_bounds(low, high);
         }
-        let items: Vec<Item> = boxed.iter().map(|b| b.item).collect();
-        self.fitted(kind, &items).unwrap_or_else(|_| fit_aabb_bounds(low, high))
+        let center = 0.5 * (low + high);
+        let farthest = |b: &Boxed| Element::new(self.body, b.item).farthest(&center);
+        let radius = boxed.iter().map(farthest).fold(0.0, f64::max);
+        Volume::Sphere { center, radius }.inflated()
     }
 }
 
@@ -193,6 +222,31 @@ impl Boxed {
     fn center(&self, axis: usize) -> f64 {
         self.low[axis] + self.high[axis]
     }
+}
+
+/// The items that lie outermost in any of 26 directions, or all if one of them is unbounded or no number.
+fn outermost(elements: &[Element<'_>], items: &[Item]) -> Vec<Item> {
+    let mut found = Vec::new();
+    for code in 0..27_u32 {
+        let sign = |place: u32| f64::from(code / place % 3) - 1.0;
+        let direction = Vec3::new(sign(1), sign(3), sign(9));
+        if direction == Vec3::zeros() {
+            continue;
+        }
+        let unit = direction.normalize();
+        let mut best = (f64::NEG_INFINITY, 0);
+        for (index, element) in elements.iter().enumerate() {
+            let support = element.support(&unit);
+            if !support.is_finite() {
+                return items.to_vec();
+            }
+            if support > best.0 {
+                best = (support, index);
+            }
+        }
+        found.push(items[best.1]);
+    }
+    found
 }
 
 fn extent(boxed: &[Boxed]) -> (Vec3, Vec3) {
