@@ -22,8 +22,7 @@ pub(crate) struct BodyDraft {
     pub(crate) body: Body,
     /// Where each primitive begins in the file.
     pub(crate) primitive_at: Vec<u32>,
-    /// Index of the first triangle's name in the file for each primitive of triangles is 0; a lone `Triangle`
-    /// has no index of its own.
+    /// Whether each primitive is a `Triangle`: it is named by its path alone, not by an index.
     pub(crate) lone_triangle: Vec<bool>,
     pub(crate) welder: Welder,
     /// Checked shapes, in the order of [`Body::polyhedra`].

@@ -154,6 +154,5 @@ fn rotated(triangle: &TriangleRecord) -> [u32; 3] {
     }
 }
 
-// A triangle index times three must fit a half edge's number.
-/// The most triangles one body may have.
+/// The most triangles one body may have: three times a triangle's index must fit the number of a half edge.
 pub(crate) const TRIANGLE_LIMIT: usize = u32::MAX as usize / 3;

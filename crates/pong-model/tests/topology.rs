@@ -401,7 +401,7 @@ fn t_junctions_are_found_at_any_place_and_size() {
 #[test]
 fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
     for bound in ["Aabb", "Sphere", "Obb"] {
-        let balls: Vec<_> = (0..500_u32)
+        let balls: Vec<_> = (0..700_u32)
             .map(|i| {
                 let f = |p: u32| f64::from(i.wrapping_mul(p) % 1009) / 100.0;
                 format!(
@@ -417,7 +417,7 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
         let model = load(&text);
         let body = &model.bodies[0];
         check_tree(body, 0, &mut BTreeSet::new());
-        assert_eq!(body.tree.items.iter().map(|i| i.element).collect::<BTreeSet<_>>().len(), 500);
+        assert_eq!(body.tree.items.iter().map(|i| i.element).collect::<BTreeSet<_>>().len(), 700);
         assert!(body.tree.nodes.iter().all(|node| node.items.len() <= 8 && &*node.group == "root"));
         let kind = |i: usize| body.tree.nodes[i].volume.kind_name().to_owned();
         assert_eq!(kind(0), bound);
