@@ -1,0 +1,38 @@
+//! Command line of the benchmark programs.
+
+/// What the user asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Small scenes and few frames: does it run at all?
+    pub smoke: bool,
+    /// Rounds; in each everything runs once.
+    pub rounds: usize,
+    /// Without the peer: for profilers.
+    pub alone: bool,
+    /// Only the scene of this number, from 0.
+    pub only: Option<usize>,
+}
+
+impl Options {
+    /// Reads `[--smoke] [--alone] [--rounds N] [--only N]`.
+    ///
+    /// # Errors
+    /// An argument that is none of these.
+    pub fn read(mut arguments: impl Iterator<Item = String>, rounds: usize) -> Result<Self, String> {
+        let mut options = Self { smoke: false, rounds, alone: false, only: None };
+        while let Some(argument) = arguments.next() {
+            let mut number = || {
+                let text = arguments.next().ok_or(format!("{argument} needs a number"))?;
+                text.parse::<usize>().map_err(|error| format!("{argument} {text}: {error}"))
+            };
+            match argument.as_str() {
+                "--smoke" => (options.smoke, options.rounds) = (true, 1),
+                "--alone" => options.alone = true,
+                "--rounds" => options.rounds = number()?.max(1),
+                "--only" => options.only = Some(number()?),
+                other => return Err(format!("{other}: use --smoke, --alone, --rounds N, --only N")),
+            }
+        }
+        Ok(options)
+    }
+}

@@ -1,0 +1,119 @@
+//! W3, a bumpy terrain: a grid of 0.1 m cells, two triangles each, and bodies that roll over it.
+
+use crate::ron;
+use pong_engine::State;
+use pong_geometry::{Quat, Vec3};
+use std::fmt::Write as _;
+
+const CELL: f64 = 0.1;
+const BUMP: f64 = 0.04;
+
+/// A grid of cells around the origin.
+#[derive(Clone, Copy, Debug)]
+pub struct Terrain {
+    /// Cells along x and y.
+    pub cells: [usize; 2],
+}
+
+/// What a mesh is read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Binary STL, named by the model file.
+    Stl,
+    /// Wavefront OBJ, named by the model file.
+    Obj,
+    /// Lists in the model file itself.
+    Inline,
+}
+
+impl Terrain {
+    /// Vertices, row after row.
+    pub fn vertices(&self) -> Vec<Vec3> {
+        let [nx, ny] = self.cells;
+        let place = |i: usize, n: usize| (i as f64 - 0.5 * n as f64) * CELL;
+        let row = |j: usize| (0..=nx).map(move |i| at(place(i, nx), place(j, ny)));
+        (0..=ny).flat_map(row).collect()
+    }
+
+    /// Vertex numbers of the triangles, front up.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let [nx, ny] = self.cells;
+        let cell = |(i, j): (usize, usize)| {
+            let v = (j * (nx + 1) + i) as u32;
+            let (right, back, across) = (v + 1, v + nx as u32 + 1, v + nx as u32 + 2);
+            [[v, right, across], [v, across, back]]
+        };
+        (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))).flat_map(cell).collect()
+    }
+
+    /// The model file, and the mesh file that it names, if any.
+    pub fn files(&self, source: Source) -> (String, Option<(&'static str, Vec<u8>)>) {
+        let named =
+            |file: &str| ron::model("terrain", &format!("TriangleMesh(name: \"ground\", file: \"{file}\")"));
+        match source {
+            Source::Stl => (named("ground.stl"), Some(("ground.stl", self.stl()))),
+            Source::Obj => (named("ground.obj"), Some(("ground.obj", self.obj().into_bytes()))),
+            Source::Inline => (self.inline(), None),
+        }
+    }
+
+    fn stl(&self) -> Vec<u8> {
+        let (vertices, triangles) = (self.vertices(), self.triangles());
+        let mut out = vec![0_u8; 80];
+        out.extend((triangles.len() as u32).to_le_bytes());
+        for triangle in &triangles {
+            let [a, b, c] = triangle.map(|v| vertices[v as usize]);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            for x in [normal, a, b, c].iter().flat_map(|v| v.iter()) {
+                out.extend((*x as f32).to_le_bytes());
+            }
+            out.extend([0, 0]);
+        }
+        out
+    }
+
+    fn obj(&self) -> String {
+        let mut out = String::new();
+        for v in self.vertices() {
+            writeln!(out, "v {} {} {}", v.x, v.y, v.z).expect("memory takes all");
+        }
+        for [a, b, c] in self.triangles() {
+            writeln!(out, "f {} {} {}", a + 1, b + 1, c + 1).expect("memory takes all");
+        }
+        out
+    }
+
+    fn inline(&self) -> String {
+        let vertices = ron::vectors(&self.vertices());
+        let triangle = |[a, b, c]: [u32; 3]| format!("({a},{b},{c})");
+        let triangles = self.triangles().into_iter().map(triangle).collect::<Vec<_>>().join(",");
+        let mesh =
+            format!("TriangleMesh(name: \"ground\", vertices: [{vertices}], triangles: [{triangles}])");
+        ron::model("terrain", &mesh)
+    }
+}
+
+/// The ground at a place. Rounded to f32, so that every kind of file holds the same mesh.
+fn at(x: f64, y: f64) -> Vec3 {
+    let z = BUMP * (x * 1.3).sin() * (y * 1.7).cos() + 0.25 * BUMP * (x * 7.1 + y * 5.3).sin();
+    Vec3::new(x, y, z).map(|x| f64::from(x as f32))
+}
+
+/// States of the terrain, at rest, and of a body that rolls to and fro near the middle, `depth` below touching for
+/// one that reaches `reach` below its centre.
+pub fn states(frames: usize, reach: f64, depth: f64) -> Vec<[State; 2]> {
+    let state = |frame: usize| {
+        let phase = frame as f64 / frames as f64 * std::f64::consts::TAU;
+        let (x, y) = (0.03 + 0.4 * phase.sin(), -0.02 + 0.3 * phase.cos());
+        let center = Vec3::new(x, y, at(x, y).z + reach - depth);
+        let turn = Quat::from_scaled_axis(Vec3::new(0.2 * phase.cos(), 0.3 * phase.sin(), phase.sin()));
+        let body = State {
+            position: center.into(),
+            orientation: [turn.w, turn.i, turn.j, turn.k],
+            linear_velocity: [0.4 * phase.cos(), -0.3 * phase.sin(), 0.0],
+            ..State::identity()
+        };
+        [State::identity(), body]
+    };
+    (0..frames).map(state).collect()
+}
