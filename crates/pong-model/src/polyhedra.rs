@@ -178,7 +178,7 @@ fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
     let [a, b] = faces else { return None };
     // Where the solid is convex, each face rises to the edge from below the other's plane.
     let convex = a.normal.dot(&b.outward) > FLAT_SINE && b.normal.dot(&a.outward) > FLAT_SINE;
-    convex.then(|| EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
+    convex.then_some(EdgePush { normals: [a.normal, b.normal], outwards: [a.outward, b.outward] })
 }
 
 /// An edge with an active face bounds the cones at both its ends.
