@@ -81,6 +81,29 @@ static void contacts(scene *s)
     TEST(memcmp(&state, &s->states[0], sizeof state) == 0);
 }
 
+/* The ball turned by a quarter about x: what pushes up in the common frame pushes along the ball's own y. */
+static void frames(scene *s)
+{
+    pong_wrench group, common;
+    pong_contact contact;
+    size_t count;
+    int i;
+    slide_to(s, 0.0);
+    s->states[0].orientation[0] = s->states[0].orientation[1] = sqrt(0.5);
+    common = slide_to(s, 1e-4);
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &group));
+    TEST(fabs(common.force[2] - 10.0) < 1e-9 && common.force[0] < -0.1);
+    TEST(fabs(group.force[1] - 10.0) < 1e-9 && fabs(group.force[2]) < 1e-9 && group.force[0] == common.force[0]);
+    OK(pong_get_contacts(s->world, &contact, 1, &count));
+    for (i = 0; i < 3; i += 1) {
+        TEST(contact.friction_force[i] + contact.normal_force * contact.normal[i] == contact.force[i]);
+    }
+    TEST(contact.friction_force[0] < -0.1 && contact.slip_velocity[0] == 0.0 && contact.rate == 0.0);
+    TEST(fabs(contact.a.arm[2] + 0.0995) < 1e-9 && fabs(contact.b.arm[2] + 0.0005) < 1e-9);
+    s->states[0].orientation[0] = 1.0;
+    s->states[0].orientation[1] = 0.0;
+}
+
 static void contact_state(scene *s)
 {
     size_t size = 0;
@@ -203,6 +226,7 @@ int main(void)
     names(&s);
     user_data(&s);
     contacts(&s);
+    frames(&s);
     contact_state(&s);
     surfaces(&s);
     pairs_and_rates(&s);
