@@ -144,13 +144,19 @@ impl Text<'_> {
             let ends = stretch.map(|t| self.end(face, t));
             let energy: f64 = ends.iter().filter_map(|e| e.end).map(|e| e.0 * e.0).sum();
             if energy > 0.0 {
-                let on_solid = ends.iter().all(|e| e.behind_others >= 0.0);
+                let touching = || ends.iter().filter(|e| e.end.is_some());
+                let on_solid = touching().all(|e| e.behind_others >= 0.0);
                 let carried = ends.map(|e| if e.walled { None } else { e.end });
                 found.push((energy, carried, on_solid));
-                margin = ends.iter().map(|e| e.behind_others.abs()).fold(margin, f64::min);
+                margin = touching().map(|e| e.behind_others.abs()).fold(margin, f64::min);
             }
         }
-        if found.iter().any(|f| f.2) {
+        let least = |some: &dyn Fn(bool) -> bool| {
+            found.iter().filter(|f| some(f.2)).map(|f| f.0).fold(f64::INFINITY, f64::min)
+        };
+        let (on_solid, any) = (least(&|on_solid| on_solid), least(&|_| true));
+        margin = margin.min((on_solid - 4.0 * any).abs());
+        if on_solid <= 4.0 * any {
             found.retain(|f| f.2);
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -5,8 +5,8 @@
 //! the polygon across an edge, the *crossing* measures the distance between the two lines. The face that stores
 //! the least energy pushes.
 //!
-//! A face takes part only if its crossings lie on the solid: at a crossing of the edge between the faces f and g
-//! the segment must be behind every other face. Without this, the side face of a box would claim a bar that lies
+//! A face takes part only if its touching crossings lie on the solid: at a crossing of the edge between the faces f
+//! and g the segment must be behind every other face. Without this, the side face of a box would claim a bar that lies
 //! through the top from the moment the bar's far tip rises above the top's plane, with half the force, although
 //! the bar leaves the box through the opposite side: closed paths would gain energy there. With it the energies of
 //! the two faces are equal where the claim begins.
@@ -26,41 +26,74 @@ pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -
     if !pierces(segment, polyhedron) {
         return [None, None];
     }
-    let of_solid = least_energy(segment, polyhedron, |index, end| match end.cut_by {
-        None => true,
-        Some(rim) => crosses_on_solid(segment, polyhedron, index, end.at, &rim),
-    });
-    // Where a bar leaves through the middle of undercut faces no crossing lies on the solid: any face may claim it.
-    of_solid.or_else(|| least_energy(segment, polyhedron, |_, _| true)).unwrap_or([None, None])
-}
-
-/// The contacts at the face of least energy among those whose part's ends are all admitted.
-fn least_energy(
-    segment: &LineSegment,
-    polyhedron: &Polyhedron,
-    admits: impl Fn(usize, &PartEnd) -> bool,
-) -> Option<EndContacts> {
-    let mut best: Option<(f64, EndContacts)> = None;
+    let (mut on_solid, mut any) = (Claim::NONE, Claim::NONE);
     for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
         if segment.ends.iter().all(|end| face.height(end) >= 0.0) {
             continue;
         }
         let Some(part) = part_over_face(segment, polyhedron, index) else { continue };
-        if !part.iter().all(|end| admits(index, end)) {
-            continue;
-        }
-        let ends = [0, 1].map(|end| match part[end].cut_by {
-            None => tip_contact(&segment.ends[end], face, index),
-            Some(rim) if !polyhedron.faces[rim.neighbor as usize].active => None,
-            Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
-        });
-        // Stored energy in units of k/4.
-        let energy: f64 = ends.iter().flatten().map(|contact| contact.depth * contact.depth).sum();
-        if energy > 0.0 && best.as_ref().is_none_or(|(least, _)| energy < *least) {
-            best = Some((energy, ends));
+        let claim = claim(segment, polyhedron, index, &part);
+        any.yield_to(&claim);
+        if claim.energy < on_solid.energy && crossings_on_solid(segment, polyhedron, index, &part, &claim) {
+            on_solid.yield_to(&claim);
         }
     }
-    best.map(|(_, ends)| ends)
+    if on_solid.energy <= MOST_SPURNED * any.energy { on_solid.ends } else { any.ends }
+}
+
+/// A face whose crossings are not on the solid claims too little energy, but never less than half of the right one:
+/// of the right face's two ends it misses the shallower. Below this share its claim is good after all: the crossing
+/// has passed a corner of the solid, and the other faces measure the way through the solid.
+const MOST_SPURNED: f64 = 4.0;
+
+/// What a face would do with a segment.
+struct Claim {
+    /// In units of k/4.
+    energy: f64,
+    measured: EndContacts,
+    ends: EndContacts,
+}
+
+impl Claim {
+    const NONE: Self = Self { energy: f64::INFINITY, measured: [None, None], ends: [None, None] };
+
+    fn yield_to(&mut self, other: &Self) {
+        if other.energy > 0.0 && other.energy < self.energy {
+            *self = Self { ..*other };
+        }
+    }
+}
+
+fn claim(segment: &LineSegment, polyhedron: &Polyhedron, index: usize, part: &[PartEnd; 2]) -> Claim {
+    let face = &polyhedron.faces[index];
+    let measured = [0, 1].map(|end| match part[end].cut_by {
+        None => tip_contact(&segment.ends[end], face, index),
+        Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
+    });
+    // An end cut off by an inner wall counts here: it is the next piece's to carry, but without it the face would
+    // not be found where its other end does not touch.
+    let energy = measured.iter().flatten().map(|contact| contact.depth * contact.depth).sum();
+    let ends = [0, 1].map(|end| measured[end].filter(|_| carries(polyhedron, &part[end])));
+    Claim { energy, measured, ends }
+}
+
+/// Whether every crossing that touches lies on the solid.
+fn crossings_on_solid(
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+    index: usize,
+    part: &[PartEnd; 2],
+    claim: &Claim,
+) -> bool {
+    let touching = [0, 1].into_iter().filter(|&end| claim.measured[end].is_some());
+    touching.filter_map(|end| part[end].cut_by.map(|rim| (part[end].at, rim))).all(|(at, rim)| {
+        crosses_on_solid(segment, polyhedron, index, at, &rim)
+    })
+}
+
+/// An end cut off by an inactive face carries nothing: the piece behind that wall does.
+fn carries(polyhedron: &Polyhedron, end: &PartEnd) -> bool {
+    end.cut_by.is_none_or(|rim| polyhedron.faces[rim.neighbor as usize].active)
 }
 
 /// Whether some point of the segment lies inside.
