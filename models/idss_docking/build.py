@@ -27,10 +27,10 @@ RING_HEIGHT = 0.060
 PASSAGE_RADIUS = 0.400  # the standard's 0.8 m, kept free by the petals
 
 PETAL_CLEARANCE = 0.003  # between a petal's root and the other side's rim when mated
-PETAL_THICKNESS = 0.018
+PETAL_ROOT_INSIDE = 0.505  # distance of a petal's flat inner side from the axis, at the ring's face
+PETAL_TIP_THICKNESS = 0.025  # along the radius
 PETAL_ROOT_HALF_ANGLE = 29.8  # at the ring's face; 30 would touch the neighbour
 PETAL_TIP_HALF_ANGLE = 6.0
-PETAL_KNEE_HEIGHT = 0.1415  # where the petal's side crosses from the outer facet to the middle one
 PETAL_ANGLE = 45.0  # of the petals to the docking axis; drawn into the formulas below
 ACTIVE_PETALS = (0.0, 120.0, 240.0)
 PASSIVE_PETALS = (60.0, 180.0, 300.0)
@@ -65,7 +65,7 @@ SURFACES = {
 UP = (0.0, 0.0, 1.0)
 DOWN = (0.0, 0.0, -1.0)
 CONE_RADIUS = RIM_RADIUS - PETAL_CLEARANCE  # of the petals' outer side at the ring's face
-PETAL_HEIGHT = CONE_RADIUS - PASSAGE_RADIUS - PETAL_THICKNESS * math.sqrt(2.0)
+PETAL_HEIGHT = CONE_RADIUS - PASSAGE_RADIUS - PETAL_TIP_THICKNESS
 
 
 # --- rings ---------------------------------------------------------------------------------------------------------
@@ -129,54 +129,37 @@ def cone_normal(facet):
     return w.unit(w.add(w.on_circle(1.0, facet), UP))
 
 
-def inner_of(corner, facet, neighbour):
-    """The petal's inner corner below an outer one on the border between two facets."""
-    n = cone_normal(facet)
-    both = w.unit(w.add(n, cone_normal(neighbour)))
-    return w.sub(corner, w.scaled(both, PETAL_THICKNESS / w.dot(both, n)))
-
-
 def petal(azimuth):
-    """A petal as three convex pieces and the segments of its outline: (pieces, segments)."""
-    middle = azimuth
-    pieces = []
+    """A petal as one convex piece, three facets outside and a flat inside, and its edges: (piece, segments)."""
+    radial = w.on_circle(1.0, azimuth)
+    skins = [w.plane(cone_normal(facet), on_cone(facet, facet, 0.0)) for facet in (azimuth - STEP, azimuth, azimuth + STEP)]
+    root_inside = w.on_circle(PETAL_ROOT_INSIDE, azimuth)
+    tip_inside = w.on_circle(PASSAGE_RADIUS, azimuth, PETAL_HEIGHT)
+    middle = on_cone(azimuth, azimuth, 0.0)
+    inside = w.plane_through(root_inside, tip_inside, w.add(tip_inside, w.cross(UP, radial)), middle)
+    half_spaces = skins + [inside]
     segments = []
-    caps = [(DOWN, 0.0), (UP, PETAL_HEIGHT)]
-
-    def skins(facet):
-        n = cone_normal(facet)
-        outer = w.dot(n, on_cone(facet, facet, 0.0))
-        return [(n, outer), (w.scaled(n, -1.0), PETAL_THICKNESS - outer)]
-
-    side_planes = []
+    tips = []
     for side, label in ((-1, "left"), (1, "right")):
-        facet = middle + side * STEP
-        border = middle + side * STEP / 2
-        root = on_cone(middle + side * PETAL_ROOT_HALF_ANGLE, facet, 0.0)
-        knee = on_cone(border, middle, PETAL_KNEE_HEIGHT)
-        tip = on_cone(middle + side * PETAL_TIP_HALF_ANGLE, middle, PETAL_HEIGHT)
-        inner_knee = inner_of(knee, middle, facet)
-        low_side = w.plane_through(root, knee, inner_knee, on_cone(border, middle, 0.0))
-        side_planes.append(w.plane_through(knee, tip, inner_knee, on_cone(middle, middle, 0.0)))
-        wall = radial_wall(border, -side)  # keeps what lies outside the middle facet
-        pieces.append(w.polyhedron(f"{label}", skins(facet) + [low_side, wall, caps[0]], inactive=(3,)))
+        root = on_cone(azimuth + side * PETAL_ROOT_HALF_ANGLE, azimuth + side * STEP, 0.0)
+        tip = on_cone(azimuth + side * PETAL_TIP_HALF_ANGLE, azimuth, PETAL_HEIGHT)
+        flank = w.plane_through(root, tip, (0.0, 0.0, PETAL_HEIGHT / 2), middle)
+        knee = w.rounded(w.meet(flank, skins[1], skins[1 + side]))
+        half_spaces.append(flank)
         segments.append(w.segment(f"{label}_low_edge", root, knee))
         segments.append(w.segment(f"{label}_high_edge", knee, tip))
-        inner_tip = w.meet(skins(middle)[1], side_planes[-1], caps[1])
-        segments.append(w.segment(f"{label}_tip_edge", tip, w.rounded(inner_tip)))
-    walls = [radial_wall(middle - STEP / 2, -1), radial_wall(middle + STEP / 2, 1)]
-    pieces.append(w.polyhedron("middle", skins(middle) + side_planes + walls + caps, inactive=(4, 5)))
-    tips = [on_cone(middle + side * PETAL_TIP_HALF_ANGLE, middle, PETAL_HEIGHT) for side in (-1, 1)]
+        tips.append(tip)
+    half_spaces += [(DOWN, 0.0), (UP, PETAL_HEIGHT)]
     segments.append(w.segment("tip", *tips))
-    return pieces, segments
+    return w.polyhedron("body", half_spaces), segments
 
 
 def petal_groups(azimuths):
     groups = []
     for i, azimuth in enumerate(azimuths):
-        pieces, segments = petal(azimuth)
+        body, segments = petal(azimuth)
         parts = [
-            w.group("body", primitives=pieces, bound="Obb"),
+            w.group("solid", primitives=[body], bound="Obb"),
             w.group("edges", primitives=segments, bound="Aabb"),
         ]
         groups.append(w.group(f"petal_{i}", groups=parts, bound="Sphere"))
@@ -186,22 +169,20 @@ def petal_groups(azimuths):
 # --- latches and strikers -----------------------------------------------------------------------------------------
 
 def latch_frame(azimuth):
-    """Axes of a latch: x out of the petal's outer side (its slide), y along the rim, z up along the petal."""
+    """Axes of a latch: x away from the docking axis (its slide), y along the rim, z out of the ring."""
     radial = w.on_circle(1.0, azimuth)
-    x = w.unit(w.add(radial, UP))
-    y = w.cross(UP, radial)
-    return x, y, w.cross(x, y)
+    return radial, w.cross(UP, radial), UP
 
 
 def latch_tip(azimuth):
     """Middle of the catch's edge, latch extended."""
-    radius = RIM_RADIUS + STRIKER_RECESS * 1.0 - STRIKER_BACK + LATCH_ENGAGEMENT
+    radius = RIM_RADIUS + STRIKER_RECESS - STRIKER_BACK + LATCH_ENGAGEMENT
     return w.on_circle(radius, azimuth, STRIKER_BACK + LATCH_PLAY)
 
 
 def latch(i, azimuth):
-    """A sliding pawl: catch face across the docking axis, cam side along the petal, bevelled nose."""
-    profile = [(0.0, 0.0), (-0.005, 0.030), (-0.030, 0.060), (-0.030, 0.030)]  # (x, z): catch edge, cam, nose, back
+    """A sliding pawl: catch face across the docking axis, bevelled nose along the petal."""
+    profile = [(0.0, 0.0), (-0.030, 0.026), (-0.050, 0.026), (-0.050, 0.0)]  # (x, z): catch edge, nose, top, back
     half_spaces = []
     for (x0, z0), (x1, z1) in zip(profile, profile[1:] + profile[:1]):
         half_spaces.append(w.plane((z1 - z0, 0.0, x0 - x1), (x0, 0.0, z0)))
@@ -215,7 +196,6 @@ def latch(i, azimuth):
         across("catch_edge", *profile[0]),
         across("nose_edge", *profile[1]),
     ]
-    axes = latch_frame(azimuth)
     return w.group(
         f"latch_{i}",
         primitives=contents,
@@ -223,7 +203,7 @@ def latch(i, azimuth):
         surface="latch",
         movable=True,
         position=latch_tip(azimuth),
-        orientation=w.quaternion_of_axes(*axes),
+        orientation=w.quaternion_of_axes(*latch_frame(azimuth)),
     )
 
 
