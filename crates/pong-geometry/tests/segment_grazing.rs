@@ -12,14 +12,7 @@ use pong_geometry::primitive::{LineSegment, Polyhedron};
 
 /// A petal of a docking ring: flanks that lean both ways, so that a corner of its root sticks out.
 fn petal() -> Polyhedron {
-    let half = [
-        [0.4, 0.035577413, 0.172],
-        [0.425, 0.0446693, 0.172],
-        [0.445659471, 0.078581789, 0.151340529],
-        [0.505, 0.293548883, 0.0],
-        [0.525727444, 0.301086946, 0.0],
-        [0.597, 0.105267207, 0.0],
-    ];
+    let half = [[0.5, 0.275, 0.0], [0.6, 0.3, 0.0], [0.425, 0.04, 0.17], [0.4, 0.03375, 0.17]];
     let corners = half.iter().flat_map(|c| [Vec3::new(c[0], c[1], c[2]), Vec3::new(c[0], -c[1], c[2])]);
     hull(&corners.collect::<Vec<_>>())
 }
