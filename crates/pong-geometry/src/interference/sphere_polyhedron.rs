@@ -1,7 +1,8 @@
 //! Sphere (A) – polyhedron (B): centre outside, the nearest point of the surface; centre inside, as a point plus
 //! the radius (physics contract, 2 and 2.4).
 //!
-//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest face there pushes.
+//! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest active face there
+//! pushes. Straight above the line where two pieces abut both may push: their springs are shared.
 
 use super::point_polyhedron::point_below_face;
 use super::{Feature, Interference, ball_over_point};
@@ -16,7 +17,10 @@ pub fn sphere_outside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Op
         if height >= sphere.radius {
             return None;
         }
-        if height >= 0.0 && over_face.is_none() && holds_foot(&sphere.center, polyhedron, index) {
+        // Beside an inner wall both the wall and the face may seem to hold the foot: the face counts.
+        let first =
+            over_face.is_none_or(|(best, _): (usize, f64)| face.active && !polyhedron.faces[best].active);
+        if height >= 0.0 && first && holds_foot(&sphere.center, polyhedron, index) {
             over_face = Some((index, height));
         }
     }
@@ -44,8 +48,16 @@ pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: 
     }
 }
 
+/// Whether the foot of `p` lies in a face. Where the face goes on in the next piece its outline is widened by
+/// rounding: the two pieces work it out from their own normals, and a centre straight above could miss both.
 fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
-    polyhedron.rim(face).iter().all(|rim| rim.outward.dot(&(p - rim.anchor)) <= 0.0)
+    const SEAM_SINE_SLACK: f64 = 1e-12;
+    polyhedron.rim(face).iter().all(|rim| {
+        let arm = p - rim.anchor;
+        let beyond = rim.outward.dot(&arm);
+        let at_wall = !polyhedron.faces[rim.neighbor as usize].active;
+        beyond <= 0.0 || (at_wall && beyond <= SEAM_SINE_SLACK * arm.norm())
+    })
 }
 
 fn nearest_edge(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
