@@ -79,15 +79,17 @@ impl System {
 
     /// Energies that the present instant has; losses and work are left at zero, those of contacts excepted.
     pub fn energy(&self, states: &[FreeState]) -> Energy {
+        // Empty sums are −0; adding zero makes them 0.
         let ledger = self.world.ledger();
         let mut energy =
-            Energy { contacts: ledger.stored, contact_loss: ledger.dissipated, ..Energy::default() };
+            Energy { contacts: ledger.stored + 0.0, contact_loss: ledger.dissipated, ..Energy::default() };
         for ((_, inertia), state) in self.free.iter().zip(states) {
             let speed = state.velocity.value().norm_squared();
             energy.kinetic += 0.5 * (inertia.mass * speed + state.spin(inertia).dot(&state.momentum));
             energy.potential -= inertia.mass * self.gravity.dot(&state.position.value());
         }
-        energy.springs = self.springs.iter().map(|spring| self.spring_action(spring).energy).sum();
+        energy.springs =
+            self.springs.iter().map(|spring| self.spring_action(spring).energy).sum::<f64>() + 0.0;
         energy
     }
 }

@@ -195,7 +195,7 @@ impl Simulation {
     pub fn settle(&mut self) -> Result<(), ExecutiveError> {
         if !self.settled {
             self.system.place(self.time(), &self.states);
-            self.system.touch_and_commit()?;
+            self.system.touch_and_commit(self.time())?;
             self.powers = self.system.powers(self.time());
             self.settled = true;
         }

@@ -69,22 +69,28 @@ impl System {
     }
 
     /// Hands the states to the world and takes the contact wrenches.
-    pub fn touch(&mut self) -> Result<(), ExecutiveError> {
-        self.hand_in()?;
+    pub fn touch(&mut self, time: f64) -> Result<(), ExecutiveError> {
+        self.hand_in(time)?;
         self.world.evaluate()?;
         self.take_wrenches()
     }
 
     /// As [`touch`](Self::touch), and the world accepts the states.
-    pub fn touch_and_commit(&mut self) -> Result<(), ExecutiveError> {
-        self.hand_in()?;
+    pub fn touch_and_commit(&mut self, time: f64) -> Result<(), ExecutiveError> {
+        self.hand_in(time)?;
         self.world.step()?;
         self.take_wrenches()
     }
 
-    fn hand_in(&mut self) -> Result<(), ExecutiveError> {
+    /// # Errors
+    /// A motion that is no longer finite, within a step too.
+    fn hand_in(&mut self, time: f64) -> Result<(), ExecutiveError> {
         self.states_in.clear();
         for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
+            let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
+            if values.iter().flatten().any(|x| !x.is_finite()) {
+                return Err(ExecutiveError::Diverged { body: body.name.clone(), time });
+            }
             if let Some(interface) = body.interface {
                 self.states_in.push((interface, State::from_motion(pose, twist)));
             }

@@ -39,7 +39,7 @@ pub(crate) fn runge_kutta(
         }
         system.place(time + share * h, &trial);
         if let Contact::Fresh = contact {
-            system.touch()?;
+            system.touch(time + share * h)?;
         }
         rates(system, &trial, contact, time + share * h, &mut stages.0[stage]);
     }

@@ -1,0 +1,88 @@
+//! `pong check`: what the engine makes of models, alone and together.
+
+mod doubled;
+mod pairs;
+mod stiffness;
+mod tree;
+
+use crate::text::print;
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+/// Checks model files (docs/model_format.md) and tells what each holds and how each two of them would meet.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The model files.
+    #[arg(value_name = "MODEL.ron", required = true)]
+    models: Vec<PathBuf>,
+    /// Checks each model by itself, not how they would meet.
+    #[arg(long)]
+    alone: bool,
+}
+
+/// A model and what it is called here.
+struct Named {
+    name: String,
+    model: Arc<Model>,
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let mut named: Vec<Named> = Vec::new();
+    let mut faults = 0;
+    for path in &arguments.models {
+        match pong_model::load(path, &Extensions::new()) {
+            Ok(model) => named.push(name(&named, model)),
+            Err(errors) => {
+                eprintln!("{errors}");
+                faults += errors.0.len();
+            }
+        }
+    }
+    let mut text = String::new();
+    for Named { name, model } in &named {
+        text += &tree::description(name, model);
+        let warnings = model.warnings.iter().cloned().chain(doubled::warnings(model));
+        warnings.for_each(|warning| text += &format!("  warning: {warning}\n"));
+    }
+    if !arguments.alone {
+        for (a, b) in meetings(&named) {
+            match pairs::description(a, b) {
+                Ok(meeting) => text += &meeting,
+                Err(problems) => {
+                    problems.iter().for_each(|problem| eprintln!("`{}` and `{}`: {problem}", a.name, b.name));
+                    faults += problems.len();
+                }
+            }
+        }
+    }
+    print(&text);
+    if faults == 0 {
+        return ExitCode::SUCCESS;
+    }
+    eprintln!("{}", crate::text::count(faults, "fault", "faults"));
+    ExitCode::FAILURE
+}
+
+/// Two models of one name are told apart by a number.
+fn name(earlier: &[Named], model: Model) -> Named {
+    let taken = |name: &str| earlier.iter().any(|other| other.name == name);
+    let numbered = (2..).map(|number| format!("{}#{number}", model.name));
+    let name = std::iter::once(model.name.clone()).chain(numbered).find(|name| !taken(name));
+    Named { name: name.unwrap_or_default(), model: Arc::new(model) }
+}
+
+/// Every two models, and each model of several movable groups with itself.
+fn meetings(named: &[Named]) -> Vec<(&Named, &Named)> {
+    let mut meetings = Vec::new();
+    for (index, a) in named.iter().enumerate() {
+        for (other, b) in named.iter().enumerate().skip(index) {
+            if other != index || a.model.bodies.len() > 1 {
+                meetings.push((a, b));
+            }
+        }
+    }
+    meetings
+}

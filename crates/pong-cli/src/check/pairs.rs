@@ -1,0 +1,97 @@
+//! How two models would meet: the testers that run, the pairs of kinds that ignore each other.
+
+use super::{Named, stiffness};
+use crate::text::{count, number};
+use pong_engine::{Config, EngineError, SealReport, World, has_tester};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::Body;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// What runs between two models (or the movable groups of one), or every reason why they cannot meet.
+pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
+    let report = sealed(a, b).map_err(|error| match error {
+        EngineError::Seal { problems } => problems,
+        other => vec![other.to_string()],
+    })?;
+    let itself = Arc::ptr_eq(&a.model, &b.model);
+    let mut text = match itself {
+        true => format!("`{}` with itself: ", a.name),
+        false => format!("`{}` and `{}`: ", a.name, b.name),
+    };
+    text += &format!(
+        "{}, at most {}, contact state {} bytes\n",
+        count(report.group_pairs, "pair of movable groups", "pairs of movable groups"),
+        count(report.contact_capacity, "contact", "contacts"),
+        number(report.state_size as f64),
+    );
+    for (kinds, pairs) in testers(&group_pairs(a, b, itself)) {
+        text += &format!(
+            "  {}–{}: {}\n",
+            kinds.0,
+            kinds.1,
+            count(pairs, "pair of primitives", "pairs of primitives")
+        );
+    }
+    for warning in &report.warnings {
+        text += &format!("  warning: {warning}\n");
+    }
+    let mut faces = Vec::new();
+    for (body_a, body_b) in group_pairs(a, b, itself) {
+        faces.extend(stiffness::faces_pressed((a, body_a), (b, body_b)));
+        faces.extend(stiffness::faces_pressed((b, body_b), (a, body_a)));
+    }
+    text += &stiffness::lines(faces);
+    Ok(text)
+}
+
+fn sealed(a: &Named, b: &Named) -> Result<SealReport, EngineError> {
+    let mut world = World::new(Config::default());
+    let model = world.add_model(Arc::clone(&a.model))?;
+    let first = world.create_object(model, &a.name)?;
+    let second = if Arc::ptr_eq(&a.model, &b.model) {
+        first
+    } else {
+        let model = world.add_model(Arc::clone(&b.model))?;
+        world.create_object(model, &b.name)?
+    };
+    world.pair(first, second)?;
+    world.seal()
+}
+
+/// The pairs of movable groups that are tested.
+fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m Body, &'m Body)> {
+    let mut pairs = Vec::new();
+    for (index, body_a) in a.model.bodies.iter().enumerate() {
+        let from = if itself { index + 1 } else { 0 };
+        pairs.extend(b.model.bodies.iter().skip(from).map(|body_b| (body_a, body_b)));
+    }
+    pairs
+}
+
+/// Pairs of elements by pair of kinds, A's kind first.
+fn testers(group_pairs: &[(&Body, &Body)]) -> BTreeMap<(&'static str, &'static str), usize> {
+    let mut testers = BTreeMap::new();
+    for (body_a, body_b) in group_pairs {
+        let (counts_a, counts_b) = (elements(body_a), elements(body_b));
+        for (kind_a, count_a) in &counts_a {
+            for (kind_b, count_b) in &counts_b {
+                let named = match (has_tester(*kind_a, *kind_b), has_tester(*kind_b, *kind_a)) {
+                    (true, _) => (kind_a.name(), kind_b.name()),
+                    (_, true) => (kind_b.name(), kind_a.name()),
+                    _ => continue,
+                };
+                *testers.entry(named).or_default() += count_a * count_b;
+            }
+        }
+    }
+    testers
+}
+
+fn elements(body: &Body) -> BTreeMap<PrimitiveKind, usize> {
+    let mut counts = BTreeMap::new();
+    for item in &body.tree.items {
+        *counts.entry(body.primitives[item.primitive as usize].kind).or_default() += 1;
+    }
+    counts
+}

@@ -1,0 +1,137 @@
+//! What one model holds: groups, primitives, extent, surfaces.
+
+use crate::text::{count, number, numbers};
+use pong_geometry::Vec3;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Body, Element, Exponent, FrictionLaw, Model, NormalLaw, Surface};
+use std::collections::BTreeMap;
+
+/// A group as the engine sees it.
+struct Group {
+    path: String,
+    movable: bool,
+    bound: String,
+    /// Primitives that hang from this very group, by kind.
+    holds: BTreeMap<PrimitiveKind, (usize, usize)>,
+}
+
+pub(super) fn description(name: &str, model: &Model) -> String {
+    let memory = if model.entry_memory { "remembered" } else { "not remembered" };
+    let mut text = format!("{name}: hash {:016x}, side of entry {memory}\n", model.hash);
+    let groups: Vec<Group> = model.bodies.iter().flat_map(groups_of).collect();
+    if let Some(root) = model.bodies.first() {
+        draw(&groups, &root.path, 1, &mut text);
+    }
+    for body in &model.bodies {
+        text += &extent(body);
+    }
+    for surface in &model.surfaces {
+        text += &format!("  surface {}\n", surface_line(surface));
+    }
+    for entry in &model.pair_overrides {
+        text += &format!(
+            "  pair of surfaces `{}` and `{}` has values of its own\n",
+            entry.surfaces[0], entry.surfaces[1]
+        );
+    }
+    text
+}
+
+/// The authored groups of a body; the loader's own subdivisions keep the path of their leaf and are one with it.
+fn groups_of(body: &Body) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for node in &body.tree.nodes {
+        let found = groups.iter().position(|group| *group.path == *node.group);
+        let index = found.unwrap_or_else(|| {
+            let bound = node.volume.kind_name().to_owned();
+            let movable = *node.group == *body.path;
+            groups.push(Group { path: node.group.to_string(), movable, bound, holds: BTreeMap::new() });
+            groups.len() - 1
+        });
+        let items = &body.tree.items[node.items.start as usize..node.items.end as usize];
+        for item in items {
+            let kind = body.primitives[item.primitive as usize].kind;
+            groups[index].holds.entry(kind).or_default().1 += 1;
+        }
+    }
+    for info in &body.primitives {
+        let owner = info.path.rsplit_once('/').map_or("", |(group, _)| group);
+        if let Some(group) = groups.iter_mut().find(|group| group.path == owner) {
+            group.holds.entry(info.kind).or_default().0 += 1;
+        }
+    }
+    groups
+}
+
+fn draw(groups: &[Group], path: &str, depth: usize, text: &mut String) {
+    let Some(group) = groups.iter().find(|group| group.path == path) else { return };
+    let name = path.rsplit('/').next().unwrap_or(path);
+    let movable = if group.movable { " movable" } else { "" };
+    let holds: Vec<String> = group
+        .holds
+        .iter()
+        .map(|(kind, (primitives, elements))| held(*kind, *primitives, *elements))
+        .collect();
+    let holds = if holds.is_empty() { String::new() } else { format!(": {}", holds.join(", ")) };
+    *text += &format!("{:indent$}{name} ({}{movable}){holds}\n", "", group.bound, indent = 2 * depth);
+    let is_child = |other: &&Group| other.path.rsplit_once('/').is_some_and(|(above, _)| above == path);
+    for child in groups.iter().filter(is_child) {
+        draw(groups, &child.path, depth + 1, text);
+    }
+}
+
+fn held(kind: PrimitiveKind, primitives: usize, elements: usize) -> String {
+    match kind {
+        PrimitiveKind::Triangle if primitives != elements => {
+            format!("{} Triangle in {}", elements, count(primitives, "primitive", "primitives"))
+        }
+        _ => format!("{primitives} {}", kind.name()),
+    }
+}
+
+fn extent(body: &Body) -> String {
+    let items = &body.tree.items;
+    if items.is_empty() {
+        return format!("  extent of {}: nothing\n", body.path);
+    }
+    let start = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
+    let (low, high) = items.iter().fold(start, |(low, high), item| {
+        let (l, h) = Element::new(body, *item).extent();
+        (low.inf(&l), high.sup(&h))
+    });
+    format!("  extent of {}: ({}) … ({}) m\n", body.path, numbers(low.as_slice()), numbers(high.as_slice()))
+}
+
+fn surface_line(surface: &Surface) -> String {
+    let normal = match &surface.normal {
+        NormalLaw::Linear { damping, ramp } => {
+            format!("linear, c {} N·s/m, ramp {} m", number(*damping), number(*ramp))
+        }
+        NormalLaw::HuntCrossley { dissipation, exponent } => {
+            format!("Hunt-Crossley, exponent {}, χ {} s/m", exponent_text(*exponent), number(*dissipation))
+        }
+        NormalLaw::Custom { name, .. } => format!("law `{name}`"),
+    };
+    let friction = match &surface.friction {
+        FrictionLaw::None => "no friction".to_owned(),
+        FrictionLaw::Bristle { mu, static_excess, .. } => {
+            format!("bristle, μ_k {}, μ_s {}", number(*mu), number(mu * (1.0 + static_excess)))
+        }
+        FrictionLaw::Coulomb { mu, slip_speed } => {
+            format!("regularised Coulomb, μ {}, v_ε {} m/s", number(*mu), number(*slip_speed))
+        }
+        FrictionLaw::Custom { name, .. } => format!("friction law `{name}`"),
+    };
+    let unit = match &surface.normal {
+        NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => "N/m^1.5",
+        _ => "N/m",
+    };
+    format!("`{}`: k {} {unit}, {normal}, {friction}", surface.name, number(surface.stiffness))
+}
+
+fn exponent_text(exponent: Exponent) -> &'static str {
+    match exponent {
+        Exponent::One => "1",
+        Exponent::ThreeHalves => "3/2",
+    }
+}

@@ -1,0 +1,33 @@
+//! `pong`: the command line of the contact engine.
+//!
+//! Exit codes: 0 all is well, 1 something is wrong with what was named (told on standard error), 2 wrong usage.
+
+#![forbid(unsafe_code)]
+
+mod check;
+mod run;
+mod text;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Contact dynamics from the terminal.
+#[derive(Parser)]
+#[command(name = "pong", version, arg_required_else_help = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::Arguments),
+    Run(run::Arguments),
+}
+
+fn main() -> ExitCode {
+    match Cli::parse().command {
+        Command::Check(arguments) => check::main(&arguments),
+        Command::Run(arguments) => run::main(&arguments),
+    }
+}

@@ -1,0 +1,132 @@
+//! `pong run`: runs a scene, records it, sums it up.
+
+mod records;
+mod statistics;
+mod summary;
+
+use crate::text::print;
+use indicatif::{ProgressBar, ProgressStyle};
+use pong_executive::ExecutiveError;
+use pong_executive::scene::{BuiltScene, Scene};
+use records::Records;
+use statistics::Statistics;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+/// Runs a scene file (docs/scene_format.md) and sums up what happened.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file.
+    #[arg(value_name = "SCENE.ron")]
+    scene: PathBuf,
+    /// Folder for the CSV files; made if it is not there. Asks for CSV files by itself.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Writes states.csv, wrenches.csv and contacts.csv (with the ledger also energies.csv), into `<scene>_out`
+    /// unless -o says otherwise.
+    #[arg(long)]
+    csv: bool,
+    /// No progress bar and no summary; warnings and errors stay.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Why a run ended early.
+enum Failure {
+    Dynamics(ExecutiveError),
+    Output(String),
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Dynamics(error) => error.fmt(f),
+            Self::Output(reason) => f.write_str(reason),
+        }
+    }
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let mut built = match Scene::load(&arguments.scene).and_then(|scene| scene.build()) {
+        Ok(built) => built,
+        Err(errors) => {
+            eprintln!("{errors}");
+            return ExitCode::FAILURE;
+        }
+    };
+    for warning in built.warnings.iter().cloned().chain(built.seal.warnings.iter().map(ToString::to_string)) {
+        eprintln!("warning: {warning}");
+    }
+    let mut statistics = Statistics::new(&built);
+    let ended = run(arguments, &mut built, &mut statistics);
+    if !arguments.quiet {
+        print(&summary::summary(&built, &statistics));
+    }
+    if let Some(advice) = statistics.incomplete_advice() {
+        eprintln!("warning: {advice}");
+    }
+    match ended {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("{}: {failure}", arguments.scene.display());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments, built: &mut BuiltScene, statistics: &mut Statistics) -> Result<(), Failure> {
+    let mut records = match output_folder(arguments) {
+        Some(folder) => Some(Records::create(&folder, built).map_err(Failure::Output)?),
+        None => None,
+    };
+    let ended = advance(arguments, built, statistics, records.as_mut());
+    // What was recorded before a failure is what its cause is sought in.
+    let written = records.map_or(Ok(()), Records::finish).map_err(Failure::Output);
+    ended.and(written)
+}
+
+fn output_folder(arguments: &Arguments) -> Option<PathBuf> {
+    let by_name = || {
+        let stem = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        PathBuf::from(format!("{stem}_out"))
+    };
+    arguments.output.clone().or_else(|| arguments.csv.then(by_name))
+}
+
+fn advance(
+    arguments: &Arguments,
+    built: &mut BuiltScene,
+    statistics: &mut Statistics,
+    mut records: Option<&mut Records>,
+) -> Result<(), Failure> {
+    let bar = progress_bar(built.steps, arguments.quiet);
+    built.simulation.settle().map_err(Failure::Dynamics)?;
+    statistics.start(&built.simulation);
+    for done in 0..=built.steps {
+        if done > 0 {
+            let begin = Instant::now();
+            built.simulation.step().map_err(Failure::Dynamics)?;
+            statistics.took(begin.elapsed());
+            statistics.observe(&built.simulation);
+            bar.inc(1);
+        }
+        if let Some(records) = records.as_deref_mut().filter(|_| done % built.record_every == 0) {
+            records.write(&built.simulation).map_err(Failure::Output)?;
+        }
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+/// A bar on standard error, if that is a terminal.
+fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(steps);
+    let template = "{bar:40} {percent:>3} %  step {pos} of {len}, {eta} left";
+    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

@@ -1,0 +1,172 @@
+//! The program as a terminal user meets it: output, files, exit codes.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball",
+    surfaces: { "soft": (stiffness: 1e5, normal: Linear(damping: 632.4)) },
+    root: (name: "ball", surface: "soft", primitives: [
+        Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)]))"#;
+const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
+    surfaces: { "rigid": (stiffness: inf) },
+    root: (name: "ground", surface: "rigid", primitives: [
+        Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
+const FRAME: &str = r#"(format: "pong-model", version: 1, name: "frame",
+    surfaces: { "soft": (stiffness: 1e5) },
+    root: (name: "frame", surface: "soft", groups: [
+        (name: "bars", bound: Sphere, primitives: [
+            LineSegment(name: "bar", ends: ((0, 0, 0), (1, 0, 0))),
+            Point(name: "tip", position: (1, 0, 0)), Point(name: "other", position: (0, 1, 0))]),
+        (name: "arm", movable: true, primitives: [
+            TriangleMesh(name: "sheet", vertices: [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)],
+                triangles: [(0, 1, 2), (0, 2, 3)])])]))"#;
+const DROP: &str = r#"(format: "pong-scene", version: 1, name: "drop",
+    models: { "ball": "ball.ron", "ground": "ground.ron" },
+    objects: [
+        (name: "ball", model: "ball", bodies: [
+            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.1))]),
+        (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
+    pairs: [("ball", "ground")], gravity: (0, 0, -9.81),
+    integrator: RungeKutta4, step: 1e-3, duration: 0.5, record_every: 100, ledger: true)"#;
+
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let files = [("ball", BALL), ("ground", GROUND), ("frame", FRAME), ("drop", DROP)];
+    for (name, text) in files {
+        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
+    }
+    folder
+}
+
+fn pong(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output: Output =
+        Command::new(env!("CARGO_BIN_EXE_pong")).args(arguments).current_dir(folder).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn assert_holds(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "no `{part}` in:\n{text}");
+    }
+}
+
+#[test]
+fn run_sums_up_and_ends_with_zero() {
+    let (code, out, err) = pong(&folder("run"), &["run", "drop.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let parts = [
+        "drop: t = 0.5 s, step 0.001 s, RungeKutta4; 2 bodies, 1 pair of movable groups, at most 1 contact at once",
+        // Critically damped, it settles to mg/k without overshoot.
+        "0 0 0.0999019",
+        "9.81",
+        "9.81e-5",
+        "Energy drift: ",
+        "Time per step: median ",
+    ];
+    assert_holds(&out, &parts);
+}
+
+#[test]
+fn run_writes_csv_files_that_can_be_read() {
+    let folder = folder("csv");
+    let (code, out, _) = pong(&folder, &["run", "drop.ron", "-q", "-o", "made/here"]);
+    assert_eq!((code, out.as_str()), (0, ""));
+    for (name, lines) in [("states", 13), ("wrenches", 13), ("contacts", 6), ("energies", 7)] {
+        let text = std::fs::read_to_string(folder.join(format!("made/here/{name}.csv"))).unwrap();
+        let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+        assert_eq!(rows.len(), lines, "{name}\n{text}");
+        assert!(rows.iter().all(|row| row.len() == rows[0].len()), "{name}\n{text}");
+        assert_eq!(rows[0][0], "time_s");
+        assert_eq!(rows[lines - 1][0].parse::<f64>().unwrap(), 0.5);
+    }
+    let text = std::fs::read_to_string(folder.join("made/here/contacts.csv")).unwrap();
+    let last: Vec<&str> = text.lines().last().unwrap().split(',').collect();
+    assert_eq!([last[1], last[3]], ["ball/ball/skin", "ground/ground/floor"]);
+    let depth: f64 = last[13].parse().unwrap();
+    assert!((depth / 9.81e-5 - 1.0).abs() < 1e-9);
+    let (code, _, _) = pong(&folder, &["run", "drop.ron", "--csv"]);
+    assert!(code == 0 && folder.join("drop_out/states.csv").exists());
+}
+
+#[test]
+fn run_tells_faults_and_ends_with_one() {
+    let folder = folder("run_faults");
+    std::fs::write(folder.join("bad.ron"), DROP.replace("mass: 1.0", "mass: -1.0").replace("1e-3,", "0,"))
+        .unwrap();
+    let (code, out, err) = pong(&folder, &["run", "bad.ron"]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert_holds(
+        &err,
+        &["bad.ron: step: it is 0 s; ", "bad.ron: objects/ball/bodies[0]: the mass is -1 kg; "],
+    );
+    std::fs::write(folder.join("blocked"), "a file").unwrap();
+    let (code, _, err) = pong(&folder, &["run", "drop.ron", "-o", "blocked"]);
+    assert!(code == 1 && err.contains("name another folder with -o"), "{err}");
+}
+
+#[test]
+fn run_tells_of_a_step_that_is_too_long() {
+    let folder = folder("diverged");
+    let springs =
+        r#"springs: [(first: Ground(), second: On(body: "ball"), stiffness: (1e9, 1e9, 1e9, 0, 0, 0))],"#;
+    let text = DROP
+        .replace("integrator:", &format!("{springs} integrator:"))
+        .replace("duration: 0.5", "duration: 9.0");
+    std::fs::write(folder.join("stiff.ron"), text).unwrap();
+    let (code, out, err) = pong(&folder, &["run", "stiff.ron", "--csv"]);
+    assert_eq!(code, 1, "{out}{err}");
+    assert_holds(&err, &["stiff.ron: body `ball`: its state is no longer finite", "shorten it"]);
+    assert!(folder.join("stiff_out/states.csv").exists());
+}
+
+#[test]
+fn check_describes_models_and_their_meetings() {
+    let (code, out, err) = pong(&folder("check"), &["check", "frame.ron", "ground.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let parts = [
+        "frame: hash ",
+        "  frame (Aabb movable)\n    bars (Sphere): 2 Point, 1 LineSegment\n    arm (Aabb movable): 2 Triangle in 1 primitive\n",
+        "extent of frame/arm: (0 0 0) … (1 1 0) m",
+        "extent of ground: (-inf -inf -inf) … (inf inf inf) m",
+        "surface `soft`: k 100000 N/m, linear",
+        "`frame/bars/tip` sits on an end of `frame/bars/bar`: their springs add up to 150000 N/m",
+        "`frame` with itself: 1 pair of movable groups",
+        "warning: `frame` and `frame` are paired but nothing",
+        "`frame` and `ground`: 2 pairs of movable groups",
+        "Point–Plane: 2 pairs of primitives",
+        "LineSegment–Plane: 1 pair of primitives",
+        "Plane and Triangle have no tester",
+        "up to 300000 N/m on one face: all 2 points and 1 segment of frame:frame on a Plane (`rigid`) of ground:ground",
+    ];
+    assert_holds(&out, &parts);
+    let (_, out, _) = pong(&folder("alone"), &["check", "--alone", "frame.ron", "ground.ron"]);
+    assert!(!out.contains("`frame` and `ground`"), "{out}");
+}
+
+#[test]
+fn check_tells_every_fault_and_ends_with_one() {
+    let folder = folder("check_faults");
+    std::fs::write(folder.join("bad.ron"), BALL.replace("radius: 0.1", "radius: 0")).unwrap();
+    std::fs::write(folder.join("rigid.ron"), BALL.replace("1e5, normal: Linear(damping: 632.4)", "inf"))
+        .unwrap();
+    let (code, _, err) = pong(&folder, &["check", "bad.ron", "none.ron", "ground.ron", "rigid.ron"]);
+    assert_eq!(code, 1);
+    assert_holds(
+        &err,
+        &["bad.ron:4:", "[not-positive]", "none.ron:1:1: ", "both surfaces are rigid", "3 faults"],
+    );
+}
+
+#[test]
+fn wrong_usage_ends_with_two() {
+    let folder = folder("usage");
+    for arguments in [&[][..], &["check"], &["run"], &["fly"], &["run", "drop.ron", "--fast"]] {
+        let (code, _, err) = pong(&folder, arguments);
+        assert!(code == 2 && err.contains("Usage"), "{arguments:?}: {code}\n{err}");
+    }
+    assert_eq!(pong(&folder, &["--help"]).0, 0);
+    assert!(pong(&folder, &["--version"]).1.starts_with("pong "));
+}
