@@ -2,10 +2,14 @@
 //!
 //! Angular momentum about the mass centre along the common axes, not angular velocity: without a moment it is
 //! constant, so no integrator can lose it.
+//!
+//! Within a step the orientation is counted as a rotation vector θ from the start of the step, θ̇ = J⁻¹(θ)·ω
+//! (H. Munthe-Kaas, "High order Runge-Kutta methods on manifolds", Appl. Numer. Math. 29 (1999)), so that every
+//! stage of a body in steady rotation stands where it belongs. A quaternion integrated by component is turned by
+//! 2·atan(ωh/4) instead of ωh/2 at half a step: a ball that rolls at 100 rad/s and 1 ms then seems to slip.
 
 use crate::mass::MassProperties;
-use crate::math::{Compensated, rotation};
-use nalgebra::Quaternion;
+use crate::math::{Compensated, inverse_body_rate, rotation};
 use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 
 /// Mass properties made ready for use in every stage.
@@ -31,8 +35,9 @@ impl Inertia {
 pub(crate) struct FreeState {
     pub position: Compensated,
     pub velocity: Compensated,
-    /// Need not have unit length within a step: its length is taken out where it is used.
-    pub orientation: Quaternion<f64>,
+    pub orientation: Quat,
+    /// θ: rotation vector since the start of the step, along the common axes, rad. Zero between steps.
+    pub turn: Vec3,
     pub momentum: Vec3,
 }
 
@@ -41,7 +46,8 @@ pub(crate) struct FreeState {
 pub(crate) struct Rates {
     pub velocity: Vec3,
     pub acceleration: Vec3,
-    pub orientation: Quaternion<f64>,
+    /// θ̇.
+    pub turn: Vec3,
     pub moment: Vec3,
 }
 
@@ -53,24 +59,20 @@ impl FreeState {
         Self {
             position: Compensated::new(pose.position).plus(&arm),
             velocity: Compensated::new(twist.linear).plus(&twist.angular.cross(&arm)),
-            orientation: pose.orientation.into_inner(),
+            orientation: pose.orientation,
+            turn: Vec3::zeros(),
             momentum: pose.orientation * (inertia.tensor * spin_b),
         }
     }
 
-    pub fn rotation(&self) -> Quat {
-        Quat::new_normalize(self.orientation)
-    }
-
     /// Angular velocity along the common axes.
     pub fn spin(&self, inertia: &Inertia) -> Vec3 {
-        let rotation = self.rotation();
-        rotation * (inertia.inverse * (rotation.inverse() * self.momentum))
+        self.orientation * (inertia.inverse * (self.orientation.inverse() * self.momentum))
     }
 
     /// Motion of the group frame.
     pub fn motion(&self, inertia: &Inertia) -> (Pose, Twist) {
-        let orientation = self.rotation();
+        let orientation = self.orientation;
         let arm = orientation * inertia.mass_center;
         let angular = self.spin(inertia);
         let position = self.position.plus(&-arm).value();
@@ -80,29 +82,31 @@ impl FreeState {
 
     /// Derivatives under a wrench about the group's origin along the common axes.
     pub fn rates(&self, inertia: &Inertia, wrench: &Wrench, gravity: &Vec3) -> Rates {
-        let arm = self.rotation() * inertia.mass_center;
-        let spin = Quaternion::from_imag(self.spin(inertia));
+        let arm = self.orientation * inertia.mass_center;
         Rates {
             velocity: self.velocity.value(),
             acceleration: wrench.force / inertia.mass + gravity,
-            orientation: spin * self.orientation * 0.5,
+            // Along fixed axes J is the transpose of that along the body's.
+            turn: inverse_body_rate(&self.turn).transpose() * self.spin(inertia),
             moment: wrench.moment - arm.cross(&wrench.force),
         }
     }
 
-    /// The state a time `h` along the rates; the quaternion keeps whatever length it gets.
+    /// From the start of a step, the state a time `h` along the rates.
     pub fn along(&self, rates: &Rates, h: f64) -> Self {
+        let turn = rates.turn * h;
         Self {
             position: self.position.plus(&(rates.velocity * h)),
             velocity: self.velocity.plus(&(rates.acceleration * h)),
-            orientation: self.orientation + rates.orientation * h,
+            orientation: rotation(&turn) * self.orientation,
+            turn,
             momentum: self.momentum + rates.moment * h,
         }
     }
 
-    /// The same state with a unit quaternion.
+    /// The same state as the start of the next step.
     pub fn normalized(&self) -> Self {
-        Self { orientation: self.orientation.normalize(), ..*self }
+        Self { orientation: unit(&self.orientation), turn: Vec3::zeros(), ..*self }
     }
 
     /// One step of semi-implicit Euler: momenta first, then the place with the new momenta.
@@ -110,19 +114,19 @@ impl FreeState {
         let velocity = self.velocity.plus(&(rates.acceleration * h));
         let momentum = self.momentum + rates.moment * h;
         let spin = Self { momentum, ..*self }.spin(inertia);
-        let turn = rotation(&(spin * h)).into_inner();
         Self {
             position: self.position.plus(&(velocity.value() * h)),
             velocity,
-            orientation: (turn * self.orientation).normalize(),
+            orientation: unit(&(rotation(&(spin * h)) * self.orientation)),
+            turn: Vec3::zeros(),
             momentum,
         }
     }
+}
 
-    pub fn is_finite(&self) -> bool {
-        let vectors = [self.position.value(), self.velocity.value(), self.momentum];
-        vectors.iter().flat_map(|v| v.iter()).chain(self.orientation.coords.iter()).all(|x| x.is_finite())
-    }
+/// Rounding lets the length of a product of unit quaternions drift.
+fn unit(orientation: &Quat) -> Quat {
+    Quat::new_normalize(orientation.into_inner())
 }
 
 impl Rates {
@@ -133,7 +137,7 @@ impl Rates {
         Self {
             velocity: mean(|r| r.velocity),
             acceleration: mean(|r| r.acceleration),
-            orientation: (a.orientation + (b.orientation + c.orientation) * 2.0 + d.orientation) / 6.0,
+            turn: mean(|r| r.turn),
             moment: mean(|r| r.moment),
         }
     }

@@ -5,8 +5,7 @@
 //! x' = x + h·(k₁ + 2k₂ + 2k₃ + k₄)/6
 //! ```
 //!
-//! Quaternions are integrated by component and made unit at the end of the step; within it their length is taken
-//! out only where a rotation is needed, which keeps the order.
+//! Orientations are integrated as rotation vectors since the start of the step (`state.rs`).
 
 use super::Stages;
 use crate::error::ExecutiveError;

@@ -1,0 +1,144 @@
+//! The executive: bodies, loads and an integrator around a sealed world.
+
+mod setup;
+mod view;
+
+use crate::energy::Powers;
+use crate::error::ExecutiveError;
+use crate::integrate::{Contact, Held, Integrator, Stages, euler, hold, runge_kutta};
+use crate::state::FreeState;
+use crate::system::System;
+use pong_engine::World;
+
+/// Something that looks at a running simulation.
+pub trait Observer {
+    /// Called with states, wrenches and contacts that belong to one instant.
+    ///
+    /// # Errors
+    /// An error ends the run.
+    fn observe(&mut self, simulation: &Simulation) -> Result<(), ExecutiveError>;
+}
+
+impl<F: FnMut(&Simulation)> Observer for F {
+    fn observe(&mut self, simulation: &Simulation) -> Result<(), ExecutiveError> {
+        self(simulation);
+        Ok(())
+    }
+}
+
+/// Bodies in motion under gravity, loads, springs and contact.
+pub struct Simulation {
+    system: System,
+    states: Vec<FreeState>,
+    integrator: Integrator,
+    step: f64,
+    /// Time is `epoch + steps·step`: no rounding piles up.
+    epoch: f64,
+    steps: u64,
+    /// Whether the world is evaluated and committed at the present states.
+    settled: bool,
+    stages: Stages,
+    held: Held,
+    powers: Powers,
+    spring_loss: f64,
+    work_in: f64,
+}
+
+impl Simulation {
+    /// A simulation without bodies, from t = 0 with a step (s).
+    pub fn new(world: World, integrator: Integrator, step: f64) -> Result<Self, ExecutiveError> {
+        check_step(step)?;
+        if let Integrator::ZeroOrderHold { substeps: 0, .. } = integrator {
+            let cure = "give at least one substep";
+            return Err(ExecutiveError::invalid(
+                "zero-order hold",
+                "0 substeps leave nothing to integrate",
+                cure,
+            ));
+        }
+        Ok(Self {
+            system: System::new(world),
+            states: Vec::new(),
+            integrator,
+            step,
+            epoch: 0.0,
+            steps: 0,
+            settled: false,
+            stages: Stages::default(),
+            held: Held::default(),
+            powers: Powers::default(),
+            spring_loss: 0.0,
+            work_in: 0.0,
+        })
+    }
+
+    /// Evaluates and commits the present states if that has not been done: after set-up, so that contacts and
+    /// wrenches can be read before the first step. [`step`](Self::step) does it by itself.
+    pub fn settle(&mut self) -> Result<(), ExecutiveError> {
+        if !self.settled {
+            self.system.place(self.time(), &self.states);
+            self.system.touch_and_commit(self.time())?;
+            self.powers = self.system.powers(self.time());
+            self.settled = true;
+        }
+        Ok(())
+    }
+
+    /// Advances by one step.
+    ///
+    /// # Errors
+    /// The engine's, or a state that is no longer finite.
+    pub fn step(&mut self) -> Result<(), ExecutiveError> {
+        self.settle()?;
+        let (time, h) = (self.time(), self.step);
+        let Self { system, states, stages, held, .. } = self;
+        match self.integrator {
+            Integrator::SemiImplicitEuler => euler(system, states, stages, time, h),
+            Integrator::RungeKutta4 => runge_kutta(system, states, stages, &Contact::Fresh, time, h)?,
+            Integrator::ZeroOrderHold { substeps, delay } => {
+                hold(system, states, (stages, held), (substeps, delay), time, h)?;
+            }
+        }
+        self.steps += 1;
+        let before = self.powers;
+        self.settled = false;
+        self.settle()?;
+        self.spring_loss += 0.5 * h * (before.spring_heat + self.powers.spring_heat);
+        self.work_in += 0.5 * h * (before.work_in + self.powers.work_in);
+        Ok(())
+    }
+
+    /// Advances by the whole number of steps nearest to a duration (s).
+    pub fn run_for(&mut self, duration: f64) -> Result<(), ExecutiveError> {
+        let steps = libm::round(duration / self.step).max(0.0) as u64;
+        for _ in 0..steps {
+            self.step()?;
+        }
+        Ok(())
+    }
+
+    /// Advances by a number of steps; the observer sees the first instant and every `every`-th after it.
+    pub fn observe(
+        &mut self,
+        steps: u64,
+        every: u64,
+        observer: &mut dyn Observer,
+    ) -> Result<(), ExecutiveError> {
+        self.settle()?;
+        observer.observe(self)?;
+        for done in 1..=steps {
+            self.step()?;
+            if done % every.max(1) == 0 {
+                observer.observe(self)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn check_step(step: f64) -> Result<(), ExecutiveError> {
+    if step > 0.0 && step.is_finite() {
+        return Ok(());
+    }
+    Err(ExecutiveError::invalid("step", format!("it is {step} s"), "give a finite time above zero"))
+}

@@ -1,0 +1,127 @@
+//! Bodies, loads, springs: set up, and changed between steps.
+
+use super::{Simulation, check_step};
+use crate::body::{BodyId, Motion, RigidBody};
+use crate::error::ExecutiveError;
+use crate::load::Load;
+use crate::spring::Spring;
+use crate::state::{FreeState, Inertia};
+use pong_geometry::{Pose, Twist, Vec3};
+
+impl Simulation {
+    /// Adds a body. All bodies with an Interface must be there before the first step.
+    pub fn add_body(&mut self, mut body: RigidBody) -> Result<BodyId, ExecutiveError> {
+        let what = format!("body `{}`", body.name);
+        if let Some(interface) = body.interface {
+            if self.system.bodies.iter().any(|other| other.interface == Some(interface)) {
+                let cure = "give each movable group one body";
+                return Err(ExecutiveError::invalid(what, "its Interface already has a body", cure));
+            }
+            self.system.world.interface_path(interface)?;
+        }
+        let mut inertia = None;
+        match &body.motion {
+            Motion::Free(mass) => {
+                mass.check(&body.name)?;
+                inertia = Inertia::new(mass);
+            }
+            Motion::Fixed => body.twist = Twist::zero(),
+            Motion::Prescribed(path) => (body.pose, body.twist) = path.at(self.time()),
+        }
+        if let Some(inertia) = &inertia {
+            self.states.push(FreeState::of_motion(inertia, &body.pose, &body.twist));
+        }
+        self.system.push(body, inertia);
+        self.settled = false;
+        Ok(BodyId(self.system.bodies.len() - 1))
+    }
+
+    /// Adds a load.
+    pub fn add_load(&mut self, load: Load) -> Result<(), ExecutiveError> {
+        self.check_body("load", load.body)?;
+        if let Some(cause) = load.history.fault() {
+            return Err(fault("load", &cause));
+        }
+        self.system.loads.push(load);
+        self.powers = self.system.powers(self.time());
+        Ok(())
+    }
+
+    /// Adds a spring.
+    pub fn add_spring(&mut self, spring: Spring) -> Result<(), ExecutiveError> {
+        for body in [spring.first.body, spring.second.body].into_iter().flatten() {
+            self.check_body("spring", body)?;
+        }
+        if let Some(cause) = spring.fault() {
+            return Err(fault("spring", &cause));
+        }
+        self.system.springs.push(spring);
+        self.powers = self.system.powers(self.time());
+        Ok(())
+    }
+
+    /// Removes all loads: a release.
+    pub fn clear_loads(&mut self) {
+        self.system.loads.clear();
+        self.powers = self.system.powers(self.time());
+    }
+
+    /// Removes all springs.
+    pub fn clear_springs(&mut self) {
+        self.system.springs.clear();
+        self.powers = self.system.powers(self.time());
+    }
+
+    /// Sets uniform gravity, m/s², along the common axes.
+    pub fn set_gravity(&mut self, gravity: Vec3) {
+        self.system.gravity = gravity;
+    }
+
+    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::forget`] if it should not.
+    pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
+        self.check_body("set_motion", body)?;
+        let index = body.index();
+        let name = &self.system.bodies[index].name;
+        match &self.system.bodies[index].motion {
+            Motion::Fixed => self.system.motions[index] = (pose, Twist::zero()),
+            Motion::Free(_) => {
+                let slot = self.system.free.iter().position(|(free, _)| *free == index);
+                let slot = slot.expect("every free body is listed");
+                self.states[slot] = FreeState::of_motion(&self.system.free[slot].1, &pose, &twist);
+                self.system.motions[index] = (pose, twist);
+            }
+            Motion::Prescribed(_) => {
+                let what = format!("body `{name}`");
+                return Err(ExecutiveError::invalid(
+                    what,
+                    "its motion is prescribed",
+                    "change its path instead",
+                ));
+            }
+        }
+        self.settled = false;
+        Ok(())
+    }
+
+    /// Changes the step, s.
+    pub fn set_step(&mut self, step: f64) -> Result<(), ExecutiveError> {
+        check_step(step)?;
+        (self.epoch, self.steps) = (self.time(), 0);
+        self.step = step;
+        Ok(())
+    }
+
+    fn check_body(&self, what: &str, body: BodyId) -> Result<(), ExecutiveError> {
+        if body.index() < self.system.bodies.len() {
+            return Ok(());
+        }
+        let cause = format!("there is no body {}", body.index());
+        Err(ExecutiveError::invalid(what, cause, "use an id that this simulation returned"))
+    }
+}
+
+/// An error from a line that holds cause and cure.
+fn fault(what: &str, line: &str) -> ExecutiveError {
+    let (cause, cure) = line.split_once("; ").unwrap_or((line, "correct it"));
+    ExecutiveError::invalid(what, cause, cure)
+}

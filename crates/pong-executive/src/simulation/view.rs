@@ -1,0 +1,81 @@
+//! What a simulation shows.
+
+use super::Simulation;
+use crate::body::{BodyId, RigidBody};
+use crate::energy::Energy;
+use crate::integrate::Integrator;
+use crate::state::FreeState;
+use pong_engine::World;
+use pong_geometry::{Pose, Twist, Vec3, Wrench};
+
+impl Simulation {
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.epoch + self.steps as f64 * self.step
+    }
+
+    /// The step, s.
+    pub fn step_length(&self) -> f64 {
+        self.step
+    }
+
+    /// The integrator.
+    pub fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
+    /// The world: contacts, wrenches and counts of the present instant.
+    pub fn world(&self) -> &World {
+        &self.system.world
+    }
+
+    /// The world, to forget, switch pairs or change surfaces between steps. The present states are evaluated and
+    /// committed again before the next step.
+    pub fn world_mut(&mut self) -> &mut World {
+        self.settled = false;
+        &mut self.system.world
+    }
+
+    /// All bodies in the order in which they were added.
+    pub fn bodies(&self) -> impl ExactSizeIterator<Item = (BodyId, &RigidBody)> {
+        self.system.bodies.iter().enumerate().map(|(index, body)| (BodyId(index), body))
+    }
+
+    /// Pose of a body's group frame.
+    pub fn pose(&self, body: BodyId) -> Pose {
+        self.system.motions[body.index()].0
+    }
+
+    /// Twist of a body's group frame.
+    pub fn twist(&self, body: BodyId) -> Twist {
+        self.system.motions[body.index()].1
+    }
+
+    /// Contact wrench on a body about its group's origin, along the common axes.
+    pub fn contact_wrench(&self, body: BodyId) -> Wrench {
+        self.system.contact[body.index()]
+    }
+
+    /// Mass centre of a free body and its velocity, in the common frame.
+    pub fn mass_center(&self, body: BodyId) -> Option<(Vec3, Vec3)> {
+        self.free_state(body).map(|state| (state.position.value(), state.velocity.value()))
+    }
+
+    /// Angular momentum of a free body about its mass centre, along the common axes.
+    pub fn angular_momentum(&self, body: BodyId) -> Option<Vec3> {
+        self.free_state(body).map(|state| state.momentum)
+    }
+
+    /// Energies of the present instant.
+    pub fn energy(&self) -> Energy {
+        let mut energy = self.system.energy(&self.states);
+        energy.spring_loss = self.spring_loss;
+        energy.work_in = self.work_in;
+        energy
+    }
+
+    fn free_state(&self, body: BodyId) -> Option<&FreeState> {
+        let slot = self.system.free.iter().position(|(index, _)| *index == body.index())?;
+        self.states.get(slot)
+    }
+}
