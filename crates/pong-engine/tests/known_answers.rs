@@ -1,0 +1,187 @@
+//! Single contacts with answers from the formulas of the physics contract, sections 2 to 4, worked out here by hand.
+
+mod common;
+
+use common::*;
+use pong_engine::State;
+use pong_geometry::{Quat, Vec3};
+
+/// Stiffness 3 : 1, so A yields a quarter of the depth.
+fn unequal(friction: &str) -> (String, String) {
+    let soft = surface(1e5, &format!("normal: Linear(damping: 160.0), {friction}"));
+    let hard = surface(3e5, &format!("normal: Linear(damping: 480.0), {friction}"));
+    (
+        model("tip", &hard, "Point(name: \"p\", position: (0.5,0,0))"),
+        model("floor", &soft, "Plane(name: \"f\", normal: (0,0,1), offset: 0.2)"),
+    )
+}
+
+#[test]
+fn the_force_acts_where_the_two_surfaces_meet() {
+    let (a, b) = unequal("friction: None");
+    let mut rig = Rig::new(&a, &b);
+    // Quarter turn about z: the tip is at (0, 0.5) from the group's origin; 4 mm deep.
+    let turn = Quat::from_axis_angle(&Vec3::z_axis(), std::f64::consts::FRAC_PI_2);
+    rig.place_a(Vec3::new(1.0, 2.0, 0.196), turn);
+    rig.world.step().unwrap();
+    let contact = rig.world.contacts()[0];
+    assert!((contact.depth - 4e-3).abs() < 1e-15);
+    assert!((contact.normal_force - 7.5e4 * 4e-3).abs() < 1e-9);
+    // c = a + n·s_A·δ with s_A = k_B/(k_A + k_B) = 1/4.
+    assert!((contact.point - Vec3::new(1.0, 2.5, 0.197)).norm() < 1e-15, "{:?}", contact.point);
+    let moment = rig.world.wrench(rig.interfaces[0]).unwrap().moment;
+    // In the group's own frame the arm is (0.5, 0, …) and the force points up: moment −0.5·F about y.
+    assert!((moment - Vec3::new(0.0, -150.0, 0.0)).norm() < 1e-9, "{moment:?}");
+}
+
+#[test]
+fn damping_opposes_the_approach_and_never_pulls() {
+    let (a, b) = unequal("friction: None");
+    // c = 480/16 + 160·9/16 N·s/m.
+    let damping = 120.0;
+    for (closing, spin) in [(0.5, 0.0), (-0.5, 0.0), (0.3, 1.0), (-9.0, 0.0)] {
+        let mut rig = Rig::new(&a, &b);
+        let position = Vec3::new(-0.5, 0.0, 0.196);
+        let velocity = Vec3::new(7.0, -3.0, 2.0 - closing);
+        // The floor moves as well, and turns about its own origin: at (0, 0) its surface only rises.
+        let tip = moving(position, Quat::identity(), velocity, Vec3::new(0.0, spin, 0.0));
+        let floor = moving(Vec3::zeros(), Quat::identity(), Vec3::new(7.0, -3.0, 2.0), Vec3::new(spin, 0.0, 0.0));
+        rig.place([tip, floor]);
+        rig.world.step().unwrap();
+        // A's point at c moves by ω × r = (0, spin, 0) × (0.5, 0, 0.001): −0.5·spin along z.
+        let rate = closing + 0.5 * spin;
+        let contact = rig.world.contacts()[0];
+        assert!((contact.rate - rate).abs() < 1e-12, "{} {rate}", contact.rate);
+        let expected = (300.0 + damping * rate).max(0.0);
+        assert!((contact.normal_force - expected).abs() < 1e-9, "{closing}: {}", contact.normal_force);
+    }
+}
+
+/// The whole life of a bristle under a point dragged along x, against the formulas of section 4.
+#[test]
+fn a_dragged_point_sticks_then_slips_then_sticks_again() {
+    let friction = "friction: Bristle(mu: 0.5, static_excess: 0.4, stiffness: 4e4, damping: 0.0)";
+    let (a, b) = unequal(friction);
+    let mut rig = Rig::new(&a, &b);
+    let (load, k_t) = (300.0, 2e4);
+    let (hold, drag) = (0.7 * load, 0.5 * load);
+    let mut pull = |x: f64, v: f64| {
+        let state = moving(Vec3::new(x, 0.0, 0.196), Quat::identity(), Vec3::new(v, 0.0, 0.0), Vec3::zeros());
+        rig.place([state, State::identity()]);
+        rig.world.step().unwrap();
+        let contact = rig.world.contacts()[0];
+        (contact.friction_force.x, contact.sticks)
+    };
+    assert_eq!(pull(0.0, 0.1), (0.0, true));
+    for x in [0.002, 0.006, 0.0104] {
+        let (force, sticks) = pull(x, 0.1);
+        assert!((force + k_t * x).abs() < 1e-9 && sticks, "{x}: {force}");
+    }
+    assert!(k_t * 0.0106 > hold);
+    for x in [0.0106, 0.02, 0.05] {
+        let (force, sticks) = pull(x, 0.1);
+        assert!((force + drag).abs() < 1e-9 && !sticks, "{x}: {force}");
+    }
+    // Turned back by 1 mm: sticks at once and unloads along its spring.
+    let (force, sticks) = pull(0.049, -0.1);
+    assert!((force + drag - k_t * 1e-3).abs() < 1e-9 && sticks, "{force}");
+    let (force, _) = pull(0.030, -0.1);
+    assert!(force > 0.0, "{force}");
+}
+
+#[test]
+fn friction_damping_is_cut_to_the_limit() {
+    let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4, damping: 400.0)";
+    let (a, b) = unequal(friction);
+    // c_t by squared shares of k_t: ¼ + ¼ of 400.
+    for (speed, expected) in [(0.1, -20.0), (0.5, -100.0), (5.0, -150.0)] {
+        let mut rig = Rig::new(&a, &b);
+        let state = moving(Vec3::new(0.0, 0.0, 0.196), Quat::identity(), Vec3::new(speed, 0.0, 0.0), Vec3::zeros());
+        rig.place([state, State::identity()]);
+        rig.world.step().unwrap();
+        let force = rig.world.contacts()[0].friction_force;
+        assert!((force - Vec3::new(expected, 0.0, 0.0)).norm() < 1e-9, "{speed}: {force:?}");
+    }
+}
+
+/// When the load falls the bristle shrinks at once: the force never exceeds what the present load allows.
+#[test]
+fn a_falling_load_shrinks_the_bristle() {
+    let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4)";
+    let (a, b) = unequal(friction);
+    let mut rig = Rig::new(&a, &b);
+    let mut at_depth = |x: f64, depth: f64| {
+        rig.place_a(Vec3::new(x, 0.0, 0.2 - depth), Quat::identity());
+        rig.world.step().unwrap();
+        rig.world.contacts()[0].friction_force.x
+    };
+    at_depth(0.0, 4e-3);
+    assert!((at_depth(0.005, 4e-3) + 100.0).abs() < 1e-9);
+    // μ·F = 0.5·75 N.
+    assert!((at_depth(0.005, 1e-3) + 37.5).abs() < 1e-9);
+    // And it does not come back with the load.
+    assert!((at_depth(0.005, 4e-3) + 37.5).abs() < 1e-9);
+}
+
+/// A ball that rolls straight stretches no bristle; one that spins in place feels no torque about the normal.
+#[test]
+fn rolling_and_drilling_are_free() {
+    let rough = surface(1e5, "friction: Bristle(mu: 0.8)");
+    let rigid = "\"s\": (stiffness: inf, friction: Bristle(mu: 0.8))";
+    let ball = model("ball", rigid, "Sphere(name: \"s\", center: (0,0,0), radius: 0.25)");
+    let floor = model("floor", &rough, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
+    let mut rolling = Rig::new(&ball, &floor);
+    let mut drilling = Rig::new(&ball, &floor);
+    // The ball's surface is rigid, so the contact is at its lowest point, 0.25 m below the centre.
+    let (rate, height) = (20.0, 0.249);
+    for step in 0..2000 {
+        let t = 1e-3 * f64::from(step);
+        let roll = Quat::from_axis_angle(&Vec3::y_axis(), rate * t);
+        let velocity = Vec3::new(0.25 * rate, 0.0, 0.0);
+        let state = moving(Vec3::new(0.25 * rate * t, 0.0, height), roll, velocity, Vec3::new(0.0, rate, 0.0));
+        rolling.place([state, State::identity()]);
+        let spin = Quat::from_axis_angle(&Vec3::z_axis(), rate * t);
+        let turning = Vec3::new(0.0, 0.0, rate);
+        drilling.place([moving(Vec3::new(0.0, 0.0, height), spin, Vec3::zeros(), turning), State::identity()]);
+        for rig in [&mut rolling, &mut drilling] {
+            rig.world.step().unwrap();
+            let wrench = rig.wrench(0);
+            assert!(wrench.force.xy().norm() < 1e-9 && wrench.moment.norm() < 1e-9, "step {step}: {wrench:?}");
+        }
+    }
+}
+
+/// A bristle survives the crossing from facet to facet of a faceted roller: the block on top keeps its hold.
+#[test]
+fn a_bristle_crosses_facets() {
+    let rough = surface(1e5, "friction: Bristle(mu: 0.5)");
+    let ball = model("ball", &rough, "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)");
+    // A gentle ridge of 5°: two facets that meet at x = 0.
+    let slope = 5.0_f64.to_radians().tan();
+    let ridge = format!(
+        "TriangleMesh(name: \"m\", vertices: [(-1,-1,{z}),(0,-1,0),(1,-1,{z}),(-1,1,{z}),(0,1,0),(1,1,{z})], \
+         triangles: [(0,1,4),(0,4,3),(1,2,5),(1,5,4)])",
+        z = -slope
+    );
+    let ridge = model("ridge", &rough, &ridge);
+    let mut rig = Rig::new(&ball, &ridge);
+    let mut hold = f64::NAN;
+    for step in 0..=40 {
+        // Dragged without rolling by 0.2 mm a step over the ridge, always 1 mm deep below the present facet.
+        let x = 2e-4 * f64::from(step - 20);
+        let angle = slope.atan();
+        let height = if x.abs() < 0.1 * angle.sin() { 0.099 } else { 0.0 };
+        assert!(height > 0.0);
+        rig.place_a(Vec3::new(x, 0.0, height), Quat::identity());
+        rig.world.step().unwrap();
+        let force: Vec3 = rig.world.contacts().iter().map(|c| c.friction_force).sum();
+        let normal: f64 = rig.world.contacts().iter().map(|c| c.normal_force).sum();
+        if step == 20 {
+            hold = force.norm();
+        }
+        if step > 20 {
+            assert!(force.norm() >= 0.98 * hold.min(0.5 * normal), "step {step}: {force:?}, held {hold}");
+        }
+    }
+    assert!(hold > 20.0);
+}
