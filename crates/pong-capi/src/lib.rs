@@ -14,7 +14,7 @@
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs` | frames |
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //!
-//! Every entry goes through [`guard`]: a message of its own, one call at a time, no panic into C. Pointers are
+//! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C. Pointers are
 //! touched in `pointers.rs` alone.
 //!
 //! # Safety of all entries
