@@ -29,6 +29,11 @@
 
 #![forbid(unsafe_code)]
 
+/// The example of the user's guide.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/users_guide.md")]
+struct UsersGuide;
+
 mod body;
 mod energy;
 mod error;
