@@ -320,12 +320,10 @@ static void print_durations(const char *what, durations *d)
 
 /* --- what is watched ------------------------------------------------------------------------------------------------ */
 
-enum { UNTOUCHED, RETRACTED, SNAPPED };
-
 typedef struct {
     int quiet;
-    double first_contact, aligned, snapped[LATCHES], soft_capture, rest, parted; /* times, s; negative: not yet */
-    int latch_phase[LATCHES];
+    double first_contact, aligned, soft_capture, rest, parted; /* times, s; negative: not yet */
+    int latch_holds[LATCHES];
     double rest_since;
     double most_force, most_moment, most_stroke;
     size_t most_contacts;
@@ -341,30 +339,26 @@ static void say(const history *h, double time, const char *what, const alignment
     }
 }
 
-/* Depth of the strikers' back faces behind the passive ring's face, and of a catch behind it that has just snapped
- * (models/idss_docking/build.py). */
+/* Depth of the strikers' back faces behind the passive ring's face, and distance of their inner edges there from the
+ * axis, m (models/idss_docking/build.py): where the sensor of a latch says that it holds. */
 #define STRIKER_BACK 0.075
+#define STRIKER_EDGE 0.528
 
 static void watch_latch(history *h, const docking *d, int i, double time, const alignment *a)
 {
     motion port = target_port(d), latch = latch_motion(d, i);
     vec3 tip = rotate_back(port.orientation, sub(latch.position, port.position));
-    double travel = d->latches[i].travel;
+    double radius = sqrt(tip.x * tip.x + tip.y * tip.y), travel = d->latches[i].travel;
     char text[32];
-    if (h->latch_phase[i] == UNTOUCHED && travel < -0.005) {
-        h->latch_phase[i] = RETRACTED;
-    }
-    if (h->latch_phase[i] == RETRACTED && travel > -0.001) {
-        h->latch_phase[i] = tip.z < -STRIKER_BACK ? SNAPPED : UNTOUCHED;
-        if (h->latch_phase[i] == SNAPPED) {
-            h->snapped[i] = time;
-            sprintf(text, "latch %d snapped", i);
+    if (h->latch_holds[i]) {
+        if (tip.z > -STRIKER_BACK + 0.010 || radius < STRIKER_EDGE) {
+            h->latch_holds[i] = 0;
+            sprintf(text, "latch %d LOST its striker", i);
             say(h, time, text, a);
         }
-    }
-    if (h->latch_phase[i] == SNAPPED && tip.z > -STRIKER_BACK + 0.010) {
-        h->latch_phase[i] = UNTOUCHED;
-        sprintf(text, "latch %d LOST its striker", i);
+    } else if (travel > -0.001 && tip.z < -STRIKER_BACK && radius > STRIKER_EDGE + 0.002) {
+        h->latch_holds[i] = 1;
+        sprintf(text, "latch %d snapped", i);
         say(h, time, text, a);
     }
 }
@@ -402,7 +396,7 @@ static void watch(history *h, docking *d, const contact_scene *scene, size_t con
     }
     for (i = 0; i < LATCHES; i++) {
         watch_latch(h, d, i, time, &a);
-        held = held && h->latch_phase[i] == SNAPPED;
+        held = held && h->latch_holds[i];
     }
     if (held && h->soft_capture < 0) {
         h->soft_capture = time;
@@ -463,7 +457,6 @@ static history fresh_history(const docking *d, int quiet)
     memset(&h, 0, sizeof h);
     h.quiet = quiet;
     h.first_contact = h.aligned = h.soft_capture = h.rest = h.parted = -1.0;
-    h.snapped[0] = h.snapped[1] = h.snapped[2] = -1.0;
     h.energy_at_start = h.energy_least = kinetic_energy(d) + spring_energy(d);
     return h;
 }

@@ -5,7 +5,7 @@
 void docking_defaults(docking *d)
 {
     static const docking zero;
-    attenuation capture = {2000.0, 1200.0, 300.0, 150.0, 300.0, 100.0};
+    attenuation capture = {2000.0, 800.0, 300.0, 150.0, 300.0, 100.0};
     attenuation settle = {5000.0, 9000.0, 2000.0, 3500.0, 4000.0, 40000.0};
     int i;
 
@@ -28,9 +28,9 @@ void docking_defaults(docking *d)
     d->settle_ramp = 2.0;
 
     d->latch_mass = 1.0;
-    d->latch_preload = 20.0;
-    d->latch_k = 500.0;
-    d->latch_c = 10.0;
+    d->latch_preload = 10.0;
+    d->latch_k = 300.0;
+    d->latch_c = 5.0;
     d->stop_k = 1e5;
     d->stop_c = 300.0;
     for (i = 0; i < LATCHES; i++) {

@@ -47,9 +47,9 @@ PLATE_OUTER_RADIUS = 0.656
 PLATE_RELIEF = 0.001  # by which the ring's own face lies below its plates
 
 STRIKER_RECESS = 0.003  # of a striker's slope behind the cone through the ring's rim
-STRIKER_FRONT = 0.055  # depth of its front edge and of its back face below the ring's face
+STRIKER_FRONT = 0.005  # depth of its front edge and of its back face below the ring's face
 STRIKER_BACK = 0.075
-STRIKER_HALF_WIDTH = 0.060
+STRIKER_HALF_WIDTH = 0.160
 
 LATCH_PLAY = 0.006  # between a latch's catch and the striker's back, mated
 LATCH_ENGAGEMENT = 0.014  # by which the catch reaches over the striker's back face
