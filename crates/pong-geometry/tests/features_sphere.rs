@@ -78,12 +78,13 @@ fn plates_have_no_gaps() {
 /// Directions in which a place of a convex surface may be left: mixtures of the normals there.
 fn outward_mix(set: &TriangleSet, place: &Vec3, random: &mut Random) -> Vec3 {
     let mut sum = Vec3::zeros();
-    let sharp = random.bits() % 3 == 0;
+    let sharp = random.bits().is_multiple_of(3);
     for t in 0..set.triangles.len() as u32 {
         let foot = oracle_support::nearest_on_triangle(place, &set.corners(t));
         if (foot - place).norm() < 1e-12 {
             // Sometimes one normal alone: exactly on the border of the cone.
-            let share = if sharp { f64::from(u8::from(random.bits() % 2 == 0)) } else { random.unit() };
+            let share =
+                if sharp { f64::from(u8::from(random.bits().is_multiple_of(2))) } else { random.unit() };
             sum += set.normal(t) * share;
         }
     }

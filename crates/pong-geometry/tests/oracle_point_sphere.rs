@@ -271,7 +271,7 @@ fn spheres_over_pieces_see_the_whole_box() {
     while touching < 10_000 {
         let mut center = Vec3::from_fn(|_, _| random.between(-1.6, 1.6));
         if touching % 3 == 0 {
-            let wall = if random.bits() % 2 == 0 { -0.31 } else { 0.42 };
+            let wall = if random.bits().is_multiple_of(2) { -0.31 } else { 0.42 };
             center.x = oracle_support::nudge(wall, (random.bits() % 5) as i64 - 2);
         }
         if whole.contains(&center) {

@@ -22,7 +22,7 @@ fn ray(origin: Vec3, direction: Vec3, length: f64, reach: Option<f64>) -> Ray {
 }
 
 fn random_ray(random: &mut Random) -> Ray {
-    let reach = (random.bits() % 2 == 0).then(|| random.between(0.0, 0.5));
+    let reach = (random.bits().is_multiple_of(2)).then(|| random.between(0.0, 0.5));
     ray(random.direction() * random.between(0.0, 2.0), random.direction(), random.between(0.1, 4.0), reach)
 }
 
@@ -158,7 +158,7 @@ fn polyhedra_against_their_polygons() {
         let shape = &shapes[(random.bits() % 2) as usize];
         let mut r = random_ray(&mut random);
         r.direction = (random.direction() * 0.7 - r.origin).normalize();
-        if random.bits() % 4 == 0 {
+        if random.bits().is_multiple_of(4) {
             r.direction = -r.direction;
         }
         let expected = polyhedron_hit(&r, shape);
