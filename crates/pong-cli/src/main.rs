@@ -7,6 +7,7 @@
 mod check;
 mod run;
 mod text;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -23,11 +24,13 @@ struct Cli {
 enum Command {
     Check(check::Arguments),
     Run(run::Arguments),
+    Verify(verify::Arguments),
 }
 
 fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Check(arguments) => check::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
+        Command::Verify(arguments) => verify::main(&arguments),
     }
 }

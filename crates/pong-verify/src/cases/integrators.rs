@@ -1,0 +1,53 @@
+//! W12: a sprung mass under each integrator.
+
+use crate::measure::order;
+use crate::scene::{Duo, G, point_mass};
+use crate::{Case, Failure, Outcome, Row};
+use pong_executive::{Integrator, Pose, RigidBody, Vec3};
+
+pub const W12: Case = Case {
+    id: "W12",
+    title: "Orders of the integrators",
+    set_up: "A point mass of 1 kg heaves undamped by half its static depth on 1e5 N/m; place after 5¼ periods \
+             against the closed form, at a step and at half of it.",
+    source: "z = z₀ + A·cos ωt; Runge-Kutta has order 4, semi-implicit Euler and a held wrench order 1",
+    rows,
+};
+
+const MASS: f64 = 1.0;
+const STIFFNESS: f64 = 1e5;
+const DEPTH: f64 = MASS * G / STIFFNESS;
+
+/// Error of the place, over the amplitude.
+fn error(integrator: Integrator, steps: u32) -> Result<f64, Failure> {
+    // Five periods and a quarter: there an error of phase shows in full.
+    let omega = (STIFFNESS / MASS).sqrt();
+    let duration = 10.5 * core::f64::consts::PI / omega;
+    let body = point_mass(MASS).at(Pose { position: Vec3::z() * (-0.5 * DEPTH), ..Pose::identity() });
+    let duo = Duo::new("point", "ground")?.mover(|s| s.stiffness = STIFFNESS)?;
+    let step = duration / f64::from(steps);
+    let mut run = duo.simulate((integrator, step), body, RigidBody::fixed("ground"))?.with_gravity();
+    for _ in 0..steps {
+        run.sim.step()?;
+    }
+    let expected = DEPTH * (0.5 * libm::cos(omega * duration) - 1.0);
+    Ok((run.position().z - expected) / (0.5 * DEPTH))
+}
+
+fn rows() -> Outcome {
+    let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+    let cases = [
+        ("Runge-Kutta", Integrator::RungeKutta4, 330, 4.0, 0.1),
+        ("semi-implicit Euler", Integrator::SemiImplicitEuler, 3162, 1.0, 0.1),
+        ("zero-order hold", hold, 31620, 1.0, 0.1),
+    ];
+    let mut rows = Vec::new();
+    for (name, integrator, steps, expected, tolerance) in cases {
+        let (coarse, fine) = (error(integrator, steps)?, error(integrator, 2 * steps)?);
+        let got = order(coarse, fine);
+        rows.push(
+            Row::absolute(format!("{name}: observed order"), "", expected, got, tolerance).with_order(got),
+        );
+    }
+    Ok(rows)
+}

@@ -1,0 +1,124 @@
+//! Periods, roots, observed orders, random numbers.
+
+use pong_executive::{Quat, Vec3};
+
+/// Times at which a signal comes up through zero, from samples of value and rate.
+#[derive(Debug, Default)]
+pub struct Crossings {
+    pub times: Vec<f64>,
+    last: Option<(f64, f64, f64)>,
+}
+
+impl Crossings {
+    /// Takes a sample.
+    pub fn push(&mut self, time: f64, value: f64, rate: f64) {
+        if let Some((t0, x0, v0)) = self.last
+            && x0 < 0.0
+            && value >= 0.0
+        {
+            let h = time - t0;
+            // The cubic through both samples and their rates.
+            let cubic = |u: f64| {
+                let w = 1.0 - u;
+                w * w * ((1.0 + 2.0 * u) * x0 + u * h * v0) + u * u * ((3.0 - 2.0 * u) * value - w * h * rate)
+            };
+            self.times.push(t0 + h * bisect(0.0, 1.0, |u| cubic(u) < 0.0));
+        }
+        self.last = Some((time, value, rate));
+    }
+
+    /// Mean time between crossings.
+    pub fn period(&self) -> f64 {
+        let (first, last) = (self.times.first(), self.times.last());
+        match (first, last) {
+            (Some(first), Some(last)) if self.times.len() > 1 => {
+                (last - first) / (self.times.len() - 1) as f64
+            }
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// The place between `low` and `high` up to which `below` holds.
+pub fn bisect(mut low: f64, mut high: f64, mut below: impl FnMut(f64) -> bool) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if below(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// Order of a method from its errors at a step and at half of it.
+pub fn order(coarse: f64, fine: f64) -> f64 {
+    libm::log2((coarse / fine).abs())
+}
+
+/// A deterministic source of numbers (splitmix64).
+pub struct Random(pub u64);
+
+impl Random {
+    /// 0…1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Components within ±size.
+    pub fn vector(&mut self, size: f64) -> Vec3 {
+        Vec3::from_fn(|_, _| self.between(-size, size))
+    }
+
+    /// A rotation by up to `angle` about each axis, rad.
+    pub fn rotation(&mut self, angle: f64) -> Quat {
+        rotation(self.vector(angle))
+    }
+}
+
+/// Rotation of a rotation vector (axis times angle), without the platform's sine.
+pub fn rotation(vector: Vec3) -> Quat {
+    let angle = vector.norm();
+    let half = 0.5 * angle;
+    let ratio = if angle > 0.0 { libm::sin(half) / angle } else { 0.5 };
+    let [x, y, z] = (vector * ratio).into();
+    pong_executive::Pose::new(Vec3::zeros(), [libm::cos(half), x, y, z]).orientation
+}
+
+/// Degrees to radians.
+pub fn radians(degrees: f64) -> f64 {
+    degrees * core::f64::consts::PI / 180.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn crossings_of_a_sine() {
+        let mut crossings = Crossings::default();
+        for i in 0..2000 {
+            let t = f64::from(i) * 0.01;
+            crossings.push(t, libm::sin(t), libm::cos(t));
+        }
+        assert_eq!(crossings.times.len(), 3);
+        assert!((crossings.period() - 2.0 * core::f64::consts::PI).abs() < 1e-10);
+    }
+
+    #[test]
+    fn order_of_a_fourth_order_method() {
+        assert_eq!(order(16.0, 1.0), 4.0);
+    }
+}

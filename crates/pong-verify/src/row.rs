@@ -1,0 +1,210 @@
+//! A quantity, the value that theory expects and the one that came out.
+
+/// How far the value may be off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    /// |got − expected| ≤ bound·|expected|.
+    Relative(f64),
+    /// |got − expected| ≤ bound, in the unit of the quantity.
+    Absolute(f64),
+    /// |got| ≤ bound: the quantity should vanish.
+    Below(f64),
+}
+
+/// One line of the report.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// What is compared.
+    pub quantity: String,
+    /// Value by the closed form.
+    pub expected: f64,
+    /// Value measured.
+    pub got: f64,
+    /// How far they may differ.
+    pub bound: Bound,
+    /// Unit of both.
+    pub unit: &'static str,
+    /// Order in the step, observed by halving it.
+    pub order: Option<f64>,
+}
+
+impl Row {
+    /// A value known to a relative tolerance.
+    pub fn relative(
+        quantity: impl Into<String>,
+        unit: &'static str,
+        expected: f64,
+        got: f64,
+        tolerance: f64,
+    ) -> Self {
+        Self::new(quantity.into(), unit, expected, got, Bound::Relative(tolerance))
+    }
+
+    /// A value known to an absolute tolerance.
+    pub fn absolute(
+        quantity: impl Into<String>,
+        unit: &'static str,
+        expected: f64,
+        got: f64,
+        tolerance: f64,
+    ) -> Self {
+        Self::new(quantity.into(), unit, expected, got, Bound::Absolute(tolerance))
+    }
+
+    /// A value that should vanish.
+    pub fn below(quantity: impl Into<String>, unit: &'static str, got: f64, bound: f64) -> Self {
+        Self::new(quantity.into(), unit, 0.0, got, Bound::Below(bound))
+    }
+
+    /// A whole number that must be met exactly.
+    pub fn count(quantity: impl Into<String>, expected: usize, got: usize) -> Self {
+        Self::new(quantity.into(), "", expected as f64, got as f64, Bound::Absolute(0.0))
+    }
+
+    fn new(quantity: String, unit: &'static str, expected: f64, got: f64, bound: Bound) -> Self {
+        Self { quantity, expected, got, bound, unit, order: None }
+    }
+
+    /// The same row with the order observed.
+    pub fn with_order(self, order: f64) -> Self {
+        Self { order: Some(order), ..self }
+    }
+
+    /// |got − expected|.
+    pub fn error(&self) -> f64 {
+        (self.got - self.expected).abs()
+    }
+
+    /// The largest error allowed, in the unit of the quantity.
+    pub fn allowed(&self) -> f64 {
+        match self.bound {
+            Bound::Relative(tolerance) => tolerance * self.expected.abs(),
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) => tolerance,
+        }
+    }
+
+    /// Whether the error is allowed; never for NaN.
+    pub fn passes(&self) -> bool {
+        self.error() <= self.allowed()
+    }
+
+    /// The expected value as text.
+    pub fn expected_text(&self) -> String {
+        match self.bound {
+            Bound::Below(_) => "0".to_owned(),
+            _ => self.value_text(self.expected),
+        }
+    }
+
+    /// The measured value as text.
+    pub fn got_text(&self) -> String {
+        match self.bound {
+            Bound::Below(bound) => small(self.got.abs(), bound),
+            _ => self.value_text(self.got),
+        }
+    }
+
+    /// The error as text, in the terms of the tolerance.
+    pub fn error_text(&self) -> String {
+        match self.bound {
+            Bound::Relative(tolerance) => small(self.error() / self.expected.abs(), tolerance),
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) => small(self.error(), tolerance),
+        }
+    }
+
+    /// The tolerance as text.
+    pub fn tolerance_text(&self) -> String {
+        match self.bound {
+            Bound::Relative(tolerance) => format!("{} rel.", short(tolerance)),
+            Bound::Absolute(0.0) => "exact".to_owned(),
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) => short(tolerance),
+        }
+    }
+
+    /// The order as text.
+    pub fn order_text(&self) -> String {
+        self.order.map_or(String::new(), |order| format!("{order:.1}"))
+    }
+
+    /// As many digits as the tolerance can tell apart, and one more.
+    fn value_text(&self, value: f64) -> String {
+        let allowed = self.allowed();
+        let scale = if self.expected == 0.0 { value.abs() } else { self.expected.abs() };
+        if allowed == 0.0 || scale == 0.0 || !value.is_finite() {
+            return format!("{}", value + 0.0);
+        }
+        // A hair less, lest rounding of a power of ten adds a digit.
+        let digits = (libm::ceil(libm::log10(scale / allowed) - 1e-6) as i64 + 1).clamp(4, 15) as usize;
+        significant(value, digits, self.expected)
+    }
+}
+
+/// A value with as many decimals as make so many significant digits of a like one.
+fn significant(value: f64, digits: usize, like: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let size = if like == 0.0 { value.abs() } else { like.abs() };
+    let exponent = libm::floor(libm::log10(size)) as i64;
+    if !(-4..7).contains(&exponent) {
+        return format!("{value:.*e}", digits - 1);
+    }
+    let decimals = (digits as i64 - 1 - exponent).max(0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// An error beside its tolerance. What is far below it is rounding noise, of which no digit is worth a change of
+/// the report.
+fn small(value: f64, tolerance: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if value < tolerance * 1e-3 {
+        return format!("< {}", short(tolerance * 1e-3));
+    }
+    if value >= 1e-2 { format!("{value:.2}") } else { format!("{value:.0e}") }
+}
+
+fn short(value: f64) -> String {
+    let plain = format!("{value:.3e}");
+    let (mantissa, exponent) = plain.split_once('e').unwrap_or((&plain, "0"));
+    let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
+    match exponent {
+        "0" => mantissa.to_owned(),
+        "-1" | "-2" | "1" | "2" => format!("{}", mantissa_times(mantissa, exponent)),
+        _ => format!("{mantissa}e{exponent}"),
+    }
+}
+
+fn mantissa_times(mantissa: &str, exponent: &str) -> f64 {
+    format!("{mantissa}e{exponent}").parse().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_follow_the_tolerance() {
+        let row = Row::relative("depth", "m", 9.81e-5, 9.81e-5 * (1.0 + 1e-13), 1e-9);
+        assert_eq!(row.expected_text(), "9.810000000e-5");
+        assert_eq!(row.got_text(), row.expected_text());
+        assert_eq!(row.error_text(), "< 1e-12");
+        assert!(row.passes());
+    }
+
+    #[test]
+    fn nothing_passes_with_nan() {
+        assert!(!Row::relative("x", "", 1.0, f64::NAN, 1.0).passes());
+        assert!(!Row::below("x", "", f64::NAN, 1.0).passes());
+        assert!(!Row::count("x", 3, 2).passes());
+    }
+
+    #[test]
+    fn tolerances_are_short() {
+        assert_eq!(short(1e-9), "1e-9");
+        assert_eq!(short(0.1), "0.1");
+        assert_eq!(short(0.015), "0.015");
+        assert_eq!(short(2.5e-4), "2.5e-4");
+    }
+}

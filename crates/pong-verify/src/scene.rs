@@ -1,0 +1,267 @@
+//! Model files → sealed world → simulation.
+
+use crate::Failure;
+use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World};
+use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Vec3};
+use pong_geometry::extension::Extensions;
+use pong_model::{FrictionLaw, NormalLaw, Surface};
+use std::sync::Arc;
+
+/// Standard gravity of all cases, m/s².
+pub const G: f64 = 9.81;
+
+/// The model files, as they stand in `models/verification`.
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        const FILES: &[(&str, &str)] = &[$((
+            $name,
+            include_str!(concat!("../../../models/verification/", $name, ".ron")),
+        )),*];
+    };
+}
+
+files![
+    "ball",
+    "ball_large_rough",
+    "ball_rough",
+    "bar",
+    "block_rough",
+    "box_points",
+    "ellipsoid",
+    "ellipsoid_rough",
+    "ground",
+    "ground_coulomb",
+    "ground_hertz",
+    "ground_hunt_crossley",
+    "ground_rough",
+    "hole",
+    "mesh_rough",
+    "peg",
+    "point",
+    "point_coulomb",
+    "point_hertz",
+    "point_hunt_crossley",
+    "point_rough",
+    "probe",
+    "ray_axial",
+    "ray_normal",
+    "ridge_rough",
+    "socket",
+    "target_polyhedron",
+    "target_triangle",
+    "tiles_rough",
+    "tripod",
+    "tripod_rough",
+    "trough_120",
+    "trough_60",
+    "trough_90",
+];
+
+/// A world being set up from files.
+pub struct Scene {
+    pub world: World,
+    models: Vec<(String, ModelId)>,
+}
+
+impl Scene {
+    pub fn new(ledger: bool) -> Self {
+        Self { world: World::new(Config { ledger, ..Config::default() }), models: Vec::new() }
+    }
+
+    /// An Object from a model file; a file used twice is loaded once.
+    pub fn add(&mut self, file: &str, name: &str) -> Result<ObjectId, Failure> {
+        let model = match self.models.iter().find(|(known, _)| known == file) {
+            Some((_, model)) => *model,
+            None => self.load(file)?,
+        };
+        Ok(self.world.create_object(model, name)?)
+    }
+
+    fn load(&mut self, file: &str) -> Result<ModelId, Failure> {
+        let found = FILES.iter().find(|(name, _)| *name == file);
+        let (_, text) = found.ok_or_else(|| format!("there is no model file `{file}`"))?;
+        let model = pong_model::parse(text, &format!("{file}.ron"), None, &Extensions::new())
+            .map_err(|errors| errors.to_string())?;
+        let id = self.world.add_model(Arc::new(model))?;
+        self.models.push((file.to_owned(), id));
+        Ok(id)
+    }
+
+    /// Changes the values of a file's only surface.
+    pub fn tune(&mut self, file: &str, change: impl FnOnce(&mut Surface)) -> Result<(), Failure> {
+        let found = self.models.iter().find(|(known, _)| known == file);
+        let (_, model) = found.ok_or_else(|| format!("`{file}` has not been loaded"))?;
+        let mut surface = self.world.surface(*model, "s")?.clone();
+        change(&mut surface);
+        Ok(self.world.set_surface(*model, &surface)?)
+    }
+
+    /// Pairs two Objects.
+    pub fn pair(&mut self, a: ObjectId, b: ObjectId) -> Result<(), Failure> {
+        self.world.pair(a, b)?;
+        Ok(())
+    }
+
+    /// The root's Interface of an Object.
+    pub fn root(&self, object: ObjectId) -> Result<InterfaceId, Failure> {
+        Ok(self.world.interface(object, "")?)
+    }
+
+    /// Ends set-up.
+    pub fn seal(mut self) -> Result<World, Failure> {
+        self.world.seal()?;
+        Ok(self.world)
+    }
+}
+
+/// A mass that will not turn: contact acts a little off its centre, where the surfaces have yielded, and would
+/// otherwise spin it up.
+pub fn point_mass(mass: f64) -> RigidBody {
+    RigidBody::free("mass", MassProperties::principal(mass, [1e9; 3]))
+}
+
+/// Two Objects, one of which usually stands still.
+pub struct Duo {
+    pub scene: Scene,
+    files: [String; 2],
+    objects: [ObjectId; 2],
+}
+
+impl Duo {
+    /// A mover and a ground.
+    pub fn new(mover: &str, ground: &str) -> Result<Self, Failure> {
+        Self::with_ledger(mover, ground, false)
+    }
+
+    /// As [`new`](Self::new), the world keeping energies if asked.
+    pub fn with_ledger(mover: &str, ground: &str, ledger: bool) -> Result<Self, Failure> {
+        let mut scene = Scene::new(ledger);
+        let objects = [scene.add(mover, "mover")?, scene.add(ground, "ground")?];
+        scene.pair(objects[0], objects[1])?;
+        Ok(Self { scene, files: [mover, ground].map(str::to_owned), objects })
+    }
+
+    /// Changes the mover's surface.
+    pub fn mover(mut self, change: impl FnOnce(&mut Surface)) -> Result<Self, Failure> {
+        self.scene.tune(&self.files[0], change)?;
+        Ok(self)
+    }
+
+    /// Changes the ground's surface.
+    pub fn ground(mut self, change: impl FnOnce(&mut Surface)) -> Result<Self, Failure> {
+        self.scene.tune(&self.files[1], change)?;
+        Ok(self)
+    }
+
+    /// The sealed world and both Interfaces.
+    pub fn world(self) -> Result<(World, [InterfaceId; 2]), Failure> {
+        let interfaces = [self.scene.root(self.objects[0])?, self.scene.root(self.objects[1])?];
+        Ok((self.scene.seal()?, interfaces))
+    }
+
+    /// A simulation of both bodies, which need not know their Interfaces.
+    pub fn simulate(
+        self,
+        (integrator, step): (Integrator, f64),
+        mover: RigidBody,
+        ground: RigidBody,
+    ) -> Result<Run, Failure> {
+        let (world, interfaces) = self.world()?;
+        let mut sim = Simulation::new(world, integrator, step)?;
+        let body = sim.add_body(mover.touching(interfaces[0]))?;
+        let ground = sim.add_body(ground.touching(interfaces[1]))?;
+        Ok(Run { sim, body, ground })
+    }
+}
+
+/// A simulation of a mover and a ground.
+pub struct Run {
+    pub sim: Simulation,
+    pub body: BodyId,
+    pub ground: BodyId,
+}
+
+impl Run {
+    /// Turns gravity on, straight down.
+    pub fn with_gravity(mut self) -> Self {
+        self.sim.set_gravity(Vec3::new(0.0, 0.0, -G));
+        self
+    }
+
+    pub fn position(&self) -> Vec3 {
+        self.sim.pose(self.body).position
+    }
+
+    pub fn velocity(&self) -> Vec3 {
+        self.sim.twist(self.body).linear
+    }
+
+    pub fn spin(&self) -> Vec3 {
+        self.sim.twist(self.body).angular
+    }
+
+    pub fn contacts(&self) -> Vec<Contact> {
+        self.sim.world().contacts()
+    }
+
+    /// The only contact.
+    pub fn contact(&self) -> Result<Contact, Failure> {
+        match self.contacts().as_slice() {
+            [one] => Ok(*one),
+            others => {
+                Err(format!("{} contacts at t = {} s instead of one", others.len(), self.sim.time()).into())
+            }
+        }
+    }
+}
+
+/// Sets the damping of the linear law, N·s/m.
+pub fn set_damping(surface: &mut Surface, value: f64) {
+    if let NormalLaw::Linear { damping, .. } = &mut surface.normal {
+        *damping = value;
+    }
+}
+
+/// Sets the depth over which the damping of the linear law sets in, m.
+pub fn set_ramp(surface: &mut Surface, value: f64) {
+    if let NormalLaw::Linear { ramp, .. } = &mut surface.normal {
+        *ramp = value;
+    }
+}
+
+/// Sets the dissipation of the Hunt-Crossley law, s/m.
+pub fn set_dissipation(surface: &mut Surface, value: f64) {
+    if let NormalLaw::HuntCrossley { dissipation, .. } = &mut surface.normal {
+        *dissipation = value;
+    }
+}
+
+/// Values of a bristle.
+#[derive(Clone, Copy, Debug)]
+pub struct Bristle {
+    /// μ_k.
+    pub mu: f64,
+    /// a.
+    pub excess: f64,
+    /// k_t, N/m.
+    pub stiffness: f64,
+    /// c_t, N·s/m.
+    pub damping: f64,
+}
+
+/// Sets the friction of a surface.
+pub fn set_bristle(surface: &mut Surface, bristle: &Bristle) {
+    surface.friction = FrictionLaw::Bristle {
+        mu: bristle.mu,
+        static_excess: bristle.excess,
+        stiffness: Some(bristle.stiffness),
+        damping: bristle.damping,
+    };
+}
+
+/// Sets the friction of both surfaces of a pair, so that the pair has these values: the ground's bristle is rigid.
+pub fn rub(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
+    let (mu, excess) = (bristle.mu, bristle.excess);
+    let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: 0.0 };
+    duo.mover(|s| set_bristle(s, bristle))?.ground(|s| s.friction = ground)
+}
