@@ -1,11 +1,12 @@
 //! What a Rust user can add: kinds of primitives, kinds of bounding volumes, and the tests of their pairs.
 
+use crate::Transform;
 use crate::bounding::{Bounded, CustomVolume, Volume};
 use crate::interference::Interference;
 use crate::primitive::{
-    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere, TriangleSet,
+    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere,
+    TriangleSet,
 };
-use crate::Transform;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -52,10 +52,7 @@ impl Pose {
 
     /// The same pose with its rotation as a matrix, for carrying many points.
     pub fn transform(&self) -> Transform {
-        Transform {
-            translation: self.position,
-            rotation: self.orientation.to_rotation_matrix().into_inner(),
-        }
+        Transform { translation: self.position, rotation: self.orientation.to_rotation_matrix().into_inner() }
     }
 }
 

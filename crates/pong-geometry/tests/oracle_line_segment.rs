@@ -1,6 +1,5 @@
-//! Line segments against planes and polyhedra, compared with the text of the physics contract (2.3) worked out
-//! by dense sampling, with the condition of docs/decisions/0001: a face takes part only if its crossings lie on the
-//! solid.
+//! Line segments against planes and polyhedra, compared with the rule as docs/decisions/0001 words it, worked out by
+//! sampling, winding numbers and least squares.
 //!
 //! Degenerate cases: a segment along a face's normal, along an edge, through a vertex, within an inner wall,
 //! touching from outside.
@@ -24,8 +23,6 @@ struct Measured {
     end: End,
     /// Whether an inner wall cuts it off.
     walled: bool,
-    /// How far the place is behind all faces that do not meet there (a tip: without limit).
-    behind_others: f64,
 }
 
 /// Winding of a polygon about a point, both seen along a normal.
@@ -52,117 +49,104 @@ impl Text<'_> {
         self.segment.ends[0] + (self.segment.ends[1] - self.segment.ends[0]) * t
     }
 
-    /// The stretch over a face: sampled, its ends sharpened by halving.
-    fn stretch(&self, face: usize) -> Option<[f64; 2]> {
-        const SAMPLES: usize = 160;
-        let corners = polygon(self.shape, face);
-        let over = |t: f64| encloses(&corners, &self.shape.faces[face].normal, &self.place(t));
-        let inside: Vec<usize> = (0..=SAMPLES).filter(|&i| over(i as f64 / SAMPLES as f64)).collect();
-        let (&first, &last) = (inside.first()?, inside.last()?);
-        let sharpen = |mut within: f64, mut beyond: f64| {
-            for _ in 0..60 {
+    fn depth(&self, t: f64) -> f64 {
+        let p = self.place(t);
+        self.shape.faces.iter().map(|f| f.offset - f.normal.dot(&p)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The stretch inside the solid: from its deepest place outwards by halving.
+    fn stretch(&self, deepest: f64) -> [f64; 2] {
+        [0.0, 1.0].map(|tip| {
+            if self.depth(tip) > 0.0 {
+                return tip;
+            }
+            let (mut within, mut beyond) = (deepest, tip);
+            for _ in 0..80 {
                 let middle = 0.5 * (within + beyond);
-                if over(middle) {
+                if self.depth(middle) > 0.0 {
                     within = middle;
                 } else {
                     beyond = middle;
                 }
             }
             within
-        };
-        let step = 1.0 / SAMPLES as f64;
-        let low = if first == 0 { 0.0 } else { sharpen(first as f64 * step, (first - 1) as f64 * step) };
-        let high = if last == SAMPLES { 1.0 } else { sharpen(last as f64 * step, (last + 1) as f64 * step) };
-        Some([low, high])
+        })
     }
 
-    fn end(&self, face: usize, t: f64) -> Measured {
-        let normal = self.shape.faces[face].normal;
-        let p = self.place(t);
-        if t == 0.0 || t == 1.0 {
+    /// What a face measures at the end `t` of the stretch, on the side of the tip `tip`; `None`: takes no part.
+    fn end(&self, face: usize, t: f64, tip: f64) -> Option<Measured> {
+        let faces = &self.shape.faces;
+        let normal = faces[face].normal;
+        let below = |p: Vec3| {
             let depth = normal.dot(&(polygon(self.shape, face)[0] - p));
-            let end = (depth > 0.0).then_some((depth, normal, p));
-            return Measured { end, walled: false, behind_others: f64::INFINITY };
+            Some(Measured { end: (depth > 0.0).then_some((depth, normal, p)), walled: false })
+        };
+        if t == tip {
+            return below(self.place(tip));
         }
-        // The edge of the polygon that is nearest to that place, seen along the normal.
-        let flat = |x: &Vec3| x - normal * normal.dot(x);
-        let corners = polygon(self.shape, face);
-        let gap = |k: usize| {
-            let (a, b) = (flat(&corners[k]), flat(&corners[(k + 1) % corners.len()]));
-            (oracle_support::nearest_on_segment(&flat(&p), &a, &b) - flat(&p)).norm()
-        };
-        let k = (0..corners.len()).min_by(|&a, &b| gap(a).total_cmp(&gap(b))).expect("edges");
-        let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
-        let across = |f: usize| {
-            f != face && polygon(self.shape, f).contains(&a) && polygon(self.shape, f).contains(&b)
-        };
-        let neighbor = (0..self.shape.faces.len()).find(|&f| across(f)).expect("closed");
-        let walled = !self.shape.faces[neighbor].active;
-        let behind_others = (0..self.shape.faces.len())
-            .filter(|&f| f != face && f != neighbor)
-            .map(|f| self.shape.faces[f].offset - self.shape.faces[f].normal.dot(&p))
-            .fold(f64::INFINITY, f64::min);
-        // Nearest points of the two lines by least squares.
-        let (s, e) = (self.segment.ends[1] - self.segment.ends[0], b - a);
+        let p = self.place(t);
+        let gap = |f: usize| (faces[f].offset - faces[f].normal.dot(&p)).abs();
+        let exit = (0..faces.len()).min_by(|&a, &b| gap(a).total_cmp(&gap(b))).expect("faces");
+        let walled = !faces[exit].active;
+        if exit == face {
+            return Some(Measured { end: None, walled });
+        }
+        if encloses(&polygon(self.shape, face), &normal, &self.place(tip)) {
+            return below(self.place(tip)).map(|measured| Measured { walled, ..measured });
+        }
+        // The line in which the two planes meet, and the nearest points of the two lines by least squares.
+        let e = normal.cross(&faces[exit].normal);
+        if e.norm() < 1e-9 {
+            return None;
+        }
+        let rows = nalgebra::Matrix3::from_rows(&[
+            normal.transpose(),
+            faces[exit].normal.transpose(),
+            e.transpose(),
+        ]);
+        let a = rows.lu().solve(&Vec3::new(faces[face].offset, faces[exit].offset, 0.0)).expect("a line");
+        let s = self.segment.ends[1] - self.segment.ends[0];
         let w = a - self.segment.ends[0];
         let (ss, se, ee) = (s.dot(&s), s.dot(&e), e.dot(&e));
         let (ws, we) = (w.dot(&s), w.dot(&e));
         let determinant = ss * ee - se * se;
         let (on_s, on_e) = ((ws * ee - we * se) / determinant, (ws * se - we * ss) / determinant);
-        let gap = (a + e * on_e) - (self.segment.ends[0] + s * on_s);
-        let unit = e.cross(&s).normalize();
-        let unit = if unit.dot(&normal) > 0.0 { unit } else { -unit };
-        let depth = gap.dot(&unit);
-        let end = (depth > 0.0).then_some((depth, unit, self.segment.ends[0] + s * on_s));
-        Measured { end, walled, behind_others }
+        let gap = (a + e * on_e) - self.place(on_s);
+        let end = (gap.norm() > 0.0).then(|| (gap.norm(), gap.normalize(), self.place(on_s)));
+        Some(Measured { end, walled })
     }
 
-    /// Whether some point of the segment is inside: the greatest of the least depths, by sections.
-    fn deepest_point(&self) -> f64 {
-        let depth = |t: f64| {
-            let p = self.place(t);
-            self.shape.faces.iter().map(|f| f.offset - f.normal.dot(&p)).fold(f64::INFINITY, f64::min)
-        };
+    /// The deepest place, by sections, and its depth.
+    fn deepest(&self) -> (f64, f64) {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..90 {
             let (a, b) = (low + (high - low) * 0.4, low + (high - low) * 0.6);
-            if depth(a) < depth(b) { low = a } else { high = b }
+            if self.depth(a) < self.depth(b) { low = a } else { high = b }
         }
-        depth(0.5 * (low + high)).max(depth(0.0)).max(depth(1.0))
+        let places = [0.5 * (low + high), 0.0, 1.0].map(|t| (t, self.depth(t)));
+        places.into_iter().max_by(|a, b| a.1.total_cmp(&b.1)).expect("places")
     }
 
     /// What the face of least energy carries, with all that tie, and how clear the choice is.
     fn answer(&self) -> (Vec<[End; 2]>, f64) {
-        let reach = self.deepest_point();
+        let (deepest, reach) = self.deepest();
         if reach <= 0.0 {
             return (vec![[None, None]], -reach);
         }
-        let mut found: Vec<(f64, [End; 2], bool)> = Vec::new();
-        let mut margin = reach;
+        let stretch = self.stretch(deepest);
+        let mut found: Vec<(f64, [End; 2])> = Vec::new();
         for face in (0..self.shape.faces.len()).filter(|&f| self.shape.faces[f].active) {
-            let Some(stretch) = self.stretch(face) else { continue };
-            let ends = stretch.map(|t| self.end(face, t));
-            let energy: f64 = ends.iter().filter_map(|e| e.end).map(|e| e.0 * e.0).sum();
+            let ends = [0, 1].map(|i| self.end(face, stretch[i], i as f64));
+            let [Some(first), Some(second)] = ends else { continue };
+            let energy: f64 = [first, second].iter().filter_map(|e| e.end).map(|e| e.0 * e.0).sum();
             if energy > 0.0 {
-                let touching = || ends.iter().filter(|e| e.end.is_some());
-                let on_solid = touching().all(|e| e.behind_others >= 0.0);
-                let carried = ends.map(|e| if e.walled { None } else { e.end });
-                found.push((energy, carried, on_solid));
-                margin = touching().map(|e| e.behind_others.abs()).fold(margin, f64::min);
+                found.push((energy, [first, second].map(|e| if e.walled { None } else { e.end })));
             }
         }
-        let least = |some: &dyn Fn(bool) -> bool| {
-            found.iter().filter(|f| some(f.2)).map(|f| f.0).fold(f64::INFINITY, f64::min)
-        };
-        let (on_solid, any) = (least(&|on_solid| on_solid), least(&|_| true));
-        margin = margin.min((on_solid - 4.0 * any).abs());
-        if on_solid <= 4.0 * any {
-            found.retain(|f| f.2);
-        }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let Some(least) = found.first().map(|f| f.0) else { return (vec![[None, None]], margin) };
+        let Some(least) = found.first().map(|f| f.0) else { return (vec![[None, None]], reach) };
         let (ties, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|f| f.0 - least < 1e-13);
-        margin = others.iter().map(|f| f.0 - least).fold(margin, f64::min);
+        let margin = others.iter().map(|f| f.0 - least).fold(reach, f64::min);
         (ties.into_iter().map(|f| f.1).collect(), margin)
     }
 }
@@ -206,7 +190,7 @@ fn planes_take_half_at_each_end() {
 }
 
 #[test]
-fn polyhedra_as_the_text_says() {
+fn polyhedra_as_the_rule_says() {
     let mut random = Random(502);
     let mut worst = Worst::new("segment–polyhedron: depth, normal and point × depth");
     let tetrahedron =

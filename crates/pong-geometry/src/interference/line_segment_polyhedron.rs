@@ -1,197 +1,166 @@
 //! Line segment (A) – polyhedron (B) (physics contract, 2.3).
 //!
-//! For each active face, the part of the segment over the face's polygon carries half a spring at each of its
-//! two ends. A *tip* of the segment measures its depth straight below the face. Where the segment's line leaves
-//! the polygon across an edge, the *crossing* measures the distance between the two lines. The face that stores
-//! the least energy pushes.
+//! The part of the segment inside the solid has two ends. For each active face f, each end carries half a spring:
 //!
-//! A face takes part only if its touching crossings lie on the solid: at a crossing of the edge between the faces f
-//! and g the segment must be behind every other face. Without this, the side face of a box would claim a bar that lies
-//! through the top from the moment the bar's far tip rises above the top's plane, with half the force, although
-//! the bar leaves the box through the opposite side: closed paths would gain energy there. With it the energies of
-//! the two faces are equal where the claim begins.
+//! * a *tip* of the segment, inside the solid or straight below the face, has its depth below f and pushes along
+//!   the face's normal;
+//! * where the segment leaves the solid through another face h, the *crossing* is the distance of the segment's line
+//!   below the line in which the planes of f and h meet, and pushes along the common normal of both lines;
+//! * where it leaves through f itself the end carries nothing.
 //!
-//! Degenerate cases: a segment along the face's normal has two tips; one along an edge of the outline belongs to
-//! the faces on both sides, of which the lower wins a tie; a segment that only touches has no contact.
+//! The face that stores the least energy pushes. Where f and h share an edge the crossing is that of the contract.
+//! The contract's rule asks instead where the segment leaves the *polygon* of f. On a box the two agree, but for a
+//! bar whose far tip has risen above the top: there the contract lets a side face claim it with half the force, and
+//! closed paths gain energy. Beside obtuse edges the contract's rule halves the force of a bar that lies flat; see
+//! docs/decisions/0001.
+//!
+//! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes meet nowhere and that
+//! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
 use super::{Feature, Interference};
 use crate::Vec3;
-use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
+use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace};
 
-/// The contact at each end of the part that carries: 0 towards the segment's first end, 1 towards its second.
+/// The contact at each end: 0 towards the segment's first end, 1 towards its second.
 pub type EndContacts = [Option<Interference>; 2];
+
+/// Energies this close are a tie. Of a segment that enters by f and leaves by h both claim the one crossing, and
+/// rounding must not decide which: the state key is the end.
+const TIE: f64 = 1.0 - 1e-12;
 
 /// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
-    if !pierces(segment, polyhedron) {
-        return [None, None];
-    }
-    let (mut on_solid, mut any) = (Claim::NONE, Claim::NONE);
+    let Some(inside) = inside_part(segment, polyhedron) else { return [None, None] };
+    let mut best = (f64::INFINITY, [None, None]);
     for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
-        if segment.ends.iter().all(|end| face.height(end) >= 0.0) {
-            continue;
-        }
-        let Some(part) = part_over_face(segment, polyhedron, index) else { continue };
-        let claim = claim(segment, polyhedron, index, &part);
-        any.yield_to(&claim);
-        if claim.energy < on_solid.energy && crossings_on_solid(segment, polyhedron, index, &part, &claim) {
-            on_solid.yield_to(&claim);
-        }
-    }
-    if on_solid.energy <= MOST_SPURNED * any.energy { on_solid.ends } else { any.ends }
-}
-
-/// A face whose crossings are not on the solid claims too little energy, but never less than half of the right one:
-/// of the right face's two ends it misses the shallower. Below this share its claim is good after all: the crossing
-/// has passed a corner of the solid, and the other faces measure the way through the solid.
-const MOST_SPURNED: f64 = 4.0;
-
-/// What a face would do with a segment.
-struct Claim {
-    /// In units of k/4.
-    energy: f64,
-    measured: EndContacts,
-    ends: EndContacts,
-}
-
-impl Claim {
-    const NONE: Self = Self { energy: f64::INFINITY, measured: [None, None], ends: [None, None] };
-
-    fn yield_to(&mut self, other: &Self) {
-        if other.energy > 0.0 && other.energy < self.energy {
-            *self = Self { ..*other };
+        let end = |end| measure(segment, polyhedron, index, face, &inside[end], end);
+        let Some(measured) = end(0).zip(end(1)) else { continue };
+        // An end at an inner wall counts here, though the piece behind the wall carries it: without it the face
+        // would not be found where its other end does not touch.
+        let energy = measured.0.depth() * measured.0.depth() + measured.1.depth() * measured.1.depth();
+        if energy > 0.0 && energy < best.0 * TIE {
+            let carried = |m: Measure, end: usize| {
+                m.interference().filter(|_| inside[end].leaves_by.is_none_or(|h| polyhedron.faces[h].active))
+            };
+            best = (energy, [carried(measured.0, 0), carried(measured.1, 1)]);
         }
     }
+    best.1
 }
 
-fn claim(segment: &LineSegment, polyhedron: &Polyhedron, index: usize, part: &[PartEnd; 2]) -> Claim {
-    let face = &polyhedron.faces[index];
-    let measured = [0, 1].map(|end| match part[end].cut_by {
-        None => tip_contact(&segment.ends[end], face, index),
-        Some(rim) => crossing_contact(segment, polyhedron, face, &rim),
-    });
-    // An end cut off by an inner wall counts here: it is the next piece's to carry, but without it the face would
-    // not be found where its other end does not touch.
-    let energy = measured.iter().flatten().map(|contact| contact.depth * contact.depth).sum();
-    let ends = [0, 1].map(|end| measured[end].filter(|_| carries(polyhedron, &part[end])));
-    Claim { energy, measured, ends }
+/// One end of the part of the segment inside the solid.
+#[derive(Clone, Copy)]
+struct InsideEnd {
+    /// Parameter along the segment, 0…1.
+    at: f64,
+    /// The face through which the segment leaves; `None` if its tip is inside.
+    leaves_by: Option<usize>,
 }
 
-/// Whether every crossing that touches lies on the solid.
-fn crossings_on_solid(
+/// Clips the segment to the solid; `None` if no point of it lies inside.
+fn inside_part(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
+    let mut ends = [0.0, 1.0].map(|at| InsideEnd { at, leaves_by: None });
+    for (index, face) in polyhedron.faces.iter().enumerate() {
+        let heights = segment.ends.map(|end| face.height(&end));
+        if heights[0] == heights[1] {
+            if heights[0] < 0.0 || (face.closed && heights[0] == 0.0) {
+                continue;
+            }
+            return None;
+        }
+        let at = heights[0] / (heights[0] - heights[1]);
+        let leaving = InsideEnd { at, leaves_by: Some(index) };
+        if heights[1] < heights[0] && at > ends[0].at {
+            ends[0] = leaving;
+        } else if heights[1] > heights[0] && at < ends[1].at {
+            ends[1] = leaving;
+        }
+        if heights[0] >= 0.0 && heights[1] >= 0.0 {
+            return None;
+        }
+    }
+    (ends[0].at < ends[1].at).then_some(ends)
+}
+
+/// What an end measures below a face.
+#[derive(Clone, Copy)]
+enum Measure {
+    Nothing,
+    Contact(Interference),
+}
+
+impl Measure {
+    fn of(contact: Interference) -> Self {
+        if contact.depth > 0.0 { Self::Contact(contact) } else { Self::Nothing }
+    }
+
+    fn depth(&self) -> f64 {
+        self.interference().map_or(0.0, |contact| contact.depth)
+    }
+
+    fn interference(&self) -> Option<Interference> {
+        match self {
+            Self::Nothing => None,
+            Self::Contact(contact) => Some(*contact),
+        }
+    }
+}
+
+/// Measures one end below one face; `None` if the face takes no part.
+fn measure(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
     index: usize,
-    part: &[PartEnd; 2],
-    claim: &Claim,
-) -> bool {
-    let touching = [0, 1].into_iter().filter(|&end| claim.measured[end].is_some());
-    touching.filter_map(|end| part[end].cut_by.map(|rim| (part[end].at, rim))).all(|(at, rim)| {
-        crosses_on_solid(segment, polyhedron, index, at, &rim)
-    })
-}
-
-/// An end cut off by an inactive face carries nothing: the piece behind that wall does.
-fn carries(polyhedron: &Polyhedron, end: &PartEnd) -> bool {
-    end.cut_by.is_none_or(|rim| polyhedron.faces[rim.neighbor as usize].active)
-}
-
-/// Whether some point of the segment lies inside.
-fn pierces(segment: &LineSegment, polyhedron: &Polyhedron) -> bool {
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    for face in &polyhedron.faces {
-        let heights = segment.ends.map(|end| face.height(&end));
-        if heights[0] == heights[1] {
-            let inside = heights[0] < 0.0 || (face.closed && heights[0] == 0.0);
-            if !inside {
-                return false;
-            }
-            continue;
+    face: &PolyhedronFace,
+    inside: &InsideEnd,
+    end: usize,
+) -> Option<Measure> {
+    let tip = &segment.ends[end];
+    match inside.leaves_by {
+        Some(leaves_by) if leaves_by == index => Some(Measure::Nothing),
+        Some(leaves_by) if !is_over_face(tip, polyhedron, index) => {
+            crossing(segment, polyhedron, index, leaves_by, inside.at).map(Measure::of)
         }
-        let crossing = heights[0] / (heights[0] - heights[1]);
-        if heights[1] < heights[0] {
-            enter = enter.max(crossing);
-        } else {
-            leave = leave.min(crossing);
-        }
-        if enter >= leave {
-            return false;
-        }
+        _ => Some(Measure::of(Interference {
+            depth: -face.height(tip),
+            normal: face.normal,
+            point_a: *tip,
+            feature: Feature::face(index),
+        })),
     }
-    true
 }
 
-/// Where the part of a segment over a face's polygon ends.
-#[derive(Clone, Copy)]
-struct PartEnd {
-    /// Parameter along the segment.
-    at: f64,
-    /// The edge it is cut by; `None` at a tip.
-    cut_by: Option<RimEdge>,
+/// Whether a point lies over (or under) a face's polygon, seen along the face's normal.
+fn is_over_face(p: &Vec3, polyhedron: &Polyhedron, index: usize) -> bool {
+    polyhedron.rim(index).iter().all(|rim| rim.outward.dot(&(p - rim.anchor)) <= 0.0)
 }
 
-/// Whether the segment, where it crosses an edge of a face, is behind all faces that do not meet at this edge.
-fn crosses_on_solid(segment: &LineSegment, polyhedron: &Polyhedron, index: usize, at: f64, rim: &RimEdge) -> bool {
-    let place = segment.ends[0] + (segment.ends[1] - segment.ends[0]) * at;
-    let others = polyhedron.faces.iter().enumerate().filter(|(i, _)| *i != index && *i != rim.neighbor as usize);
-    others.map(|(_, face)| face.height(&place)).all(|height| height <= 0.0)
-}
-
-/// Clips the segment to the prism of a face along its normal; `None` if nothing is left.
-fn part_over_face(segment: &LineSegment, polyhedron: &Polyhedron, index: usize) -> Option<[PartEnd; 2]> {
-    let mut part = [PartEnd { at: 0.0, cut_by: None }, PartEnd { at: 1.0, cut_by: None }];
-    for rim in polyhedron.rim(index) {
-        let beyond = segment.ends.map(|end| rim.outward.dot(&(end - rim.anchor)));
-        if beyond[0] <= 0.0 && beyond[1] <= 0.0 {
-            continue;
-        }
-        if beyond[0] > 0.0 && beyond[1] > 0.0 {
-            return None;
-        }
-        let at = beyond[0] / (beyond[0] - beyond[1]);
-        if beyond[0] > 0.0 && at >= part[0].at {
-            part[0] = PartEnd { at, cut_by: Some(*rim) };
-        } else if beyond[1] > 0.0 && at <= part[1].at {
-            part[1] = PartEnd { at, cut_by: Some(*rim) };
-        }
-    }
-    (part[0].at < part[1].at).then_some(part)
-}
-
-fn tip_contact(tip: &Vec3, face: &PolyhedronFace, index: usize) -> Option<Interference> {
-    let depth = -face.height(tip);
-    (depth > 0.0).then(|| Interference {
-        depth,
-        normal: face.normal,
-        point_a: *tip,
-        feature: Feature::face(index),
-    })
-}
-
-/// Distance of the segment's line below the edge's line, along the common normal of both.
-fn crossing_contact(
+/// Distance of the segment's line below the line in which two faces' planes meet, with the segment leaving through
+/// the second face at parameter `at`; `None` if the planes do not meet.
+///
+/// With s along the segment and q where it leaves, the common normal of the two lines is u ∝ n_f·(n_h·s) − n_h·(n_f·s);
+/// a point of the edge less q has no part along n_h, so the distance is the depth of q below f times (n_h·s)/|…|.
+fn crossing(
     segment: &LineSegment,
     polyhedron: &Polyhedron,
-    face: &PolyhedronFace,
-    rim: &RimEdge,
+    index: usize,
+    leaves_by: usize,
+    at: f64,
 ) -> Option<Interference> {
-    let edge = polyhedron.edges[rim.edge as usize].direction;
+    let (face, exit) = (&polyhedron.faces[index], &polyhedron.faces[leaves_by]);
     let along = segment.ends[1] - segment.ends[0];
-    let across = edge.cross(&along);
-    // |edge × along|² is the determinant of the two lines' closest-point problem; it cannot vanish where the
-    // segment crosses the edge's plane.
-    let square = across.norm_squared();
-    let normal = across.normalize() * across.dot(&face.normal).signum();
-    let to_anchor = rim.anchor - segment.ends[0];
-    let depth = normal.dot(&to_anchor);
-    if depth <= 0.0 || square == 0.0 {
+    let (slope, exit_slope) = (face.normal.dot(&along), exit.normal.dot(&along));
+    let across = (face.normal * exit_slope - exit.normal * slope) * exit_slope.signum();
+    let length = across.norm();
+    let leaving = segment.ends[0] + along * at;
+    let depth = -face.height(&leaving) * exit_slope.abs() / length;
+    if !depth.is_finite() {
         return None;
     }
-    let nearest = to_anchor.cross(&edge).dot(&along.cross(&edge)) / square;
-    Some(Interference {
-        depth,
-        normal,
-        point_a: segment.ends[0] + along * nearest,
-        feature: Feature::edge(rim.edge as usize),
-    })
+    let normal = (across / length).normalize();
+    // The nearest point lies where the edge's line, δ·u above it, is in the plane of the exit face.
+    let nearest = leaving - along * (depth * exit.normal.dot(&normal) / exit_slope);
+    let shared = polyhedron.rim(index).iter().find(|rim| rim.neighbor as usize == leaves_by);
+    let feature = shared.map_or(Feature::face(index), |rim| Feature::edge(rim.edge as usize));
+    Some(Interference { depth, normal, point_a: nearest, feature })
 }

@@ -81,7 +81,8 @@ pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> usize {
             let face = &polyhedron.faces[neighbor];
             let followed = face.normal.dot(&polyhedron.faces[reached].normal) > FOLLOWED_COSINE_MIN;
             let candidate = -face.height(p);
-            let better = candidate < depth || (candidate == depth && next.is_some_and(|best| neighbor < best));
+            let better =
+                candidate < depth || (candidate == depth && next.is_some_and(|best| neighbor < best));
             if face.active && followed && better {
                 depth = candidate;
                 next = Some(neighbor);
