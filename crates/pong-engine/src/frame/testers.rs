@@ -6,7 +6,6 @@ use super::dispatch::has_tester;
 use super::relative::Motion;
 use super::side_of_entry::{PolyhedronEntry, TriangleEntry};
 use crate::state::{ContactKey, ContactMemory};
-use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
@@ -19,41 +18,70 @@ use pong_geometry::interference::{
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
     sphere_triangle::sphere_triangle,
 };
-use pong_geometry::primitive::PrimitiveKind::{self, *};
-use pong_geometry::primitive::{Ray, Sphere};
+use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
+use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
+use pong_geometry::{Transform, Vec3};
 use pong_model::{Body, Item, PrimitiveInfo};
 
-/// Tests everything in one leaf against everything in another.
+/// Tests everything in one leaf against everything in another, in the orders that the table knows.
 pub(super) fn test_leaves(
     context: &PairContext<'_>,
     leaves: LeafItems<'_>,
     memory: &ContactMemory,
     found: &mut Found<'_>,
 ) {
-    for item_first in leaves[0] {
-        for item_second in leaves[1] {
-            test_items(context, [*item_first, *item_second], memory, found);
+    for flipped in [0, 1] {
+        for &item_a in leaves[flipped] {
+            let kind_a = kind_of(context.bodies[flipped], item_a);
+            let a = Carried::new(context.bodies[flipped], item_a, &context.motions[flipped].x_ba);
+            if a.is_none() && context.scene.extensions.has_no_contact_tests() {
+                continue;
+            }
+            for &item_b in leaves[1 - flipped] {
+                let kind_b = kind_of(context.bodies[1 - flipped], item_b);
+                // Of two primitives of one kind, A is that of the Object named first.
+                if kind_a == kind_b && (flipped == 0) != context.first_named_first {
+                    continue;
+                }
+                let side = Side { context, memory, flipped, item_a, item_b };
+                match &a {
+                    Some(a) if has_tester(kind_a, kind_b) => {
+                        found.report.primitives_tested += 1;
+                        side.test(a, kind_b, found);
+                    }
+                    _ if context.scene.extensions.has_no_contact_tests() => {}
+                    _ => side.test_custom(found),
+                }
+            }
         }
     }
 }
 
-/// Tests two elements in the orders that the table knows.
-fn test_items(context: &PairContext<'_>, items: [Item; 2], memory: &ContactMemory, found: &mut Found<'_>) {
-    let kinds = [0, 1].map(|i| context.bodies[i].primitives[items[i].primitive as usize].kind);
-    let one_kind = kinds[0] == kinds[1];
-    for flipped in [0, 1] {
-        // Of two primitives of one kind, A is that of the Object named first.
-        if one_kind && (flipped == 0) != context.first_named_first {
-            continue;
-        }
-        let (a, b) = (flipped, 1 - flipped);
-        let side = Side { context, memory, flipped, item_a: items[a], item_b: items[b] };
-        if has_tester(kinds[a], kinds[b]) {
-            found.report.primitives_tested += 1;
-            side.test(kinds[a], kinds[b], found);
-        } else if !context.scene.extensions.has_no_contact_tests() {
-            side.test_custom(found);
-        }
+fn kind_of(body: &Body, item: Item) -> PrimitiveKind {
+    body.primitives[item.primitive as usize].kind
+}
+
+/// A primitive that can be A, in B's frame: carried once for everything that it meets in a leaf.
+enum Carried {
+    Point(Point),
+    Segment(LineSegment),
+    Ray(Ray),
+    Sphere(Sphere),
+    Ellipsoid(Ellipsoid),
+}
+
+impl Carried {
+    /// `None` for kinds that are never A in the table.
+    fn new(body: &Body, item: Item, x_ba: &Transform) -> Option<Self> {
+        let i = item.element as usize;
+        Some(match kind_of(body, item) {
+            PrimitiveKind::Point => Self::Point(body.points[i].carried(x_ba)),
+            PrimitiveKind::LineSegment => Self::Segment(body.segments[i].carried(x_ba)),
+            PrimitiveKind::Ray => Self::Ray(body.rays[i].carried(x_ba)),
+            PrimitiveKind::Sphere => Self::Sphere(body.spheres[i].carried(x_ba)),
+            PrimitiveKind::Ellipsoid => Self::Ellipsoid(body.ellipsoids[i].carried(x_ba)),
+            Triangle | Polyhedron | Plane | Custom => return None,
+        })
     }
 }
 
@@ -83,39 +111,42 @@ impl<'a> Side<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    fn test(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind, found: &mut Found<'_>) {
-        match kind_a {
-            Point => self.test_point(kind_b, found),
-            LineSegment => self.test_segment(kind_b, found),
-            Ray => self.test_ray(kind_b, found),
-            Sphere => self.test_sphere(kind_b, found),
-            _ => self.test_ellipsoid(kind_b, found),
+    fn test(&self, a: &Carried, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+        match a {
+            Carried::Point(point) => self.test_point(point, kind_b, found),
+            Carried::Segment(segment) => self.test_segment(segment, kind_b, found),
+            Carried::Ray(ray) => self.test_ray(ray, kind_b, found),
+            Carried::Sphere(sphere) => self.test_sphere(sphere, kind_b, found),
+            Carried::Ellipsoid(ellipsoid) => self.test_ellipsoid(ellipsoid, kind_b, found),
         }
     }
 
-    fn test_point(&self, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_point(&self, point: &Point, kind_b: PrimitiveKind, found: &mut Found<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
-        let local = self.body_a().points[self.item_a.element as usize];
-        let point = local.carried(&self.motion().x_ba);
         match kind_b {
-            Plane => self.whole(point_plane(&point, &body.planes[b]), found),
-            Sphere => self.whole(point_sphere(&point, &body.spheres[b]), found),
-            Ellipsoid => self.whole(point_ellipsoid(&point.position, &body.ellipsoids[b]), found),
+            Plane => self.whole(point_plane(point, &body.planes[b]), found),
+            PrimitiveKind::Sphere => self.whole(point_sphere(point, &body.spheres[b]), found),
+            PrimitiveKind::Ellipsoid => {
+                self.whole(point_ellipsoid(&point.position, &body.ellipsoids[b]), found);
+            }
             _ => {
-                let Some(face) = self.entry_face(&local.position, &point.position) else { return };
                 let polyhedron = &body.polyhedra[b];
+                if !polyhedron.contains(&point.position) {
+                    return;
+                }
+                let local = self.body_a().points[self.item_a.element as usize].position;
+                let Some(face) = self.entry_face(&local, &point.position) else { return };
                 let contact = point_below_face(&point.position, polyhedron, face.pushes);
                 self.with_entry_face(contact, face.reached, found);
             }
         }
     }
 
-    fn test_segment(&self, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_segment(&self, segment: &LineSegment, kind_b: PrimitiveKind, found: &mut Found<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
-        let segment = self.body_a().segments[self.item_a.element as usize].carried(&self.motion().x_ba);
         let ends = match kind_b {
-            Plane => line_segment_plane(&segment, &body.planes[b]),
-            _ => line_segment_polyhedron(&segment, &body.polyhedra[b]),
+            Plane => line_segment_plane(segment, &body.planes[b]),
+            _ => line_segment_polyhedron(segment, &body.polyhedra[b]),
         };
         for (end, contact) in ends.iter().enumerate() {
             let Some(contact) = contact else { continue };
@@ -126,62 +157,65 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_ray(&self, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_ray(&self, ray: &Ray, kind_b: PrimitiveKind, found: &mut Found<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
-        let ray: Ray = self.body_a().rays[self.item_a.element as usize].carried(&self.motion().x_ba);
         let hit: Option<RayHit> = match kind_b {
-            Plane => ray_plane(&ray, &body.planes[b]),
-            Polyhedron => ray_polyhedron(&ray, &body.polyhedra[b]),
+            Plane => ray_plane(ray, &body.planes[b]),
+            Polyhedron => ray_polyhedron(ray, &body.polyhedra[b]),
             _ => {
                 let reach = ray.reach.or(self.info_b().thickness).unwrap_or(0.0);
-                ray_triangle(&ray, &body.triangles, self.item_b.element, reach)
+                ray_triangle(ray, &body.triangles, self.item_b.element, reach)
             }
         };
         if let Some(hit) = hit {
-            self.emit(&ray_contact(&ray, &hit), found, |out| out.ray_distance = Some(hit.distance));
+            self.emit(&ray_contact(ray, &hit), found, |out| out.ray_distance = Some(hit.distance));
         }
     }
 
-    fn test_sphere(&self, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_sphere(&self, sphere: &Sphere, kind_b: PrimitiveKind, found: &mut Found<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
-        let local = self.body_a().spheres[self.item_a.element as usize];
-        let sphere = local.carried(&self.motion().x_ba);
         match kind_b {
-            Plane => self.whole(sphere_plane(&sphere, &body.planes[b]), found),
-            Sphere => self.whole(sphere_sphere(&sphere, &body.spheres[b]), found),
-            Polyhedron => self.test_sphere_polyhedron(&local, &sphere, found),
+            Plane => self.whole(sphere_plane(sphere, &body.planes[b]), found),
+            PrimitiveKind::Sphere => self.whole(sphere_sphere(sphere, &body.spheres[b]), found),
+            Polyhedron => self.test_sphere_polyhedron(sphere, found),
             _ => {
+                let local = self.body_a().spheres[self.item_a.element as usize].center;
                 let thickness = self.info_b().thickness.unwrap_or(sphere.radius);
-                let mut emit = |contact| self.on_triangle(&local.center, &sphere.center, contact, found);
-                sphere_triangle(&sphere, &body.triangles, self.item_b.element, thickness, &mut emit);
+                let mut emit = |contact| self.on_triangle(&local, &sphere.center, contact, found);
+                sphere_triangle(sphere, &body.triangles, self.item_b.element, thickness, &mut emit);
             }
         }
     }
 
-    fn test_sphere_polyhedron(&self, local: &Sphere, sphere: &Sphere, found: &mut Found<'_>) {
+    fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Found<'_>) {
         let polyhedron = &self.body_b().polyhedra[self.item_b.element as usize];
-        if let Some(face) = self.entry_face(&local.center, &sphere.center) {
-            let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
-            self.emit(&contact, found, |out| {
-                out.shares = true;
-                out.entry_face = face.reached as u32;
-            });
-        } else if !polyhedron.contains(&sphere.center) {
-            self.sharing(sphere_outside_polyhedron(sphere, polyhedron), found);
+        // Most pairs end here: apart by the plane of one face.
+        if polyhedron.faces.iter().any(|face| face.height(&sphere.center) >= sphere.radius) {
+            return;
         }
+        if !polyhedron.contains(&sphere.center) {
+            self.sharing(sphere_outside_polyhedron(sphere, polyhedron), found);
+            return;
+        }
+        let local = self.body_a().spheres[self.item_a.element as usize].center;
+        let Some(face) = self.entry_face(&local, &sphere.center) else { return };
+        let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
+        self.emit(&contact, found, |out| {
+            out.shares = true;
+            out.entry_face = face.reached as u32;
+        });
     }
 
-    fn test_ellipsoid(&self, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_ellipsoid(&self, ellipsoid: &Ellipsoid, kind_b: PrimitiveKind, found: &mut Found<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
-        let local = self.body_a().ellipsoids[self.item_a.element as usize];
-        let ellipsoid = local.carried(&self.motion().x_ba);
         match kind_b {
-            Plane => self.whole(ellipsoid_plane(&ellipsoid, &body.planes[b]), found),
-            Polyhedron => self.sharing(ellipsoid_polyhedron(&ellipsoid, &body.polyhedra[b]), found),
+            Plane => self.whole(ellipsoid_plane(ellipsoid, &body.planes[b]), found),
+            Polyhedron => self.sharing(ellipsoid_polyhedron(ellipsoid, &body.polyhedra[b]), found),
             _ => {
+                let local = self.body_a().ellipsoids[self.item_a.element as usize].center;
                 let thickness = self.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis());
-                let mut emit = |contact| self.on_triangle(&local.center, &ellipsoid.center, contact, found);
-                ellipsoid_triangle(&ellipsoid, &body.triangles, self.item_b.element, thickness, &mut emit);
+                let mut emit = |contact| self.on_triangle(&local, &ellipsoid.center, contact, found);
+                ellipsoid_triangle(ellipsoid, &body.triangles, self.item_b.element, thickness, &mut emit);
             }
         }
     }
@@ -280,11 +314,11 @@ impl<'a> Side<'a> {
 fn element_ref(body: &Body, item: Item) -> PrimitiveRef<'_> {
     let i = item.element as usize;
     match body.primitives[item.primitive as usize].kind {
-        Point => PrimitiveRef::Point(&body.points[i]),
-        LineSegment => PrimitiveRef::LineSegment(&body.segments[i]),
-        Ray => PrimitiveRef::Ray(&body.rays[i]),
-        Sphere => PrimitiveRef::Sphere(&body.spheres[i]),
-        Ellipsoid => PrimitiveRef::Ellipsoid(&body.ellipsoids[i]),
+        PrimitiveKind::Point => PrimitiveRef::Point(&body.points[i]),
+        PrimitiveKind::LineSegment => PrimitiveRef::LineSegment(&body.segments[i]),
+        PrimitiveKind::Ray => PrimitiveRef::Ray(&body.rays[i]),
+        PrimitiveKind::Sphere => PrimitiveRef::Sphere(&body.spheres[i]),
+        PrimitiveKind::Ellipsoid => PrimitiveRef::Ellipsoid(&body.ellipsoids[i]),
         Triangle => PrimitiveRef::Triangle(&body.triangles, item.element),
         Polyhedron => PrimitiveRef::Polyhedron(&body.polyhedra[i]),
         Plane => PrimitiveRef::Plane(&body.planes[i]),
