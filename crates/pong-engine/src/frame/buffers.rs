@@ -3,6 +3,7 @@
 use super::relative::Motion;
 use crate::contact::FrameReport;
 use crate::sealed::Sealed;
+use crate::sharing::Sharer;
 use crate::state::{ContactKey, ContactMemory, Role};
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
@@ -22,6 +23,8 @@ pub(crate) struct Frame {
     pub stack: Vec<(u32, u32)>,
     // testers, then sharing and limit
     pub contacts: Vec<FrameContact>,
+    // sharing
+    pub sharers: Vec<Sharer>,
     // forces
     pub trial: ContactMemory,
     // reduce

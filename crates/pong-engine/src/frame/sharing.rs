@@ -21,10 +21,11 @@ pub(super) fn settle(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
         let key = frame.contacts[start].key;
         let count = frame.contacts[start..].partition_point(|contact| contact.key == key);
         let group = &mut frame.contacts[start..start + count];
-        if group[0].shares {
+        // A lone contact has nothing to share with: it keeps the weight 1.
+        if group[0].shares && count > 1 {
             let pair = &sealed.group_pairs[key.group_pair as usize];
             let body_b = if key.flipped == 0 { pair.second } else { pair.first };
-            settle_surface(group, &scene.body(body_b).triangles);
+            settle_surface(group, &scene.body(body_b).triangles, &mut frame.sharers);
         }
         start += count;
     }
@@ -55,14 +56,14 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, contacts: &mut [FrameCont
 }
 
 /// Contacts of one sphere or ellipsoid with one surface.
-fn settle_surface(group: &mut [FrameContact], triangles: &TriangleSet) {
+fn settle_surface(group: &mut [FrameContact], triangles: &TriangleSet, sharers: &mut Vec<Sharer>) {
     drop_deeper_of_convex_faces(group, triangles);
     drop_idle_spares(group);
     let counts = |contact: &FrameContact| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
-    let mut sharers: Vec<Sharer> =
-        group.iter().filter(|c| counts(c)).map(|c| Sharer::new(c.normal, c.depth)).collect();
-    share(&mut sharers);
-    for (contact, sharer) in group.iter_mut().filter(|c| counts(c)).zip(&sharers) {
+    sharers.clear();
+    sharers.extend(group.iter().filter(|c| counts(c)).map(|c| Sharer::new(c.normal, c.depth)));
+    share(sharers);
+    for (contact, sharer) in group.iter_mut().filter(|c| counts(c)).zip(&*sharers) {
         contact.weight = sharer.lambda / sharer.depth;
         if contact.weight > 0.0 {
             continue;
