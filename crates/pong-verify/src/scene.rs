@@ -41,6 +41,8 @@ files![
     "point_coulomb",
     "point_hertz",
     "point_hunt_crossley",
+    "point_hunt_crossley_restitution",
+    "point_restitution",
     "point_rough",
     "probe",
     "ray_axial",

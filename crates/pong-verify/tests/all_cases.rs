@@ -63,6 +63,9 @@ one_test_each! {
     w11_ledger => "W11",
     w12_orders => "W12",
     w13_longest_steps => "W13",
+    w14_turntable => "W14",
+    w15_side_of_entry => "W15",
+    w16_restitution => "W16",
 }
 
 /// `pong verify -o docs/verification.md` writes it anew.

@@ -4,6 +4,7 @@ mod balls;
 mod block;
 mod bounce;
 mod closed_path;
+mod entry;
 mod facets;
 mod frames;
 mod friction_circle;
@@ -25,6 +26,7 @@ mod support;
 mod tripod;
 mod trough;
 mod tumbling;
+mod turntable;
 mod two_spheres;
 
 use crate::Case;
@@ -65,6 +67,9 @@ pub fn cases() -> Vec<Case> {
         ledger::W11,
         integrators::W12,
         step_bounds::W13,
+        turntable::W14,
+        entry::W15,
+        bounce::W16,
     ]
 }
 
