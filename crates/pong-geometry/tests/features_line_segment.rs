@@ -369,3 +369,44 @@ fn energy_is_continuous_where_a_line_passes_an_obtuse_edge() {
     let (above, below) = (at(1e-6), at(-1e-6));
     assert!((above - below).abs() < 1e-5, "{above:e} above, {below:e} below");
 }
+
+/// A prism of six sides, a face on top at z = 0 from x = −0.5 to 0.5.
+fn hexagon() -> Polyhedron {
+    let corners: Vec<Vec3> = (0..6)
+        .flat_map(|i| {
+            let angle = std::f64::consts::PI / 3.0 * f64::from(i);
+            [-1.0, 1.0].map(|y| Vec3::new(angle.cos(), y, angle.sin() - 0.75_f64.sqrt()))
+        })
+        .collect();
+    hull(&corners)
+}
+
+/// Tilting through parallel on a face between obtuse edges: all of kδ at parallel, no step near it, whether the
+/// bar ends within the face, overhangs one edge or both, or digs into the neighbour's side.
+#[test]
+fn the_wrench_is_continuous_through_parallel_between_obtuse_edges() {
+    let shape = [hexagon()];
+    let depth = 1e-3;
+    let mut worst = Worst::new("tilt between obtuse edges: step beyond the slope, over the depth");
+    for (from, to) in [(-0.2, 0.3), (-0.4, 0.8), (-0.9, 0.3), (-1.5, 1.2), (-0.501, 0.4)] {
+        for yaw in [0.0, 0.2] {
+            let at = |tilt: f64| {
+                let along = (Vec3::new(f64::cos(yaw), f64::sin(yaw), 0.0) + Vec3::z() * tilt).normalize();
+                push(&bar(along * from - Vec3::z() * depth, along * to - Vec3::z() * depth), &shape)
+            };
+            let (flat, stored) = at(0.0);
+            assert!((flat.force - Vec3::z() * depth).norm() < 1e-15, "{from} {to}: {flat:?}");
+            assert!((stored - 0.5 * depth * depth).abs() < 1e-18);
+            let step = 1e-7;
+            let mut before = at(-5e-4);
+            for i in -4999..5000 {
+                let here = at(f64::from(i) * step);
+                let allowed = 10.0 * step;
+                worst.note((here.0.force - before.0.force).norm() - allowed, depth * 1e-9);
+                worst.note((here.0.moment - before.0.moment).norm() - allowed, depth * 1e-9);
+                worst.note((here.1 - before.1).abs() - allowed * depth, 0.0);
+                before = here;
+            }
+        }
+    }
+}

@@ -9,7 +9,7 @@ mod oracle_support;
 use common::{Random, cuboid, moved, stretched_hull};
 use oracle_support::{
     Worst, all_contacts, counting_contacts, fan_plate, moved_surface, nearest_on_polyhedron, nudge,
-    regular_plate, rounded_to_f32, shared_push, skin, surface,
+    regular_plate, rounded_to_f32, shared_push, skin, surface, wedges,
 };
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
@@ -245,34 +245,6 @@ fn cones_and_free_edges() {
     assert!(rim > 200 && front > rim + 200);
 }
 
-/// A body of two wedges with a slanted wall between them, turned at random and rebuilt from the turned corners.
-fn wedges(random: &mut Random) -> Vec<Polyhedron> {
-    let motion = random.motion(1.0);
-    let lean = random.between(-0.4, 0.4);
-    let corners = |left: [f64; 2], right: [f64; 2]| -> Vec<Vec3> {
-        [-0.8, 0.7]
-            .iter()
-            .flat_map(|&y| {
-                [(left[0], -0.5), (left[1], 0.4), (right[0], -0.5), (right[1], 0.4)].map(|(x, z)| (x, y, z))
-            })
-            .map(|(x, y, z)| motion.point(&Vec3::new(x, y, z)))
-            .collect()
-    };
-    let wall = motion.vector(&Vec3::new(0.9, 0.0, -lean)).normalize();
-    let through = motion.point(&Vec3::new(0.0, 0.0, -0.5));
-    let is_wall = |n: &Vec3, d: f64| n.dot(&wall).abs() > 1.0 - 1e-9 && (d - n.dot(&through)).abs() < 1e-9;
-    let mut pieces = vec![
-        common::hull_with_walls(&corners([-1.0, -1.0], [0.0, lean]), &is_wall),
-        common::hull_with_walls(&corners([0.0, lean], [1.0, 1.0]), &is_wall),
-    ];
-    for piece in &pieces {
-        assert_eq!(piece.faces.iter().filter(|f| !f.active).count(), 1);
-    }
-    oracle_support::close_lower_walls(&mut pieces);
-    oracle_support::join_pieces(&mut pieces);
-    pieces
-}
-
 /// Over the line where two pieces abut something always pushes, along the common normal.
 #[test]
 fn abutting_pieces_have_no_gaps() {
@@ -280,17 +252,7 @@ fn abutting_pieces_have_no_gaps() {
     let mut worst = Worst::new("over the seam of two pieces: depth, normal");
     for _ in 0..300 {
         let pieces = wedges(&mut random);
-        let seams: Vec<(Vec3, Vec3, Vec3)> = (0..pieces[0].faces.len())
-            .filter(|&f| pieces[0].faces[f].active)
-            .flat_map(|f| {
-                let rims = pieces[0].rim(f).iter().filter(|r| !pieces[0].faces[r.neighbor as usize].active);
-                let ends = |r: &pong_geometry::primitive::RimEdge| {
-                    pieces[0].edges[r.edge as usize].vertices.map(|v| pieces[0].vertices[v as usize].position)
-                };
-                let normal = pieces[0].faces[f].normal;
-                rims.map(|r| (ends(r)[0], ends(r)[1], normal)).collect::<Vec<_>>()
-            })
-            .collect();
+        let seams = oracle_support::seams(&pieces);
         assert_eq!(seams.len(), 4);
         for _ in 0..100 {
             let (a, b, normal) = seams[(random.bits() % 4) as usize];

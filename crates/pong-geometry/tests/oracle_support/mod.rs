@@ -405,6 +405,52 @@ pub fn close_lower_walls(pieces: &mut [Polyhedron]) {
     }
 }
 
+/// A body of two wedges with a slanted wall between them, turned at random and rebuilt from the turned corners.
+pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
+    let motion = random.motion(1.0);
+    let lean = random.between(-0.4, 0.4);
+    let corners = |left: [f64; 2], right: [f64; 2]| -> Vec<Vec3> {
+        [-0.8, 0.7]
+            .iter()
+            .flat_map(|&y| {
+                [(left[0], -0.5), (left[1], 0.4), (right[0], -0.5), (right[1], 0.4)].map(|(x, z)| (x, y, z))
+            })
+            .map(|(x, y, z)| motion.point(&Vec3::new(x, y, z)))
+            .collect()
+    };
+    let wall = motion.vector(&Vec3::new(0.9, 0.0, -lean)).normalize();
+    let through = motion.point(&Vec3::new(0.0, 0.0, -0.5));
+    let is_wall = |n: &Vec3, d: f64| n.dot(&wall).abs() > 1.0 - 1e-9 && (d - n.dot(&through)).abs() < 1e-9;
+    let mut pieces = vec![
+        crate::common::hull_with_walls(&corners([-1.0, -1.0], [0.0, lean]), &is_wall),
+        crate::common::hull_with_walls(&corners([0.0, lean], [1.0, 1.0]), &is_wall),
+    ];
+    for piece in &pieces {
+        assert_eq!(piece.faces.iter().filter(|f| !f.active).count(), 1);
+    }
+    // The loader makes twin walls exact opposites.
+    let wall = pieces[0].faces.iter().find(|f| !f.active).map(|f| (f.normal, f.offset)).expect("wall");
+    for face in pieces[1].faces.iter_mut().filter(|f| !f.active) {
+        (face.normal, face.offset) = (-wall.0, -wall.1);
+    }
+    close_lower_walls(&mut pieces);
+    join_pieces(&mut pieces);
+    pieces
+}
+
+/// Where the outlines of two pieces abut: both ends and the outward normal of the active face there.
+pub fn seams(pieces: &[Polyhedron]) -> Vec<(Vec3, Vec3, Vec3)> {
+    let piece = &pieces[0];
+    let mut seams = Vec::new();
+    for (index, face) in piece.faces.iter().enumerate().filter(|(_, f)| f.active) {
+        for rim in piece.rim(index).iter().filter(|r| !piece.faces[r.neighbor as usize].active) {
+            let ends = piece.edges[rim.edge as usize].vertices.map(|v| piece.vertices[v as usize].position);
+            seams.push((ends[0], ends[1], face.normal));
+        }
+    }
+    seams
+}
+
 /// The next representable number up (`ulps` > 0) or down.
 pub fn nudge(x: f64, ulps: i64) -> f64 {
     let mut x = x;
