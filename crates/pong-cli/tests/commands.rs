@@ -67,6 +67,12 @@ fn run_sums_up_and_ends_with_zero() {
         "Time per step: median ",
     ];
     assert_holds(&out, &parts);
+    // From rest to rest the ground has given back what gravity put in: m·g·t upwards, and the ground felt the opposite.
+    for (body, expected) in [("ball", 4.905), ("ground", -4.905)] {
+        let row = out.lines().rfind(|line| line.split_whitespace().next() == Some(body)).unwrap();
+        let impulse: f64 = row.split_whitespace().last().unwrap().parse().unwrap();
+        assert!((impulse / expected - 1.0).abs() < 2e-3, "{row}");
+    }
 }
 
 #[test]
