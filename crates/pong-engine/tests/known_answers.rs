@@ -45,7 +45,8 @@ fn damping_opposes_the_approach_and_never_pulls() {
         let velocity = Vec3::new(7.0, -3.0, 2.0 - closing);
         // The floor moves as well, and turns about its own origin: at (0, 0) its surface only rises.
         let tip = moving(position, Quat::identity(), velocity, Vec3::new(0.0, spin, 0.0));
-        let floor = moving(Vec3::zeros(), Quat::identity(), Vec3::new(7.0, -3.0, 2.0), Vec3::new(spin, 0.0, 0.0));
+        let floor =
+            moving(Vec3::zeros(), Quat::identity(), Vec3::new(7.0, -3.0, 2.0), Vec3::new(spin, 0.0, 0.0));
         rig.place([tip, floor]);
         rig.world.step().unwrap();
         // A's point at c moves by ω × r = (0, spin, 0) × (0.5, 0, 0.001): −0.5·spin along z.
@@ -96,7 +97,8 @@ fn friction_damping_is_cut_to_the_limit() {
     // c_t by squared shares of k_t: ¼ + ¼ of 400.
     for (speed, expected) in [(0.1, -20.0), (0.5, -100.0), (5.0, -150.0)] {
         let mut rig = Rig::new(&a, &b);
-        let state = moving(Vec3::new(0.0, 0.0, 0.196), Quat::identity(), Vec3::new(speed, 0.0, 0.0), Vec3::zeros());
+        let state =
+            moving(Vec3::new(0.0, 0.0, 0.196), Quat::identity(), Vec3::new(speed, 0.0, 0.0), Vec3::zeros());
         rig.place([state, State::identity()]);
         rig.world.step().unwrap();
         let force = rig.world.contacts()[0].friction_force;
@@ -138,15 +140,20 @@ fn rolling_and_drilling_are_free() {
         let t = 1e-3 * f64::from(step);
         let roll = Quat::from_axis_angle(&Vec3::y_axis(), rate * t);
         let velocity = Vec3::new(0.25 * rate, 0.0, 0.0);
-        let state = moving(Vec3::new(0.25 * rate * t, 0.0, height), roll, velocity, Vec3::new(0.0, rate, 0.0));
+        let state =
+            moving(Vec3::new(0.25 * rate * t, 0.0, height), roll, velocity, Vec3::new(0.0, rate, 0.0));
         rolling.place([state, State::identity()]);
         let spin = Quat::from_axis_angle(&Vec3::z_axis(), rate * t);
         let turning = Vec3::new(0.0, 0.0, rate);
-        drilling.place([moving(Vec3::new(0.0, 0.0, height), spin, Vec3::zeros(), turning), State::identity()]);
+        drilling
+            .place([moving(Vec3::new(0.0, 0.0, height), spin, Vec3::zeros(), turning), State::identity()]);
         for rig in [&mut rolling, &mut drilling] {
             rig.world.step().unwrap();
             let wrench = rig.wrench(0);
-            assert!(wrench.force.xy().norm() < 1e-9 && wrench.moment.norm() < 1e-9, "step {step}: {wrench:?}");
+            assert!(
+                wrench.force.xy().norm() < 1e-9 && wrench.moment.norm() < 1e-9,
+                "step {step}: {wrench:?}"
+            );
         }
     }
 }

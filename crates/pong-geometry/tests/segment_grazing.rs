@@ -21,7 +21,8 @@ fn petal() -> Polyhedron {
 fn separation(segment: &LineSegment, shape: &Polyhedron) -> (f64, Vec3) {
     let along = segment.ends[1] - segment.ends[0];
     let across = shape.edges.iter().map(|edge| edge.direction.cross(&along)).filter(|n| n.norm() > 1e-9);
-    let directions = across.flat_map(|n| [n.normalize(), -n.normalize()]).chain(shape.faces.iter().map(|f| f.normal));
+    let directions =
+        across.flat_map(|n| [n.normalize(), -n.normalize()]).chain(shape.faces.iter().map(|f| f.normal));
     let gap = |n: &Vec3| {
         let nearest = segment.ends.iter().map(|end| n.dot(end)).fold(f64::INFINITY, f64::min);
         nearest - shape.vertices.iter().map(|v| n.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
@@ -45,7 +46,11 @@ fn a_graze_is_never_pushed_through_the_whole_solid() {
                 continue;
             }
             seen += 1;
-            let deepest = line_segment_polyhedron(&segment, &shape).iter().flatten().map(|c| c.depth).fold(0.0, f64::max);
+            let deepest = line_segment_polyhedron(&segment, &shape)
+                .iter()
+                .flatten()
+                .map(|c| c.depth)
+                .fold(0.0, f64::max);
             assert!(deepest > 0.0 && deepest < 20.0 * graze, "{:?}: pushed {deepest} m", segment.ends);
         }
     }

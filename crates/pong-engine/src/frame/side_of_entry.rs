@@ -63,7 +63,8 @@ impl PolyhedronEntry<'_> {
     fn remembered(&self, key: &ContactKey) -> Option<usize> {
         let (_, records) = self.memory.under(key);
         let with_face = || records.iter().filter(|record| record.entry_face != NO_FACE);
-        let record = with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
+        let record =
+            with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
         let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
         let old = faces.get(record.entry_face as usize)?;
         if record.element_b == self.piece {

@@ -278,7 +278,7 @@ mod tests {
     #[test]
     fn many_pieces_of_one_plate_push_like_one_plane() {
         let n = Vec3::new(0.2, -0.3, 0.9);
-        let (lambda, t) = solved(&vec![(n, 1e-3); 6]);
+        let (lambda, t) = solved(&[(n, 1e-3); 6]);
         assert!((t - n.normalize() * 1e-3).norm() < 1e-17);
         assert!(lambda.iter().all(|l| (l - 1e-3 / 6.0).abs() < 1e-17), "{lambda:?}");
     }

@@ -6,7 +6,7 @@ use crate::primitive::{Plane, Point};
 /// Depth of a point below a plane.
 pub fn point_plane(point: &Point, plane: &Plane) -> Option<Interference> {
     let depth = -plane.height(&point.position);
-    (depth > 0.0).then(|| Interference {
+    (depth > 0.0).then_some(Interference {
         depth,
         normal: plane.normal,
         point_a: point.position,
