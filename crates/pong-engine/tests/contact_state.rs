@@ -119,6 +119,43 @@ fn a_restored_block_continues_bit_for_bit() {
     assert_eq!(saved(&original.world), saved(&fresh.world));
 }
 
+/// Where a child process finds the block it continues from.
+const BLOCK_FILE: &str = "PONG_TEST_BLOCK";
+
+fn steps(rig: &mut Rig, range: std::ops::Range<u32>) -> Vec<Vec<u64>> {
+    range
+        .map(|step| {
+            rig.place([path(f64::from(step) * 1e-3), State::identity()]);
+            rig.world.step().unwrap();
+            bits(rig)
+        })
+        .collect()
+}
+
+/// The test runs itself once more: the child restores the block from a file and prints the bits of every wrench.
+#[test]
+fn a_block_continues_in_a_new_process() {
+    let mut rig = rig();
+    if let Ok(file) = std::env::var(BLOCK_FILE) {
+        rig.world.restore_state(&std::fs::read(file).unwrap()).unwrap();
+        println!("bits {:?}", steps(&mut rig, 120..200));
+        return;
+    }
+    steps(&mut rig, 0..120);
+    let file = std::env::temp_dir().join(format!("pong_block_{}", std::process::id()));
+    std::fs::write(&file, saved(&rig.world)).unwrap();
+    let child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "a_block_continues_in_a_new_process", "--nocapture"])
+        .env(BLOCK_FILE, &file)
+        .output()
+        .unwrap();
+    std::fs::remove_file(&file).unwrap();
+    let printed = String::from_utf8(child.stdout).unwrap();
+    assert!(child.status.success(), "{printed}");
+    let expected = format!("bits {:?}", steps(&mut rig, 120..200));
+    assert!(printed.contains(&expected), "the child went another way");
+}
+
 #[test]
 fn a_foreign_or_damaged_block_is_refused_and_loses_nothing() {
     let mut rig = rig();
