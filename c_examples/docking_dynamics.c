@@ -5,7 +5,7 @@
 void docking_defaults(docking *d)
 {
     static const docking zero;
-    attenuation capture = {2000.0, 800.0, 300.0, 150.0, 300.0, 100.0};
+    attenuation capture = {2000.0, 500.0, 200.0, 100.0, 200.0, 60.0};
     attenuation settle = {5000.0, 9000.0, 2000.0, 3500.0, 4000.0, 40000.0};
     int i;
 

@@ -18,6 +18,7 @@ BLOCK_RADIUS = 0.100  # across the flats of the block around the bore, m
 STIFFNESS = 1e6  # of each of the two surfaces, N/m
 DAMPING = 400.0  # N·s/m: see README
 FRICTION = 0.5
+OVERLAP = 2e-5  # by which the scenes press the peg into wall and mouth, m
 
 STEP = 360.0 / SIDES
 
@@ -64,6 +65,52 @@ def hole():
     return w.model("hole", surfaces(), w.group("hole", groups=wedges, bound="Aabb", surface="peg"), about)
 
 
+def tilt_for(depth):
+    """Tilt at which the peg, inserted to a depth, overlaps wall and mouth by OVERLAP each (bisection)."""
+    reach = PEG_DIAMETER + CLEARANCE + 2 * OVERLAP
+
+    def spanned(tilt):
+        return PEG_DIAMETER * math.cos(tilt) + (depth + PEG_DIAMETER / 2 * math.sin(tilt)) * math.tan(tilt)
+
+    low, high = 0.0, 0.2
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if spanned(middle) < reach else (low, middle)
+    return low
+
+
+def scene(name, depth):
+    """The peg, pressed aslant into the hole and let go at rest. No gravity."""
+    tilt = tilt_for(depth)
+    place = (PEG_DIAMETER / 2 * math.cos(tilt) - PEG_DIAMETER / 2 - CLEARANCE / 2 - OVERLAP, 0.0, -depth)
+    turn = (math.cos(tilt / 2), 0.0, math.sin(tilt / 2), 0.0)
+    quaternion = "(" + ", ".join(repr(round(c, 15)) for c in turn) + ")"
+    limit = FRICTION * PEG_DIAMETER
+    lines = [
+        f"// {name}: insertion {depth} m, limit mu*D = {limit} m. Written by build.py.",
+        "(",
+        '    format: "pong-scene",',
+        "    version: 1,",
+        f'    name: "{name}",',
+        '    models: { "peg": "peg.ron", "hole": "hole.ron" },',
+        "    objects: [",
+        '        (name: "hole", model: "hole", bodies: [(motion: Fixed)]),',
+        '        (name: "peg", model: "peg", bodies: [(',
+        "            motion: Free, mass: 1.0, inertia: Diagonal(0.004, 0.004, 0.00125), mass_center: (0.0, 0.0, 0.1),",
+        f"            position: {w.triple(place)}, orientation: {quaternion},",
+        "        )]),",
+        "    ],",
+        '    pairs: [("peg", "hole")],',
+        "    integrator: RungeKutta4,",
+        "    step: 1e-4,",
+        "    duration: 0.5,",
+        "    record_every: 50,",
+        "    ledger: true,",
+        ")",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def surfaces():
     return {"peg": f"(stiffness: {STIFFNESS!r}, normal: Linear(damping: {DAMPING!r}), friction: Bristle(mu: {FRICTION}))"}
 
@@ -72,7 +119,8 @@ def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     w.write(folder / "peg.ron", peg())
     w.write(folder / "hole.ron", hole())
-    assert math.isclose(STEP * SIDES, 360.0)
+    w.write(folder / "scene_shallow.ron", scene("shallow", 0.03))
+    w.write(folder / "scene_deep.ron", scene("deep", 0.08))
 
 
 if __name__ == "__main__":

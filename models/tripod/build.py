@@ -30,10 +30,38 @@ def ground():
     return w.model("ground", surfaces, root, about)
 
 
+def scene():
+    """Dropped from rest with its feet just touching: it heaves about mg/(3k) at sqrt(3k/m)."""
+    lines = [
+        "// The tripod let go with its feet just touching the ground. Written by build.py.",
+        "(",
+        '    format: "pong-scene",',
+        "    version: 1,",
+        '    name: "tripod",',
+        '    models: { "tripod": "tripod.ron", "ground": "ground.ron" },',
+        "    objects: [",
+        '        (name: "ground", model: "ground", bodies: [(motion: Fixed)]),',
+        '        (name: "tripod", model: "tripod", bodies: [(',
+        "            motion: Free, mass: 10.0, inertia: Diagonal(1.0, 1.0, 1.5), mass_center: (0.0, 0.0, 0.3),",
+        "        )]),",
+        "    ],",
+        '    pairs: [("tripod", "ground")],',
+        "    gravity: (0.0, 0.0, -9.81),",
+        "    integrator: RungeKutta4,",
+        "    step: 1e-4,",
+        "    duration: 1.0,",
+        "    record_every: 10,",
+        "    ledger: true,",
+        ")",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     w.write(folder / "tripod.ron", tripod())
     w.write(folder / "ground.ron", ground())
+    w.write(folder / "scene_drop.ron", scene())
 
 
 if __name__ == "__main__":
