@@ -627,7 +627,7 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
     int i;
     memset(o, 0, sizeof *o);
     o->models = "models/idss_docking";
-    o->seconds = 120.0;
+    o->seconds = 150.0;
     *c = make_case("aligned", 0.10);
     for (i = 1; i < argc; i++) {
         const char *a = argv[i];
