@@ -18,20 +18,22 @@
 #![forbid(unsafe_code)]
 
 mod contact;
+mod dispatch;
 mod error;
 mod frame;
 mod friction;
 mod ids;
 mod law;
 mod registry;
+mod scene;
 mod sealed;
 mod sharing;
 mod state;
 mod world;
 
 pub use contact::{Contact, ContactSide, FrameReport, Ledger, StatusBits};
+pub use dispatch::has_tester;
 pub use error::EngineError;
-pub use frame::has_tester;
 pub use friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::{
@@ -39,6 +41,7 @@ pub use law::{
     combine as combine_surfaces,
 };
 pub use registry::Laws;
+pub use scene::{Config, State};
 pub use sealed::{SealReport, SetupWarning};
 pub use state::StateError;
-pub use world::{Config, State, World};
+pub use world::World;

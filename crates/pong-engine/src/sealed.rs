@@ -1,10 +1,10 @@
 //! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
 
+use crate::dispatch::has_tester;
 use crate::error::EngineError;
-use crate::frame::has_tester;
 use crate::law::{FrictionProps, PairProps, combine};
+use crate::scene::Scene;
 use crate::state::fnv1a;
-use crate::world::Scene;
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;

@@ -5,81 +5,13 @@ use crate::error::EngineError;
 use crate::frame::{self, Frame};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::registry::Laws;
+use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, check_state};
 use crate::sealed::{self, SealReport, Sealed};
 use crate::state::{ContactMemory, block_len, read_block, write_block};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
-use pong_model::{Body, Model, Surface};
+use pong_model::{Model, Surface};
 use std::sync::Arc;
-
-pub use crate::frame::State;
-
-/// Settings of a world.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Config {
-    /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
-    /// 65,536. When a frame has more,
-    /// the deepest are kept and a status bit is set.
-    pub contact_capacity: Option<usize>,
-    /// Whether energies are kept (physics contract, section 6).
-    pub ledger: bool,
-}
-
-/// An instance of a model.
-#[derive(Clone, Debug)]
-pub(crate) struct Object {
-    pub name: String,
-    pub model: usize,
-    /// Its movable groups are consecutive bodies from this one on.
-    pub first_body: usize,
-}
-
-/// One movable group of one Object.
-#[derive(Clone, Debug)]
-pub(crate) struct BodyInstance {
-    pub object: usize,
-    /// Index into the model's bodies.
-    pub body: usize,
-    pub state: Option<State>,
-}
-
-/// Two Objects that are tested.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ObjectPair {
-    pub a: usize,
-    pub b: usize,
-    pub enabled: bool,
-}
-
-/// Everything that set-up decides.
-pub(crate) struct Scene {
-    pub config: Config,
-    pub extensions: Extensions,
-    pub laws: Laws,
-    pub models: Vec<Arc<Model>>,
-    pub objects: Vec<Object>,
-    pub bodies: Vec<BodyInstance>,
-    pub pairs: Vec<ObjectPair>,
-}
-
-impl Scene {
-    /// The model's body behind a movable group.
-    pub fn body(&self, instance: usize) -> &Body {
-        let instance = &self.bodies[instance];
-        &self.models[self.objects[instance.object].model].bodies[instance.body]
-    }
-
-    /// The model behind a movable group.
-    pub fn model_of_body(&self, instance: usize) -> &Model {
-        &self.models[self.objects[self.bodies[instance].object].model]
-    }
-
-    /// `object/path` of a movable group, for messages.
-    pub fn body_name(&self, instance: usize) -> String {
-        let object = &self.objects[self.bodies[instance].object];
-        format!("{}/{}", object.name, self.body(instance).path)
-    }
-}
 
 /// A contact world: Objects, pairs and everything remembered between frames.
 ///
@@ -235,7 +167,7 @@ impl World {
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
         for (interface, state) in states {
             let index = self.interface_index(*interface)?;
-            frame::check_state(state)
+            check_state(state)
                 .map_err(|cause| EngineError::BadState { interface: self.scene.body_name(index), cause })?;
         }
         for (interface, state) in states {

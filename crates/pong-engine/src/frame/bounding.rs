@@ -4,8 +4,8 @@ use super::Frame;
 use super::buffers::FrameContact;
 use super::relative::Motion;
 use crate::contact::FrameReport;
+use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::world::Scene;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::{Body, Item, Tree};
 

@@ -13,9 +13,9 @@ use super::Frame;
 use super::forces::reference_point;
 use super::listing::body_of_a;
 use super::relative::SinceCommit;
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, ContactRecord, Role};
-use crate::world::Scene;
 use pong_geometry::{Transform, Vec3};
 
 /// Fills in the energies of the trial records and the totals.

@@ -4,9 +4,9 @@ use super::Frame;
 use super::buffers::FrameContact;
 use crate::contact::{Contact, ContactSide};
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::Role;
-use crate::world::Scene;
 use pong_geometry::Vec3;
 use pong_model::Body;
 

@@ -2,7 +2,6 @@
 
 mod bounding;
 mod buffers;
-mod dispatch;
 mod forces;
 mod ledger;
 mod limit;
@@ -15,13 +14,11 @@ mod state_in;
 mod testers;
 
 pub(crate) use buffers::Frame;
-pub use dispatch::has_tester;
-pub use state_in::State;
-pub(crate) use state_in::{check_state, require_states};
+pub(crate) use state_in::require_states;
 
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::ContactMemory;
-use crate::world::Scene;
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
 pub(crate) fn evaluate(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {

@@ -4,9 +4,9 @@
 //! where the common origin is or how fast it moves (physics contract, section 1).
 
 use super::Frame;
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, PairPose};
-use crate::world::Scene;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Transform, Twist, Vec3};
 

@@ -2,10 +2,10 @@
 
 use super::Frame;
 use super::buffers::{FrameContact, Stance};
+use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::sharing::{Sharer, share};
 use crate::state::{NO_FACE, Role};
-use crate::world::Scene;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{PrimitiveKind, TriangleSet};
 

@@ -2,9 +2,9 @@
 
 use super::bounding::{Found, LeafItems, PairContext};
 use super::buffers::{FrameContact, Stance};
-use super::dispatch::has_tester;
 use super::relative::Motion;
 use super::side_of_entry::{PolyhedronEntry, TriangleEntry};
+use crate::dispatch::has_tester;
 use crate::state::{ContactKey, ContactMemory};
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
