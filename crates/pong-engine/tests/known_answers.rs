@@ -39,18 +39,20 @@ fn damping_opposes_the_approach_and_never_pulls() {
     let (a, b) = unequal("friction: None");
     // c = 480/16 + 160·9/16 N·s/m.
     let damping = 120.0;
-    for (closing, spin) in [(0.5, 0.0), (-0.5, 0.0), (0.3, 1.0), (-9.0, 0.0)] {
+    for (closing, spin, tilt) in
+        [(0.5, 0.0, 0.0), (-0.5, 0.0, 0.0), (0.3, 1.0, 0.0), (0.3, 0.0, 2.0), (-9.0, 0.0, 0.0)]
+    {
         let mut rig = Rig::new(&a, &b);
-        let position = Vec3::new(-0.5, 0.0, 0.196);
+        let position = Vec3::new(-0.5, 0.3, 0.196);
         let velocity = Vec3::new(7.0, -3.0, 2.0 - closing);
-        // The floor moves as well, and turns about its own origin: at (0, 0) its surface only rises.
+        // The floor moves as well, and tilts about the x axis through its own origin.
         let tip = moving(position, Quat::identity(), velocity, Vec3::new(0.0, spin, 0.0));
         let floor =
-            moving(Vec3::zeros(), Quat::identity(), Vec3::new(7.0, -3.0, 2.0), Vec3::new(spin, 0.0, 0.0));
+            moving(Vec3::zeros(), Quat::identity(), Vec3::new(7.0, -3.0, 2.0), Vec3::new(tilt, 0.0, 0.0));
         rig.place([tip, floor]);
         rig.world.step().unwrap();
-        // A's point at c moves by ω × r = (0, spin, 0) × (0.5, 0, 0.001): −0.5·spin along z.
-        let rate = closing + 0.5 * spin;
+        // At c = (0, 0.3, 0.197), by ω × r: A's point −0.5·spin along z, B's 0.3·tilt.
+        let rate = closing + 0.5 * spin + 0.3 * tilt;
         let contact = rig.world.contacts()[0];
         assert!((contact.rate - rate).abs() < 1e-12, "{} {rate}", contact.rate);
         let expected = (300.0 + damping * rate).max(0.0);
