@@ -268,3 +268,26 @@ fn abutting_pieces_have_no_gaps() {
         }
     }
 }
+
+/// A centre exactly on the line where two pieces abut, the wall coming before the top in both.
+#[test]
+fn a_centre_on_a_seam_is_pushed() {
+    let wall = |n: &Vec3, d: f64| n.x.abs() > 0.9 && d == 0.0;
+    let mut left = common::cuboid_corners(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.0, 1.0, 0.5));
+    left.reverse();
+    let right = common::cuboid_corners(Vec3::new(0.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 0.5));
+    let mut pieces = [left, right].map(|corners| common::hull_with_walls(&corners, &wall));
+    for piece in &pieces {
+        let first =
+            |is: &dyn Fn(&pong_geometry::primitive::PolyhedronFace) -> bool| piece.faces.iter().position(is);
+        assert!(first(&|face| !face.active) < first(&|face| face.normal.z > 0.9));
+    }
+    oracle_support::close_lower_walls(&mut pieces);
+    oracle_support::join_pieces(&mut pieces);
+    for x in [nudge(0.0, -1), 0.0, nudge(0.0, 1)] {
+        let sphere = Sphere { center: Vec3::new(x, 0.25, 0.5), radius: 0.1 };
+        let contacts: Vec<_> =
+            pieces.iter().filter_map(|piece| sphere_outside_polyhedron(&sphere, piece)).collect();
+        assert!((shared_push(&contacts) - Vec3::z() * 0.1).norm() < 1e-16, "{x}: {contacts:?}");
+    }
+}

@@ -1,9 +1,9 @@
 //! Ray (A) – polyhedron (B) (physics contract, 2.5): the face through which the ray enters the solid.
 //!
 //! Degenerate cases: a ray along an active face is outside; one along an inner wall belongs to the piece that the
-//! wall is closed for. One through an edge takes the lower of the two faces, an active one before an inner wall.
-//! Where a ray enters at the very edge of an inner wall rounding may put the entry behind the wall for this
-//! piece and before it for the next; the piece it leaves by the wall then takes it, and if both do they agree.
+//! wall is closed for. One through an edge takes the lower of the two faces. Where a ray enters at the very edge of
+//! an inner wall rounding may put the entry behind the wall for this piece and before it for the next; the piece it
+//! leaves by the wall then takes it, and if both do they agree.
 
 use super::Feature;
 use super::ray_plane::RayHit;
@@ -25,10 +25,7 @@ pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
             }
         } else if climb < 0.0 {
             let distance = -height / climb;
-            let takes_over = |(best, other): (f64, usize)| {
-                distance > best || (distance == best && face.active && !polyhedron.faces[other].active)
-            };
-            if entry.is_none_or(takes_over) {
+            if entry.is_none_or(|(best, _)| distance > best) {
                 entry = Some((distance, index));
             }
         } else {
