@@ -194,3 +194,76 @@ fn a_bristle_crosses_facets() {
     }
     assert!(hold > 20.0);
 }
+
+/// A bar that lies flat is one spring: each end carries half of the stiffness, of the damping and of the bristle.
+#[test]
+fn the_two_ends_of_a_bar_share_one_spring_and_one_bristle() {
+    let friction = "friction: Bristle(mu: 0.5, stiffness: 4e4)";
+    let (_, floor) = unequal(friction);
+    let hard = surface(3e5, &format!("normal: Linear(damping: 480.0), {friction}"));
+    let bar = model("bar", &hard, "LineSegment(name: \"l\", ends: ((-0.3,0,0),(0.3,0,0)))");
+    let mut rig = Rig::new(&bar, &floor);
+    let sink = Vec3::new(0.0, 0.0, -0.1);
+    for x in [0.0, 1e-3] {
+        let place = moving(Vec3::new(x, 0.0, 0.196), Quat::identity(), sink, Vec3::zeros());
+        rig.place([place, State::identity()]);
+        rig.world.step().unwrap();
+    }
+    let contacts = rig.world.contacts();
+    assert_eq!(contacts.len(), 2);
+    for contact in &contacts {
+        assert!((contact.normal_force - 0.5 * (300.0 + 120.0 * 0.1)).abs() < 1e-9);
+        assert!((contact.friction_force.x + 0.5 * 2e4 * 1e-3).abs() < 1e-9, "{:?}", contact.friction_force);
+    }
+}
+
+/// Two facets of a shallow groove carry a ball together: one bristle's stiffness along the groove, not two.
+#[test]
+fn facets_less_than_sixty_degrees_apart_share_one_bristle() {
+    let rough = surface(1e5, "friction: Bristle(mu: 2.0, stiffness: 4e4)");
+    let ball = model("ball", &rough, "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)");
+    let slope = 20.0_f64.to_radians();
+    let groove = format!(
+        "TriangleMesh(name: \"m\", vertices: [(-1,-1,{z}),(0,-1,0),(1,-1,{z}),(-1,1,{z}),(0,1,0),(1,1,{z})], \
+         triangles: [(0,1,4),(0,4,3),(1,2,5),(1,5,4)])",
+        z = slope.tan()
+    );
+    let groove = model("groove", &rough, &groove);
+    let mut rig = Rig::new(&ball, &groove);
+    // 1 mm deep in both flanks.
+    let height = 0.099 / slope.cos();
+    for y in [0.0, 1e-3] {
+        rig.place_a(Vec3::new(0.0, y, height), Quat::identity());
+        rig.world.step().unwrap();
+    }
+    assert_eq!(rig.world.contact_count(), 2);
+    let along: f64 = rig.world.contacts().iter().map(|c| c.friction_force.y).sum();
+    assert!((along + 2e4 * 1e-3).abs() < 1e-9, "{along}");
+    // And one normal spring: the shortest vector that clears both flanks is 1 mm / cos 20° straight up.
+    let up = rig.wrench(0).force.z;
+    assert!((up - 5e4 * 1e-3 / slope.cos()).abs() < 1e-9, "{up}");
+}
+
+/// Over a round body the bristle turns with the contact plane: friction stays in it.
+#[test]
+fn a_bristle_stays_in_the_contact_plane() {
+    let rough = surface(1e5, "friction: Bristle(mu: 5.0, stiffness: 1e4)");
+    let ball = model("ball", &rough, "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)");
+    let mut rig = Rig::new(&ball, &ball);
+    let mut last = 0.0;
+    for step in 0..=100 {
+        // Round the other ball by 0.2 rad without rolling, always 1 mm deep.
+        let angle = 2e-3 * f64::from(step);
+        let outward = Vec3::new(angle.sin(), 0.0, angle.cos());
+        rig.place_a(outward * 0.199, Quat::identity());
+        rig.world.step().unwrap();
+        let contact = rig.world.contacts()[0];
+        assert!((contact.normal - outward).norm() < 1e-12);
+        let lean = contact.friction_force.dot(&outward).abs();
+        assert!(lean <= 1e-12 * (1.0 + contact.friction_force.norm()), "step {step}: leans by {lean}");
+        last = contact.friction_force.norm();
+    }
+    // Every step stretches by the displacement of the centre along the plane; none of it is lost on the way.
+    let expected = 0.5e4 * 0.199 * 0.2;
+    assert!((last / expected - 1.0).abs() < 1e-2, "{last} {expected}");
+}
