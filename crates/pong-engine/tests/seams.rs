@@ -207,3 +207,38 @@ fn friction_does_not_see_the_seams() {
         assert!((got - expected).norm() <= 1e-9 * expected.norm(), "step {step}: {got:?} {expected:?}");
     }
 }
+
+/// A roof in two pieces, its ridge where their inner walls meet, and the same roof in one.
+fn roofs() -> [String; 2] {
+    let halves = "Polyhedron(name: \"l\", vertices: [(-1,-1,0),(0,-1,0),(0,1,0),(-1,1,0),(0,-1,0.5),(0,1,0.5)], \
+                  faces: [[0,3,2,1],[0,4,5,3],[1,2,5,4],[0,1,4],[2,3,5]], inactive_faces: [2]), \
+                  Polyhedron(name: \"r\", vertices: [(1,-1,0),(0,-1,0),(0,1,0),(1,1,0),(0,-1,0.5),(0,1,0.5)], \
+                  faces: [[0,1,2,3],[0,3,5,4],[1,4,5,2],[0,4,1],[3,2,5]], inactive_faces: [2])";
+    let whole = "Polyhedron(name: \"w\", vertices: [(-1,-1,0),(1,-1,0),(1,1,0),(-1,1,0),(0,-1,0.5),(0,1,0.5)], \
+                 faces: [[0,3,2,1],[0,4,5,3],[1,2,5,4],[0,1,4],[2,3,5]])";
+    [model("halves", &steel(), halves), model("whole", &steel(), whole)]
+}
+
+/// A bar across a ridge is carried by it, wherever the pieces of the body meet.
+#[test]
+fn a_bar_across_a_ridge_between_two_pieces_is_carried() {
+    let bar = model("bar", &steel(), "LineSegment(name: \"l\", ends: ((-0.6,0,0),(0.6,0.1,0)))");
+    let mut rigs = roofs().map(|roof| Rig::new(&bar, &roof));
+    let (mut random, mut touched) = (Random(14), 0);
+    for step in 0..500 {
+        let place =
+            Vec3::new(random.between(-0.2, 0.2), random.between(-0.5, 0.5), 0.5 - random.between(1e-6, 2e-2));
+        let spin = Quat::from_scaled_axis(Vec3::new(0.1, 0.3, 0.4).component_mul(&random.vector(1.0)));
+        let wrenches = rigs.each_mut().map(|rig| {
+            rig.place_a(place, spin);
+            rig.world.step().unwrap();
+            rig.wrench(0)
+        });
+        let size = wrenches[1].force.norm();
+        touched += i32::from(size > 0.0);
+        let error =
+            (wrenches[0].force - wrenches[1].force).norm() + (wrenches[0].moment - wrenches[1].moment).norm();
+        assert!(error <= 1e-9 * size, "step {step}: {wrenches:?}");
+    }
+    assert!(touched > 300, "{touched}");
+}

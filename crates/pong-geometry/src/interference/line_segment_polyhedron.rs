@@ -39,13 +39,20 @@ pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -
         // would not be found where its other end does not touch.
         let energy = measured.0.depth() * measured.0.depth() + measured.1.depth() * measured.1.depth();
         if energy > 0.0 && energy < best.0 * TIE {
-            let carried = |m: Measure, end: usize| {
-                m.interference().filter(|_| inside[end].leaves_by.is_none_or(|h| polyhedron.faces[h].active))
-            };
-            best = (energy, [carried(measured.0, 0), carried(measured.1, 1)]);
+            let carried =
+                |m: Measure, end: &InsideEnd| m.interference().filter(|m| carries(polyhedron, end, m));
+            best = (energy, [carried(measured.0, &inside[0]), carried(measured.1, &inside[1])]);
         }
     }
     best.1
+}
+
+/// Whether an end carries what it measures. One at an inner wall does not, the piece behind the wall does; but where
+/// the wall ends in a convex edge of the body, that edge pushes (2.1), once for all pieces that have it.
+fn carries(polyhedron: &Polyhedron, end: &InsideEnd, measured: &Interference) -> bool {
+    let at_wall = end.leaves_by.is_some_and(|h| !polyhedron.faces[h].active);
+    let feature = measured.feature;
+    !at_wall || (!feature.is_face() && polyhedron.edges[feature.index()].push.is_some())
 }
 
 /// One end of the part of the segment inside the solid.
