@@ -58,6 +58,9 @@ fn restitutions(
             run.sim.step()?;
             while run.position().z <= 0.0 || run.velocity().z <= 0.0 {
                 run.sim.step()?;
+                if run.sim.time() > 1.0 {
+                    return Err("the mass does not come back".into());
+                }
             }
             Ok(run.velocity().z / SPEED)
         })

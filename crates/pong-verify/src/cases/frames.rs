@@ -94,8 +94,34 @@ fn far_frames() -> Outcome {
             let seen = Seen { pose: Pose { position: *position, orientation: turn }, drift: *drift };
             Ok(Row::below(format!("{name}: difference over allowed"), "", difference(&seen)?, 1.0))
         })
+        .chain(std::iter::once_with(without_rounding))
         .chain(std::iter::once_with(far_bounce))
         .collect()
+}
+
+/// Where neither places nor velocities are rounded, the wrench is the same bit for bit.
+fn without_rounding() -> Result<Row, Failure> {
+    let mut random = Random(25);
+    let (mut near, mut far) = (Docking::new()?, Docking::new()?);
+    // Of 53 bits 24 are left for the fraction.
+    let coarse = |v: Vec3| v.map(|x| libm::round(x * 16_777_216.0) / 16_777_216.0);
+    let (origin, drift) = (Vec3::new(5.1e6, -2.0e6, 4.0e6), Vec3::new(7000.0, -3000.0, 1000.0));
+    let mut different = 0;
+    for _ in 0..60 {
+        let states = some_motion(&mut random).map(|(pose, twist)| {
+            let position = coarse(pose.position);
+            (Pose { position, ..pose }, Twist { linear: coarse(twist.linear), ..twist })
+        });
+        near.step(&states)?;
+        far.step(&states.map(|(pose, twist)| {
+            let position = pose.position + origin;
+            (Pose { position, ..pose }, Twist { linear: twist.linear + drift, ..twist })
+        }))?;
+        for side in 0..2 {
+            different += usize::from(near.wrench(side)? != far.wrench(side)?);
+        }
+    }
+    Ok(Row::count("6.8e6 m away at 7.7 km/s, inputs exact: wrenches that differ in any bit", 0, different))
 }
 
 /// One undamped bounce on ground that orbits 6.8e6 m away at 7.7 km/s.

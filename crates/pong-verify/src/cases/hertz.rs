@@ -40,6 +40,9 @@ fn rows() -> Outcome {
         if run.position().z > 0.0 {
             break;
         }
+        if run.sim.time() > 0.1 {
+            return Err("the mass does not come back".into());
+        }
     }
     let depth = libm::pow(5.0 * MASS * SPEED * SPEED / (4.0 * STIFFNESS), 0.4);
     let factor = 0.8 * core::f64::consts::PI.sqrt() * libm::tgamma(0.4) / libm::tgamma(0.9);

@@ -1,16 +1,18 @@
 //! W11: the books close: kinetic + potential + stored + dissipated stays.
 
+use super::bounce::clamped_restitution;
 use crate::measure::order;
-use crate::scene::{Bristle, Duo, G, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, point_mass, rub, set_damping};
 use crate::{Case, Failure, Outcome, Row};
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
+use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Twist, Vec3};
 
 pub const W11: Case = Case {
     id: "W11",
     title: "Energy ledger",
     set_up: "A block on four damped points slides at 1 m/s and heaves, μ = 0.3, 0.2 s, Runge-Kutta; error of the balance \
-             over the initial energy.",
-    source: "kinetic + potential + stored + dissipated = constant; the ledger integrates work by the trapezoid rule",
+             over the initial energy. A point mass held by friction under a pull, and one that bounces.",
+    source: "kinetic + potential + stored + dissipated = constant; the ledger integrates work by the trapezoid rule. Stored ½·N²/k + ½·F²/k_t; \
+             a bounce takes ½·m·v²·(1 − e²)",
     rows,
 };
 
@@ -46,5 +48,48 @@ fn rows() -> Outcome {
     Ok(vec![
         Row::below("error of the balance over ½mv²", "", error / 0.5, 1e-6).with_order(order(coarse, fine)),
         Row::relative("dissipated by friction and damping", "J", friction, heat, 1e-3),
+        held()?,
+        bounced()?,
     ])
+}
+
+/// Energy of normal spring and bristle under a pull that friction holds.
+fn held() -> Result<Row, Failure> {
+    let (stiffness, pull) = (1e5, 3.0);
+    let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 400.0 };
+    let duo = Duo::with_ledger("point_rough", "ground_rough", true)?.mover(|s| set_damping(s, 600.0))?;
+    let mut run = rub(duo, &bristle)?
+        .simulate((Integrator::RungeKutta4, 1e-3), point_mass(MASS), RigidBody::fixed("ground"))?
+        .with_gravity();
+    // The pull comes when the mass has settled.
+    run.sim.add_load(Load::force_over_time(run.body, move |time| {
+        Vec3::x() * (pull * (time - 0.2).clamp(0.0, 1.0))
+    }))?;
+    run.sim.run_for(1.6)?;
+    let weight = MASS * G;
+    let expected = 0.5 * (weight * weight / stiffness + pull * pull / bristle.stiffness);
+    Ok(Row::relative(
+        "stored under a pull that friction holds",
+        "J",
+        expected,
+        run.sim.energy().contacts,
+        1e-6,
+    ))
+}
+
+/// What a damped bounce takes.
+fn bounced() -> Result<Row, Failure> {
+    let (stiffness, zeta) = (1e5_f64, 0.2);
+    let omega = (stiffness / MASS).sqrt();
+    let duo = Duo::with_ledger("point", "ground", true)?.mover(|s| {
+        s.stiffness = stiffness;
+        set_damping(s, 2.0 * zeta * omega * MASS);
+    })?;
+    let falling = point_mass(MASS).moving(Twist { linear: -Vec3::z(), angular: Vec3::zeros() });
+    let step = 1e-3 / omega;
+    let mut run = duo.simulate((Integrator::RungeKutta4, step), falling, RigidBody::fixed("ground"))?;
+    run.sim.run_for(4.0 / omega)?;
+    let e = clamped_restitution(zeta);
+    let heat = run.sim.energy().contact_loss;
+    Ok(Row::relative("dissipated by a bounce, ζ = 0.2", "J", 0.5 * MASS * (1.0 - e * e), heat, 2e-3))
 }
