@@ -267,3 +267,36 @@ fn a_bristle_stays_in_the_contact_plane() {
     let expected = 0.5e4 * 0.199 * 0.2;
     assert!((last / expected - 1.0).abs() < 1e-2, "{last} {expected}");
 }
+
+/// Force of a point 4 mm deep that closes at 0.5 m/s, both surfaces alike.
+fn force_of(surface_values: &str) -> f64 {
+    let alike = surface(2e5, surface_values);
+    let tip = model("tip", &alike, "Point(name: \"p\", position: (0,0,0))");
+    let floor = model("floor", &alike, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
+    let mut rig = Rig::new(&tip, &floor);
+    let closing = Vec3::new(0.0, 0.0, -0.5);
+    rig.place([
+        moving(Vec3::new(0.0, 0.0, -4e-3), Quat::identity(), closing, Vec3::zeros()),
+        State::identity(),
+    ]);
+    rig.world.step().unwrap();
+    rig.world.contacts()[0].normal_force
+}
+
+#[test]
+fn every_normal_law_follows_its_formula() {
+    // In series k = 1e5; dampers c/2; S(¼) = 3/16 − 2/64.
+    let (elastic, damping) = (400.0, 60.0 * 0.5);
+    let ramp = 3.0 / 16.0 - 2.0 / 64.0;
+    assert!((force_of("normal: Linear(damping: 120.0)") - (elastic + damping)).abs() < 1e-9);
+    assert!(
+        (force_of("normal: Linear(damping: 120.0, ramp: 0.016)") - (elastic + ramp * damping)).abs() < 1e-9
+    );
+    assert!((force_of("normal: Linear(damping: 120.0, ramp: 0.003)") - (elastic + damping)).abs() < 1e-9);
+    let factor = 1.0 + 0.8 * 0.5;
+    let linear = force_of("normal: HuntCrossley(dissipation: 0.8, exponent: 1.0)");
+    assert!((linear - elastic * factor).abs() < 1e-9);
+    // Half of the depth in each surface: k·(δ/2)^(3/2) with k = 2e5.
+    let hertz = force_of("normal: HuntCrossley(dissipation: 0.8, exponent: 1.5)");
+    assert!((hertz - 2e5 * 2e-3_f64.powf(1.5) * factor).abs() < 1e-9);
+}

@@ -77,7 +77,7 @@ impl Simulation {
         self.system.gravity = gravity;
     }
 
-    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::forget`] if it should not.
+    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::forget`](pong_engine::World::forget) if it should not.
     pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
         self.check_body("set_motion", body)?;
         let index = body.index();
