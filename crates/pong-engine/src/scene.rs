@@ -76,6 +76,9 @@ impl Scene {
 /// How far a quaternion's norm may be from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
+/// Largest component of a state: products of any two, with any stiffness, stay finite.
+const STATE_MAX: f64 = 1e100;
+
 /// State of a movable group relative to and expressed in the common frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
@@ -133,6 +136,11 @@ pub(crate) fn check_state(state: &State) -> Result<(), String> {
     for (name, values) in named {
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(format!("{name} holds {value}; give finite numbers"));
+        }
+        if let Some(value) = values.iter().find(|value| value.abs() > STATE_MAX) {
+            return Err(format!(
+                "{name} holds {value:e}, beyond what a frame can square; give at most {STATE_MAX:e}"
+            ));
         }
     }
     let norm = state.orientation.iter().map(|x| x * x).sum::<f64>().sqrt();

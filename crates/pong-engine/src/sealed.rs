@@ -104,6 +104,9 @@ impl std::fmt::Display for SetupWarning {
     }
 }
 
+/// Beyond this a slip of the pen is likelier than a scene.
+const CONTACTS_MAX: usize = 1 << 24;
+
 pub(crate) fn seal(scene: &Scene) -> Result<(Sealed, SealReport), EngineError> {
     let mut group_pairs = group_pairs(scene);
     let volume_tests = VolumeTests::new(&scene.extensions);
@@ -115,6 +118,11 @@ pub(crate) fn seal(scene: &Scene) -> Result<(Sealed, SealReport), EngineError> {
     }
     if let Some(0) = scene.config.contact_capacity {
         problems.push("contact capacity: 0 leaves no contact; give at least 1 or leave it out".to_owned());
+    }
+    if let Some(wanted) = scene.config.contact_capacity.filter(|wanted| *wanted > CONTACTS_MAX) {
+        problems.push(format!(
+            "contact capacity: {wanted} is more than memory could hold; give at most {CONTACTS_MAX} or leave it out"
+        ));
     }
     if !problems.is_empty() {
         return Err(EngineError::Seal { problems });

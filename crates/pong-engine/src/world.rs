@@ -185,7 +185,7 @@ impl World {
     /// Computes wrenches from the states and the committed contact state. Changes nothing that a later evaluate
     /// or commit can see.
     pub fn evaluate(&mut self) -> Result<FrameReport, EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(NOT_SEALED)?;
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("evaluate"))?;
         frame::require_states(&self.scene, sealed)?;
         frame::evaluate(&self.scene, sealed, &self.memory, &mut self.frame);
         self.evaluated = true;
@@ -210,7 +210,7 @@ impl World {
         let accepted: Vec<usize> =
             pairs.iter().map(|pair| self.pair_index(*pair)).collect::<Result<_, _>>()?;
         self.must_be_evaluated()?;
-        let group_pairs = &self.sealed.as_ref().ok_or(NOT_SEALED)?.group_pairs;
+        let group_pairs = &self.sealed.as_ref().ok_or(not_sealed("commit"))?.group_pairs;
         self.memory.accept(&self.frame.trial, |index| accepted.contains(&group_pairs[index as usize].pair));
         self.evaluated = false;
         Ok(())
@@ -265,20 +265,20 @@ impl World {
 
     /// Size of the contact state block, bytes; fixed when the world is sealed.
     pub fn state_size(&self) -> Result<usize, EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(NOT_SEALED)?;
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("ask for the size of the contact state"))?;
         Ok(block_len(sealed.group_pairs.len(), sealed.record_capacity, sealed.custom_stride))
     }
 
     /// Saves the committed contact state into a buffer of [`state_size`](Self::state_size) bytes.
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(NOT_SEALED)?;
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("save the contact state"))?;
         Ok(write_block(&self.memory, sealed.hash, sealed.record_capacity, out)?)
     }
 
     /// Restores a contact state that a world built by the same calls saved. The states of the movable groups are
     /// the host's and are not part of it.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(NOT_SEALED)?;
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("restore the contact state"))?;
         self.memory = read_block(&self.memory, sealed.hash, sealed.record_capacity, block)?;
         self.evaluated = false;
         Ok(())
@@ -287,7 +287,7 @@ impl World {
     /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
     pub fn forget(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.object_index(object)?;
-        let sealed = self.sealed.as_ref().ok_or(NOT_SEALED)?;
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("forget an Object"))?;
         let bodies = &self.scene.bodies;
         self.memory.forget(|index| {
             let pair = &sealed.group_pairs[index as usize];
@@ -384,7 +384,7 @@ impl World {
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.
     pub fn scene_hash(&self) -> Result<u64, EngineError> {
-        Ok(self.sealed.as_ref().ok_or(NOT_SEALED)?.hash)
+        Ok(self.sealed.as_ref().ok_or(not_sealed("ask for the hash"))?.hash)
     }
 
     fn must_be_evaluated(&mut self) -> Result<(), EngineError> {
@@ -432,4 +432,6 @@ impl World {
     }
 }
 
-const NOT_SEALED: EngineError = EngineError::WrongPhase { call: "this call", cure: "seal the world first" };
+const fn not_sealed(call: &'static str) -> EngineError {
+    EngineError::WrongPhase { call, cure: "seal the world first" }
+}

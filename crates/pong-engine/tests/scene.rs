@@ -246,3 +246,22 @@ fn the_ledger_closes() {
         assert!((errors[2] - errors[1]).abs() <= 0.6 * (errors[1] - errors[0]).abs() + 1e-9);
     }
 }
+
+/// Finite states whose squares are not would end in NaN: they are refused, and the frame before stays valid.
+#[test]
+fn a_state_beyond_any_scene_is_refused() {
+    let mut rig = Rig::new(&tip(), &floor());
+    rig.place_a(Vec3::new(0.0, 0.0, -0.1), Quat::identity());
+    rig.world.step().unwrap();
+    let before = rig.wrench(0);
+    let far = at(Vec3::new(1e308, 0.0, -1e308), Quat::identity());
+    let fast = moving(Vec3::zeros(), Quat::identity(), Vec3::new(0.0, -1e200, 0.0), Vec3::zeros());
+    for state in [far, fast] {
+        let error = rig.world.set_state(rig.interfaces[0], &state).unwrap_err().to_string();
+        assert!(error.contains("`a/tip`") && error.contains("1e100"), "{error}");
+    }
+    assert_eq!(rig.wrench(0), before);
+    rig.place_a(Vec3::new(0.0, 0.0, -1e100), Quat::identity());
+    rig.world.step().unwrap();
+    assert!(rig.wrench(0).force.z.is_finite());
+}

@@ -145,6 +145,12 @@ fn bad_files_are_told() {
     let folder = Folder::new("bad");
     let mesh = |file: &str| folder.rule(&format!("TriangleMesh(name: \"m\", file: \"{file}\")"));
     assert_eq!(mesh("none.stl"), "mesh-file-unreadable");
+    // Only regular files: a pipe would keep the reader waiting.
+    assert_eq!(mesh("."), "mesh-file-unreadable");
+    let pipe = std::process::Command::new("mkfifo").arg(folder.0.join("pipe.stl")).status();
+    if pipe.is_ok_and(|status| status.success()) {
+        assert_eq!(mesh("pipe.stl"), "mesh-file-unreadable");
+    }
     folder.write("a.ply", b"ply");
     assert_eq!(mesh("a.ply"), "mesh-file-kind");
     folder.write("cut.stl", &binary_stl(&cube_triangles(), b"")[..300]);

@@ -434,3 +434,22 @@ fn rules_of(source: &str) -> Vec<String> {
     };
     quoted.filter(is_rule).filter(|text| *text != "pong-model").map(str::to_owned).collect()
 }
+
+/// One fault of a primitive does not hide the next.
+#[test]
+fn every_fault_of_a_primitive_is_told() {
+    let ray =
+        "Ray(name: \"r\", origin: (0, 0, 0), direction: (0, 0, 0), length: -1, reach: -3, response: Both)";
+    let wedge = "Polyhedron(name: \"w\", vertices: [(0,0,0),(1,0,0),(0,1,0),(0,0,1)], \
+                 faces: [[0,2,1],[0,1,3],[1,2,3],[2,0,3]], inactive_faces: [9, -1])";
+    let rules = |primitive: &str| {
+        let text = format!(
+            "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{\"s\": (stiffness: 1)}}, \
+             root: (name: \"root\", surface: \"s\", primitives: [{primitive}]))"
+        );
+        let errors = pong_model::parse(&text, "m.ron", None, &Default::default()).expect_err("faults");
+        errors.0.iter().map(|error| error.rule).collect::<Vec<_>>()
+    };
+    assert_eq!(rules(ray), ["zero-direction", "not-positive", "negative", "unknown-kind"]);
+    assert_eq!(rules(wedge), ["index-out-of-range", "index-out-of-range"]);
+}

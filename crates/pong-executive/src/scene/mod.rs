@@ -157,6 +157,9 @@ fn scene_objects(
     .collect()
 }
 
+/// Years of computing: a slip of the pen.
+const STEPS_MAX: f64 = 1e12;
+
 fn check_head(document: &Document, faults: &mut Faults<'_>) {
     if document.format != "pong-scene" {
         faults.note("format", format!("it is {:?}", document.format), "write format: \"pong-scene\"");
@@ -169,6 +172,14 @@ fn check_head(document: &Document, faults: &mut Faults<'_>) {
     }
     if !(document.duration >= 0.0 && document.duration.is_finite()) {
         faults.note("duration", format!("it is {} s", document.duration), "give a finite time from zero up");
+    }
+    let steps = document.duration / document.step;
+    if document.step > 0.0 && document.duration.is_finite() && steps > STEPS_MAX {
+        faults.note(
+            "duration",
+            format!("{} s are {steps:.0e} steps of {:e} s", document.duration, document.step),
+            format!("give at most {STEPS_MAX:e} steps"),
+        );
     }
     if document.record_every == 0 {
         faults.note("record_every", "it is 0", "give the number of steps between records, at least 1");

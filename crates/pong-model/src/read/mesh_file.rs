@@ -50,7 +50,7 @@ pub(super) fn from_file(
     };
     let name = reader.text(node, path)?;
     let file = allowed_path(reader, node, path, &name)?;
-    let bytes = match std::fs::read(&file) {
+    let bytes = match read_regular(&file) {
         Ok(bytes) => bytes,
         Err(reason) => {
             let cause = format!("\"{name}\" cannot be read: {reason}");
@@ -81,6 +81,14 @@ pub(super) fn from_file(
             None
         }
     }
+}
+
+/// A pipe or a device could keep the reader waiting for ever.
+fn read_regular(file: &Path) -> std::io::Result<Vec<u8>> {
+    if !std::fs::metadata(file)?.is_file() {
+        return Err(std::io::Error::other("it is not a regular file"));
+    }
+    std::fs::read(file)
 }
 
 fn extension(name: &str) -> String {

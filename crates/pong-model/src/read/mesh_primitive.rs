@@ -214,6 +214,7 @@ fn inactive_faces(
     let numbers = reader.numbers(node, path)?;
     let face_count = face_count?;
     let mut faces = Vec::new();
+    let mut all_there = true;
     for number in numbers {
         if number >= 0.0 && number.fract() == 0.0 && number < face_count as f64 {
             faces.push(number as usize);
@@ -226,10 +227,10 @@ fn inactive_faces(
                 cause,
                 "faces count from 0 in the order of the file",
             );
-            return None;
+            all_there = false;
         }
     }
-    Some(faces)
+    all_there.then_some(faces)
 }
 
 /// The mesh of a primitive, from its fields or from the file it names; indices are not checked yet.

@@ -193,13 +193,14 @@ fn ray(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Ray> {
     let length =
         p.fields.required(reader, "length").and_then(|node| reader.positive(node, &p.path, "the length"));
     let reach = match p.fields.optional("reach") {
-        Some(node) => Some(reader.not_negative(node, &p.path, "the reach")?),
-        None => None,
+        Some(node) => reader.not_negative(node, &p.path, "the reach").map(Some),
+        None => Some(None),
     };
     let response = match p.fields.optional("response") {
-        Some(node) => reader.variant(node, &p.path, &["Normal", "Axial"])?,
-        None => "Normal",
+        Some(node) => reader.variant(node, &p.path, &["Normal", "Axial"]),
+        None => Some("Normal"),
     };
+    let (reach, response) = (reach?, response?);
     let response = if response == "Axial" { RayResponse::Axial } else { RayResponse::Normal };
     let direction = p.x.vector(&direction?).normalize();
     Some(Ray { origin: p.x.point(&origin?), direction, length: length?, reach, response })
