@@ -7,8 +7,8 @@ use pong_engine::{Contact, State};
 pub const W2: Case = Case {
     id: "W2",
     title: "Two surfaces in series",
-    set_up: "A point held 1 mm deep in a plane, also closing at 0.1 m/s and drawn aside by 1 µm, for surfaces that both \
-             yield, for either one rigid, and for the exponents 1 and 3/2.",
+    set_up: "A point held 1 mm deep in a plane, also closing at 0.1 m/s and drawn aside by 1 µm at 1 mm/s, for \
+             surfaces that both yield, for either one rigid, and for the exponents 1 and 3/2.",
     source: "same force in both springs: k = k_A·k_B/(k_A + k_B), yields k_B : k_A, damping by squared shares; exponent \
              3/2 with κ_i = k_i^(2/3)",
     rows,
@@ -17,6 +17,7 @@ pub const W2: Case = Case {
 const DEPTH: f64 = 1e-3;
 const RATE: f64 = 0.1;
 const ASIDE: f64 = 1e-6;
+const DRAG: f64 = 1e-3;
 
 /// The contact of a point held at the depth, closing and drawn aside since the commit before.
 fn held(duo: Duo, rate: f64) -> Result<Contact, Failure> {
@@ -25,7 +26,7 @@ fn held(duo: Duo, rate: f64) -> Result<Contact, Failure> {
     world.set_states(&[(point, state), (ground, State::identity())])?;
     world.step()?;
     state.position[0] = ASIDE;
-    state.linear_velocity[2] = -rate;
+    state.linear_velocity = [DRAG, 0.0, -rate];
     world.set_state(point, &state)?;
     world.evaluate()?;
     world.contacts().first().copied().ok_or_else(|| "the point does not touch".into())
@@ -37,12 +38,12 @@ fn linear(k_a: f64, k_b: f64) -> Result<Contact, Failure> {
         .mover(|s| {
             s.stiffness = k_a;
             set_damping(s, 900.0);
-            set_bristle(s, &bristle(2e4, 0.0));
+            set_bristle(s, &bristle(2e4, 90.0));
         })?
         .ground(|s| {
             s.stiffness = k_b;
             set_damping(s, 100.0);
-            set_bristle(s, &bristle(3e4, 0.0));
+            set_bristle(s, &bristle(3e4, 40.0));
         })?;
     held(duo, RATE)
 }
@@ -62,7 +63,8 @@ fn rows() -> Outcome {
         // The tip is the depth below the plane; A's part of the yield brings the place back up.
         let height = -DEPTH * (1.0 - share);
         rows.push(Row::absolute(format!("{name}: height of the place"), "m", height, contact.point.z, 1e-15));
-        let pull = 2e4 * 3e4 / (2e4 + 3e4) * ASIDE;
+        // The softer bristle, A's, takes 0.6 of the way.
+        let pull = 2e4 * 3e4 / (2e4 + 3e4) * ASIDE + (90.0 * 0.36 + 40.0 * 0.16) * DRAG;
         rows.push(Row::relative(
             format!("{name}: bristle's force"),
             "N",
