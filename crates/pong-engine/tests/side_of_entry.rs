@@ -215,3 +215,25 @@ fn a_ball_that_goes_round_the_rim_is_stopped_in_front() {
     put(0.2, 0.1);
     assert!((put(0.04, 0.1).x - 0.5 * K * 0.01).abs() < 1e-9 * K);
 }
+
+/// With its centre behind both faces of a ridge a ball is pushed by the less deep one alone, as by a solid.
+#[test]
+fn behind_a_ridge_only_the_less_deep_face_pushes() {
+    let ridge = "TriangleMesh(name: \"m\", vertices: [(-1,-1,-1),(0,-1,0),(1,-1,-1),(-1,1,-1),(0,1,0),(1,1,-1)], \
+                 triangles: [(0,1,4),(0,4,3),(1,2,5),(1,5,4)])";
+    let ridge = model("ridge", &steel(), ridge);
+    for side in [-1.0, 1.0] {
+        let mut rig = Rig::new(&ball(0.1), &ridge);
+        let mut put = |x: f64, z: f64| {
+            rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
+            rig.world.step().unwrap();
+            (rig.wrench(0).force, rig.world.contact_count())
+        };
+        // Without an earlier pose: 14 mm below the nearer face and 28 mm below the other.
+        let (force, count) = put(side * 0.01, -0.03);
+        let depth = (0.03 - 0.01) / 2.0_f64.sqrt();
+        let outward = Vec3::new(side, 0.0, 1.0).normalize();
+        assert_eq!(count, 1);
+        assert!((force - outward * (0.5 * K * (0.1 + depth))).norm() < 1e-6, "{force:?}");
+    }
+}
