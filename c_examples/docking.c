@@ -591,25 +591,32 @@ static int run_corners(contact_scene *scene, docking *d, const options *o)
 
 /* --- options --------------------------------------------------------------------------------------------------------- */
 
-static void usage(void)
+static void usage(FILE *to)
 {
-    fprintf(stderr, "docking [--models FOLDER] [--fast] [--seconds S] [--csv FILE] [--no-latches]\n"
-                    "        [--all-corners] [--rates] [--case NAME]\n"
-                    "        [--speed M/S] [--lateral X Y] [--pitch DEG] [--yaw DEG] [--roll DEG]\n"
-                    "cases: aligned, slow, and corners as slow,x+,roll-,pitch+ or fast,y-,roll+,yaw-\n");
+    fprintf(to, "docking [--models FOLDER] [--fast] [--seconds S] [--csv FILE] [--no-latches]\n"
+                "        [--all-corners] [--rates] [--case NAME]\n"
+                "        [--speed M/S] [--lateral X Y] [--pitch DEG] [--yaw DEG] [--roll DEG]\n"
+                "cases: aligned, slow, and corners as slow,x+,roll-,pitch+ or fast,y-,roll+,yaw-\n");
+}
+
+static void refuse(const char *option, const char *why)
+{
+    fprintf(stderr, "%s: %s\n", option, why);
+    usage(stderr);
     exit(2);
 }
 
 static double number(int argc, char **argv, int *i)
 {
+    const char *option = argv[*i];
     char *end;
     double value;
     if (*i + 1 >= argc) {
-        usage();
+        refuse(option, "needs a number behind it");
     }
     value = strtod(argv[++*i], &end);
-    if (*end != '\0') {
-        usage();
+    if (end == argv[*i] || *end != '\0' || !isfinite(value)) {
+        refuse(option, "needs a finite number");
     }
     return value;
 }
@@ -617,7 +624,7 @@ static double number(int argc, char **argv, int *i)
 static const char *text(int argc, char **argv, int *i)
 {
     if (*i + 1 >= argc) {
-        usage();
+        refuse(argv[*i], "needs a text behind it");
     }
     return argv[++*i];
 }
@@ -647,7 +654,7 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
             o->rates = 1;
         } else if (strcmp(a, "--case") == 0) {
             if (!find_case(text(argc, argv, &i), c)) {
-                usage();
+                refuse(argv[i], "no such case");
             }
         } else if (strcmp(a, "--speed") == 0) {
             c->speed = number(argc, argv, &i);
@@ -660,8 +667,11 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
             c->yaw = number(argc, argv, &i);
         } else if (strcmp(a, "--roll") == 0) {
             c->roll = number(argc, argv, &i);
+        } else if (strcmp(a, "--help") == 0) {
+            usage(stdout);
+            exit(0);
         } else {
-            usage();
+            refuse(a, "no such option");
         }
     }
     if (o->rates) {
@@ -669,7 +679,7 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
         c->turn_rate = 0.2;
     }
     if (!(o->seconds > 0.0 && o->seconds < 1e5)) {
-        usage();
+        refuse("--seconds", "needs more than 0 and less than 1e5");
     }
 }
 
