@@ -155,6 +155,8 @@ fn bad_files_are_told() {
     assert_eq!(mesh("a.ply"), "mesh-file-kind");
     folder.write("cut.stl", &binary_stl(&cube_triangles(), b"")[..300]);
     assert_eq!(mesh("cut.stl"), "mesh-file-damaged");
+    let cut = folder.load("TriangleMesh(name: \"m\", file: \"cut.stl\")").expect_err("a fault").to_string();
+    assert!(cut.contains("ends before its last triangle"), "{cut}");
     folder.write("cut.obj", b"v 0 0\nf 1 2 3\n");
     assert_eq!(mesh("cut.obj"), "mesh-file-damaged");
     folder.write("beyond.obj", b"v 0 0 0\nv 1 0 0\nf 1 2 9\n");

@@ -152,10 +152,10 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
 fn stl(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     blank_misleading_head(&mut bytes);
     let mut cursor = Cursor::new(bytes);
-    let triangles = stl_io::create_stl_reader(&mut cursor).map_err(|e| e.to_string())?;
+    let triangles = stl_io::create_stl_reader(&mut cursor).map_err(stl_reason)?;
     let mut mesh = Mesh::default();
     for triangle in triangles {
-        let triangle = triangle.map_err(|e| e.to_string())?;
+        let triangle = triangle.map_err(stl_reason)?;
         for vertex in triangle.vertices {
             let [x, y, z] = vertex.0.map(f64::from);
             mesh.corners.push(mesh.vertices.len() as u32);
@@ -164,6 +164,13 @@ fn stl(mut bytes: Vec<u8>) -> Result<Mesh, String> {
         mesh.ends.push(mesh.corners.len() as u32);
     }
     Ok(mesh)
+}
+
+fn stl_reason(error: std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::UnexpectedEof => "it ends before its last triangle".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// Some programs begin binary files with "solid", the mark of text files; the length tells them apart.
