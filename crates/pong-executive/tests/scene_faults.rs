@@ -51,7 +51,7 @@ fn each_fault_is_told_by_name() {
     let cases = [
         ("pong-scene", "pong-model", "format: it is"),
         ("version: 1", "version: 2", "version: it is 2"),
-        ("step: 1e-3", "step: 1e-300", "duration: 1 s are 1e300 steps of 1e-300 s; give at most"),
+        ("step: 1e-3", "step: 1e-300", "duration: 1.0 s are 1e300 steps of 1e-300 s; give at most"),
         (
             "pairs: [],",
             "pairs: [], contact_capacity: 18446744073709551615,",

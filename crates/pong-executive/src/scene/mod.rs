@@ -177,7 +177,7 @@ fn check_head(document: &Document, faults: &mut Faults<'_>) {
     if document.step > 0.0 && document.duration.is_finite() && steps > STEPS_MAX {
         faults.note(
             "duration",
-            format!("{} s are {steps:.0e} steps of {:e} s", document.duration, document.step),
+            format!("{:?} s are {steps:.0e} steps of {:?} s", document.duration, document.step),
             format!("give at most {STEPS_MAX:e} steps"),
         );
     }
