@@ -76,6 +76,10 @@ impl World {
     pub fn create_object(&mut self, model: ModelId, name: &str) -> Result<ObjectId, EngineError> {
         self.must_not_be_sealed("create an object")?;
         let model = self.model_index(model)?;
+        if name.is_empty() || name.contains('/') {
+            let cause = "a name must not be empty nor hold `/`, which separates an object from its groups";
+            return Err(EngineError::BadValue { what: format!("object `{name}`"), cause: cause.to_owned() });
+        }
         if self.scene.objects.iter().any(|object| object.name == name) {
             return Err(EngineError::Duplicate { what: format!("object `{name}`") });
         }

@@ -168,6 +168,9 @@ fn calls_in_the_wrong_phase_or_of_another_world_are_refused() {
     let tips = load(&mut world, &tip());
     let object = world.create_object(tips, "a").unwrap();
     assert!(matches!(world.create_object(tips, "a"), Err(EngineError::Duplicate { .. })));
+    for unfit in ["", "a/b"] {
+        assert!(matches!(world.create_object(tips, unfit), Err(EngineError::BadValue { .. })));
+    }
     assert!(matches!(world.pair(object, object), Err(EngineError::BadValue { .. })));
     let other = Rig::new(&tip(), &floor());
     assert!(matches!(world.pair(object, other.objects[1]), Err(EngineError::UnknownId { .. })));
