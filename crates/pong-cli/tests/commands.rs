@@ -75,6 +75,18 @@ fn run_sums_up_and_ends_with_zero() {
     }
 }
 
+/// k = 1e5 N/m and c = 632.4 N·s/m on 1 kg: κ + 2γ = 4 at 2.62 ms.
+#[test]
+fn run_warns_of_a_step_that_no_contact_survives() {
+    let folder = folder("long_step");
+    for (step, warned) in [("2.5e-3", false), ("2.7e-3", true)] {
+        let scene = DROP.replace("RungeKutta4, step: 1e-3", &format!("SemiImplicitEuler, step: {step}"));
+        std::fs::write(folder.join("long.ron"), scene).unwrap();
+        let (_, _, err) = pong(&folder, &["run", "long.ron", "-q"]);
+        assert_eq!(err.contains("longest stable step is 2.620e-3 s"), warned, "{step}: {err}");
+    }
+}
+
 #[test]
 fn run_writes_csv_files_that_can_be_read() {
     let folder = folder("csv");

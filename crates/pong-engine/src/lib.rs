@@ -44,4 +44,4 @@ pub use registry::Laws;
 pub use scene::{Config, State};
 pub use sealed::{SealReport, SetupWarning};
 pub use state::StateError;
-pub use world::World;
+pub use world::{StiffestContact, World};

@@ -76,9 +76,6 @@ impl Scene {
 /// How far a quaternion's norm may be from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
 
-/// Largest component of a state: products of any two, with any stiffness, stay finite.
-const STATE_MAX: f64 = 1e100;
-
 /// State of a movable group relative to and expressed in the common frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State {
@@ -93,6 +90,9 @@ pub struct State {
 }
 
 impl State {
+    /// Largest component that is accepted: products of any two, with any stiffness, stay finite.
+    pub const LARGEST: f64 = 1e100;
+
     /// At rest at the common origin.
     pub fn identity() -> Self {
         Self {
@@ -137,9 +137,10 @@ pub(crate) fn check_state(state: &State) -> Result<(), String> {
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(format!("{name} holds {value}; give finite numbers"));
         }
-        if let Some(value) = values.iter().find(|value| value.abs() > STATE_MAX) {
+        if let Some(value) = values.iter().find(|value| value.abs() > State::LARGEST) {
             return Err(format!(
-                "{name} holds {value:e}, beyond what a frame can square; give at most {STATE_MAX:e}"
+                "{name} holds {value:e}, beyond what a frame can square; give at most {:e}",
+                State::LARGEST
             ));
         }
     }

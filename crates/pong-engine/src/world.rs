@@ -13,6 +13,17 @@ use pong_geometry::{Pose, Twist, Wrench};
 use pong_model::{Model, Surface};
 use std::sync::Arc;
 
+/// The stiffest single contact between two movable groups.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StiffestContact {
+    /// The two movable groups.
+    pub interfaces: [InterfaceId; 2],
+    /// Stiffness k of a whole contact, N/m.
+    pub stiffness: f64,
+    /// Its damping c, N·s/m; 0 for laws whose damping follows the load.
+    pub damping: f64,
+}
+
 /// A contact world: Objects, pairs and everything remembered between frames.
 ///
 /// Phases: set up (models, objects, pairs) → [`seal`](Self::seal) → frames. Calls in the wrong phase are refused
@@ -384,6 +395,20 @@ impl World {
     pub fn state(&self, interface: InterfaceId) -> Result<Option<(Pose, Twist)>, EngineError> {
         let state = &self.scene.bodies[self.interface_index(interface)?].state;
         Ok(state.as_ref().map(|state| (state.pose(), state.twist())))
+    }
+
+    /// The stiffest single contact that each pair of movable groups can have, as far as it does not depend on the
+    /// depth (Hertz contacts and registered laws do): what a step must be short enough for.
+    pub fn stiffest_contacts(&self) -> Result<Vec<StiffestContact>, EngineError> {
+        let sealed = self.sealed.as_ref().ok_or(not_sealed("ask for the stiffest contacts"))?;
+        let of_pair = |pair: &sealed::GroupPair| {
+            let tables = pair.tables.iter().map(|&table| &sealed.tables[table]);
+            let stiffest =
+                tables.filter_map(sealed::SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))?;
+            let interfaces = [pair.first, pair.second].map(|body| InterfaceId::new(self.stamp, body));
+            Some(StiffestContact { interfaces, stiffness: stiffest.0, damping: stiffest.1 })
+        };
+        Ok(sealed.group_pairs.iter().filter_map(of_pair).collect())
     }
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.

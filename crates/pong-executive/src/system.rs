@@ -83,12 +83,12 @@ impl System {
     }
 
     /// # Errors
-    /// A motion that is no longer finite, within a step too.
+    /// A motion that is no longer finite, or beyond what the engine accepts, within a step too.
     fn hand_in(&mut self, time: f64) -> Result<(), ExecutiveError> {
         self.states_in.clear();
         for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
             let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
-            if values.iter().flatten().any(|x| !x.is_finite()) {
+            if values.iter().flatten().any(|x| x.is_nan() || x.abs() > State::LARGEST) {
                 return Err(ExecutiveError::Diverged { body: body.name.clone(), time });
             }
             if let Some(interface) = body.interface {

@@ -58,6 +58,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for warning in built.warnings.iter().cloned().chain(built.seal.warnings.iter().map(ToString::to_string)) {
         eprintln!("warning: {warning}");
     }
+    for warning in built.simulation.step_warnings() {
+        eprintln!("warning: {warning}");
+    }
     let mut statistics = Statistics::new(&built);
     let ended = run(arguments, &mut built, &mut statistics);
     if !arguments.quiet {

@@ -4,8 +4,9 @@ use super::Simulation;
 use crate::body::{BodyId, RigidBody};
 use crate::energy::Energy;
 use crate::integrate::Integrator;
+use crate::stability::longest_stable_step;
 use crate::state::FreeState;
-use pong_engine::World;
+use pong_engine::{StiffestContact, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 impl Simulation {
@@ -22,6 +23,43 @@ impl Simulation {
     /// The integrator.
     pub fn integrator(&self) -> Integrator {
         self.integrator
+    }
+
+    /// Warnings about contacts for which the step is too long, each with the longest stable one (see
+    /// [`longest_stable_step`]). Empty if none is certain; Hertz contacts and registered laws are not judged.
+    pub fn step_warnings(&self) -> Vec<String> {
+        let Ok(stiffest) = self.world().stiffest_contacts() else { return Vec::new() };
+        stiffest.iter().filter_map(|contact| self.step_warning(contact)).collect()
+    }
+
+    fn step_warning(&self, contact: &StiffestContact) -> Option<String> {
+        let touching =
+            |interface| self.bodies().map(|(_, body)| body).find(|b| b.interface == Some(interface));
+        let bodies = [touching(contact.interfaces[0])?, touching(contact.interfaces[1])?];
+        // Fixed and prescribed bodies have no mass: they do not yield.
+        let inverse: f64 = bodies.iter().filter_map(|body| body.mass()).map(|mass| 1.0 / mass.mass).sum();
+        if inverse == 0.0 {
+            return None;
+        }
+        let (k, c) = (contact.stiffness, contact.damping);
+        let longest = longest_stable_step(self.integrator, k, c, 1.0 / inverse);
+        // An undamped wrench held over a frame gains a little at any step; short ones are the user's choice.
+        let held_undamped = longest == 0.0 && self.step * (k * inverse).sqrt() < 0.1;
+        if self.step < longest || held_undamped {
+            return None;
+        }
+        let cure = if longest > 0.0 {
+            format!("the longest stable step is {longest:.3e} s, less where several touch at once")
+        } else {
+            "no step is stable without damping; give the surfaces some".to_owned()
+        };
+        Some(format!(
+            "`{}` and `{}`: a contact of {k:.3e} N/m and {c:.3e} N·s/m on {:.3e} kg gains energy at a step of {:.3e} s; {cure}",
+            bodies[0].name,
+            bodies[1].name,
+            1.0 / inverse,
+            self.step
+        ))
     }
 
     /// The world: contacts, wrenches and counts of the present instant.
