@@ -4,7 +4,7 @@ use crate::dispatch::has_tester;
 use crate::error::EngineError;
 use crate::law::{FrictionProps, NormalProps, PairProps, combine};
 use crate::scene::Scene;
-use crate::state::fnv1a;
+use crate::state::{ContactKey, fnv1a};
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
@@ -71,6 +71,14 @@ pub(crate) struct Sealed {
     pub record_capacity: usize,
     pub custom_stride: usize,
     pub hash: u64,
+}
+
+impl Sealed {
+    /// The bodies that hold A and B of a contact.
+    pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
+        let pair = &self.group_pairs[key.group_pair as usize];
+        if key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
+    }
 }
 
 /// What sealing tells the host.

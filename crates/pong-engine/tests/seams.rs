@@ -114,7 +114,6 @@ fn pieces(count: usize) -> String {
     let width = SIZE / count as f64;
     let boxes: Vec<String> = (0..count)
         .map(|i| {
-            let x = (i as f64 + 0.5) * width - SIZE / 2.0;
             // Faces 4 and 5 look along −x and +x: the walls to the neighbours.
             let walls = match (i > 0, i + 1 < count) {
                 (true, true) => "4,5",
@@ -124,13 +123,13 @@ fn pieces(count: usize) -> String {
             };
             let left = i as f64 * width - SIZE / 2.0;
             let right = (i + 1) as f64 * width - SIZE / 2.0;
-            box_between(&format!("b{i}"), [left, -0.5, -0.4], [right, 0.5, 0.0], walls, x)
+            box_between(&format!("b{i}"), [left, -0.5, -0.4], [right, 0.5, 0.0], walls)
         })
         .collect();
     model("pieces", &steel(), &boxes.join(","))
 }
 
-fn box_between(name: &str, low: [f64; 3], high: [f64; 3], walls: &str, _middle: f64) -> String {
+fn box_between(name: &str, low: [f64; 3], high: [f64; 3], walls: &str) -> String {
     let v: Vec<String> = (0..8)
         .map(|i| {
             let c = |axis: usize| if i >> axis & 1 == 1 { high[axis] } else { low[axis] };

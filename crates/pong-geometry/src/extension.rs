@@ -101,11 +101,6 @@ impl Extensions {
     pub fn has_no_contact_tests(&self) -> bool {
         self.contact_tests.is_empty()
     }
-
-    /// Whether anything is registered between two kinds, in either order.
-    pub fn has_contact_test(&self, kind_a: &str, kind_b: &str) -> bool {
-        self.contact_test(kind_a, kind_b).is_some() || self.contact_test(kind_b, kind_a).is_some()
-    }
 }
 
 impl PrimitiveRef<'_> {

@@ -11,7 +11,6 @@
 
 use super::Frame;
 use super::forces::reference_point;
-use super::listing::body_of_a;
 use super::relative::SinceCommit;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
@@ -41,8 +40,8 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         }
         let mut work = 0.0;
         if let Some(since) = &motion.since_commit {
-            let body_a = body_of_a(scene, sealed, contact);
-            let reference = reference_point(body_a, contact);
+            let (body_a, _) = sealed.bodies_of(&contact.key);
+            let reference = reference_point(scene.body(body_a), contact);
             let displacement = Displacement::new(since, &motion.x_ba, &reference);
             work = displacement.half_work(&before.point, &before.force, false)
                 + displacement.half_work(&record.point, &record.force, true);

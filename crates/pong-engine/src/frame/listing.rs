@@ -8,7 +8,6 @@ use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::Role;
 use pong_geometry::Vec3;
-use pong_model::Body;
 
 impl Frame {
     /// Every contact that pushes, in key order.
@@ -31,8 +30,7 @@ impl Frame {
     ) -> Contact {
         let pair = &sealed.group_pairs[contact.key.group_pair as usize];
         let flipped = contact.key.flipped as usize;
-        let (body_a, body_b) =
-            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (body_a, body_b) = sealed.bodies_of(&contact.key);
         let x_ba = &self.motions[contact.key.group_pair as usize][flipped].x_ba;
         let x_wb = &self.poses[body_b];
         let to_common = |v: &Vec3| x_wb.orientation * v;
@@ -66,10 +64,4 @@ impl Frame {
             dissipated: contact.dissipated,
         }
     }
-}
-
-/// The body that holds A of a contact.
-pub(super) fn body_of_a<'a>(scene: &'a Scene, sealed: &Sealed, contact: &FrameContact) -> &'a Body {
-    let pair = &sealed.group_pairs[contact.key.group_pair as usize];
-    scene.body(if contact.key.flipped == 0 { pair.first } else { pair.second })
 }

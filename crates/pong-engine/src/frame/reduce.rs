@@ -8,11 +8,8 @@ use pong_geometry::Wrench;
 /// Adds every contact to both of its movable groups.
 pub(super) fn sum(sealed: &Sealed, frame: &mut Frame) {
     for contact in frame.contacts.iter().filter(|contact| contact.role == Role::Pushes) {
-        let pair = &sealed.group_pairs[contact.key.group_pair as usize];
-        let flipped = contact.key.flipped as usize;
-        let (body_a, body_b) =
-            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
-        let x_ba = &frame.motions[contact.key.group_pair as usize][flipped].x_ba;
+        let (body_a, body_b) = sealed.bodies_of(&contact.key);
+        let x_ba = &frame.motions[contact.key.group_pair as usize][contact.key.flipped as usize].x_ba;
         let force_b = contact.force();
         let force_a = x_ba.rotation.tr_mul(&force_b);
         let arm_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));

@@ -23,8 +23,7 @@ pub(super) fn settle(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
         let group = &mut frame.contacts[start..start + count];
         // A lone contact has nothing to share with: it keeps the weight 1.
         if group[0].shares && count > 1 {
-            let pair = &sealed.group_pairs[key.group_pair as usize];
-            let body_b = if key.flipped == 0 { pair.second } else { pair.first };
+            let (_, body_b) = sealed.bodies_of(&key);
             settle_surface(group, &scene.body(body_b).triangles, &mut frame.sharers);
         }
         start += count;
@@ -41,9 +40,7 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, contacts: &mut [FrameCont
     let mut hits: Vec<(usize, u32, usize, f64, usize)> = Vec::new();
     for (index, contact) in contacts.iter().enumerate() {
         let Some(distance) = contact.ray_distance else { continue };
-        let pair = &sealed.group_pairs[contact.key.group_pair as usize];
-        let (a, b) =
-            if contact.key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (a, b) = sealed.bodies_of(&contact.key);
         hits.push((a, contact.key.primitive_a, scene.bodies[b].object, distance, index));
     }
     hits.sort_by(|x, y| (x.0, x.1, x.2).cmp(&(y.0, y.1, y.2)).then(x.3.total_cmp(&y.3)).then(x.4.cmp(&y.4)));

@@ -20,7 +20,7 @@ pub(super) struct EntryFace {
     pub pushes: usize,
 }
 
-/// A point (or a sphere's centre) that may be inside a piece of B.
+/// A point (or a sphere's centre) inside a piece of B.
 pub(super) struct PolyhedronEntry<'a> {
     pub memory: &'a ContactMemory,
     pub body: &'a Body,
@@ -36,12 +36,9 @@ pub(super) struct PolyhedronEntry<'a> {
 }
 
 impl PolyhedronEntry<'_> {
-    /// The faces for a point inside the piece; `None` if it is outside or no face of the piece is active.
+    /// The faces for a point that is inside the piece; `None` if no face of the piece is active.
     pub fn face(&self, key: &ContactKey) -> Option<EntryFace> {
         let polyhedron = self.polyhedron();
-        if !polyhedron.contains(&self.point) {
-            return None;
-        }
         if !self.remembers {
             let face = shallowest_face(&self.point, polyhedron)?;
             return Some(EntryFace { reached: face, pushes: face });

@@ -92,7 +92,8 @@ impl Tableau {
         let factor = 1.0 / self.rows[row][column];
         self.rows[row].iter_mut().for_each(|x| *x *= factor);
         let pivot_row = self.rows[row].clone();
-        for (_, other) in self.rows.iter_mut().enumerate().filter(|(i, _)| *i != row) {
+        let (before, after) = self.rows.split_at_mut(row);
+        for other in before.iter_mut().chain(&mut after[1..]) {
             let factor = other[column];
             other.iter_mut().zip(&pivot_row).for_each(|(x, p)| *x -= factor * p);
         }

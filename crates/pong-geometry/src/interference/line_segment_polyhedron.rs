@@ -37,10 +37,10 @@ pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -
         let Some(measured) = end(0).zip(end(1)) else { continue };
         // An end at an inner wall counts here, though the piece behind the wall carries it: without it the face
         // would not be found where its other end does not touch.
-        let energy = measured.0.depth() * measured.0.depth() + measured.1.depth() * measured.1.depth();
+        let energy =
+            [measured.0, measured.1].iter().flatten().map(|contact| contact.depth * contact.depth).sum();
         if energy > 0.0 && energy < best.0 * TIE {
-            let carried =
-                |m: Measure, end: &InsideEnd| m.interference().filter(|m| carries(polyhedron, end, m));
+            let carried = |m: Measured, end: &InsideEnd| m.filter(|m| carries(polyhedron, end, m));
             best = (energy, [carried(measured.0, &inside[0]), carried(measured.1, &inside[1])]);
         }
     }
@@ -89,28 +89,11 @@ fn inside_part(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[Inside
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// What an end measures below a face.
-#[derive(Clone, Copy)]
-enum Measure {
-    Nothing,
-    Contact(Interference),
-}
+/// What an end measures below a face: `None` if it does not touch.
+type Measured = Option<Interference>;
 
-impl Measure {
-    fn of(contact: Interference) -> Self {
-        if contact.depth > 0.0 { Self::Contact(contact) } else { Self::Nothing }
-    }
-
-    fn depth(&self) -> f64 {
-        self.interference().map_or(0.0, |contact| contact.depth)
-    }
-
-    fn interference(&self) -> Option<Interference> {
-        match self {
-            Self::Nothing => None,
-            Self::Contact(contact) => Some(*contact),
-        }
-    }
+fn if_touching(contact: Interference) -> Measured {
+    (contact.depth > 0.0).then_some(contact)
 }
 
 /// Measures one end below one face; `None` if the face takes no part.
@@ -121,14 +104,14 @@ fn measure(
     face: &PolyhedronFace,
     inside: &InsideEnd,
     end: usize,
-) -> Option<Measure> {
+) -> Option<Measured> {
     let tip = &segment.ends[end];
     match inside.leaves_by {
-        Some(leaves_by) if leaves_by == index => Some(Measure::Nothing),
+        Some(leaves_by) if leaves_by == index => Some(None),
         Some(leaves_by) if !is_over_face(tip, polyhedron, index) => {
-            crossing(segment, polyhedron, index, leaves_by, inside.at).map(Measure::of)
+            crossing(segment, polyhedron, index, leaves_by, inside.at).map(if_touching)
         }
-        _ => Some(Measure::of(Interference {
+        _ => Some(if_touching(Interference {
             depth: -face.height(tip),
             normal: face.normal,
             point_a: *tip,
