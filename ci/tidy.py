@@ -9,9 +9,10 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 # Crate -> crates of ours that it may use (docs/architecture.md).
 ARROWS = {
+    "pong-arena": set(),
     "pong-geometry": set(),
     "pong-model": {"pong-geometry"},
-    "pong-engine": {"pong-geometry", "pong-model"},
+    "pong-engine": {"pong-arena", "pong-geometry", "pong-model"},
     "pong-executive": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-geometry", "pong-model", "pong-engine", "pong-executive"},
     "pong-capi": {"pong-geometry", "pong-model", "pong-engine"},

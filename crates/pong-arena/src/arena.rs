@@ -1,0 +1,217 @@
+//! One block of bytes that is handed out piece by piece and taken back as a whole.
+
+use crate::full::Full;
+use crate::list::List;
+use bumpalo::Bump;
+use std::cell::Cell;
+
+/// Every request is rounded up to a multiple of this many bytes, so that alignment never costs a byte that depends on
+/// an address. No element may ask for a larger alignment.
+const GRAIN: usize = 16;
+
+/// Memory of one frame: slices and lists that all end with the next [`reset`](Self::reset).
+///
+/// The block is taken when the arena is made, and each of its pages is written to, so that none has to be fetched
+/// later. It never grows.
+#[derive(Debug)]
+pub struct Arena {
+    bump: Bump,
+    capacity: usize,
+    used: Cell<usize>,
+    refused: Cell<usize>,
+    peak: Cell<usize>,
+}
+
+impl Arena {
+    /// An arena of `bytes`, rounded up to a multiple of 16.
+    ///
+    /// # Panics
+    /// If the machine has not that much memory.
+    pub fn with_capacity(bytes: usize) -> Self {
+        let capacity = bytes.checked_next_multiple_of(GRAIN).expect("a size that an address space can hold");
+        let mut bump = Bump::with_capacity(capacity.max(GRAIN));
+        std::hint::black_box(bump.alloc_slice_fill_copy(capacity, 0_u8));
+        bump.reset();
+        // No second block, whatever happens.
+        bump.set_allocation_limit(Some(bump.allocated_bytes()));
+        Self { bump, capacity, used: Cell::new(0), refused: Cell::new(0), peak: Cell::new(0) }
+    }
+
+    /// Ends everything that was handed out; the memory stays.
+    pub fn reset(&mut self) {
+        self.bump.reset();
+        self.used.set(0);
+        self.refused.set(0);
+    }
+
+    /// A slice of `len` elements, each a copy of `fill`.
+    ///
+    /// # Errors
+    /// [`Full`] if it does not fit.
+    // `&mut` from `&self`: every call hands out memory that no other call has.
+    #[allow(clippy::mut_from_ref)]
+    pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
+        self.claim::<T>(len)?;
+        self.bump.try_alloc_slice_fill_copy(len, fill).map_err(|_| self.full(len * size_of::<T>()))
+    }
+
+    /// An empty list with room for `capacity` elements.
+    ///
+    /// # Errors
+    /// [`Full`] if the room is not there.
+    pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
+        self.claim::<T>(capacity)?;
+        let mut items = bumpalo::collections::Vec::new_in(&self.bump);
+        items.try_reserve_exact(capacity).map_err(|_| self.full(capacity * size_of::<T>()))?;
+        Ok(List::new(self, items, capacity))
+    }
+
+    /// Bytes handed out since the last reset.
+    pub fn used(&self) -> usize {
+        self.used.get()
+    }
+
+    /// The most bytes that were asked for between two resets since the arena was made, what was refused included: the
+    /// capacity that would have been enough for all that was asked for.
+    pub fn peak(&self) -> usize {
+        self.peak.get()
+    }
+
+    /// Bytes that can be handed out between two resets.
+    pub fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// Books a request, if it fits.
+    fn claim<T>(&self, len: usize) -> Result<(), Full> {
+        const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };
+        let asked = len.saturating_mul(size_of::<T>());
+        let whole = asked.checked_next_multiple_of(GRAIN).unwrap_or(usize::MAX);
+        if whole > self.capacity - self.used.get() {
+            self.refuse(whole);
+            return Err(self.full(asked));
+        }
+        self.used.set(self.used.get() + whole);
+        self.note_peak();
+        Ok(())
+    }
+
+    /// Remembers what did not fit, for the peak.
+    pub(crate) fn refuse(&self, bytes: usize) {
+        self.refused.set(self.refused.get().saturating_add(bytes));
+        self.note_peak();
+    }
+
+    fn note_peak(&self) {
+        self.peak.set(self.peak.get().max(self.used.get().saturating_add(self.refused.get())));
+    }
+
+    fn full(&self, asked: usize) -> Full {
+        Full { asked, free: self.capacity - self.used.get(), capacity: self.capacity }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_fits_up_to_the_last_byte_and_nothing_beyond() {
+        let mut arena = Arena::with_capacity(160);
+        for _ in 0..3 {
+            arena.reset();
+            let ten = (0..10).map(|i| arena.slice(2, f64::from(i)).unwrap()).collect::<Vec<_>>();
+            assert_eq!((arena.used(), arena.capacity()), (160, 160));
+            let refused = arena.slice(1, 0_u8).unwrap_err();
+            assert_eq!(refused, Full { asked: 1, free: 0, capacity: 160 });
+            // Nothing that was handed out has suffered.
+            for (i, slice) in ten.iter().enumerate() {
+                assert_eq!(**slice, [i as f64; 2]);
+            }
+        }
+    }
+
+    #[test]
+    fn a_refusal_leaves_room_for_what_still_fits() {
+        let arena = Arena::with_capacity(64);
+        assert!(arena.slice(9, 0_u64).is_err());
+        assert_eq!(arena.slice(8, 7_u64).unwrap(), [7; 8]);
+    }
+
+    #[test]
+    fn reset_hands_out_the_same_memory_again() {
+        let mut arena = Arena::with_capacity(1 << 20);
+        let first = arena.slice(1 << 20, 1_u8).unwrap().as_ptr() as usize;
+        arena.reset();
+        assert_eq!(arena.used(), 0);
+        assert_eq!(arena.slice(1 << 20, 2_u8).unwrap().as_ptr() as usize, first);
+    }
+
+    #[test]
+    fn every_element_is_aligned_and_order_costs_nothing() {
+        #[derive(Clone, Copy)]
+        #[repr(align(16))]
+        struct Wide(#[allow(dead_code)] [u8; 16]);
+        let mut arena = Arena::with_capacity(16 * 5);
+        for turn in 0..5 {
+            arena.reset();
+            for place in 0..5 {
+                let address = match (place + turn) % 5 {
+                    0 => arena.slice(1, 1_u8).unwrap().as_ptr() as usize,
+                    1 => arena.slice(1, 1_u16).unwrap().as_ptr() as usize,
+                    2 => arena.slice(3, 1_u32).unwrap().as_ptr() as usize,
+                    3 => arena.slice(1, 1_u64).unwrap().as_ptr() as usize,
+                    _ => arena.slice(1, Wide([0; 16])).unwrap().as_ptr() as usize,
+                };
+                let align = [1, 2, 4, 8, 16][(place + turn) % 5];
+                assert_eq!(address % align, 0);
+            }
+            assert_eq!(arena.used(), arena.capacity());
+        }
+    }
+
+    #[test]
+    fn zero_sizes_cost_nothing() {
+        let arena = Arena::with_capacity(0);
+        assert_eq!(arena.capacity(), 0);
+        assert!(arena.slice(0, 0.0).unwrap().is_empty());
+        assert_eq!(arena.slice(5, ()).unwrap().len(), 5);
+        assert!(arena.list::<f64>(0).unwrap().is_empty());
+        let mut nothing = arena.list::<()>(2).unwrap();
+        assert!([nothing.push(()), nothing.push(())].iter().all(Result::is_ok));
+        assert!(nothing.push(()).is_err());
+        assert_eq!(arena.slice(1, 0_u8).unwrap_err(), Full { asked: 1, free: 0, capacity: 0 });
+        assert_eq!(arena.peak(), 16);
+    }
+
+    #[test]
+    fn absurd_requests_are_refused() {
+        let arena = Arena::with_capacity(64);
+        assert!(arena.slice(usize::MAX, 0.0).is_err());
+        assert!(arena.list::<f64>(usize::MAX / 8).is_err());
+        assert_eq!(arena.used(), 0);
+    }
+
+    #[test]
+    fn the_peak_is_the_size_that_would_have_been_enough() {
+        let run = |capacity: usize| {
+            let mut arena = Arena::with_capacity(capacity);
+            for frame in 0..4 {
+                arena.reset();
+                let wanted = [3, 40, 9, 1][frame];
+                let refused = arena.slice(wanted, 0_u64).is_err() | arena.slice(5, 0_u32).is_err();
+                assert!(!refused || arena.peak() > capacity);
+            }
+            arena.peak()
+        };
+        let advised = run(48);
+        assert_eq!(advised, 40 * 8 + 32);
+        assert_eq!(run(advised), advised);
+    }
+
+    #[test]
+    fn sizes_are_rounded_up() {
+        assert_eq!(Arena::with_capacity(1).capacity(), 16);
+        assert_eq!(Arena::with_capacity(4097).capacity(), 4112);
+    }
+}

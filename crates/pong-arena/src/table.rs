@@ -1,0 +1,219 @@
+//! A table that outlives frames.
+
+use crate::full::Full;
+use std::ops::{Deref, DerefMut};
+
+/// A table with room for a fixed number of elements. Used as a slice.
+///
+/// The memory is taken, and each of its pages written to, when the table is made; it never grows and never shrinks.
+#[derive(Debug)]
+pub struct Table<T: Copy> {
+    items: Vec<T>,
+    capacity: usize,
+    refused: usize,
+    /// Of the past: what is there now is looked at when somebody asks.
+    peak: usize,
+}
+
+impl<T: Copy> Table<T> {
+    /// An empty table with room for `capacity` elements. `fill` is what its memory is touched with.
+    ///
+    /// # Panics
+    /// If the machine has not that much memory.
+    pub fn with_capacity(capacity: usize, fill: T) -> Self {
+        let mut items = vec![fill; capacity];
+        std::hint::black_box(items.as_mut_slice());
+        items.clear();
+        Self { items, capacity, refused: 0, peak: 0 }
+    }
+
+    /// Appends an element.
+    ///
+    /// # Errors
+    /// [`Full`] if there is no room; the table stays as it is.
+    #[inline]
+    pub fn push(&mut self, value: T) -> Result<(), Full> {
+        if self.items.len() == self.capacity {
+            return Err(self.refuse(1));
+        }
+        self.items.push(value);
+        Ok(())
+    }
+
+    /// Appends all of `values`, or none.
+    ///
+    /// # Errors
+    /// [`Full`] if there is no room for all; the table stays as it is.
+    pub fn extend_from_slice(&mut self, values: &[T]) -> Result<(), Full> {
+        if values.len() > self.capacity - self.items.len() {
+            return Err(self.refuse(values.len()));
+        }
+        self.items.extend_from_slice(values);
+        Ok(())
+    }
+
+    /// Takes all elements out.
+    pub fn clear(&mut self) {
+        self.peak = self.peak();
+        self.items.clear();
+        self.refused = 0;
+    }
+
+    /// Keeps the first `len` elements.
+    pub fn truncate(&mut self, len: usize) {
+        self.peak = self.peak();
+        self.items.truncate(len);
+    }
+
+    /// Keeps the elements that `keep` names, in their order.
+    pub fn retain(&mut self, keep: impl FnMut(&T) -> bool) {
+        self.peak = self.peak();
+        self.items.retain(keep);
+    }
+
+    /// The elements.
+    pub fn as_slice(&self) -> &[T] {
+        &self.items
+    }
+
+    /// The elements, to be changed.
+    pub fn as_mut_slice(&mut self) -> &mut [T] {
+        &mut self.items
+    }
+
+    /// How many elements fit.
+    pub fn capacity(&self) -> usize {
+        self.capacity
+    }
+
+    /// The most elements there were since the table was made, with those refused since it was last cleared: the
+    /// capacity that would have been enough.
+    pub fn peak(&self) -> usize {
+        self.peak.max(self.items.len().saturating_add(self.refused))
+    }
+
+    #[cold]
+    fn refuse(&mut self, count: usize) -> Full {
+        self.refused = self.refused.saturating_add(count);
+        let size = size_of::<T>();
+        let free = self.capacity - self.items.len();
+        Full { asked: count.saturating_mul(size), free: free * size, capacity: self.capacity * size }
+    }
+}
+
+impl<T: Copy> Default for Table<T> {
+    /// No room at all.
+    fn default() -> Self {
+        Self { items: Vec::new(), capacity: 0, refused: 0, peak: 0 }
+    }
+}
+
+impl<T: Copy> Clone for Table<T> {
+    /// A table of the same capacity. This allocates: it is for setting up.
+    fn clone(&self) -> Self {
+        let mut items = Vec::with_capacity(self.capacity);
+        items.extend_from_slice(&self.items);
+        Self { items, ..*self }
+    }
+}
+
+impl<T: Copy + PartialEq> PartialEq for Table<T> {
+    /// Whether the elements are equal; how many would fit does not matter.
+    fn eq(&self, other: &Self) -> bool {
+        self.items == other.items
+    }
+}
+
+impl<T: Copy> Deref for Table<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        &self.items
+    }
+}
+
+impl<T: Copy> DerefMut for Table<T> {
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.items
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_takes_its_capacity_and_loses_nothing_at_the_limit() {
+        let mut table = Table::with_capacity(2, 0_u32);
+        let place = table.as_slice().as_ptr();
+        assert!(table.push(1).is_ok() && table.push(2).is_ok());
+        assert_eq!(table.push(3).unwrap_err(), Full { asked: 4, free: 0, capacity: 8 });
+        assert_eq!(*table, [1, 2]);
+        assert_eq!(table.as_slice().as_ptr(), place);
+    }
+
+    #[test]
+    fn many_at_once_come_in_whole_or_not_at_all() {
+        let mut table = Table::with_capacity(4, 0_u8);
+        table.extend_from_slice(&[1, 2, 3]).unwrap();
+        assert_eq!(table.extend_from_slice(&[4, 5]).unwrap_err(), Full { asked: 2, free: 1, capacity: 4 });
+        table.extend_from_slice(&[4]).unwrap();
+        assert_eq!(*table, [1, 2, 3, 4]);
+        assert_eq!(table.peak(), 6);
+    }
+
+    #[test]
+    fn the_peak_outlives_frames_and_counts_what_was_refused() {
+        let mut table = Table::with_capacity(3, 0);
+        for wanted in [2, 5, 1] {
+            table.clear();
+            for i in 0..wanted {
+                let _ = table.push(i);
+            }
+            assert_eq!(table.len(), wanted.min(3));
+        }
+        assert_eq!((table.peak(), table.capacity()), (5, 3));
+    }
+
+    #[test]
+    fn elements_can_be_taken_out_and_changed_in_place() {
+        let mut table = Table::with_capacity(6, 0);
+        table.extend_from_slice(&[1, 2, 3, 4, 5, 6]).unwrap();
+        table.retain(|x| x % 2 == 0);
+        table.truncate(2);
+        table.as_mut_slice()[0] = 9;
+        assert_eq!(*table, [9, 4]);
+        assert_eq!(table.capacity(), 6);
+    }
+
+    #[test]
+    fn the_peak_sees_what_was_taken_out_since() {
+        let mut table = Table::with_capacity(6, 0);
+        table.extend_from_slice(&[1, 2, 3, 4, 5]).unwrap();
+        assert_eq!(table.peak(), 5);
+        table.retain(|x| *x > 3);
+        table.truncate(1);
+        assert_eq!((table.len(), table.peak()), (1, 5));
+        table.clear();
+        assert_eq!(table.peak(), 5);
+    }
+
+    #[test]
+    fn a_clone_has_the_room_of_its_model() {
+        let mut model = Table::with_capacity(4, 0.0);
+        model.push(1.5).unwrap();
+        let mut copy = model.clone();
+        assert!(copy == model);
+        assert!((0..3).all(|_| copy.push(2.5).is_ok()));
+        assert!(copy.push(2.5).is_err());
+        assert_eq!(model.len(), 1);
+    }
+
+    #[test]
+    fn no_room_is_no_room() {
+        assert!(Table::default().push(1).is_err());
+        assert!(Table::with_capacity(0, 0_u8).extend_from_slice(&[]).is_ok());
+        let mut nothing = Table::with_capacity(1, ());
+        assert!(nothing.push(()).is_ok() && nothing.push(()).is_err());
+    }
+}
