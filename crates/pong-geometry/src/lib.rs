@@ -18,9 +18,12 @@
 pub mod bounding;
 pub mod extension;
 pub mod interference;
+pub mod lanes;
 pub mod pose;
 pub mod primitive;
+pub mod simd;
 
+pub use lanes::Lanes;
 pub use pose::{Pose, Transform, Twist, Wrench};
 
 /// A vector of three components; which frame it is expressed in is told by its name.

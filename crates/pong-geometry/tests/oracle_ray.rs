@@ -308,9 +308,11 @@ fn no_ray_slips_between_pieces() {
         }
         // Twin walls are made exact opposites at load.
         let wall = pieces[0].faces.iter().find(|f| !f.active).map(|f| (f.normal, f.offset)).expect("wall");
-        for face in pieces[1].faces.iter_mut().filter(|f| !f.active) {
-            (face.normal, face.offset) = (-wall.0, -wall.1);
-        }
+        pieces[1].change(|parts| {
+            for face in parts.faces.iter_mut().filter(|f| !f.active) {
+                (face.normal, face.offset) = (-wall.0, -wall.1);
+            }
+        });
         let target = Vec3::new(cut, random.between(-0.6, 0.6), 0.4);
         let slope = if round % 5 < 2 { 0.0 } else { random.between(-1.0, 1.0) };
         let from = target + Vec3::new(slope, random.between(-0.5, 0.5), 1.0);

@@ -7,7 +7,7 @@ use crate::hull::Hull;
 use crate::weld::{PositionKey, WordMap, position_key};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{
-    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
+    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
 };
 use std::cmp::Ordering;
 
@@ -40,7 +40,7 @@ struct VertexStar {
 ///
 /// Also returns the places where more than two active faces meet at one edge, by piece.
 pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec<(usize, Vec3)>) {
-    let mut polyhedra: Vec<Polyhedron> = hulls.iter().map(piece).collect();
+    let mut polyhedra: Vec<PolyhedronParts> = hulls.iter().map(piece).collect();
     let edges = edges_of_surfaces(&polyhedra, surface_of);
     let mut stars = stars_of_surfaces(&polyhedra, surface_of);
     let mut tangled = Vec::new();
@@ -63,14 +63,14 @@ pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec
     for (index, polyhedron) in polyhedra.iter_mut().enumerate() {
         set_cones(polyhedron, surface_of[index], &mut stars);
     }
-    (polyhedra, tangled)
+    (polyhedra.into_iter().map(Polyhedron::new).collect(), tangled)
 }
 
 /// A piece with its outline, edges and vertices; nothing pushes yet.
-fn piece(hull: &Hull) -> Polyhedron {
+fn piece(hull: &Hull) -> PolyhedronParts {
     let vertex =
         |&position: &Vec3| PolyhedronVertex { position, pushes: false, first_cone: 0, cone_count: 0 };
-    let mut polyhedron = Polyhedron {
+    let mut polyhedron = PolyhedronParts {
         faces: Vec::with_capacity(hull.faces.len()),
         rims: Vec::new(),
         edges: Vec::new(),
@@ -96,7 +96,7 @@ fn piece(hull: &Hull) -> Polyhedron {
 
 /// An edge as one face sees it; the edge is added when its first face comes by.
 fn rim(
-    polyhedron: &mut Polyhedron,
+    polyhedron: &mut PolyhedronParts,
     numbers: &mut WordMap<(u32, u32), u32>,
     face: u32,
     normal: Vec3,
@@ -117,7 +117,7 @@ fn rim(
     RimEdge { start, edge, neighbor: face, anchor, outward: if forward { across } else { -across } }
 }
 
-fn set_neighbors(polyhedron: &mut Polyhedron) {
+fn set_neighbors(polyhedron: &mut PolyhedronParts) {
     for (index, face) in polyhedron.faces.iter().enumerate() {
         let range = face.first_rim as usize..(face.first_rim + face.rim_count) as usize;
         for rim in &mut polyhedron.rims[range] {
@@ -135,14 +135,14 @@ fn unit(v: &Vec3) -> Vec3 {
     (v / v.amax()).normalize()
 }
 
-fn edge_key(surface: u32, polyhedron: &Polyhedron, edge: usize) -> EdgeKey {
+fn edge_key(surface: u32, polyhedron: &PolyhedronParts, edge: usize) -> EdgeKey {
     let [a, b] =
         polyhedron.edges[edge].vertices.map(|v| position_key(&polyhedron.vertices[v as usize].position));
     (surface, a, b)
 }
 
 /// The active faces at every edge of every surface, in the order of pieces and faces.
-fn edges_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<EdgeKey, Vec<FaceAtEdge>> {
+fn edges_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordMap<EdgeKey, Vec<FaceAtEdge>> {
     let mut edges: WordMap<EdgeKey, Vec<FaceAtEdge>> = WordMap::default();
     for (index, polyhedron) in polyhedra.iter().enumerate() {
         for (number, face) in polyhedron.faces.iter().enumerate() {
@@ -158,7 +158,7 @@ fn edges_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<Ed
     edges
 }
 
-fn stars_of_surfaces(polyhedra: &[Polyhedron], surface_of: &[u32]) -> WordMap<VertexKey, VertexStar> {
+fn stars_of_surfaces(polyhedra: &[PolyhedronParts], surface_of: &[u32]) -> WordMap<VertexKey, VertexStar> {
     let mut stars: WordMap<VertexKey, VertexStar> = WordMap::default();
     for (index, polyhedron) in polyhedra.iter().enumerate() {
         for (number, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
@@ -182,7 +182,12 @@ fn push(faces: &[FaceAtEdge]) -> Option<EdgePush> {
 }
 
 /// An edge with an active face bounds the cones at both its ends.
-fn note_edge(stars: &mut WordMap<VertexKey, VertexStar>, surface: u32, polyhedron: &Polyhedron, edge: usize) {
+fn note_edge(
+    stars: &mut WordMap<VertexKey, VertexStar>,
+    surface: u32,
+    polyhedron: &PolyhedronParts,
+    edge: usize,
+) {
     let edge = &polyhedron.edges[edge];
     for (vertex, away) in [(edge.vertices[0], edge.direction), (edge.vertices[1], -edge.direction)] {
         let position = polyhedron.vertices[vertex as usize].position;
@@ -192,7 +197,7 @@ fn note_edge(stars: &mut WordMap<VertexKey, VertexStar>, surface: u32, polyhedro
 }
 
 /// Gives the vertices their cones; the first piece that asks for a star takes it.
-fn set_cones(polyhedron: &mut Polyhedron, surface: u32, stars: &mut WordMap<VertexKey, VertexStar>) {
+fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap<VertexKey, VertexStar>) {
     for vertex in &mut polyhedron.vertices {
         let Some(star) = stars.remove(&(surface, position_key(&vertex.position))) else { continue };
         if star.has_cone() {

@@ -3,12 +3,16 @@
 //! All geometry of one movable group is expressed in the frame of that group.
 
 mod curved;
+mod face_planes;
 mod polyhedron;
 mod simple;
 mod triangles;
 
 pub use curved::{Ellipsoid, Sphere};
-pub use polyhedron::{EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge};
+pub use face_planes::{FacePlanes, PlaneBlock};
+pub use polyhedron::{
+    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
+};
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{NO_NEIGHBOR, TriangleRecord, TriangleSet};
 

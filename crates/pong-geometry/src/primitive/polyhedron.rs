@@ -4,11 +4,22 @@
 //! surface (physics contract, section 2.1); what an edge or a vertex may push is therefore a property of the
 //! whole surface and is worked out when the model is loaded.
 
+use super::face_planes::FacePlanes;
 use crate::Vec3;
 
 /// A convex solid: the intersection of the half spaces of its faces.
+///
+/// Made by [`new`](Self::new) from its [`PolyhedronParts`], whose fields it shows; [`change`](Self::change) alters
+/// them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polyhedron {
+    parts: PolyhedronParts,
+    planes: FacePlanes,
+}
+
+/// All that a polyhedron consists of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PolyhedronParts {
     /// Faces; the lower index wins ties.
     pub faces: Vec<PolyhedronFace>,
     /// The edges of all face outlines, face after face, counter-clockwise seen from outside.
@@ -36,7 +47,7 @@ pub struct PolyhedronFace {
     /// Whether a point exactly on this plane still belongs to this piece: true for an inactive wall whose twin
     /// belongs to a piece with a higher index.
     pub closed: bool,
-    /// First entry of this face's outline in [`Polyhedron::rims`].
+    /// First entry of this face's outline in [`PolyhedronParts::rims`].
     pub first_rim: u32,
     /// Number of entries of the outline.
     pub rim_count: u32,
@@ -45,11 +56,11 @@ pub struct PolyhedronFace {
 /// One edge of a face's outline, as that face sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RimEdge {
-    /// Where the edge starts, walking the outline counter-clockwise (index into [`Polyhedron::vertices`]).
+    /// Where the edge starts, walking the outline counter-clockwise (index into [`PolyhedronParts::vertices`]).
     pub start: u32,
-    /// The edge (index into [`Polyhedron::edges`]).
+    /// The edge (index into [`PolyhedronParts::edges`]).
     pub edge: u32,
-    /// The face on the other side (index into [`Polyhedron::faces`]).
+    /// The face on the other side (index into [`PolyhedronParts::faces`]).
     pub neighbor: u32,
     /// The end of the edge that comes first in (x, y, z) order, so that every face and piece measures from the
     /// same point, m.
@@ -61,7 +72,7 @@ pub struct RimEdge {
 /// An edge of one piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolyhedronEdge {
-    /// Its two ends in (x, y, z) order (indices into [`Polyhedron::vertices`]).
+    /// Its two ends in (x, y, z) order (indices into [`PolyhedronParts::vertices`]).
     pub vertices: [u32; 2],
     /// The two faces of this piece that meet here.
     pub faces: [u32; 2],
@@ -89,13 +100,55 @@ pub struct PolyhedronVertex {
     /// Whether the vertex may push: active faces of the surface meet here, and this piece is the lowest that has
     /// the vertex.
     pub pushes: bool,
-    /// First entry of its cone in [`Polyhedron::cone_edges`].
+    /// First entry of its cone in [`PolyhedronParts::cone_edges`].
     pub first_cone: u32,
     /// Number of entries of its cone.
     pub cone_count: u32,
 }
 
 impl Polyhedron {
+    /// The finished polyhedron: its planes are set out for the tests.
+    pub fn new(parts: PolyhedronParts) -> Self {
+        Self { planes: FacePlanes::new(&parts.faces), parts }
+    }
+
+    /// Changes the parts and sets out the planes anew.
+    pub fn change(&mut self, change: impl FnOnce(&mut PolyhedronParts)) {
+        change(&mut self.parts);
+        self.planes = FacePlanes::new(&self.parts.faces);
+    }
+
+    /// The parts.
+    pub fn into_parts(self) -> PolyhedronParts {
+        self.parts
+    }
+
+    /// The planes of the faces, eight at a time.
+    #[inline]
+    pub fn planes(&self) -> &FacePlanes {
+        &self.planes
+    }
+
+    /// Whether a point lies inside this piece (the tie rule of inner walls included).
+    #[inline]
+    pub fn contains(&self, p: &Vec3) -> bool {
+        self.faces.iter().all(|face| {
+            let height = face.height(p);
+            height < 0.0 || (face.closed && height == 0.0)
+        })
+    }
+}
+
+impl std::ops::Deref for Polyhedron {
+    type Target = PolyhedronParts;
+
+    #[inline]
+    fn deref(&self) -> &PolyhedronParts {
+        &self.parts
+    }
+}
+
+impl PolyhedronParts {
     /// The outline of a face.
     #[inline]
     pub fn rim(&self, face: usize) -> &[RimEdge] {
@@ -114,15 +167,6 @@ impl Polyhedron {
     #[inline]
     pub fn height(&self, face: usize, p: &Vec3) -> f64 {
         self.faces[face].height(p)
-    }
-
-    /// Whether a point lies inside this piece (the tie rule of inner walls included).
-    #[inline]
-    pub fn contains(&self, p: &Vec3) -> bool {
-        self.faces.iter().all(|face| {
-            let height = face.height(p);
-            height < 0.0 || (face.closed && height == 0.0)
-        })
     }
 }
 

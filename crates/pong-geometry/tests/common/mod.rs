@@ -2,8 +2,8 @@
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
 use pong_geometry::primitive::{
-    EdgePush, Ellipsoid, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronVertex, RimEdge,
-    TriangleRecord, TriangleSet,
+    EdgePush, Ellipsoid, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts,
+    PolyhedronVertex, RimEdge, TriangleRecord, TriangleSet,
 };
 use pong_geometry::{Mat3, Quat, Transform, Vec3};
 
@@ -102,7 +102,7 @@ pub fn hull(points: &[Vec3]) -> Polyhedron {
 pub fn hull_with_walls(points: &[Vec3], is_wall: &dyn Fn(&Vec3, f64) -> bool) -> Polyhedron {
     let diameter = largest_distance(points);
     let outlines = hull_outlines(points, 1e-9 * diameter);
-    let mut polyhedron = Polyhedron {
+    let mut polyhedron = PolyhedronParts {
         faces: Vec::new(),
         rims: Vec::new(),
         edges: Vec::new(),
@@ -127,11 +127,11 @@ pub fn hull_with_walls(points: &[Vec3], is_wall: &dyn Fn(&Vec3, f64) -> bool) ->
     }
     set_edge_pushes(&mut polyhedron);
     push_vertices(&mut polyhedron, points);
-    polyhedron
+    Polyhedron::new(polyhedron)
 }
 
 fn push_rim(
-    polyhedron: &mut Polyhedron,
+    polyhedron: &mut PolyhedronParts,
     points: &[Vec3],
     outlines: &[(Vec3, Vec<usize>)],
     start: usize,
@@ -164,7 +164,7 @@ fn push_rim(
     });
 }
 
-fn set_edge_pushes(polyhedron: &mut Polyhedron) {
+fn set_edge_pushes(polyhedron: &mut PolyhedronParts) {
     for index in 0..polyhedron.edges.len() {
         let faces = polyhedron.edges[index].faces.map(|f| f as usize);
         if faces.iter().all(|&f| polyhedron.faces[f].active) {
@@ -184,7 +184,7 @@ fn set_edge_pushes(polyhedron: &mut Polyhedron) {
     }
 }
 
-fn push_vertices(polyhedron: &mut Polyhedron, points: &[Vec3]) {
+fn push_vertices(polyhedron: &mut PolyhedronParts, points: &[Vec3]) {
     for (index, position) in points.iter().enumerate() {
         let first_cone = polyhedron.cone_edges.len() as u32;
         let mut pushes = true;
@@ -257,7 +257,7 @@ fn ordered(points: &[Vec3], normal: &Vec3, members: &[usize]) -> Vec<usize> {
 
 /// A polyhedron moved rigidly.
 pub fn moved(polyhedron: &Polyhedron, x: &Transform) -> Polyhedron {
-    let mut moved = polyhedron.clone();
+    let mut moved = polyhedron.clone().into_parts();
     for face in &mut moved.faces {
         face.normal = x.vector(&face.normal);
         face.offset += face.normal.dot(&x.translation);
@@ -279,12 +279,12 @@ pub fn moved(polyhedron: &Polyhedron, x: &Transform) -> Polyhedron {
     for cone in &mut moved.cone_edges {
         *cone = x.vector(cone);
     }
-    moved
+    Polyhedron::new(moved)
 }
 
 /// A polyhedron scaled about the origin.
 pub fn scaled(polyhedron: &Polyhedron, factor: f64) -> Polyhedron {
-    let mut scaled = polyhedron.clone();
+    let mut scaled = polyhedron.clone().into_parts();
     scaled.diameter *= factor;
     for face in &mut scaled.faces {
         face.offset *= factor;
@@ -295,7 +295,7 @@ pub fn scaled(polyhedron: &Polyhedron, factor: f64) -> Polyhedron {
     for vertex in &mut scaled.vertices {
         vertex.position *= factor;
     }
-    scaled
+    Polyhedron::new(scaled)
 }
 
 /// An ellipsoid scaled about the origin.

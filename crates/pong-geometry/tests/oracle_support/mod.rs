@@ -347,17 +347,19 @@ pub fn join_pieces(pieces: &mut [Polyhedron]) {
     let convex = |faces: &[(Vec3, Vec3)]| faces.len() == 2 && faces[0].0.dot(&faces[1].1) > 1e-9;
     let flat = |faces: &[(Vec3, Vec3)]| faces.len() == 2 && faces[0].0.dot(&faces[1].1).abs() <= 1e-9;
     for piece in pieces.iter_mut() {
-        piece.edges.iter_mut().for_each(|edge| edge.push = None);
-        piece.cone_edges.clear();
-        for vertex in &mut piece.vertices {
-            (vertex.pushes, vertex.first_cone, vertex.cone_count) = (false, 0, 0);
-        }
+        piece.change(|parts| {
+            parts.edges.iter_mut().for_each(|edge| edge.push = None);
+            parts.cone_edges.clear();
+            for vertex in &mut parts.vertices {
+                (vertex.pushes, vertex.first_cone, vertex.cone_count) = (false, 0, 0);
+            }
+        });
     }
     for (_, faces, owners) in &edges {
         if convex(faces) {
             let (piece, number) = *owners.iter().min().expect("an owner");
-            pieces[piece].edges[number].push =
-                Some(EdgePush { normals: [faces[0].0, faces[1].0], outwards: [faces[0].1, faces[1].1] });
+            let push = EdgePush { normals: [faces[0].0, faces[1].0], outwards: [faces[0].1, faces[1].1] };
+            pieces[piece].change(|parts| parts.edges[number].push = Some(push));
         }
     }
     let mut done: Vec<Vec3> = Vec::new();
@@ -376,13 +378,15 @@ pub fn join_pieces(pieces: &mut [Polyhedron]) {
                 continue;
             }
             let first = piece.cone_edges.len() as u32;
-            for (ends, ..) in &star {
-                let other = if ends[0] == place { ends[1] } else { ends[0] };
-                piece.cone_edges.push((other - place).normalize());
-            }
-            let count = piece.cone_edges.len() as u32 - first;
-            let entry = &mut piece.vertices[vertex];
-            (entry.pushes, entry.first_cone, entry.cone_count) = (true, first, count);
+            piece.change(|parts| {
+                for (ends, ..) in &star {
+                    let other = if ends[0] == place { ends[1] } else { ends[0] };
+                    parts.cone_edges.push((other - place).normalize());
+                }
+                let count = parts.cone_edges.len() as u32 - first;
+                let entry = &mut parts.vertices[vertex];
+                (entry.pushes, entry.first_cone, entry.cone_count) = (true, first, count);
+            });
         }
     }
 }
@@ -400,7 +404,7 @@ pub fn close_lower_walls(pieces: &mut [Polyhedron]) {
                     !g.active && g.normal.dot(&normal) < -1.0 + 1e-12 && (g.offset + offset).abs() < 1e-9
                 })
             });
-            pieces[lower].faces[face].closed = !active && has_twin;
+            pieces[lower].change(|parts| parts.faces[face].closed = !active && has_twin);
         }
     }
 }
@@ -430,9 +434,11 @@ pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
     }
     // The loader makes twin walls exact opposites.
     let wall = pieces[0].faces.iter().find(|f| !f.active).map(|f| (f.normal, f.offset)).expect("wall");
-    for face in pieces[1].faces.iter_mut().filter(|f| !f.active) {
-        (face.normal, face.offset) = (-wall.0, -wall.1);
-    }
+    pieces[1].change(|parts| {
+        for face in parts.faces.iter_mut().filter(|f| !f.active) {
+            (face.normal, face.offset) = (-wall.0, -wall.1);
+        }
+    });
     close_lower_walls(&mut pieces);
     join_pieces(&mut pieces);
     pieces

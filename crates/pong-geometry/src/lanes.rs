@@ -1,0 +1,166 @@
+//! Eight points at a time.
+
+use crate::Transform;
+use crate::primitive::{Polyhedron, PolyhedronFace};
+use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
+
+/// Eight points, coordinate by coordinate, m. Fewer points leave lanes whose answers are not asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(64))]
+pub struct Lanes {
+    /// The x coordinates.
+    pub x: [f64; LANES],
+    /// The y coordinates.
+    pub y: [f64; LANES],
+    /// The z coordinates.
+    pub z: [f64; LANES],
+}
+
+impl Lanes {
+    /// Eight times the origin.
+    pub const ORIGIN: Self = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
+
+    /// The points in another frame, in the bits of [`Transform::point`].
+    #[inline]
+    pub fn carried(&self, x: &Transform) -> Self {
+        simd::run(Carry { points: self, x })
+    }
+
+    /// [`carried`](Self::carried) within a kernel.
+    #[inline(always)]
+    pub fn carried_in<S: Simd>(&self, simd: S, x: &Transform) -> Self {
+        let points = Loaded::new(simd, self);
+        Self { x: points.coordinate(x, 0), y: points.coordinate(x, 1), z: points.coordinate(x, 2) }
+    }
+}
+
+struct Carry<'a> {
+    points: &'a Lanes,
+    x: &'a Transform,
+}
+
+impl Kernel for Carry<'_> {
+    type Output = Lanes;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> Lanes {
+        self.points.carried_in(simd, self.x)
+    }
+}
+
+impl Polyhedron {
+    /// Which of eight points lie `reach` (m, one for each) or more above some face: bit `i` is set exactly if
+    /// `face.height(&points[i]) >= reach[i]` for a face.
+    ///
+    /// A sphere of that radius about the point then has no contact.
+    #[inline]
+    pub fn lanes_outside(&self, points: &Lanes, reach: &[f64; LANES]) -> LaneBits {
+        simd::run(Outside { polyhedron: self, points, reach })
+    }
+
+    /// [`lanes_outside`](Self::lanes_outside) within a kernel.
+    #[inline(always)]
+    pub fn lanes_outside_in<S: Simd>(&self, simd: S, points: &Lanes, reach: &[f64; LANES]) -> LaneBits {
+        let reach = simd.load(reach);
+        let points = Loaded::new(simd, points);
+        let mut outside = 0;
+        for face in &self.faces {
+            outside |= simd.bits(simd.at_least(points.heights_above(face), reach));
+            if outside == LaneBits::MAX {
+                break;
+            }
+        }
+        outside
+    }
+
+    /// Which of eight points lie inside this piece: bit `i` is set exactly if
+    /// [`contains`](Polyhedron::contains) says so.
+    #[inline]
+    pub fn lanes_contain(&self, points: &Lanes) -> LaneBits {
+        simd::run(Contain { polyhedron: self, points })
+    }
+
+    /// [`lanes_contain`](Self::lanes_contain) within a kernel.
+    #[inline(always)]
+    pub fn lanes_contain_in<S: Simd>(&self, simd: S, points: &Lanes) -> LaneBits {
+        let zero = simd.splat(0.0);
+        let points = Loaded::new(simd, points);
+        let mut inside = LaneBits::MAX;
+        for face in &self.faces {
+            let height = points.heights_above(face);
+            let mut held = simd.bits(simd.below(height, zero));
+            if face.closed {
+                held |= simd.bits(simd.equal(height, zero));
+            }
+            inside &= held;
+            if inside == 0 {
+                break;
+            }
+        }
+        inside
+    }
+}
+
+/// Eight points in registers.
+#[derive(Clone, Copy)]
+struct Loaded<S: Simd> {
+    simd: S,
+    x: S::Eight,
+    y: S::Eight,
+    z: S::Eight,
+}
+
+impl<S: Simd> Loaded<S> {
+    #[inline(always)]
+    fn new(simd: S, points: &Lanes) -> Self {
+        Self { simd, x: simd.load(&points.x), y: simd.load(&points.y), z: simd.load(&points.z) }
+    }
+
+    /// One coordinate of the carried points.
+    #[inline(always)]
+    fn coordinate(&self, x: &Transform, row: usize) -> [f64; LANES] {
+        let simd = self.simd;
+        let entry = |column: usize| simd.splat(x.rotation[(row, column)]);
+        let turned = simd.add(simd.mul(entry(0), self.x), simd.mul(entry(1), self.y));
+        let turned = simd.add(turned, simd.mul(entry(2), self.z));
+        simd.store(simd.add(turned, simd.splat(x.translation[row])))
+    }
+
+    /// The heights above a face's plane, in the bits of [`PolyhedronFace::height`].
+    #[inline(always)]
+    fn heights_above(&self, face: &PolyhedronFace) -> S::Eight {
+        let (simd, normal) = (self.simd, &face.normal);
+        let along = simd.add(simd.mul(simd.splat(normal.x), self.x), simd.mul(simd.splat(normal.y), self.y));
+        let along = simd.add(along, simd.mul(simd.splat(normal.z), self.z));
+        simd.sub(along, simd.splat(face.offset))
+    }
+}
+
+struct Outside<'a> {
+    polyhedron: &'a Polyhedron,
+    points: &'a Lanes,
+    reach: &'a [f64; LANES],
+}
+
+impl Kernel for Outside<'_> {
+    type Output = LaneBits;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> LaneBits {
+        self.polyhedron.lanes_outside_in(simd, self.points, self.reach)
+    }
+}
+
+struct Contain<'a> {
+    polyhedron: &'a Polyhedron,
+    points: &'a Lanes,
+}
+
+impl Kernel for Contain<'_> {
+    type Output = LaneBits;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> LaneBits {
+        self.polyhedron.lanes_contain_in(simd, self.points)
+    }
+}

@@ -1,0 +1,85 @@
+//! Plain arrays: what the other levels must agree with.
+
+use super::{LANES, LaneBits, Simd};
+
+/// The level that every machine has.
+#[derive(Clone, Copy, Debug)]
+pub struct Portable;
+
+#[inline(always)]
+fn zip(a: [f64; LANES], b: [f64; LANES], f: impl Fn(f64, f64) -> f64) -> [f64; LANES] {
+    let mut out = [0.0; LANES];
+    for lane in 0..LANES {
+        out[lane] = f(a[lane], b[lane]);
+    }
+    out
+}
+
+#[inline(always)]
+fn compare(a: [f64; LANES], b: [f64; LANES], f: impl Fn(f64, f64) -> bool) -> LaneBits {
+    let mut bits = 0;
+    for lane in 0..LANES {
+        bits |= LaneBits::from(f(a[lane], b[lane])) << lane;
+    }
+    bits
+}
+
+impl Simd for Portable {
+    type Eight = [f64; LANES];
+    type Mask = LaneBits;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Self::Eight {
+        [value; LANES]
+    }
+    #[inline(always)]
+    fn load(self, values: &[f64; LANES]) -> Self::Eight {
+        *values
+    }
+    #[inline(always)]
+    fn store(self, values: Self::Eight) -> [f64; LANES] {
+        values
+    }
+    #[inline(always)]
+    fn add(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask {
+        compare(a, b, |a, b| a < b)
+    }
+    #[inline(always)]
+    fn at_least(self, a: Self::Eight, b: Self::Eight) -> Self::Mask {
+        compare(a, b, |a, b| a >= b)
+    }
+    #[inline(always)]
+    fn equal(self, a: Self::Eight, b: Self::Eight) -> Self::Mask {
+        compare(a, b, |a, b| a == b)
+    }
+    #[inline(always)]
+    fn bits(self, mask: Self::Mask) -> LaneBits {
+        mask
+    }
+    #[inline(always)]
+    fn select(self, mask: Self::Mask, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        let mut out = b;
+        for lane in 0..LANES {
+            if mask >> lane & 1 == 1 {
+                out[lane] = a[lane];
+            }
+        }
+        out
+    }
+}

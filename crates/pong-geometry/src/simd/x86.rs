@@ -1,0 +1,139 @@
+//! x86-64: one register of eight numbers (AVX-512) or two of four (AVX2). The crate `pulp` hands out its tokens only
+//! where the machine has the instructions, which makes their use safe.
+
+use super::{Kernel, LANES, LaneBits, Simd};
+use pulp::cast;
+use pulp::x86::{V3, V4};
+use std::arch::x86_64::{__m256d, __m512d};
+use std::arch::x86_64::{_CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
+
+/// A kernel with the level it runs at.
+pub(super) struct With<K, S>(pub K, pub S);
+
+impl<K: Kernel, S: Simd> pulp::NullaryFnOnce for With<K, S> {
+    type Output = K::Output;
+
+    #[inline(always)]
+    fn call(self) -> K::Output {
+        self.0.run(self.1)
+    }
+}
+
+/// Eight numbers per instruction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx512(pub V4);
+
+impl Simd for Avx512 {
+    type Eight = __m512d;
+    type Mask = LaneBits;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> __m512d {
+        self.0.avx512f._mm512_set1_pd(value)
+    }
+    #[inline(always)]
+    fn load(self, values: &[f64; LANES]) -> __m512d {
+        cast(*values)
+    }
+    #[inline(always)]
+    fn store(self, values: __m512d) -> [f64; LANES] {
+        cast(values)
+    }
+    #[inline(always)]
+    fn add(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_add_pd(a, b)
+    }
+    #[inline(always)]
+    fn sub(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_sub_pd(a, b)
+    }
+    #[inline(always)]
+    fn mul(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_mul_pd(a, b)
+    }
+    #[inline(always)]
+    fn div(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_div_pd(a, b)
+    }
+    #[inline(always)]
+    fn below(self, a: __m512d, b: __m512d) -> LaneBits {
+        self.0.avx512f._mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b)
+    }
+    #[inline(always)]
+    fn at_least(self, a: __m512d, b: __m512d) -> LaneBits {
+        self.0.avx512f._mm512_cmp_pd_mask::<_CMP_GE_OQ>(a, b)
+    }
+    #[inline(always)]
+    fn equal(self, a: __m512d, b: __m512d) -> LaneBits {
+        self.0.avx512f._mm512_cmp_pd_mask::<_CMP_EQ_OQ>(a, b)
+    }
+    #[inline(always)]
+    fn bits(self, mask: LaneBits) -> LaneBits {
+        mask
+    }
+    #[inline(always)]
+    fn select(self, mask: LaneBits, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_mask_blend_pd(mask, b, a)
+    }
+}
+
+/// Four numbers per instruction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Avx2(pub V3);
+
+/// Lanes 0 to 3 and 4 to 7.
+type Halves = [__m256d; 2];
+
+impl Simd for Avx2 {
+    type Eight = Halves;
+    type Mask = Halves;
+
+    #[inline(always)]
+    fn splat(self, value: f64) -> Halves {
+        [self.0.avx._mm256_set1_pd(value); 2]
+    }
+    #[inline(always)]
+    fn load(self, values: &[f64; LANES]) -> Halves {
+        cast(*values)
+    }
+    #[inline(always)]
+    fn store(self, values: Halves) -> [f64; LANES] {
+        cast(values)
+    }
+    #[inline(always)]
+    fn add(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_add_pd(a, c), self.0.avx._mm256_add_pd(b, d)]
+    }
+    #[inline(always)]
+    fn sub(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_sub_pd(a, c), self.0.avx._mm256_sub_pd(b, d)]
+    }
+    #[inline(always)]
+    fn mul(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_mul_pd(a, c), self.0.avx._mm256_mul_pd(b, d)]
+    }
+    #[inline(always)]
+    fn div(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_div_pd(a, c), self.0.avx._mm256_div_pd(b, d)]
+    }
+    #[inline(always)]
+    fn below(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_cmp_pd::<_CMP_LT_OQ>(a, c), self.0.avx._mm256_cmp_pd::<_CMP_LT_OQ>(b, d)]
+    }
+    #[inline(always)]
+    fn at_least(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_cmp_pd::<_CMP_GE_OQ>(a, c), self.0.avx._mm256_cmp_pd::<_CMP_GE_OQ>(b, d)]
+    }
+    #[inline(always)]
+    fn equal(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_cmp_pd::<_CMP_EQ_OQ>(a, c), self.0.avx._mm256_cmp_pd::<_CMP_EQ_OQ>(b, d)]
+    }
+    #[inline(always)]
+    fn bits(self, [a, b]: Halves) -> LaneBits {
+        (self.0.avx._mm256_movemask_pd(a) | self.0.avx._mm256_movemask_pd(b) << 4) as LaneBits
+    }
+    #[inline(always)]
+    fn select(self, [first, second]: Halves, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_blendv_pd(c, a, first), self.0.avx._mm256_blendv_pd(d, b, second)]
+    }
+}
