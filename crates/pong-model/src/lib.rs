@@ -1,11 +1,12 @@
 //! Model files: RON text → validated, flat, immutable [`Model`].
 //!
 //! The way of a file: `ron_tree` (text to values with their places), `read` (values to drafts of bodies), `hull`
-//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `tree` (bounding volumes),
-//! `hash`. The format is described in `docs/model_format.md`.
+//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `tree` and
+//! `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`.
 
 #![forbid(unsafe_code)]
 
+pub mod box_tree;
 mod build;
 mod draft;
 mod element;
@@ -26,7 +27,7 @@ mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
-pub use model::{Body, Item, Model, Node, PrimitiveInfo, Tree};
+pub use model::{Balls, Batch, Body, Item, Model, Node, PrimitiveInfo, Tree};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
 use pong_geometry::extension::Extensions;

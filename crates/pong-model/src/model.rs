@@ -1,12 +1,15 @@
 //! The flat, immutable form of a model that the engine reads.
 
+use crate::box_tree::BoxTree;
 use crate::surface::{PairOverride, Surface};
 use pong_geometry::Pose;
 use pong_geometry::bounding::Volume;
+use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{
     CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere,
     TriangleSet,
 };
+use pong_geometry::simd::LANES;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -91,13 +94,15 @@ pub struct PrimitiveInfo {
     pub first_mirror: u32,
 }
 
-/// A tree of bounding volumes of any arity in one array.
+/// A tree of bounding volumes of any arity in one array: the authored groups.
 #[derive(Clone, Debug, Default)]
 pub struct Tree {
     /// Node 0 is the root; the children of a node are contiguous.
     pub nodes: Vec<Node>,
-    /// Contents of the leaves, leaf after leaf.
+    /// Contents of the leaves, leaf after leaf, batch after batch.
     pub items: Vec<Item>,
+    /// The elements of each leaf by kind.
+    pub batches: Vec<Batch>,
 }
 
 /// A node: either children or items, never both.
@@ -109,13 +114,62 @@ pub struct Node {
     pub children: Range<u32>,
     /// Contents of a leaf (indices into [`Tree::items`]).
     pub items: Range<u32>,
-    /// Path of the authored group this node belongs to; large leaves are split further by the loader and those
-    /// nodes keep the path of the leaf.
+    /// The same contents by kind (indices into [`Tree::batches`]).
+    pub batches: Range<u32>,
+    /// Path of the authored group.
     pub group: Arc<str>,
 }
 
+/// The elements of one kind in one leaf, as they are tested: eight at a time, found through a tree of boxes.
+#[derive(Clone, Debug)]
+pub struct Batch {
+    /// Their kind.
+    pub kind: PrimitiveKind,
+    /// Which they are, in the order of the tree of boxes (indices into [`Tree::items`]).
+    pub items: Range<u32>,
+    /// Boxes around them. Its element *i* is item `items.start + i`.
+    pub boxes: BoxTree,
+    /// Centres and radii by lane, for points and spheres.
+    pub balls: Option<Balls>,
+}
+
+/// Points or spheres in lanes of eight: those of the elements 8·i … 8·i + 7 at place *i*. Unused lanes hold zeros.
+#[derive(Clone, Debug)]
+pub struct Balls {
+    /// Centres in the movable group's frame, m.
+    pub centers: Vec<Lanes>,
+    /// Radii, m; zero for points.
+    pub radii: Vec<[f64; LANES]>,
+}
+
+impl Balls {
+    /// The lanes of some elements; `None` for kinds that are no balls.
+    pub(crate) fn new(body: &Body, kind: PrimitiveKind, items: &[Item]) -> Option<Self> {
+        let ball = |item: &Item| match kind {
+            PrimitiveKind::Point => Some((body.points[item.element as usize].position, 0.0)),
+            PrimitiveKind::Sphere => {
+                let sphere = &body.spheres[item.element as usize];
+                Some((sphere.center, sphere.radius))
+            }
+            _ => None,
+        };
+        let mut balls = Self { centers: Vec::new(), radii: Vec::new() };
+        for chunk in items.chunks(LANES) {
+            let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
+            for (lane, item) in chunk.iter().enumerate() {
+                let (center, radius) = ball(item)?;
+                (centers.x[lane], centers.y[lane], centers.z[lane]) = (center.x, center.y, center.z);
+                radii[lane] = radius;
+            }
+            balls.centers.push(centers);
+            balls.radii.push(radii);
+        }
+        Some(balls)
+    }
+}
+
 /// One element of a leaf.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
     /// Index into [`Body::primitives`].
     pub primitive: u32,

@@ -1,19 +1,17 @@
-//! The tree of bounding volumes of a body: the authored groups, with large leaves split further.
-//!
-//! Volumes of authored groups are fitted in the kind that the group names. A leaf with more than
-//! [`LARGE_LEAF`] elements is halved along the longest side until at most [`SMALL_LEAF`] are left; the parts of
-//! spheres are spheres, all others boxes along the axes, found from the bottom up.
+//! The tree of bounding volumes of a body: the authored groups, each fitted in the kind that it names. Below a
+//! leaf the elements lie in batches, one per kind, each with a [`BoxTree`] of its own.
 
+use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
 use crate::element::Element;
-use crate::model::{Body, Item, Node, Tree};
+use crate::model::{Balls, Batch, Body, Item, Node, Tree};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{BoundKind, Bounded, Volume, fit, fit_aabb_bounds};
 use pong_geometry::extension::Extensions;
+use pong_geometry::primitive::PrimitiveKind;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-const LARGE_LEAF: usize = 16;
-const SMALL_LEAF: usize = 8;
 /// More things than this are not fitted one and all.
 const MANY: usize = 512;
 
@@ -26,14 +24,6 @@ struct DraftNode {
     children: Vec<usize>,
     items: Vec<Item>,
     group: Arc<str>,
-}
-
-/// An element with its box.
-#[derive(Clone, Copy)]
-struct Boxed {
-    item: Item,
-    low: Vec3,
-    high: Vec3,
 }
 
 struct Builder<'b> {
@@ -51,7 +41,7 @@ pub(crate) fn build(body: &Body, groups: &[GroupDraft], ext: &Extensions) -> Res
         Some((root, _)) => root,
         None => builder.nothing(),
     };
-    if builder.faults.is_empty() { Ok(flatten(builder.nodes, root)) } else { Err(builder.faults) }
+    if builder.faults.is_empty() { Ok(flatten(body, builder.nodes, root)) } else { Err(builder.faults) }
 }
 
 impl Builder<'_> {
@@ -83,11 +73,8 @@ impl Builder<'_> {
             return None;
         }
         let volume = self.authored_volume(index, &below);
-        let node = if group.items.is_empty() {
-            self.push(DraftNode { volume, children, items: Vec::new(), group: Arc::clone(&group.path) })
-        } else {
-            self.leaf(group, volume)
-        };
+        let items = group.items.clone();
+        let node = self.push(DraftNode { volume, children, items, group: Arc::clone(&group.path) });
         Some((node, below))
     }
 
@@ -134,93 +121,44 @@ impl Builder<'_> {
         })
     }
 
-    fn boxed(&self, items: &[Item]) -> Vec<Boxed> {
-        let boxed = |&item: &Item| {
-            let (low, high) = Element::new(self.body, item).extent();
-            Boxed { item, low, high }
-        };
-        items.iter().map(boxed).collect()
-    }
-
-    /// A leaf as authored, or the top of what it is split into.
-    fn leaf(&mut self, group: &GroupDraft, volume: Volume) -> usize {
-        let path = &group.path;
-        if group.items.len() <= LARGE_LEAF {
-            let items = group.items.clone();
-            return self.push(DraftNode { volume, children: Vec::new(), items, group: Arc::clone(path) });
-        }
-        let (mut bounded, endless): (Vec<_>, Vec<_>) =
-            self.boxed(&group.items).into_iter().partition(Boxed::is_bounded);
-        let kind = if group.bound == BoundKind::Sphere { BoundKind::Sphere } else { BoundKind::Aabb };
-        let mut children = Vec::new();
-        if !endless.is_empty() {
-            let items = endless.iter().map(|boxed| boxed.item).collect();
-            let volume = Volume::Unbounded;
-            children.push(self.push(DraftNode {
-                volume,
-                children: Vec::new(),
-                items,
-                group: Arc::clone(path),
-            }));
-        }
-        if !bounded.is_empty() {
-            let split = self.split(&mut bounded, &kind, path).0;
-            if endless.is_empty() {
-                // The authored volume replaces that of the part which holds everything.
-                self.nodes[split].volume = volume;
-                return split;
-            }
-            children.push(split);
-        }
-        self.push(DraftNode { volume, children, items: Vec::new(), group: Arc::clone(path) })
-    }
-
-    /// Halves at the median of the longest side; also returns the box of all.
-    fn split(&mut self, boxed: &mut [Boxed], kind: &BoundKind, path: &Arc<str>) -> (usize, Vec3, Vec3) {
-        if boxed.len() <= SMALL_LEAF {
-            boxed.sort_unstable_by_key(|b| (b.item.primitive, b.item.element));
-            let (low, high) = extent(boxed);
-            let items: Vec<Item> = boxed.iter().map(|b| b.item).collect();
-            let volume = self.part_volume(kind, boxed, low, high);
-            let node = self.push(DraftNode { volume, children: Vec::new(), items, group: Arc::clone(path) });
-            return (node, low, high);
-        }
-        let axis = longest_axis(boxed);
-        let middle = boxed.len() / 2;
-        boxed.select_nth_unstable_by(middle, |a, b| {
-            let order = a.center(axis).total_cmp(&b.center(axis));
-            order.then((a.item.primitive, a.item.element).cmp(&(b.item.primitive, b.item.element)))
-        });
-        let (left, right) = boxed.split_at_mut(middle);
-        let (left, low_l, high_l) = self.split(left, kind, path);
-        let (right, low_r, high_r) = self.split(right, kind, path);
-        let (low, high) = (low_l.inf(&low_r), high_l.sup(&high_r));
-        let volume = self.part_volume(kind, boxed, low, high);
-        let children = vec![left, right];
-        let node = self.push(DraftNode { volume, children, items: Vec::new(), group: Arc::clone(path) });
-        (node, low, high)
-    }
-
-    /// Parts are many: a ball stands where the box does, with the least radius there.
-    fn part_volume(&self, kind: &BoundKind, boxed: &[Boxed], low: Vec3, high: Vec3) -> Volume {
-        if *kind == BoundKind::Aabb {
-            return fit_aabb_bounds(low, high);
-        }
-        let center = 0.5 * (low + high);
-        let farthest = |b: &Boxed| Element::new(self.body, b.item).farthest(&center);
-        let radius = boxed.iter().map(farthest).fold(0.0, f64::max);
-        Volume::Sphere { center, radius }.inflated()
+    fn boxed(&self, items: &[Item]) -> Vec<Boxed<Item>> {
+        items.iter().map(|&item| boxed(self.body, item)).collect()
     }
 }
 
-impl Boxed {
-    fn is_bounded(&self) -> bool {
-        self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
-    }
+fn boxed(body: &Body, item: Item) -> Boxed<Item> {
+    let (low, high) = Element::new(body, item).extent();
+    Boxed { item, low, high }
+}
 
-    /// Twice the centre.
-    fn center(&self, axis: usize) -> f64 {
-        self.low[axis] + self.high[axis]
+/// The elements of a leaf by kind, the unbounded ones apart, each batch in the order of its tree.
+fn batches(body: &Body, items: &[Item], tree: &mut Tree) {
+    let mut by_kind: BTreeMap<(PrimitiveKind, bool), Vec<Boxed<Item>>> = BTreeMap::new();
+    for &item in items {
+        let kind = body.primitives[item.primitive as usize].kind;
+        let boxed = boxed(body, item);
+        by_kind.entry((kind, !boxed.is_bounded())).or_default().push(with_margin(boxed));
+    }
+    for ((kind, _), mut elements) in by_kind {
+        let boxes = BoxTree::build(&mut elements);
+        let first = tree.items.len() as u32;
+        tree.items.extend(elements.iter().map(|element| element.item));
+        let items = first..tree.items.len() as u32;
+        let balls = Balls::new(body, kind, &tree.items[first as usize..]);
+        tree.batches.push(Batch { kind, items, boxes, balls });
+    }
+}
+
+/// The box with the margin that every fitted volume carries.
+fn with_margin(boxed: Boxed<Item>) -> Boxed<Item> {
+    match fit_aabb_bounds(boxed.low, boxed.high) {
+        Volume::Aabb { center, half } if boxed.is_bounded() => {
+            Boxed { low: center - half, high: center + half, ..boxed }
+        }
+        _ => {
+            let infinite = Vec3::repeat(f64::INFINITY);
+            Boxed { low: -infinite, high: infinite, ..boxed }
+        }
     }
 }
 
@@ -249,43 +187,33 @@ fn outermost(elements: &[Element<'_>], items: &[Item]) -> Vec<Item> {
     found
 }
 
-fn extent(boxed: &[Boxed]) -> (Vec3, Vec3) {
-    let (first, rest) = (boxed[0], &boxed[1..]);
-    rest.iter().fold((first.low, first.high), |(low, high), b| (low.inf(&b.low), high.sup(&b.high)))
-}
-
 /// `None` if anything is unbounded, or not a number.
-fn box_around(boxed: &[Boxed]) -> Option<Volume> {
+fn box_around(boxed: &[Boxed<Item>]) -> Option<Volume> {
     if !boxed.iter().all(Boxed::is_bounded) {
         return None;
     }
-    let (low, high) = extent(boxed);
+    let (first, rest) = boxed.split_first()?;
+    let join = |(low, high): (Vec3, Vec3), b: &Boxed<Item>| (low.inf(&b.low), high.sup(&b.high));
+    let (low, high) = rest.iter().fold((first.low, first.high), join);
     Some(fit_aabb_bounds(low, high))
 }
 
-fn longest_axis(boxed: &[Boxed]) -> usize {
-    let center = |b: &Boxed| b.low + b.high;
-    let first = center(&boxed[0]);
-    let span = |(low, high): (Vec3, Vec3), b: &Boxed| (low.inf(&center(b)), high.sup(&center(b)));
-    let (low, high) = boxed.iter().fold((first, first), span);
-    (high - low).imax()
-}
-
 /// Breadth first, so that the children of a node lie side by side.
-fn flatten(mut drafts: Vec<DraftNode>, root: usize) -> Tree {
+fn flatten(body: &Body, mut drafts: Vec<DraftNode>, root: usize) -> Tree {
     let mut order = vec![root];
     let mut tree = Tree::default();
     let mut next = 0;
     while next < order.len() {
         let draft = &mut drafts[order[next]];
         let first_child = order.len() as u32;
-        let first_item = tree.items.len() as u32;
+        let (first_item, first_batch) = (tree.items.len() as u32, tree.batches.len() as u32);
         order.append(&mut draft.children);
-        tree.items.append(&mut draft.items);
+        batches(body, &draft.items, &mut tree);
         tree.nodes.push(Node {
             volume: draft.volume.clone(),
             children: first_child..order.len() as u32,
             items: first_item..tree.items.len() as u32,
+            batches: first_batch..tree.batches.len() as u32,
             group: Arc::clone(&draft.group),
         });
         next += 1;

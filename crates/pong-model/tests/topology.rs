@@ -3,7 +3,8 @@
 mod common;
 use common::{CUBE_FACES, cube, cube_vertices, load, model_of};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron};
+use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron, PrimitiveKind};
+use pong_model::box_tree::{Child, NarrowBox};
 use pong_model::{Body, Model};
 use std::collections::BTreeSet;
 
@@ -418,13 +419,31 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
         let body = &model.bodies[0];
         check_tree(body, 0, &mut BTreeSet::new());
         assert_eq!(body.tree.items.iter().map(|i| i.element).collect::<BTreeSet<_>>().len(), 700);
-        assert!(body.tree.nodes.iter().all(|node| node.items.len() <= 8 && &*node.group == "root"));
-        let kind = |i: usize| body.tree.nodes[i].volume.kind_name().to_owned();
-        assert_eq!(kind(0), bound);
-        assert_eq!(kind(1), if bound == "Obb" { "Aabb" } else { bound });
+        assert_eq!(body.tree.nodes.len(), 1, "one authored group, one node");
+        assert_eq!(body.tree.nodes[0].volume.kind_name(), bound);
+        check_batch(body, &body.tree.batches[0]);
         assert_eq!(model.hash, load(&text).hash);
         assert!(load(&text).bodies[0].tree.items == body.tree.items);
     }
+}
+
+/// Every ball lies in the box that its batch has for it, and in the lane that its place says.
+fn check_batch(body: &Body, batch: &pong_model::Batch) {
+    let balls = batch.balls.as_ref().expect("spheres have lanes");
+    batch.boxes.visit(&NarrowBox::EVERYTHING, |node, met| {
+        for lane in met {
+            let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
+            let item = body.tree.items[(batch.items.start + place) as usize];
+            let ball = &body.spheres[item.element as usize];
+            let one = batch
+                .boxes
+                .narrowed(&ball.center.add_scalar(-ball.radius), &ball.center.add_scalar(ball.radius));
+            assert!(node.boxes.lane(lane).join(&one) == node.boxes.lane(lane), "{item:?}");
+            let centers = &balls.centers[place as usize / 8];
+            assert_eq!(centers.x[place as usize % 8], ball.center.x);
+            assert_eq!(balls.radii[place as usize / 8][place as usize % 8], ball.radius);
+        }
+    });
 }
 
 /// Every volume below a node holds what it must; returns the items below.
@@ -476,8 +495,10 @@ fn a_plane_makes_its_leaf_and_all_above_unbounded_but_not_its_neighbours() {
     assert!(unbounded(0));
     assert_eq!(tree.nodes[0].children, 1..3, "c holds nothing of this body");
     assert!(unbounded(1) && !unbounded(2));
-    let below: Vec<_> = tree.nodes[1].children.clone().map(unbounded).collect();
-    assert_eq!(below, [true, false]);
+    let everywhere = |i: u32| tree.batches[i as usize].boxes.around == NarrowBox::EVERYTHING;
+    let below: Vec<_> =
+        tree.nodes[1].batches.clone().map(|i| (tree.batches[i as usize].kind, everywhere(i))).collect();
+    assert_eq!(below, [(PrimitiveKind::Sphere, false), (PrimitiveKind::Plane, true)]);
     assert_eq!(tree.items.len(), 42);
 }
 

@@ -1,0 +1,146 @@
+//! Builds a tree of boxes from the top down: bottom nodes are filled with eight elements, the levels above them
+//! have as few boxes per node as the number of levels allows, all alike.
+
+use super::{BoxNode, BoxTree, ELEMENT, NarrowBox, NarrowBoxes, WIDTH};
+use pong_geometry::Vec3;
+
+/// An element on its way: what it is and its box, m.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Boxed<T> {
+    pub item: T,
+    pub low: Vec3,
+    pub high: Vec3,
+}
+
+impl<T> Boxed<T> {
+    /// Whether the box is finite.
+    pub fn is_bounded(&self) -> bool {
+        self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
+    }
+
+    /// Twice the centre.
+    fn center(&self, axis: usize) -> f64 {
+        self.low[axis] + self.high[axis]
+    }
+}
+
+impl BoxTree {
+    /// The tree of some elements, which are put into its order. Unbounded elements make every box above them
+    /// unbounded: keep them in a tree of their own.
+    pub(crate) fn build<T: Copy + Ord>(elements: &mut [Boxed<T>]) -> Self {
+        let mut tree = Self { origin: middle(elements), nodes: Vec::new(), around: NarrowBox::NOTHING };
+        if !elements.is_empty() {
+            let bottoms = elements.len().div_ceil(WIDTH);
+            tree.nodes.reserve_exact(bottoms + bottoms / 2 + 2);
+            tree.around = tree.add_node(elements, 0, levels_above(bottoms)).1;
+            tree.nodes.shrink_to_fit();
+        }
+        tree
+    }
+
+    /// Adds the node of some elements and all nodes below; answers its index and the box around it.
+    fn add_node<T: Copy + Ord>(
+        &mut self,
+        elements: &mut [Boxed<T>],
+        first: usize,
+        levels: u32,
+    ) -> (u32, NarrowBox) {
+        let index = self.nodes.len();
+        let range = first as u32..(first + elements.len()) as u32;
+        self.nodes.push(BoxNode::empty(range));
+        let mut around = NarrowBox::NOTHING;
+        if levels == 0 {
+            elements.sort_unstable_by_key(|element| element.item);
+            for (lane, element) in elements.iter().enumerate() {
+                let one = self.narrowed(&element.low, &element.high);
+                self.nodes[index].set(lane, &one, ELEMENT | (first + lane) as u32);
+                around = around.join(&one);
+            }
+            return (index as u32, around);
+        }
+        let parts = root_up(elements.len().div_ceil(WIDTH), levels);
+        let mut lane = 0;
+        deal(elements, parts, &mut |part, start| {
+            let (child, one) = self.add_node(part, first + start, levels - 1);
+            self.nodes[index].set(lane, &one, child);
+            around = around.join(&one);
+            lane += 1;
+        });
+        (index as u32, around)
+    }
+}
+
+/// Levels of nodes above so many bottom nodes.
+fn levels_above(bottoms: usize) -> u32 {
+    let mut levels = 0;
+    while WIDTH.pow(levels) < bottoms {
+        levels += 1;
+    }
+    levels
+}
+
+/// The least number of boxes per node with which so many levels suffice.
+fn root_up(bottoms: usize, levels: u32) -> usize {
+    (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
+}
+
+/// Cuts elements into parts of as many bottom nodes each, give or take one, by halving across the longest side;
+/// hands out every part with its start.
+fn deal<T: Copy + Ord>(
+    elements: &mut [Boxed<T>],
+    parts: usize,
+    take: &mut dyn FnMut(&mut [Boxed<T>], usize),
+) {
+    deal_from(elements, parts, 0, take);
+}
+
+fn deal_from<T: Copy + Ord>(
+    elements: &mut [Boxed<T>],
+    parts: usize,
+    start: usize,
+    take: &mut dyn FnMut(&mut [Boxed<T>], usize),
+) {
+    if parts == 1 {
+        return take(elements, start);
+    }
+    let bottoms = elements.len().div_ceil(WIDTH);
+    let left_parts = parts / 2;
+    let left_bottoms = bottoms / parts * left_parts + (bottoms % parts).min(left_parts);
+    let middle = left_bottoms * WIDTH;
+    let axis = longest_axis(elements);
+    elements.select_nth_unstable_by(middle, |a, b| {
+        a.center(axis).total_cmp(&b.center(axis)).then(a.item.cmp(&b.item))
+    });
+    let (left, right) = elements.split_at_mut(middle);
+    deal_from(left, left_parts, start, take);
+    deal_from(right, parts - left_parts, start + middle, take);
+}
+
+fn longest_axis<T>(elements: &[Boxed<T>]) -> usize {
+    let center = |element: &Boxed<T>| element.low + element.high;
+    let first = center(&elements[0]);
+    let span = |(low, high): (Vec3, Vec3), element: &Boxed<T>| {
+        (low.inf(&center(element)), high.sup(&center(element)))
+    };
+    let (low, high) = elements.iter().fold((first, first), span);
+    (high - low).imax()
+}
+
+/// The middle of all finite boxes, m.
+fn middle<T>(elements: &[Boxed<T>]) -> Vec3 {
+    let mut bounded = elements.iter().filter(|element| element.is_bounded()).map(|e| (e.low, e.high));
+    let Some(first) = bounded.next() else { return Vec3::zeros() };
+    let (low, high) = bounded.fold(first, |(low, high), (l, h)| (low.inf(&l), high.sup(&h)));
+    0.5 * (low + high)
+}
+
+impl BoxNode {
+    fn empty(elements: std::ops::Range<u32>) -> Self {
+        Self { boxes: NarrowBoxes::NOTHING, children: [0; WIDTH], elements }
+    }
+
+    fn set(&mut self, lane: usize, one: &NarrowBox, child: u32) {
+        self.boxes.set(lane, one);
+        self.children[lane] = child;
+    }
+}

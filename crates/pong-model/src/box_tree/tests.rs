@@ -1,0 +1,111 @@
+use super::build::Boxed;
+use super::{BoxNode, BoxTree, Child, NarrowBox, WIDTH, round_down, round_up};
+use pong_geometry::Vec3;
+use std::collections::BTreeSet;
+
+fn scatter(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+fn boxes(count: usize, seed: &mut u64, around: &Vec3) -> Vec<Boxed<u32>> {
+    let mut corner = || Vec3::from_fn(|_, _| scatter(seed));
+    let one = |item| {
+        let low = around + corner();
+        Boxed { item, low, high: low + corner() * 0.05 }
+    };
+    (0..count as u32).map(one).collect()
+}
+
+/// Rounding outward never loses a place, for numbers of every size.
+#[test]
+fn single_precision_boxes_hold_their_numbers() {
+    let mut seed = 1;
+    for exponent in -330..330 {
+        let x = (scatter(&mut seed) - 0.5) * 10_f64.powi(exponent);
+        for x in [x, f64::from(x as f32), f64::from((x as f32).next_up()), -x] {
+            let beyond = x.abs() >= f64::from(f32::MAX);
+            assert!(beyond || (f64::from(round_down(x)) <= x && f64::from(round_up(x)) >= x), "{x:e}");
+            assert!(round_down(x) <= round_up(x) && round_down(x).is_finite() && round_up(x).is_finite());
+            let slack = 4e-7 * x.abs() + 4.0 * f64::from(f32::MIN_POSITIVE);
+            let loose = f64::from(round_up(x)) - f64::from(round_down(x));
+            assert!(beyond || loose <= slack, "{x:e} {loose:e}");
+        }
+    }
+    let beyond = [f64::NEG_INFINITY, -1e300, -1e39, 1e39, 1e300, f64::INFINITY];
+    for (low, high) in beyond.iter().flat_map(|low| beyond.iter().map(move |high| (*low, *high))) {
+        assert!(low > high || round_down(low) <= round_up(high), "{low:e} {high:e}");
+    }
+}
+
+/// Whatever is asked, every element that the question touches is found: compared with asking all of them.
+#[test]
+fn nothing_that_a_box_touches_is_missed() {
+    let mut seed = 2;
+    for count in [0, 1, 7, 8, 9, 64, 65, 96, 513, 3000] {
+        let around = Vec3::new(1e4, -3e3, 50.0);
+        let mut elements = boxes(count, &mut seed, &around);
+        let tree = BoxTree::build(&mut elements);
+        for _ in 0..200 {
+            let low = around + Vec3::from_fn(|_, _| scatter(&mut seed));
+            let high = low + Vec3::from_fn(|_, _| scatter(&mut seed) * 0.1);
+            let mut found = BTreeSet::new();
+            tree.visit(&tree.narrowed(&low, &high), |node, met| {
+                for lane in met {
+                    let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
+                    assert!(found.insert(elements[place as usize].item), "found twice");
+                }
+            });
+            for element in &elements {
+                let touches = (0..3).all(|k| element.low[k] <= high[k] && element.high[k] >= low[k]);
+                assert!(!touches || found.contains(&element.item));
+            }
+            assert!(found.len() < 20 + count / 4, "the tree must also leave something out");
+        }
+    }
+}
+
+/// Bottom nodes are full but for the last of a part, and every node bounds what is below it.
+#[test]
+fn nodes_are_full_and_hold_what_is_below() {
+    let mut seed = 3;
+    for count in [8, 96, 5000] {
+        let mut elements = boxes(count, &mut seed, &Vec3::zeros());
+        let tree = BoxTree::build(&mut elements);
+        let bottoms = tree.nodes.iter().filter(|node| node.is_bottom());
+        assert_eq!(bottoms.count(), count.div_ceil(WIDTH));
+        check(&tree, &tree.nodes[0], 0..count as u32);
+    }
+}
+
+fn check(tree: &BoxTree, node: &BoxNode, expected: std::ops::Range<u32>) {
+    assert_eq!(node.elements, expected);
+    let mut next = expected.start;
+    for (lane, child) in node.children().enumerate() {
+        match child {
+            Child::Element(place) => {
+                assert_eq!(place, next);
+                next += 1;
+            }
+            Child::Node(child) => {
+                let child = &tree.nodes[child as usize];
+                let lanes = (0..WIDTH).map(|below| child.boxes.lane(below));
+                let around = lanes.fold(NarrowBox::NOTHING, |all, one| all.join(&one));
+                assert_eq!(around, node.boxes.lane(lane));
+                check(tree, child, next..child.elements.end);
+                next = child.elements.end;
+            }
+        }
+    }
+    assert_eq!(next, expected.end);
+}
+
+#[test]
+fn unbounded_elements_are_always_met() {
+    let infinite = Vec3::repeat(f64::INFINITY);
+    let tree = BoxTree::build(&mut [Boxed { item: 0_u32, low: -infinite, high: infinite }]);
+    let mut met = 0;
+    tree.visit(&tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), |_, lanes| met += lanes.count());
+    assert_eq!(met, 1);
+    assert!(tree.around == NarrowBox::EVERYTHING);
+}
