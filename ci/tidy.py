@@ -11,14 +11,15 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 ARROWS = {
     "pong-arena": set(),
     "pong-geometry": set(),
+    "pong-threads": set(),
     "pong-model": {"pong-geometry"},
-    "pong-engine": {"pong-arena", "pong-geometry", "pong-model"},
+    "pong-engine": {"pong-arena", "pong-geometry", "pong-model", "pong-threads"},
     "pong-executive": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-geometry", "pong-model", "pong-engine", "pong-executive"},
-    "pong-capi": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-capi": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
     "pong-cli": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-verify"},
 }
-MAY_BE_UNSAFE = {"pong-capi"}
+MAY_BE_UNSAFE = {"pong-capi", "pong-threads"}
 LINES_MAX = 800
 # No part of the product may use the platform's mathematics or fuse operations: other machines, other bits.
 FORBIDDEN_IN_ENGINE = re.compile(r"\.(mul_add|sin|cos|tan|exp|ln|powf|powi|cbrt|hypot|atan2|acos|asin)\(")

@@ -1,0 +1,170 @@
+//! The caller's side: opens a phase, works along, and waits only for blocks that others have claimed.
+
+use std::panic::resume_unwind;
+use std::sync::Arc;
+
+use crate::board::{CALM, Done, PARK};
+use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
+use crate::word::Word;
+use crate::worker::{Payload, Shared};
+use crate::{LaneWork, MAX_BLOCKS, Outcome};
+
+/// A caller that has waited so long lets others run, even where there are cores enough: another program may hold
+/// the core of the worker that it waits for.
+const YIELD_AFTER_NS: u64 = 20_000;
+
+pub struct Caller {
+    shared: Arc<Shared>,
+    /// Of the last phase that was opened to workers.
+    epoch: u64,
+    /// What the caller itself did in the last phase.
+    own: Done,
+    /// Whether the last phase was opened to workers.
+    shared_out: bool,
+    /// Blocks that workers have claimed since the start.
+    handed_out: u64,
+    /// Whether an alert stands that the next phase ends.
+    alert_stands: bool,
+}
+
+impl Caller {
+    pub fn new(shared: Arc<Shared>) -> Caller {
+        Caller {
+            shared,
+            epoch: 0,
+            own: Done::default(),
+            shared_out: false,
+            handed_out: 0,
+            alert_stands: false,
+        }
+    }
+
+    pub fn run(&mut self, blocks: u32) -> Outcome {
+        assert!(blocks <= MAX_BLOCKS, "a phase of {blocks} blocks: at most {MAX_BLOCKS}");
+        self.own = Done::default();
+        self.shared_out = blocks > 1 && self.shared.board.workers() > 0;
+        if self.shared_out { self.run_shared(blocks) } else { self.run_alone(blocks) }
+    }
+
+    fn run_alone(&mut self, blocks: u32) -> Outcome {
+        for block in (0..blocks).rev() {
+            self.shared.run_block(block, 0, &mut self.own).unwrap_or_else(|payload| resume_unwind(payload));
+        }
+        Outcome::Complete
+    }
+
+    /// The caller's first block is taken before the phase opens, and costs no claim.
+    fn run_shared(&mut self, blocks: u32) -> Outcome {
+        self.epoch = Word::next_epoch(self.epoch);
+        self.shared.board.open(self.epoch, blocks - 1);
+        self.call_workers(blocks - 1);
+        let own_panic = self.drain(blocks - 1).err();
+        let unclaimed = if own_panic.is_some() { self.shared.board.close(self.epoch) } else { 0 };
+
+        let claimed = blocks - self.own.blocks - unclaimed;
+        self.handed_out += u64::from(claimed);
+        let (outcome, panicked) = self.wait(claimed);
+        if let Some(payload) = own_panic.or_else(|| self.take_panic(panicked)) {
+            resume_unwind(payload);
+        }
+        outcome
+    }
+
+    /// Tells the open phase to those who sleep, if those who are awake are too few. One is woken, who wakes others.
+    fn call_workers(&mut self, blocks: u32) {
+        self.end_alert();
+        let asleep = u64::from(self.shared.board.asleep());
+        if asleep == 0 {
+            return;
+        }
+        let awake = (self.shared.board.workers() as u64 - asleep).saturating_sub(self.stuck());
+        if u64::from(blocks) > awake {
+            self.shared.board.wake(1);
+        }
+    }
+
+    /// Runs `first` and then what it can claim.
+    fn drain(&mut self, first: u32) -> Result<(), Payload> {
+        let mut block = Some(first);
+        while let Some(claimed) = block {
+            self.shared.run_block(claimed, 0, &mut self.own)?;
+            block = self.shared.board.claim(self.epoch);
+        }
+        Ok(())
+    }
+
+    /// Waits until workers have done `claimed` blocks, or patience ends. Tells also whether one of them panicked.
+    fn wait(&self, claimed: u32) -> (Outcome, bool) {
+        let mut waited = None;
+        loop {
+            let mut panicked = false;
+            for _ in 0..LOOKS {
+                let done;
+                (done, panicked) = self.shared.board.done_by_all(self.epoch);
+                if done == claimed {
+                    return (Outcome::Complete, panicked);
+                }
+                spin_loop();
+            }
+            let waited_ns = waited.get_or_insert_with(Watch::start).elapsed_ns();
+            if waited_ns >= self.shared.patience_ns {
+                return (Outcome::Abandoned, panicked);
+            }
+            if self.shared.crowded || waited_ns > YIELD_AFTER_NS {
+                yield_now();
+            }
+        }
+    }
+
+    /// The panic of a worker in this phase. One of an abandoned phase is nobody's any more.
+    fn take_panic(&self, panicked: bool) -> Option<Payload> {
+        if !panicked {
+            return None;
+        }
+        let mut kept = self.shared.panic.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        kept.take().filter(|(epoch, _)| *epoch == self.epoch).map(|(_, payload)| payload)
+    }
+
+    /// Blocks that workers have claimed and not finished. Between phases: workers inside abandoned blocks.
+    pub fn stuck(&self) -> u64 {
+        self.handed_out - self.shared.board.finished_by_all()
+    }
+
+    pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
+        let lane_work = |done: Done| LaneWork { blocks: done.blocks, busy_ns: done.busy_ns };
+        let of_worker = move |lane| match self.shared_out {
+            true => lane_work(self.shared.board.done(lane, self.epoch)),
+            false => LaneWork::default(),
+        };
+        std::iter::once(lane_work(self.own)).chain((1..=self.shared.board.workers()).map(of_worker))
+    }
+
+    pub fn prewake(&mut self, at_most_ns: u64) {
+        let until_ns = self.shared.origin.elapsed_ns().saturating_add(at_most_ns).min(PARK - 1);
+        self.shared.board.set_alert(until_ns);
+        self.alert_stands = true;
+        if self.shared.board.asleep() > 0 {
+            self.shared.board.wake(1);
+        }
+    }
+
+    pub fn quiesce(&mut self) {
+        self.shared.board.set_alert(PARK);
+        self.alert_stands = true;
+    }
+
+    /// Only once a phase is open: a worker that saw the alert end first would lie down just when it is needed.
+    fn end_alert(&mut self) {
+        if self.alert_stands {
+            self.shared.board.set_alert(CALM);
+            self.alert_stands = false;
+        }
+    }
+
+    /// Tells all workers to end.
+    pub fn end(&mut self) {
+        self.shared.board.end();
+        let asleep = self.shared.board.asleep();
+        self.shared.board.wake(asleep);
+    }
+}

@@ -1,0 +1,126 @@
+//! Where a worker runs: its core and its priority. Each asks for itself, and a refusal is a report, no error.
+
+use std::fmt;
+
+use core_affinity::CoreId;
+
+use crate::{MAX_WORKERS, Settings};
+
+/// The answer of the system to something that the settings ask for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Grant<T> {
+    /// The settings do not ask for it.
+    NotAsked,
+    /// It is so.
+    Granted(T),
+    /// It is not so.
+    Refused {
+        /// What was asked for.
+        asked: T,
+        /// Why not, in the system's words where it has any.
+        why: String,
+    },
+}
+
+/// How one worker started.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WorkerStart {
+    /// 1 for the first worker.
+    pub lane: usize,
+    /// The core that it is bound to.
+    pub core: Grant<usize>,
+    /// Its SCHED_FIFO priority.
+    pub fifo_priority: Grant<u8>,
+}
+
+impl<T: fmt::Display> fmt::Display for Grant<T> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Grant::NotAsked => write!(out, "not asked for"),
+            Grant::Granted(what) => write!(out, "{what}"),
+            Grant::Refused { asked, why } => write!(out, "{asked} refused: {why}"),
+        }
+    }
+}
+
+impl fmt::Display for WorkerStart {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "worker {}: core {}, SCHED_FIFO priority {}", self.lane, self.core, self.fifo_priority)
+    }
+}
+
+/// Which workers there will be, and where.
+pub struct Plan {
+    /// Per worker the core to bind it to, if any.
+    pub cores: Vec<Option<usize>>,
+    /// More threads than cores.
+    pub crowded: bool,
+}
+
+impl Plan {
+    pub fn new(settings: &Settings) -> Plan {
+        let mask = cores_of_mask();
+        let own_list = settings.pin && !settings.cores.is_empty();
+        let (cores, room) = match own_list {
+            true => (settings.cores.clone(), settings.cores.len()),
+            false => (workers_first(&mask), mask.len() - 1),
+        };
+        let workers = settings.workers.min(MAX_WORKERS);
+        let workers = if settings.oversubscribe { workers } else { workers.min(room) };
+        let core_of = |worker: usize| settings.pin.then(|| cores[worker % cores.len()]);
+        Plan { cores: (0..workers).map(core_of).collect(), crowded: workers > room }
+    }
+}
+
+/// At least one core, whatever the system tells.
+fn cores_of_mask() -> Vec<usize> {
+    let listed = core_affinity::get_core_ids().unwrap_or_default();
+    if !listed.is_empty() {
+        return listed.iter().map(|core| core.id).collect();
+    }
+    (0..std::thread::available_parallelism().map_or(1, usize::from)).collect()
+}
+
+/// The first core is the caller's, so it comes last.
+fn workers_first(mask: &[usize]) -> Vec<usize> {
+    let mut cores = mask.to_vec();
+    cores.rotate_left(1);
+    cores
+}
+
+/// Binds the calling thread and sets its priority.
+pub fn settle(lane: usize, core: Option<usize>, fifo_priority: Option<u8>) -> WorkerStart {
+    WorkerStart {
+        lane,
+        core: core.map_or(Grant::NotAsked, bind),
+        fifo_priority: fifo_priority.map_or(Grant::NotAsked, raise),
+    }
+}
+
+fn bind(core: usize) -> Grant<usize> {
+    if core_affinity::set_for_current(CoreId { id: core }) {
+        return Grant::Granted(core);
+    }
+    Grant::Refused { asked: core, why: "the system does not let this thread run there".to_owned() }
+}
+
+#[cfg(unix)]
+fn raise(priority: u8) -> Grant<u8> {
+    // SAFETY: an all-zero sched_param is valid on every system that has one, and the call reads it only.
+    let refusal = unsafe {
+        let mut parameters: libc::sched_param = std::mem::zeroed();
+        parameters.sched_priority = libc::c_int::from(priority);
+        libc::pthread_setschedparam(libc::pthread_self(), libc::SCHED_FIFO, &parameters)
+    };
+    match refusal {
+        0 => Grant::Granted(priority),
+        number => {
+            Grant::Refused { asked: priority, why: std::io::Error::from_raw_os_error(number).to_string() }
+        }
+    }
+}
+
+#[cfg(not(unix))]
+fn raise(priority: u8) -> Grant<u8> {
+    Grant::Refused { asked: priority, why: "this system has no SCHED_FIFO".to_owned() }
+}

@@ -1,0 +1,182 @@
+//! The pool: starts the workers, holds the caller's side, ends them.
+
+use std::fmt;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use crate::board::Board;
+use crate::caller::Caller;
+use crate::place::{Plan, settle};
+use crate::sync::Watch;
+use crate::worker::{Shared, Worker};
+use crate::{Job, LaneWork, Outcome, Settings, WorkerStart};
+
+/// Workers that share phases with the one thread that calls.
+///
+/// Dropping it ends them. A worker that is inside a block of an abandoned phase is waited for as long as
+/// [`Settings::patience`], then left to end by itself; it keeps the job alive until then.
+pub struct Pool {
+    caller: Caller,
+    threads: Vec<JoinHandle<()>>,
+    start_report: Vec<WorkerStart>,
+    patience: Duration,
+    /// Of the process that has the workers. A fork of it has none.
+    process: u32,
+}
+
+/// The system gave no thread.
+#[derive(Debug)]
+pub struct StartError {
+    /// The worker that was to run on it, 1 for the first.
+    pub lane: usize,
+    /// What the system says.
+    pub source: std::io::Error,
+}
+
+impl fmt::Display for StartError {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "no thread for worker {}: {}; ask for fewer workers", self.lane, self.source)
+    }
+}
+
+impl std::error::Error for StartError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&self.source)
+    }
+}
+
+impl Pool {
+    /// Starts the workers, and sleeps until each has taken its place. (It must not spin: a new thread has the core and
+    /// the priority of this one, and under SCHED_FIFO would never get to run.)
+    pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
+        let plan = Plan::new(settings);
+        let shared = Arc::new(Shared {
+            board: Board::new(plan.cores.len()),
+            job,
+            spin_ns: in_ns(settings.spin),
+            patience_ns: in_ns(settings.patience),
+            crowded: plan.crowded,
+            clock: settings.clock,
+            origin: Watch::start(),
+            panic: Mutex::new(None),
+        });
+        let mut pool = Pool {
+            caller: Caller::new(shared.clone()),
+            threads: Vec::with_capacity(plan.cores.len()),
+            start_report: Vec::new(),
+            patience: settings.patience,
+            process: std::process::id(),
+        };
+        let (started, starts) = channel();
+        for (worker, core) in plan.cores.iter().enumerate() {
+            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, started.clone());
+            // On an error the pool is dropped, which ends the workers that run already.
+            pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
+        }
+        pool.start_report = collect(starts, plan.cores.len());
+        Ok(pool)
+    }
+
+    /// Workers beside the caller.
+    pub fn workers(&self) -> usize {
+        self.threads.len()
+    }
+
+    /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
+    /// in time. A panic of a block goes on here, after the other blocks that were claimed have ended or patience has.
+    ///
+    /// # Panics
+    ///
+    /// With more than [`MAX_BLOCKS`](crate::MAX_BLOCKS) blocks, or if a block panics.
+    pub fn run(&mut self, blocks: u32) -> Outcome {
+        self.caller.run(blocks)
+    }
+
+    /// Whether no worker is inside a block of an abandoned phase. What such blocks wrote may be read once it is true.
+    pub fn is_quiet(&self) -> bool {
+        self.caller.stuck() == 0 || self.is_forked()
+    }
+
+    /// Wakes the workers, who then look for a phase until there is one or `at_most` has passed. Call it some 100 µs
+    /// before a frame whose predecessor is further away than [`Settings::spin`].
+    pub fn prewake(&mut self, at_most: Duration) {
+        self.caller.prewake(in_ns(at_most));
+    }
+
+    /// Lets the workers park at once, for instance when the simulation freezes. The next phase wakes them.
+    pub fn quiesce(&mut self) {
+        self.caller.quiesce();
+    }
+
+    /// How each worker started: core and priority, or why not.
+    pub fn start_report(&self) -> &[WorkerStart] {
+        &self.start_report
+    }
+
+    /// What each lane did in the last phase, the caller first.
+    pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
+        self.caller.work()
+    }
+
+    fn is_forked(&self) -> bool {
+        self.process != std::process::id()
+    }
+
+    fn wait_for_stuck_workers(&self) {
+        let started = Instant::now();
+        while !self.threads.iter().all(JoinHandle::is_finished) && started.elapsed() < self.patience {
+            std::thread::sleep(Duration::from_micros(50));
+        }
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        if self.is_forked() {
+            // The threads are the parent's. To wait for them here would be to wait for ever.
+            self.threads.drain(..).for_each(std::mem::forget);
+            return;
+        }
+        self.caller.end();
+        let all_will_end = self.is_quiet();
+        if !all_will_end {
+            self.wait_for_stuck_workers();
+        }
+        for thread in self.threads.drain(..) {
+            if all_will_end || thread.is_finished() {
+                // A worker catches the panics of its blocks, so there is none to hand on.
+                let _ = thread.join();
+            }
+        }
+    }
+}
+
+fn in_ns(duration: Duration) -> u64 {
+    u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
+fn start_worker(
+    shared: &Arc<Shared>,
+    lane: usize,
+    core: Option<usize>,
+    fifo_priority: Option<u8>,
+    started: Sender<WorkerStart>,
+) -> std::io::Result<JoinHandle<()>> {
+    let shared = shared.clone();
+    std::thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(move || {
+        let report = settle(lane, core, fifo_priority);
+        let mut worker = Worker::new(shared, lane);
+        // Nobody listens any more if a later worker could not be started.
+        let _ = started.send(report);
+        drop(started);
+        worker.serve();
+    })
+}
+
+fn collect(starts: Receiver<WorkerStart>, workers: usize) -> Vec<WorkerStart> {
+    let mut report: Vec<_> = starts.iter().take(workers).collect();
+    report.sort_by_key(|start| start.lane);
+    report
+}

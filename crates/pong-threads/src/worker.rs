@@ -1,0 +1,143 @@
+//! A worker: waits for a phase, claims its blocks one by one, waits again.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex};
+
+use crate::Job;
+use crate::board::{Board, CALM, Done, PARK};
+use crate::sync::{LOOKS, Watch, park, spin_loop, yield_now};
+use crate::word::Word;
+
+/// What a panic carried.
+pub type Payload = Box<dyn Any + Send>;
+
+/// All that the caller and its workers share.
+pub struct Shared {
+    pub board: Board,
+    pub job: Arc<dyn Job>,
+    pub spin_ns: u64,
+    pub patience_ns: u64,
+    /// More threads than cores: whoever waits lets others run.
+    pub crowded: bool,
+    /// The host's clock for busy times, in ns.
+    pub clock: Option<fn() -> u64>,
+    /// Times of alerts count from here.
+    pub origin: Watch,
+    /// The first panic of a worker that the caller has not taken yet, and its epoch.
+    pub panic: Mutex<Option<(u64, Payload)>>,
+}
+
+impl Shared {
+    /// Runs one block and adds it to what the lane has done. A panic is caught.
+    pub fn run_block(&self, block: u32, lane: usize, done: &mut Done) -> Result<(), Payload> {
+        let started_ns = self.clock.map(|clock| clock());
+        let result = catch_unwind(AssertUnwindSafe(|| self.job.run(block, lane)));
+        if let (Some(clock), Some(started_ns)) = (self.clock, started_ns) {
+            done.busy_ns += clock().saturating_sub(started_ns);
+        }
+        done.blocks += 1;
+        done.panicked |= result.is_err();
+        result
+    }
+
+    fn keep_panic(&self, epoch: u64, payload: Payload) {
+        let mut kept = self.panic.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch != epoch) {
+            *kept = Some((epoch, payload));
+        }
+    }
+}
+
+pub struct Worker {
+    shared: Arc<Shared>,
+    /// 1 for the first.
+    lane: usize,
+    /// Blocks finished since the start.
+    finished: u64,
+}
+
+impl Worker {
+    pub fn new(shared: Arc<Shared>, lane: usize) -> Worker {
+        shared.board.introduce(lane);
+        Worker { shared, lane, finished: 0 }
+    }
+
+    /// Works until it is told to end.
+    pub fn serve(&mut self) {
+        let mut seen = 0;
+        loop {
+            let word = self.wait(seen);
+            seen = word.epoch();
+            self.work(seen);
+            if word.flag() {
+                return;
+            }
+        }
+    }
+
+    /// Claims and runs blocks of the phase `epoch` until none is left.
+    fn work(&mut self, epoch: u64) {
+        let shared = &*self.shared;
+        let mut done = Done::default();
+        while let Some(block) = shared.board.claim(epoch) {
+            if let Err(payload) = shared.run_block(block, self.lane, &mut done) {
+                shared.keep_panic(epoch, payload);
+            }
+            self.finished += 1;
+            shared.board.record(self.lane, epoch, done, self.finished);
+        }
+    }
+
+    /// Waits for a phase other than `seen`, or the end.
+    fn wait(&self, seen: u64) -> Word {
+        loop {
+            if let Some(word) = self.spin(seen) {
+                return word;
+            }
+            self.sleep(seen);
+        }
+    }
+
+    /// Looks for news as long as it is to stay awake. The clock is asked only when the first looks found nothing.
+    fn spin(&self, seen: u64) -> Option<Word> {
+        let mut idle = None;
+        loop {
+            for _ in 0..LOOKS {
+                let news = self.shared.board.news(seen);
+                if news.is_some() {
+                    return news;
+                }
+                spin_loop();
+            }
+            let idle = idle.get_or_insert_with(Watch::start);
+            if !self.stays_awake(idle) {
+                return None;
+            }
+            if self.shared.crowded {
+                yield_now();
+            }
+        }
+    }
+
+    fn stays_awake(&self, idle: &Watch) -> bool {
+        let alert = self.shared.board.alert();
+        alert != PARK && (idle.elapsed_ns() < self.shared.spin_ns || self.is_alerted(alert))
+    }
+
+    fn is_alerted(&self, alert: u64) -> bool {
+        alert != CALM && alert != PARK && self.shared.origin.elapsed_ns() < alert
+    }
+
+    /// Parks until it is woken, unless there is news already.
+    fn sleep(&self, seen: u64) {
+        let board = &self.shared.board;
+        board.lie_down(self.lane);
+        let has_news = board.news(seen).is_some() || self.is_alerted(board.alert());
+        if !has_news || cfg!(mutant = "sleep_unseen") {
+            park();
+        }
+        board.get_up(self.lane);
+        board.wake_others(self.is_alerted(board.alert()));
+    }
+}

@@ -1,0 +1,90 @@
+//! Every block runs once, whatever the number of workers, and whatever else happens to the pool.
+
+mod common;
+
+use std::sync::atomic::Ordering::SeqCst;
+use std::time::Duration;
+
+use common::{Count, patient, start};
+use pong_threads::{LaneWork, Outcome, Settings};
+
+#[test]
+fn every_block_runs_once() {
+    for workers in [0, 1, 2, 3, 8, 16] {
+        let count = Count::new(1000);
+        let mut pool = start(&count, &patient(workers));
+        assert_eq!(pool.workers(), workers);
+        for blocks in [0, 1, 2, 3, 4, 17, 1000].into_iter().cycle().take(700) {
+            assert_eq!(pool.run(blocks), Outcome::Complete);
+            let expected: Vec<u32> = (0..1000).map(|block| u32::from(block < blocks)).collect();
+            assert_eq!(count.take(), expected, "{blocks} blocks, {workers} workers");
+            assert_eq!(pool.work().map(|lane| lane.blocks).sum::<u32>(), blocks);
+            assert!(pool.is_quiet());
+        }
+    }
+}
+
+#[test]
+fn prewake_and_quiesce_at_any_time_change_no_phase() {
+    let count = Count::new(5);
+    let mut pool = start(&count, &patient(3));
+    for turn in 0..600 {
+        match turn % 6 {
+            0 | 3 => pool.prewake(Duration::from_micros(turn)),
+            1 => pool.quiesce(),
+            4 => std::thread::sleep(Duration::from_micros(turn)),
+            _ => {}
+        }
+        assert_eq!(pool.run(5), Outcome::Complete);
+        assert_eq!(count.take(), [1; 5]);
+    }
+}
+
+#[test]
+fn a_pool_of_the_size_of_the_mask_leaves_a_core_to_the_caller() {
+    let cores = core_affinity::get_core_ids().unwrap().len();
+    let pool = start(&Count::new(0), &Settings { workers: 1000, ..Settings::default() });
+    assert_eq!(pool.workers(), (cores - 1).min(pong_threads::MAX_WORKERS));
+}
+
+#[test]
+fn pinned_workers_tell_their_cores() {
+    let count = Count::new(50);
+    let mut pool = start(&count, &Settings { pin: true, ..patient(2) });
+    for report in pool.start_report() {
+        println!("{report}");
+    }
+    assert_eq!(pool.start_report().iter().map(|worker| worker.lane).collect::<Vec<_>>(), [1, 2]);
+    assert!(pool.start_report().iter().all(|worker| worker.core != pong_threads::Grant::NotAsked));
+    assert_eq!(pool.run(50), Outcome::Complete);
+    assert_eq!(count.take(), [1; 50]);
+}
+
+#[test]
+fn a_core_that_does_not_exist_is_a_report_and_no_error() {
+    let count = Count::new(50);
+    let settings = Settings { pin: true, cores: vec![1000], ..patient(1) };
+    let mut pool = start(&count, &settings);
+    assert!(matches!(pool.start_report()[0].core, pong_threads::Grant::Refused { asked: 1000, .. }));
+    assert_eq!(pool.run(50), Outcome::Complete);
+    assert_eq!(count.take(), [1; 50]);
+}
+
+#[test]
+fn busy_time_is_told_by_the_clock_of_the_host() {
+    fn one_more() -> u64 {
+        static TIME_NS: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
+        TIME_NS.fetch_add(1, SeqCst)
+    }
+    let mut pool = start(&Count::new(40), &Settings { clock: Some(one_more), ..patient(2) });
+    assert_eq!(pool.run(40), Outcome::Complete);
+    let work: Vec<LaneWork> = pool.work().collect();
+    assert_eq!(work.len(), 3);
+    assert!(work.iter().all(|lane| lane.busy_ns >= u64::from(lane.blocks)), "{work:?}");
+}
+
+#[test]
+#[should_panic(expected = "at most 8388607")]
+fn too_many_blocks_are_refused() {
+    let _ = start(&Count::new(0), &patient(1)).run(pong_threads::MAX_BLOCKS + 1);
+}

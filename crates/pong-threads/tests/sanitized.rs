@@ -1,0 +1,3 @@
+//! The test for ThreadSanitizer.
+
+fn main() {}
