@@ -15,10 +15,13 @@
 //! whose solution t is unique and decided by at most three contacts. It is found exactly: the deepest contact is
 //! the first basis; while some contact is violated, the basis of the at most three old ones and the most
 //! violated one is solved by trying its at most seven subsets. |t| grows with every exchange, so none repeats.
-//! The other case is in `uncoupled.rs`.
+//! The other case is in `uncoupled.rs`; it needs scratch memory. What happens where there is too little of it is in
+//! `deepest.rs`.
 
+mod deepest;
 mod uncoupled;
 
+use pong_arena::{Arena, Full};
 use pong_geometry::{Mat3, Vec3};
 
 /// Relative to the largest depth: how far a contact may be violated by rounding.
@@ -33,7 +36,7 @@ pub struct Sharer {
     pub normal: Vec3,
     /// Depth δ > 0, m.
     pub depth: f64,
-    /// λ, m: filled in by [`share`].
+    /// λ, m: filled in by [`share_within`].
     pub lambda: f64,
 }
 
@@ -44,15 +47,41 @@ impl Sharer {
     }
 }
 
+/// Bytes of scratch memory in which [`share_within`] shares any set of so many contacts exactly.
+#[allow(dead_code)] // Until the frame hands in its scratch memory.
+pub fn scratch_bytes(contacts: usize) -> usize {
+    uncoupled::tableau_bytes(contacts)
+}
+
 /// Fills in the λ of every contact of one ball with one surface. The order of the contacts decides ties only.
+///
+/// Everything in `scratch` ends. Only sets of three and more that do not all couple need it.
+///
+/// # Errors
+/// [`Full`] if the scratch memory was too small (its peak tells the size that would have been enough): the deepest
+/// contacts that it could hold have then been shared exactly, ties in their order, and the others have λ = 0.
+pub fn share_within(contacts: &mut [Sharer], scratch: &mut Arena) -> Result<(), Full> {
+    scratch.reset();
+    solve(contacts, scratch).inspect_err(|_| deepest::share(contacts, scratch))
+}
+
+/// As [`share_within`], taking the scratch memory from the heap.
 pub fn share(contacts: &mut [Sharer]) {
+    let alone = contacts.len() < 3 || all_couple(contacts);
+    let mut scratch = Arena::with_capacity(if alone { 0 } else { scratch_bytes(contacts.len()) });
+    share_within(contacts, &mut scratch).expect("room for the whole tableau");
+}
+
+/// Fills in every λ, or none if the scratch memory is too small.
+fn solve(contacts: &mut [Sharer], scratch: &Arena) -> Result<(), Full> {
     match contacts {
         [] => {}
         [only] => only.lambda = only.depth,
         [first, second] => share_two(first, second),
         _ if all_couple(contacts) => share_coupled(contacts),
-        _ => uncoupled::share(contacts),
+        _ => uncoupled::share(contacts, scratch)?,
     }
+    Ok(())
 }
 
 fn share_two(first: &mut Sharer, second: &mut Sharer) {
@@ -259,114 +288,4 @@ fn coupling(a: &Sharer, b: &Sharer) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn solved(contacts: &[(Vec3, f64)]) -> (Vec<f64>, Vec3) {
-        let mut sharers: Vec<Sharer> = contacts.iter().map(|(n, d)| Sharer::new(n.normalize(), *d)).collect();
-        share(&mut sharers);
-        let t = sharers.iter().map(|s| s.normal * s.lambda).sum();
-        (sharers.iter().map(|s| s.lambda).collect(), t)
-    }
-
-    #[test]
-    fn both_walls_of_a_square_corner_push_fully() {
-        let (lambda, _) = solved(&[(Vec3::x(), 2e-3), (Vec3::y(), 1e-3)]);
-        assert_eq!(lambda, [2e-3, 1e-3]);
-    }
-
-    #[test]
-    fn many_pieces_of_one_plate_push_like_one_plane() {
-        let n = Vec3::new(0.2, -0.3, 0.9);
-        let (lambda, t) = solved(&[(n, 1e-3); 6]);
-        assert!((t - n.normalize() * 1e-3).norm() < 1e-17);
-        assert!(lambda.iter().all(|l| (l - 1e-3 / 6.0).abs() < 1e-17), "{lambda:?}");
-    }
-
-    #[test]
-    fn rounding_in_the_normals_of_a_plate_does_not_show() {
-        let wobble = |a: f64, b: f64| Vec3::new(3e-8 * a, 3e-8 * b, 1.0);
-        let plate = [
-            (wobble(1.0, 0.0), 1e-3),
-            (wobble(0.0, 1.0), 1e-3 * (1.0 + 1e-9)),
-            (wobble(-1.0, 0.5), 1e-3),
-            (wobble(0.3, -1.0), 1e-3 * (1.0 - 1e-9)),
-        ];
-        let (_, t) = solved(&plate);
-        assert!((t - Vec3::z() * 1e-3).norm() < 1e-3 * 5e-8);
-    }
-
-    /// Known answer: the shortest vector that clears three walls is the corner point where all three are tight.
-    #[test]
-    fn three_walls_meet_in_their_corner() {
-        let walls = [
-            (Vec3::new(1.0, 0.1, 0.0), 1.0),
-            (Vec3::new(0.0, 1.0, 0.2), 0.8),
-            (Vec3::new(0.1, 0.0, 1.0), 0.9),
-        ];
-        let (lambda, t) = solved(&walls);
-        for (n, d) in walls {
-            assert!((n.normalize().dot(&t) - d).abs() < 1e-14);
-        }
-        assert!(lambda.iter().all(|l| *l > 0.0));
-    }
-
-    fn scatter(seed: &mut u64) -> f64 {
-        *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (*seed >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Independent method: projected gradient on the dual, run to convergence.
-    #[test]
-    fn random_sets_agree_with_slow_descent() {
-        let mut seed = 7;
-        for _ in 0..300 {
-            let count = 3 + (scatter(&mut seed) * 6.0) as usize;
-            let contacts: Vec<(Vec3, f64)> = (0..count)
-                .map(|_| {
-                    let n = Vec3::from_fn(|_, _| scatter(&mut seed)).normalize();
-                    (n, 0.5 + 0.5 * scatter(&mut seed))
-                })
-                .collect();
-            let mut lambda = vec![0.0_f64; count];
-            for _ in 0..60_000 {
-                for i in 0..count {
-                    let covered: f64 = (0..count)
-                        .filter(|&j| j != i)
-                        .map(|j| contacts[i].0.dot(&contacts[j].0) * lambda[j])
-                        .sum();
-                    lambda[i] = (contacts[i].1 - covered).max(0.0);
-                }
-            }
-            let slow: Vec3 = contacts.iter().zip(&lambda).map(|((n, _), l)| n * *l).sum();
-            let (_, t) = solved(&contacts);
-            let worst = contacts.iter().map(|(n, d)| d - n.dot(&t)).fold(f64::MIN, f64::max);
-            assert!(worst < 1e-13, "violated by {worst}");
-            assert!(t.norm() <= slow.norm() * (1.0 + 1e-9), "{} > {}", t.norm(), slow.norm());
-            assert!((t - slow).norm() < 1e-4);
-        }
-    }
-
-    /// Normals more than 90° apart do not couple: the fixed point of the definition itself.
-    #[test]
-    fn opposed_normals_satisfy_the_definition() {
-        let mut seed = 21;
-        for _ in 0..200 {
-            let mut sharers: Vec<Sharer> = (0..5)
-                .map(|_| {
-                    let n = Vec3::from_fn(|_, _| scatter(&mut seed) - 0.5).normalize();
-                    Sharer::new(n, 0.5 + 0.5 * scatter(&mut seed))
-                })
-                .collect();
-            share(&mut sharers);
-            for i in 0..sharers.len() {
-                let others: f64 = (0..sharers.len())
-                    .filter(|&j| j != i)
-                    .map(|j| coupling(&sharers[i], &sharers[j]) * sharers[j].lambda)
-                    .sum();
-                let expected = (sharers[i].depth - others).max(0.0);
-                assert!((sharers[i].lambda - expected).abs() < 1e-12, "{sharers:?}");
-            }
-        }
-    }
-}
+mod tests;

@@ -1,0 +1,56 @@
+//! Where the scratch memory is too small for all contacts: as many of the deepest as it can hold are shared exactly,
+//! the others get nothing. The same contacts and the same size of memory always give the same shares.
+
+use super::{Sharer, deepest_of, solve, uncoupled};
+use pong_arena::{Arena, Full};
+
+/// Fills in the λ of every contact; those that are left out get 0.
+pub(super) fn share(contacts: &mut [Sharer], scratch: &mut Arena) {
+    scratch.reset();
+    contacts.iter_mut().for_each(|contact| contact.lambda = 0.0);
+    let count = (0..contacts.len()).take_while(|&n| bytes(n + 1) <= scratch.capacity()).count();
+    if share_some(contacts, count, scratch).is_err() || count == 0 {
+        let deepest = deepest_of(contacts);
+        contacts[deepest].lambda = contacts[deepest].depth;
+    }
+}
+
+/// Scratch memory for the choice and the shares of so many contacts.
+fn bytes(count: usize) -> usize {
+    let rounded = |bytes: usize| bytes.next_multiple_of(16);
+    rounded(count * size_of::<u32>()) + rounded(count * size_of::<Sharer>()) + uncoupled::tableau_bytes(count)
+}
+
+/// Shares the `count` deepest, in the order that they have among all.
+fn share_some(contacts: &mut [Sharer], count: usize, scratch: &Arena) -> Result<(), Full> {
+    let mut chosen = scratch.list::<u32>(count)?;
+    let mut last = None;
+    for _ in 0..count {
+        last = next_deepest(contacts, last);
+        last.map_or(Ok(()), |index| chosen.push(index as u32))?;
+    }
+    chosen.sort_unstable();
+    let mut sharers = scratch.list(count)?;
+    for &index in &*chosen {
+        sharers.push(contacts[index as usize])?;
+    }
+    solve(&mut sharers, scratch)?;
+    for (&index, sharer) in chosen.iter().zip(&*sharers) {
+        contacts[index as usize].lambda = sharer.lambda;
+    }
+    Ok(())
+}
+
+/// The deepest of the contacts that come after `last`, by depth and then in their order.
+fn next_deepest(contacts: &[Sharer], last: Option<usize>) -> Option<usize> {
+    let comes_after = |i: usize, j: usize| {
+        contacts[i].depth < contacts[j].depth || (contacts[i].depth == contacts[j].depth && i > j)
+    };
+    let mut best = None;
+    for i in (0..contacts.len()).filter(|&i| last.is_none_or(|last| comes_after(i, last))) {
+        if best.is_none_or(|b: usize| contacts[i].depth > contacts[b].depth) {
+            best = Some(i);
+        }
+    }
+    best
+}

@@ -1,0 +1,234 @@
+//! Shares: known answers, independent slow methods, recorded bits, and what happens when memory runs out.
+
+use super::*;
+
+fn solved(contacts: &[(Vec3, f64)]) -> (Vec<f64>, Vec3) {
+    let mut sharers: Vec<Sharer> = contacts.iter().map(|(n, d)| Sharer::new(n.normalize(), *d)).collect();
+    share(&mut sharers);
+    let t = sharers.iter().map(|s| s.normal * s.lambda).sum();
+    (sharers.iter().map(|s| s.lambda).collect(), t)
+}
+
+#[test]
+fn both_walls_of_a_square_corner_push_fully() {
+    let (lambda, _) = solved(&[(Vec3::x(), 2e-3), (Vec3::y(), 1e-3)]);
+    assert_eq!(lambda, [2e-3, 1e-3]);
+}
+
+#[test]
+fn many_pieces_of_one_plate_push_like_one_plane() {
+    let n = Vec3::new(0.2, -0.3, 0.9);
+    let (lambda, t) = solved(&[(n, 1e-3); 6]);
+    assert!((t - n.normalize() * 1e-3).norm() < 1e-17);
+    assert!(lambda.iter().all(|l| (l - 1e-3 / 6.0).abs() < 1e-17), "{lambda:?}");
+}
+
+#[test]
+fn rounding_in_the_normals_of_a_plate_does_not_show() {
+    let wobble = |a: f64, b: f64| Vec3::new(3e-8 * a, 3e-8 * b, 1.0);
+    let plate = [
+        (wobble(1.0, 0.0), 1e-3),
+        (wobble(0.0, 1.0), 1e-3 * (1.0 + 1e-9)),
+        (wobble(-1.0, 0.5), 1e-3),
+        (wobble(0.3, -1.0), 1e-3 * (1.0 - 1e-9)),
+    ];
+    let (_, t) = solved(&plate);
+    assert!((t - Vec3::z() * 1e-3).norm() < 1e-3 * 5e-8);
+}
+
+/// Known answer: the shortest vector that clears three walls is the corner point where all three are tight.
+#[test]
+fn three_walls_meet_in_their_corner() {
+    let walls =
+        [(Vec3::new(1.0, 0.1, 0.0), 1.0), (Vec3::new(0.0, 1.0, 0.2), 0.8), (Vec3::new(0.1, 0.0, 1.0), 0.9)];
+    let (lambda, t) = solved(&walls);
+    for (n, d) in walls {
+        assert!((n.normalize().dot(&t) - d).abs() < 1e-14);
+    }
+    assert!(lambda.iter().all(|l| *l > 0.0));
+}
+
+fn scatter(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+    (*seed >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Independent method: projected gradient on the dual, run to convergence.
+#[test]
+fn random_sets_agree_with_slow_descent() {
+    let mut seed = 7;
+    for _ in 0..300 {
+        let count = 3 + (scatter(&mut seed) * 6.0) as usize;
+        let contacts: Vec<(Vec3, f64)> = (0..count)
+            .map(|_| {
+                let n = Vec3::from_fn(|_, _| scatter(&mut seed)).normalize();
+                (n, 0.5 + 0.5 * scatter(&mut seed))
+            })
+            .collect();
+        let mut lambda = vec![0.0_f64; count];
+        for _ in 0..60_000 {
+            for i in 0..count {
+                let covered: f64 = (0..count)
+                    .filter(|&j| j != i)
+                    .map(|j| contacts[i].0.dot(&contacts[j].0) * lambda[j])
+                    .sum();
+                lambda[i] = (contacts[i].1 - covered).max(0.0);
+            }
+        }
+        let slow: Vec3 = contacts.iter().zip(&lambda).map(|((n, _), l)| n * *l).sum();
+        let (_, t) = solved(&contacts);
+        let worst = contacts.iter().map(|(n, d)| d - n.dot(&t)).fold(f64::MIN, f64::max);
+        assert!(worst < 1e-13, "violated by {worst}");
+        assert!(t.norm() <= slow.norm() * (1.0 + 1e-9), "{} > {}", t.norm(), slow.norm());
+        assert!((t - slow).norm() < 1e-4);
+    }
+}
+
+/// Normals more than 90° apart do not couple: the fixed point of the definition itself.
+#[test]
+fn opposed_normals_satisfy_the_definition() {
+    let mut seed = 21;
+    for _ in 0..200 {
+        let mut sharers: Vec<Sharer> = (0..5)
+            .map(|_| {
+                let n = Vec3::from_fn(|_, _| scatter(&mut seed) - 0.5).normalize();
+                Sharer::new(n, 0.5 + 0.5 * scatter(&mut seed))
+            })
+            .collect();
+        share(&mut sharers);
+        for i in 0..sharers.len() {
+            let others: f64 = (0..sharers.len())
+                .filter(|&j| j != i)
+                .map(|j| coupling(&sharers[i], &sharers[j]) * sharers[j].lambda)
+                .sum();
+            let expected = (sharers[i].depth - others).max(0.0);
+            assert!((sharers[i].lambda - expected).abs() < 1e-12, "{sharers:?}");
+        }
+    }
+}
+
+/// Sets as they come from awkward places: normals all around, some opposed or equal, some depths equal.
+fn awkward_set(seed: &mut u64, count: usize) -> Vec<Sharer> {
+    let mut set: Vec<Sharer> = Vec::new();
+    for i in 0..count {
+        let fresh = Vec3::from_fn(|_, _| scatter(seed) - 0.5).normalize();
+        let earlier = set.get(i / 2).map_or(fresh, |earlier| earlier.normal);
+        let normal = match (scatter(seed) * 8.0) as u32 {
+            0 => earlier,
+            1 => -earlier,
+            _ => fresh,
+        };
+        let depth = if scatter(seed) < 0.2 { 0.75 } else { 0.5 + 0.5 * scatter(seed) };
+        set.push(Sharer::new(normal, depth));
+    }
+    set
+}
+
+/// Sets full of ties: normals along few directions, few different depths.
+fn set_full_of_ties(seed: &mut u64, count: usize) -> Vec<Sharer> {
+    let directions = [Vec3::x(), Vec3::y(), -Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.6, 0.8, 0.0)];
+    let sharer = |_| {
+        let normal = directions[(scatter(seed) * 5.0) as usize];
+        Sharer::new(normal, [0.5, 0.75, 1.0][(scatter(seed) * 3.0) as usize])
+    };
+    (0..count).map(sharer).collect()
+}
+
+fn lambda_bits(sharers: &[Sharer]) -> impl Iterator<Item = u64> {
+    sharers.iter().map(|sharer| sharer.lambda.to_bits())
+}
+
+/// The hashes were recorded from a tableau of one heap block per row, before there was scratch memory.
+#[test]
+fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
+    let recorded = |set: fn(&mut u64, usize) -> Vec<Sharer>| {
+        let mut scratch = Arena::with_capacity(scratch_bytes(40));
+        let mut seed = 99;
+        let mut hash = 0_u64;
+        for round in 0..3000 {
+            let mut set = set(&mut seed, 3 + round % 38);
+            share_within(&mut set, &mut scratch).unwrap();
+            for bits in lambda_bits(&set) {
+                hash = (hash ^ bits).wrapping_mul(0x0000_0100_0000_01b3).rotate_left(17);
+            }
+        }
+        hash
+    };
+    assert_eq!(recorded(awkward_set), 0x97bd_b3b3_1542_6b52);
+    assert_eq!(recorded(set_full_of_ties), 0x711d_2c59_e46e_74d6);
+}
+
+/// As many of the deepest as fit, ties in their order.
+fn deepest_first(set: &[Sharer], count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..set.len()).collect();
+    order.sort_by(|&i, &j| set[j].depth.total_cmp(&set[i].depth));
+    order.truncate(count);
+    order.sort();
+    order
+}
+
+#[test]
+fn with_too_little_memory_the_deepest_are_shared_exactly_and_the_rest_get_nothing() {
+    let mut seed = 5;
+    let mut left_out = 0;
+    for round in 0..500 {
+        let kind = [awkward_set, set_full_of_ties][round % 2];
+        let set = kind(&mut seed, 4 + round % 30);
+        let mut scratch = Arena::with_capacity((scatter(&mut seed) * scratch_bytes(20) as f64) as usize);
+        let mut shared = set.clone();
+        shared.iter_mut().for_each(|sharer| sharer.lambda = f64::NAN);
+        if share_within(&mut shared, &mut scratch).is_ok() {
+            continue;
+        }
+        // Which ones were shared follows from how many fitted; one of the counts must explain every λ.
+        let explained = (1..set.len()).find(|&count| {
+            let chosen = deepest_first(&set, count);
+            let mut alone: Vec<Sharer> = chosen.iter().map(|&i| set[i]).collect();
+            share(&mut alone);
+            let mut expected = vec![0.0; set.len()];
+            chosen.iter().zip(&alone).for_each(|(&i, sharer)| expected[i] = sharer.lambda);
+            shared.iter().zip(&expected).all(|(sharer, lambda)| sharer.lambda == *lambda)
+        });
+        assert!(explained.is_some(), "{shared:?}");
+        left_out += 1;
+    }
+    assert!(left_out > 100);
+}
+
+#[test]
+fn the_fallback_fills_the_memory_that_there_is() {
+    let mut seed = 11;
+    let set = awkward_set(&mut seed, 30);
+    let sharing_at = |bytes: usize| {
+        let mut shared = set.clone();
+        let mut scratch = Arena::with_capacity(bytes);
+        assert!(share_within(&mut shared, &mut scratch).is_err());
+        (shared.iter().filter(|sharer| sharer.lambda > 0.0).count(), scratch.used() as f64 / bytes as f64)
+    };
+    let (few, _) = sharing_at(1000);
+    let (many, filled) = sharing_at(scratch_bytes(30) - 16);
+    assert!(few < many, "{few} {many}");
+    assert!(filled > 0.9, "{filled}");
+    // No memory at all: the deepest alone.
+    assert_eq!(sharing_at(0).0, 1);
+}
+
+#[test]
+fn the_peak_of_the_scratch_memory_is_the_size_to_give() {
+    let mut seed = 3;
+    let mut set = awkward_set(&mut seed, 25);
+    let mut exact = set.clone();
+    share(&mut exact);
+    for too_small in [0, 64, scratch_bytes(25) - 16] {
+        let mut scratch = Arena::with_capacity(too_small);
+        let full = share_within(&mut set, &mut scratch).unwrap_err();
+        assert!(full.asked > full.free);
+        assert_eq!(scratch.peak(), scratch_bytes(25));
+        // What is left of a refusal does not show in the next set.
+        let mut two = [Sharer::new(Vec3::x(), 1.0), Sharer::new(-Vec3::x(), 2.0)];
+        assert!(share_within(&mut two, &mut scratch).is_ok());
+        let mut enough = Arena::with_capacity(scratch.peak());
+        assert!(share_within(&mut set, &mut enough).is_ok());
+        assert!(lambda_bits(&set).eq(lambda_bits(&exact)));
+    }
+}
