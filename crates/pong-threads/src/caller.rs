@@ -6,12 +6,8 @@ use std::sync::Arc;
 use crate::board::{CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
 use crate::word::Word;
-use crate::worker::{Payload, Shared};
+use crate::worker::{Payload, Shared, YIELD_AFTER_NS};
 use crate::{LaneWork, MAX_BLOCKS, Outcome};
-
-/// A caller that has waited so long lets others run, even where there are cores enough: another program may hold
-/// the core of the worker that it waits for.
-const YIELD_AFTER_NS: u64 = 20_000;
 
 pub struct Caller {
     shared: Arc<Shared>,
@@ -110,7 +106,7 @@ impl Caller {
             if waited_ns >= self.shared.patience_ns {
                 return (Outcome::Abandoned, panicked);
             }
-            if self.shared.crowded || waited_ns > YIELD_AFTER_NS {
+            if waited_ns > YIELD_AFTER_NS {
                 yield_now();
             }
         }

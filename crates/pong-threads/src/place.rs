@@ -49,27 +49,24 @@ impl fmt::Display for WorkerStart {
     }
 }
 
-/// Which workers there will be, and where.
-pub struct Plan {
-    /// Per worker the core to bind it to, if any.
-    pub cores: Vec<Option<usize>>,
-    /// More threads than cores.
-    pub crowded: bool,
+/// Per worker that there will be, the core to bind it to, if any.
+pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
+    let (cores, room) = room_for_workers(settings);
+    let asked = settings.workers.min(MAX_WORKERS);
+    let workers = if settings.oversubscribe { asked } else { asked.min(room) };
+    (0..workers).map(|worker| settings.pin.then(|| cores[worker % cores.len()])).collect()
 }
 
-impl Plan {
-    pub fn new(settings: &Settings) -> Plan {
-        let mask = cores_of_mask();
-        let own_list = settings.pin && !settings.cores.is_empty();
-        let (cores, room) = match own_list {
-            true => (settings.cores.clone(), settings.cores.len()),
-            false => (workers_first(&mask), mask.len() - 1),
-        };
-        let workers = settings.workers.min(MAX_WORKERS);
-        let workers = if settings.oversubscribe { workers } else { workers.min(room) };
-        let core_of = |worker: usize| settings.pin.then(|| cores[worker % cores.len()]);
-        Plan { cores: (0..workers).map(core_of).collect(), crowded: workers > room }
+/// The cores in the order of use, and how many of them have room for a worker beside the caller.
+fn room_for_workers(settings: &Settings) -> (Vec<usize>, usize) {
+    if settings.pin && !settings.cores.is_empty() {
+        return (settings.cores.clone(), settings.cores.len());
     }
+    let mut cores = cores_of_mask();
+    let room = cores.len() - 1;
+    // The first is the caller's, so it comes last.
+    cores.rotate_left(1);
+    (cores, room)
 }
 
 /// At least one core, whatever the system tells.
@@ -79,13 +76,6 @@ fn cores_of_mask() -> Vec<usize> {
         return listed.iter().map(|core| core.id).collect();
     }
     (0..std::thread::available_parallelism().map_or(1, usize::from)).collect()
-}
-
-/// The first core is the caller's, so it comes last.
-fn workers_first(mask: &[usize]) -> Vec<usize> {
-    let mut cores = mask.to_vec();
-    cores.rotate_left(1);
-    cores
 }
 
 /// Binds the calling thread and sets its priority.

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::board::Board;
 use crate::caller::Caller;
-use crate::place::{Plan, settle};
+use crate::place::{cores_of_workers, settle};
 use crate::sync::Watch;
 use crate::worker::{Shared, Worker};
 use crate::{Job, LaneWork, Outcome, Settings, WorkerStart};
@@ -51,31 +51,30 @@ impl Pool {
     /// Starts the workers, and sleeps until each has taken its place. (It must not spin: a new thread has the core and
     /// the priority of this one, and under SCHED_FIFO would never get to run.)
     pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
-        let plan = Plan::new(settings);
+        let cores = cores_of_workers(settings);
         let shared = Arc::new(Shared {
-            board: Board::new(plan.cores.len()),
+            board: Board::new(cores.len()),
             job,
             spin_ns: in_ns(settings.spin),
             patience_ns: in_ns(settings.patience),
-            crowded: plan.crowded,
             clock: settings.clock,
             origin: Watch::start(),
             panic: Mutex::new(None),
         });
         let mut pool = Pool {
             caller: Caller::new(shared.clone()),
-            threads: Vec::with_capacity(plan.cores.len()),
+            threads: Vec::with_capacity(cores.len()),
             start_report: Vec::new(),
             patience: settings.patience,
             process: std::process::id(),
         };
         let (started, starts) = channel();
-        for (worker, core) in plan.cores.iter().enumerate() {
+        for (worker, core) in cores.iter().enumerate() {
             let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, started.clone());
             // On an error the pool is dropped, which ends the workers that run already.
             pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
         }
-        pool.start_report = collect(starts, plan.cores.len());
+        pool.start_report = collect(starts, cores.len());
         Ok(pool)
     }
 

@@ -8,7 +8,7 @@ pub struct Settings {
     /// Workers wanted beside the caller; 1 by default. There will be no more than the cores left beside the caller's
     /// in the affinity mask of the thread that starts the pool, and never more than [`MAX_WORKERS`](crate::MAX_WORKERS).
     pub workers: usize,
-    /// More workers than cores are given all the same. Waiting threads then let others run.
+    /// More workers than cores are given all the same.
     pub oversubscribe: bool,
     /// How long a worker looks for the next phase before it parks; 50 µs by default. A parked worker is woken by
     /// the next phase in tens of microseconds, and the caller pays a system call.

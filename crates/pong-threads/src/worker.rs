@@ -18,8 +18,6 @@ pub struct Shared {
     pub job: Arc<dyn Job>,
     pub spin_ns: u64,
     pub patience_ns: u64,
-    /// More threads than cores: whoever waits lets others run.
-    pub crowded: bool,
     /// The host's clock for busy times, in ns.
     pub clock: Option<fn() -> u64>,
     /// Times of alerts count from here.
@@ -48,6 +46,10 @@ impl Shared {
         }
     }
 }
+
+/// Whoever has waited so long, worker or caller, lets others run between looks: the one that it waits for, or a
+/// caller that has work, may be waiting for this very core. With cores to spare that costs a fraction of a microsecond.
+pub const YIELD_AFTER_NS: u64 = 5_000;
 
 pub struct Worker {
     shared: Arc<Shared>,
@@ -114,7 +116,7 @@ impl Worker {
             if !self.stays_awake(idle) {
                 return None;
             }
-            if self.shared.crowded {
+            if idle.elapsed_ns() > YIELD_AFTER_NS {
                 yield_now();
             }
         }
