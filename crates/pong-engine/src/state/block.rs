@@ -14,7 +14,8 @@ use pong_geometry::{Pose, Vec3};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
 const VERSION: u32 = 1;
-const HEADER_LEN: usize = 8 + 4 + 4 + 8 + 2 * 8;
+const TOTALS_AT: usize = 8 + 4 + 4 + 8;
+const HEADER_LEN: usize = TOTALS_AT + 2 * 8;
 const POSE_LEN: usize = 8 + 2 * 7 * 8;
 const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
@@ -78,13 +79,8 @@ pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usiz
 }
 
 /// Writes the block. `out` must have the length that [`block_len`] gives.
-pub(crate) fn write_block(
-    memory: &ContactMemory,
-    world_hash: u64,
-    capacity: usize,
-    out: &mut [u8],
-) -> Result<(), StateError> {
-    let expected = block_len(memory.poses.len(), capacity, memory.custom_stride);
+pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> Result<(), StateError> {
+    let expected = block_len(memory.poses.len(), memory.records.capacity(), memory.custom_stride);
     if out.len() != expected {
         return Err(StateError::Length { expected, got: out.len() });
     }
@@ -96,26 +92,44 @@ pub(crate) fn write_block(
     writer.bytes(&world_hash.to_le_bytes());
     writer.f64(memory.work);
     writer.f64(memory.dissipated);
-    for pose in &memory.poses {
-        writer.pair_pose(pose);
-    }
-    for (i, record) in memory.records.iter().enumerate() {
+    memory.poses.iter().for_each(|pose| writer.pair_pose(pose));
+    for (record, custom) in memory.iter() {
         writer.record(record);
-        memory.custom_of(i).iter().for_each(|x| writer.f64(*x));
+        custom.iter().for_each(|x| writer.f64(*x));
     }
     let checksum = fnv1a(&out[..expected - CHECKSUM_LEN]);
     out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
     Ok(())
 }
 
-/// Reads a block back; `like` gives the shape that the world expects.
+/// Reads a block into a memory of the world that it belongs to.
+///
+/// # Errors
+/// A block that is refused leaves the memory as it was.
 pub(crate) fn read_block(
-    like: &ContactMemory,
+    memory: &mut ContactMemory,
     world_hash: u64,
-    capacity: usize,
     block: &[u8],
-) -> Result<ContactMemory, StateError> {
-    let expected = block_len(like.poses.len(), capacity, like.custom_stride);
+) -> Result<(), StateError> {
+    let count = check(memory, world_hash, block)?;
+    let mut reader = Reader { block, at: TOTALS_AT };
+    memory.work = reader.f64();
+    memory.dissipated = reader.f64();
+    memory.poses.iter_mut().for_each(|pose| *pose = reader.pair_pose());
+    memory.clear_records();
+    for _ in 0..count {
+        let record = reader.record().expect("checked before");
+        memory.records.push(record).expect("no more than the capacity");
+        for _ in 0..memory.custom_stride {
+            memory.custom.push(reader.f64()).expect("as many as the records have");
+        }
+    }
+    Ok(())
+}
+
+/// Everything that may be wrong with a block; answers the number of its records.
+fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, StateError> {
+    let expected = block_len(like.poses.len(), like.records.capacity(), like.custom_stride);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);
     }
@@ -132,20 +146,28 @@ pub(crate) fn read_block(
         return Err(StateError::Length { expected, got: block.len() });
     }
     let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
-    if fnv1a(body).to_le_bytes() != checksum || count > capacity {
+    if fnv1a(body).to_le_bytes() != checksum || count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
-    let mut memory = ContactMemory::new(like.poses.len(), like.custom_stride);
-    memory.work = reader.f64();
-    memory.dissipated = reader.f64();
-    for pose in &mut memory.poses {
-        *pose = reader.pair_pose();
+    reader.at = HEADER_LEN + like.poses.len() * POSE_LEN;
+    match records_make_sense(like, reader, count) {
+        true => Ok(count),
+        false => Err(StateError::Damaged),
     }
-    for _ in 0..count {
-        memory.records.push(reader.record(like.poses.len()).ok_or(StateError::Damaged)?);
-        memory.custom.extend((0..like.custom_stride).map(|_| reader.f64()));
-    }
-    Ok(memory)
+}
+
+/// Whether every record is possible, and their keys in order: all that looks them up relies on it.
+fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize) -> bool {
+    let mut last = ContactKey::default();
+    (0..count).all(|_| {
+        let record = reader.record();
+        reader.at += 8 * like.custom_stride;
+        record.is_some_and(|record| {
+            let in_order = last <= record.key;
+            last = record.key;
+            in_order && (record.key.group_pair as usize) < like.poses.len()
+        })
+    })
 }
 
 /// FNV-1a, 64 bit.
@@ -248,8 +270,8 @@ impl Reader<'_> {
         PairPose { relative: [self.pose(), self.pose()], known }
     }
 
-    /// `None` if a number in the record is impossible.
-    fn record(&mut self, group_pairs: usize) -> Option<ContactRecord> {
+    /// `None` if the record has a role that there is not.
+    fn record(&mut self) -> Option<ContactRecord> {
         let key = ContactKey {
             group_pair: self.u32(),
             flipped: self.u32(),
@@ -257,9 +279,6 @@ impl Reader<'_> {
             shell_b: self.u32(),
             end: self.u32(),
         };
-        if key.group_pair as usize >= group_pairs {
-            return None;
-        }
         Some(ContactRecord {
             key,
             feature: self.u32(),

@@ -1,12 +1,13 @@
 //! Contact records under their keys, and the relative poses of the last commit.
 
+use pong_arena::{Full, Table};
 use pong_geometry::{Pose, Vec3};
 
 /// In [`ContactRecord::entry_face`]: no side of entry is remembered.
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
 /// What a contact is remembered under. Its order is the order of every sum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct ContactKey {
     /// Index of the pair of movable groups.
     pub group_pair: u32,
@@ -81,15 +82,15 @@ pub(crate) struct PairPose {
     pub known: bool,
 }
 
-/// All contact state of a world.
+/// All contact state of a world. Its size is fixed when it is made; nothing in it asks for memory afterwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ContactMemory {
     /// One per pair of movable groups.
-    pub poses: Vec<PairPose>,
+    pub poses: Box<[PairPose]>,
     /// Sorted by key, then piece and feature.
-    pub records: Vec<ContactRecord>,
+    pub records: Table<ContactRecord>,
     /// Numbers of registered friction laws: `custom_stride` per record.
-    pub custom: Vec<f64>,
+    pub custom: Table<f64>,
     /// How many numbers each record has in `custom`.
     pub custom_stride: usize,
     /// Energy that left the contacts for good since the world began, J.
@@ -105,9 +106,73 @@ impl PairPose {
     }
 }
 
+impl ContactRecord {
+    /// Something to fill memory with.
+    pub fn blank() -> Self {
+        let zero = Vec3::zeros();
+        Self {
+            key: ContactKey::default(),
+            feature: 0,
+            element_b: 0,
+            entry_face: NO_FACE,
+            sticks: false,
+            role: Role::Silent,
+            normal: zero,
+            point: zero,
+            bristle: zero,
+            force: zero,
+            stored: 0.0,
+            work: 0.0,
+            dissipated: 0.0,
+        }
+    }
+}
+
 impl ContactMemory {
-    pub fn new(group_pairs: usize, custom_stride: usize) -> Self {
-        Self { poses: vec![PairPose::unknown(); group_pairs], custom_stride, ..Self::default() }
+    /// An empty memory with room for so many records of so many numbers each.
+    pub fn with_capacity(group_pairs: usize, records: usize, custom_stride: usize) -> Self {
+        Self {
+            poses: vec![PairPose::unknown(); group_pairs].into_boxed_slice(),
+            records: Table::with_capacity(records, ContactRecord::blank()),
+            custom: Table::with_capacity(records * custom_stride, 0.0),
+            custom_stride,
+            dissipated: 0.0,
+            work: 0.0,
+        }
+    }
+
+    /// Appends a record and its custom numbers, `custom_stride` of them; keys must come in order.
+    ///
+    /// # Errors
+    /// [`Full`] if there is no room; the memory stays as it is.
+    pub fn push(&mut self, record: &ContactRecord, custom: &[f64]) -> Result<(), Full> {
+        debug_assert_eq!(custom.len(), self.custom_stride);
+        debug_assert!(self.records.last().is_none_or(|last| last.key <= record.key));
+        self.records.push(*record)?;
+        self.custom.extend_from_slice(custom)
+    }
+
+    /// Drops all records; everything else stays.
+    pub fn clear_records(&mut self) {
+        self.records.clear();
+        self.custom.clear();
+    }
+
+    /// Becomes equal to a memory of the same size.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.poses.copy_from_slice(&other.poses);
+        self.clear_records();
+        let fits = self
+            .records
+            .extend_from_slice(&other.records)
+            .and_then(|()| self.custom.extend_from_slice(&other.custom));
+        fits.expect("memories of one world have room for the same");
+        (self.work, self.dissipated) = (other.work, other.dissipated);
+    }
+
+    /// The records with their custom numbers, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&ContactRecord, &[f64])> + Clone {
+        self.records.iter().enumerate().map(|(index, record)| (record, self.custom_of(index)))
     }
 
     /// The records under one key, with the index of the first.
@@ -148,30 +213,15 @@ impl ContactMemory {
             }
         }
         let stride = self.custom_stride;
-        let kept: Vec<usize> =
-            (0..self.records.len()).filter(|&i| !forgotten(self.records[i].key.group_pair)).collect();
-        self.custom = kept.iter().flat_map(|&i| self.custom[i * stride..(i + 1) * stride].to_vec()).collect();
-        self.records = kept.iter().map(|&i| self.records[i]).collect();
-    }
-
-    /// Takes over what `trial` holds of the pairs of movable groups that `accepted` names and keeps the rest.
-    pub fn accept(&mut self, trial: &ContactMemory, accepted: impl Fn(u32) -> bool) {
-        let stride = self.custom_stride;
-        let mut merged = ContactMemory { poses: self.poses.clone(), ..ContactMemory::new(0, stride) };
-        merged.dissipated = self.dissipated;
-        merged.work = self.work;
-        for (index, pose) in merged.poses.iter_mut().enumerate() {
-            if accepted(index as u32) {
-                *pose = trial.poses[index];
+        let mut kept = 0;
+        for index in 0..self.records.len() {
+            if !forgotten(self.records[index].key.group_pair) {
+                self.records[kept] = self.records[index];
+                self.custom.copy_within(index * stride..(index + 1) * stride, kept * stride);
+                kept += 1;
             }
         }
-        for index in 0..self.poses.len() as u32 {
-            let source: &ContactMemory = if accepted(index) { trial } else { self };
-            let first = source.records.partition_point(|record| record.key.group_pair < index);
-            let count = source.records[first..].partition_point(|record| record.key.group_pair == index);
-            merged.records.extend_from_slice(&source.records[first..first + count]);
-            merged.custom.extend_from_slice(&source.custom[first * stride..(first + count) * stride]);
-        }
-        *self = merged;
+        self.records.truncate(kept);
+        self.custom.truncate(kept * stride);
     }
 }

@@ -1,0 +1,124 @@
+//! What a commit makes of the memory.
+//!
+//! Records of pairs of movable groups that are not committed stay, those of the others are replaced. Each of the two
+//! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
+//! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
+
+use super::memory::{ContactMemory, ContactRecord, PairPose};
+use std::iter::Peekable;
+
+/// A record and its custom numbers.
+pub(crate) type Remembered<'a> = (ContactRecord, &'a [f64]);
+
+impl ContactMemory {
+    /// Takes over all that a frame would remember: `fresh` in key order, `poses` of every pair of movable groups. The
+    /// totals stay.
+    ///
+    /// Answers how many records were left out because there is no room for them.
+    pub fn replace<'a>(
+        &mut self,
+        fresh: impl Iterator<Item = Remembered<'a>> + Clone,
+        poses: &[PairPose],
+    ) -> usize {
+        self.poses.copy_from_slice(poses);
+        self.fill(fresh)
+    }
+
+    /// Writes into `next` what is remembered after a commit of the pairs of movable groups that `accepted` names:
+    /// of those `fresh` and `poses`, of all others what is remembered now. The totals are the present ones.
+    ///
+    /// Answers how many records were left out because `next` has no room for them.
+    pub fn accept_into<'a>(
+        &'a self,
+        fresh: impl Iterator<Item = Remembered<'a>> + Clone,
+        poses: &[PairPose],
+        accepted: impl Fn(u32) -> bool,
+        next: &mut Self,
+    ) -> usize {
+        for (index, pose) in next.poses.iter_mut().enumerate() {
+            *pose = if accepted(index as u32) { poses[index] } else { self.poses[index] };
+        }
+        (next.work, next.dissipated) = (self.work, self.dissipated);
+        let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);
+        let kept = self.iter().filter(|(record, _)| !is_accepted(record));
+        let kept = kept.map(|(record, custom)| (*record, custom)).peekable();
+        let fresh = fresh.filter(|(record, _)| is_accepted(record)).peekable();
+        next.fill(InKeyOrder { kept, fresh })
+    }
+
+    /// Replaces all records by the given ones, the strongest if there are too many. Answers how many were left out.
+    fn fill<'a>(&mut self, records: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
+        if self.take(records.clone()) {
+            return 0;
+        }
+        let ranks = records.clone().map(|(record, _)| rank(&record));
+        let mut bar = Bar::letting_in(self.records.capacity(), ranks);
+        self.take(records.clone().filter(|(record, _)| bar.lets_in(rank(record))));
+        records.count() - self.records.len()
+    }
+
+    /// Replaces all records, as long as there is room; whether there was.
+    fn take<'a>(&mut self, mut records: impl Iterator<Item = Remembered<'a>>) -> bool {
+        self.clear_records();
+        records.all(|(record, custom)| self.push(&record, custom).is_ok())
+    }
+}
+
+/// Two sources with no pair of movable groups in common, as one in key order.
+#[derive(Clone)]
+struct InKeyOrder<'a, K: Iterator<Item = Remembered<'a>>, F: Iterator<Item = Remembered<'a>>> {
+    kept: Peekable<K>,
+    fresh: Peekable<F>,
+}
+
+impl<'a, K, F> Iterator for InKeyOrder<'a, K, F>
+where
+    K: Iterator<Item = Remembered<'a>>,
+    F: Iterator<Item = Remembered<'a>>,
+{
+    type Item = Remembered<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        match (self.kept.peek(), self.fresh.peek()) {
+            (Some((kept, _)), Some((fresh, _))) if kept.key < fresh.key => self.kept.next(),
+            (Some(_), None) => self.kept.next(),
+            _ => self.fresh.next(),
+        }
+    }
+}
+
+/// Of two records, the one of the larger force has the larger rank: squares of sizes, whose bits are in their order.
+fn rank(record: &ContactRecord) -> u64 {
+    record.force.norm_squared().to_bits()
+}
+
+/// Lets in a given number of the highest ranks, ties as they come.
+struct Bar {
+    rank: u64,
+    /// How many more of just this rank.
+    ties: usize,
+}
+
+impl Bar {
+    /// The bar for `count` of more than `count` ranks: the highest that as many reach, found by halving.
+    fn letting_in(count: usize, ranks: impl Iterator<Item = u64> + Clone) -> Self {
+        let reach = |rank: u64| ranks.clone().filter(|other| *other >= rank).count();
+        let mut rank = 0;
+        for bit in (0..u64::BITS).rev() {
+            let higher = rank | 1 << bit;
+            if reach(higher) >= count {
+                rank = higher;
+            }
+        }
+        let above = ranks.clone().filter(|other| *other > rank).count();
+        Self { rank, ties: count - above }
+    }
+
+    fn lets_in(&mut self, rank: u64) -> bool {
+        if rank == self.rank && self.ties > 0 {
+            self.ties -= 1;
+            return true;
+        }
+        rank > self.rank
+    }
+}

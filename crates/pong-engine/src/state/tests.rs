@@ -1,0 +1,303 @@
+//! The memory against slow models of it, and blocks that must be refused.
+
+use super::block::{StateError, block_len, fnv1a, read_block, write_block};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
+use super::merge::Remembered;
+use pong_geometry::{Pose, Quat, Vec3};
+
+const GROUP_PAIRS: usize = 5;
+const CAPACITY: usize = 24;
+const WORLD: u64 = 0x5eed;
+
+/// Numbers from a fixed seed.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn below(&mut self, n: u32) -> u32 {
+        (self.unit() * f64::from(n)) as u32
+    }
+
+    fn vec3(&mut self) -> Vec3 {
+        Vec3::new(self.unit() - 0.5, self.unit() - 0.5, self.unit() - 0.5)
+    }
+
+    fn pose(&mut self) -> Pose {
+        let [w, x, y, z] = [self.unit(), self.unit(), self.unit(), self.unit()];
+        let orientation = Quat::new_unchecked(nalgebra::Quaternion::new(w, x, y, z));
+        Pose { position: self.vec3(), orientation }
+    }
+
+    fn record(&mut self) -> ContactRecord {
+        let role = [Role::Pushes, Role::Pushes, Role::Barred, Role::Silent][self.below(4) as usize];
+        // Few different forces: ties.
+        let force = if role == Role::Pushes { Vec3::x() * f64::from(self.below(4)) } else { Vec3::zeros() };
+        let key = ContactKey {
+            group_pair: self.below(GROUP_PAIRS as u32),
+            flipped: self.below(2),
+            primitive_a: self.below(9),
+            shell_b: self.below(9),
+            end: self.below(2),
+        };
+        ContactRecord {
+            key,
+            feature: self.below(u32::MAX),
+            element_b: self.below(u32::MAX),
+            entry_face: self.below(u32::MAX),
+            sticks: self.below(2) == 1,
+            role,
+            normal: self.vec3(),
+            point: self.vec3(),
+            bristle: self.vec3(),
+            force,
+            stored: self.unit(),
+            work: self.unit(),
+            dissipated: self.unit(),
+        }
+    }
+
+    /// A memory with so many records.
+    fn memory(&mut self, records: usize, stride: usize) -> ContactMemory {
+        let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, stride);
+        for pose in &mut memory.poses {
+            *pose = PairPose { relative: [self.pose(), self.pose()], known: self.below(2) == 1 };
+        }
+        (memory.work, memory.dissipated) = (self.unit(), self.unit());
+        let mut fresh: Vec<ContactRecord> = (0..records).map(|_| self.record()).collect();
+        fresh.sort_by_key(|record| record.key);
+        for record in fresh {
+            let custom: Vec<f64> = (0..stride).map(|_| self.unit()).collect();
+            memory.push(&record, &custom).unwrap();
+        }
+        memory
+    }
+}
+
+/// A list of records as a slow model holds them.
+fn listed(memory: &ContactMemory) -> Vec<(ContactRecord, Vec<f64>)> {
+    memory.iter().map(|(record, custom)| (*record, custom.to_vec())).collect()
+}
+
+fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = Remembered<'_>> + Clone {
+    memory.iter().map(|(record, custom)| (*record, custom))
+}
+
+/// Two memories, of which the first ones fit together into one and the later ones do not always.
+fn two_memories(random: &mut Random, round: u32) -> (ContactMemory, ContactMemory) {
+    let stride = round as usize % 4;
+    let (least, most) = if round < 200 { (0, CAPACITY / 2) } else { (CAPACITY - 3, CAPACITY) };
+    let [first, second] = [0, 1].map(|_| least + random.below((most - least) as u32 + 1) as usize);
+    (random.memory(first, stride), random.memory(second, stride))
+}
+
+#[test]
+fn a_contact_is_remembered_in_at_most_160_bytes() {
+    assert!(size_of::<ContactRecord>() <= 160, "{}", size_of::<ContactRecord>());
+}
+
+#[test]
+fn forgetting_keeps_all_else_in_order_with_its_numbers() {
+    let mut random = Random(1);
+    for round in 0..300 {
+        let memory = random.memory(random.0 as usize % (CAPACITY + 1), round % 4);
+        let forgotten = random.below(1 << GROUP_PAIRS);
+        let is_forgotten = |pair: u32| forgotten >> pair & 1 == 1;
+        let mut left = memory.clone();
+        left.forget(is_forgotten);
+        let mut expected = listed(&memory);
+        expected.retain(|(record, _)| !is_forgotten(record.key.group_pair));
+        assert_eq!(listed(&left), expected);
+        assert_eq!(left.custom.len(), left.records.len() * left.custom_stride);
+        for (pair, (pose, before)) in left.poses.iter().zip(&memory.poses).enumerate() {
+            let unknown = PairPose::unknown();
+            assert_eq!(pose, if is_forgotten(pair as u32) { &unknown } else { before });
+        }
+        assert_eq!((left.work, left.dissipated), (memory.work, memory.dissipated));
+    }
+}
+
+#[test]
+fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
+    let mut random = Random(2);
+    let mut next = [0, 1, 2, 3].map(|stride| random.memory(CAPACITY, stride));
+    let mut overflows = 0;
+    for round in 0..600 {
+        let (memory, trial) = two_memories(&mut random, round);
+        let accepted = random.below(1 << GROUP_PAIRS);
+        let is_accepted = |pair: u32| accepted >> pair & 1 == 1;
+        let next = &mut next[memory.custom_stride];
+        let left_out = memory.accept_into(fresh_of(&trial), &trial.poses, is_accepted, next);
+
+        let mut expected = listed(&memory);
+        expected.retain(|(record, _)| !is_accepted(record.key.group_pair));
+        expected.extend(listed(&trial).into_iter().filter(|(record, _)| is_accepted(record.key.group_pair)));
+        expected.sort_by_key(|(record, _)| record.key);
+        assert_eq!(left_out, expected.len().saturating_sub(CAPACITY));
+        if left_out > 0 {
+            // The strongest stay, ties in key order.
+            overflows += 1;
+            let mut by_force: Vec<usize> = (0..expected.len()).collect();
+            by_force.sort_by(|&i, &j| expected[j].0.force.norm().total_cmp(&expected[i].0.force.norm()));
+            by_force.truncate(CAPACITY);
+            by_force.sort();
+            expected = by_force.iter().map(|&i| expected[i].clone()).collect();
+        }
+        assert_eq!(listed(next), expected);
+        for pair in 0..GROUP_PAIRS {
+            let source = if is_accepted(pair as u32) { &trial } else { &memory };
+            assert_eq!(next.poses[pair], source.poses[pair]);
+        }
+        assert_eq!((next.work, next.dissipated), (memory.work, memory.dissipated));
+    }
+    assert!(overflows > 50, "{overflows}");
+}
+
+#[test]
+fn a_commit_of_everything_takes_everything_over_but_the_totals() {
+    let mut random = Random(3);
+    for round in 0..300 {
+        let (mut memory, trial) = two_memories(&mut random, round);
+        let totals = (memory.work, memory.dissipated);
+        assert_eq!(memory.replace(fresh_of(&trial), &trial.poses), 0);
+        assert_eq!((listed(&memory), &memory.poses), (listed(&trial), &trial.poses));
+        assert_eq!((memory.work, memory.dissipated), totals);
+        let mut copy = random.memory(CAPACITY, memory.custom_stride);
+        copy.copy_from(&memory);
+        assert!(copy == memory);
+    }
+}
+
+#[test]
+fn records_of_one_key_are_found_together() {
+    let mut random = Random(4);
+    let memory = random.memory(CAPACITY, 2);
+    for (index, (record, custom)) in memory.iter().enumerate() {
+        let (first, same) = memory.under(&record.key);
+        assert!(first <= index && index < first + same.len());
+        assert!(same.iter().all(|other| other.key == record.key));
+        assert_eq!(memory.custom_of(index), custom);
+    }
+}
+
+#[test]
+fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
+    let mut random = Random(9);
+    let model = ContactRecord { role: Role::Pushes, ..random.record() };
+    let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, 0);
+    let oblique = Vec3::new(0.6, 0.0, 0.8);
+    for (normal, feature, role) in [
+        (Vec3::x(), 1, Role::Pushes),
+        (oblique, 7, Role::Pushes),
+        (oblique, 5, Role::Pushes),
+        (Vec3::z(), 0, Role::Silent),
+    ] {
+        memory.push(&ContactRecord { normal, feature, role, ..model }, &[]).unwrap();
+    }
+    let found = |normal: Vec3, role| memory.matching(&model.key, &normal, role);
+    assert_eq!(found(Vec3::x(), Role::Pushes), Some(0));
+    // Two alike: the lower feature.
+    assert_eq!(found(Vec3::z(), Role::Pushes), Some(2));
+    assert_eq!(found(Vec3::z(), Role::Silent), Some(3));
+    assert_eq!(found(Vec3::z(), Role::Barred), None);
+    // The cosine must exceed one half.
+    assert_eq!(found(Vec3::new(0.0, 0.75_f64.sqrt(), 0.5), Role::Silent), None);
+    assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), Role::Silent), Some(3));
+    let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
+    assert_eq!(memory.matching(&elsewhere, &Vec3::z(), Role::Silent), None);
+}
+
+fn block_of(memory: &ContactMemory) -> Vec<u8> {
+    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.custom_stride)];
+    write_block(memory, WORLD, &mut block).unwrap();
+    block
+}
+
+/// The hash was recorded before the memory had a fixed size.
+#[test]
+fn the_format_of_the_block_is_still_that_of_version_1() {
+    let mut random = Random(5);
+    let hash = (0..40).fold(0, |hash: u64, round| {
+        let memory = random.memory(round % (CAPACITY + 1), round % 4);
+        hash.rotate_left(7) ^ fnv1a(&block_of(&memory))
+    });
+    assert_eq!(hash, 0x994a_14c4_76c4_2d22);
+}
+
+#[test]
+fn a_block_gives_back_to_the_bit_what_was_saved_whatever_was_there_before() {
+    let mut random = Random(6);
+    for round in 0..100 {
+        let (memory, mut other) = two_memories(&mut random, round);
+        read_block(&mut other, WORLD, &block_of(&memory)).unwrap();
+        assert!(other == memory);
+        assert_eq!(block_of(&other), block_of(&memory));
+    }
+}
+
+#[test]
+fn a_damaged_byte_anywhere_is_refused_and_changes_nothing() {
+    let mut random = Random(7);
+    let block = block_of(&random.memory(9, 1));
+    let mut memory = random.memory(5, 1);
+    let before = memory.clone();
+    for at in 0..block.len() {
+        let mut damaged = block.clone();
+        damaged[at] ^= 1 << (at % 8);
+        assert!(read_block(&mut memory, WORLD, &damaged).is_err(), "byte {at}");
+        assert!(memory == before, "byte {at}");
+    }
+    for len in [0, 7, 8, 39, 40, block.len() - 1] {
+        assert!(read_block(&mut memory, WORLD, &block[..len]).is_err());
+    }
+    assert_eq!(read_block(&mut memory, WORLD + 1, &block), Err(StateError::World));
+    assert!(memory == before);
+}
+
+/// Where a record begins in the block, and its words in it.
+const RECORD: usize = 40 + GROUP_PAIRS * 120;
+const ROLE_WORD: usize = 9;
+const RECORD_BYTES: usize = 160;
+
+/// The block with some of its words replaced, and a checksum that fits.
+fn forged(block: &[u8], at: usize, word: u32) -> Vec<u8> {
+    let mut forged = block.to_vec();
+    forged[at..at + 4].copy_from_slice(&word.to_le_bytes());
+    let body = forged.len() - 8;
+    let checksum = fnv1a(&forged[..body]).to_le_bytes();
+    forged[body..].copy_from_slice(&checksum);
+    forged
+}
+
+#[test]
+fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_nothing() {
+    let mut random = Random(8);
+    let saved = random.memory(9, 0);
+    let block = block_of(&saved);
+    let mut memory = random.memory(5, 0);
+    let before = memory.clone();
+    let last = RECORD + 8 * RECORD_BYTES;
+    let nonsense = [
+        ("a role that there is not", last + 4 * ROLE_WORD, 3),
+        ("a pair that there is not", last, GROUP_PAIRS as u32),
+        ("keys out of order", last, 0),
+    ];
+    assert!(saved.records[7].key.group_pair > 0);
+    for (what, at, word) in nonsense {
+        let forged = forged(&block, at, word);
+        assert_eq!(read_block(&mut memory, WORLD, &forged), Err(StateError::Damaged), "{what}");
+        assert!(memory == before, "{what}");
+    }
+    let empty = block_of(&random.memory(0, 0));
+    for count in [CAPACITY as u32 + 1, u32::MAX] {
+        let forged = forged(&empty, 12, count);
+        assert_eq!(read_block(&mut memory, WORLD, &forged), Err(StateError::Damaged), "{count} records");
+        assert!(memory == before);
+    }
+    // The forgery itself is sound: the same with a word that may stand there is accepted.
+    read_block(&mut memory, WORLD, &forged(&block, last + 4 * ROLE_WORD, 1)).unwrap();
+    assert_eq!(memory.records[8].role, Role::Barred);
+}
