@@ -1,11 +1,17 @@
-//! What the benchmark programs share: scenes, the peer on the same scenes, clocks and counters.
+//! What the benchmark programs share: scenes, peers on the same scenes, clocks, counters and tables.
 
+pub mod floor;
 pub mod heap;
+pub mod hull;
 pub mod options;
+pub mod ours;
+pub mod pairs;
 pub mod peer;
+pub mod race;
 pub mod random;
 pub mod rig;
 pub mod ring;
 pub mod ron;
+pub mod table;
 pub mod terrain;
 pub mod timing;

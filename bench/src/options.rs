@@ -7,18 +7,19 @@ pub struct Options {
     pub smoke: bool,
     /// Rounds; in each everything runs once.
     pub rounds: usize,
-    /// Without the peer: for profilers.
+    /// Without the peers: for profilers.
     pub alone: bool,
     /// Only the scene of this number, from 0.
     pub only: Option<usize>,
 }
 
 impl Options {
-    /// Reads `[--smoke] [--alone] [--rounds N] [--only N]`.
+    /// Reads `[--smoke] [--alone] [--rounds N] [--only N]` from the command line.
     ///
     /// # Errors
     /// An argument that is none of these.
-    pub fn read(mut arguments: impl Iterator<Item = String>, rounds: usize) -> Result<Self, String> {
+    pub fn read(rounds: usize) -> Result<Self, String> {
+        let mut arguments = std::env::args().skip(1);
         let mut options = Self { smoke: false, rounds, alone: false, only: None };
         while let Some(argument) = arguments.next() {
             let mut number = || {
@@ -34,5 +35,10 @@ impl Options {
             }
         }
         Ok(options)
+    }
+
+    /// Whether the scene of this number is wanted.
+    pub fn wants(&self, scene: usize) -> bool {
+        self.only.is_none_or(|only| only == scene)
     }
 }

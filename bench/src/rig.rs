@@ -1,51 +1,96 @@
-//! The engine on a scene of two Objects.
+//! The engine on a scene of Objects.
 
+use crate::peer::Peer;
 use pong_engine::{Config, EngineError, InterfaceId, SealReport, State, World};
 use pong_model::Model;
 use std::sync::Arc;
 
-/// Two Objects, paired and sealed.
+/// Objects, paired and sealed.
 pub struct Rig {
     /// The world.
     pub world: World,
     /// What sealing told.
     pub report: SealReport,
-    interfaces: [InterfaceId; 2],
+    states: Vec<(InterfaceId, State)>,
+    wrenches: Vec<f64>,
 }
 
 impl Rig {
-    /// A world of two models.
+    /// A world of one Object per model, with some of them paired.
     ///
     /// # Errors
     /// Whatever the engine refuses.
-    pub fn new(models: [Arc<Model>; 2]) -> Result<Self, EngineError> {
-        let mut world = World::new(Config::default());
-        let [first, second] = models;
-        let first = world.add_model(first)?;
-        let second = world.add_model(second)?;
-        let objects = [world.create_object(first, "first")?, world.create_object(second, "second")?];
-        world.pair(objects[0], objects[1])?;
-        let interfaces = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
-        let report = world.seal()?;
-        Ok(Self { world, report, interfaces })
+    pub fn new(models: &[Arc<Model>], pairs: &[(usize, usize)], threads: usize) -> Result<Self, EngineError> {
+        Self::in_world(World::new(config(threads)), models, pairs)
     }
 
-    /// One whole frame: states in, forces and friction, contact state kept, wrenches out.
+    /// As [`new`](Self::new), in a world that was made for it.
+    ///
+    /// # Errors
+    /// Whatever the engine refuses.
+    pub fn in_world(
+        mut world: World,
+        models: &[Arc<Model>],
+        pairs: &[(usize, usize)],
+    ) -> Result<Self, EngineError> {
+        let (mut objects, mut known) = (Vec::new(), Vec::new());
+        for (number, model) in models.iter().enumerate() {
+            let same = models[..number].iter().position(|earlier| Arc::ptr_eq(earlier, model));
+            let id = match same {
+                Some(earlier) => known[earlier],
+                None => world.add_model(Arc::clone(model))?,
+            };
+            known.push(id);
+            objects.push(world.create_object(id, &format!("object_{number}"))?);
+        }
+        for &(a, b) in pairs {
+            world.pair(objects[a], objects[b])?;
+        }
+        let mut states = Vec::new();
+        for object in objects {
+            for interface in world.interfaces(object)? {
+                states.push((interface, State::identity()));
+            }
+        }
+        let report = world.seal()?;
+        let wrenches = vec![0.0; 6 * states.len()];
+        Ok(Self { world, report, states, wrenches })
+    }
+
+    /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
+    /// friction, contact state kept, wrenches out, those of the movable groups whose states came in.
     ///
     /// # Panics
     /// If the engine refuses the states.
-    pub fn frame(&mut self, states: &[State; 2]) -> [f64; 12] {
-        let [first, second] = self.interfaces;
-        self.world.set_states(&[(first, states[0]), (second, states[1])]).expect("finite states");
+    pub fn step(&mut self, states: &[State]) -> &[f64] {
+        let known = &mut self.states[..states.len()];
+        known.iter_mut().zip(states).for_each(|((_, known), state)| *known = *state);
+        self.world.set_states(known).expect("finite states");
         self.world.step().expect("a sealed world steps");
-        let mut out = [0.0; 12];
-        for (wrench, interface) in out.chunks_exact_mut(6).zip([first, second]) {
-            let found = self.world.wrench(interface).expect("a frame has run");
-            wrench[..3].copy_from_slice(found.force.as_slice());
-            wrench[3..].copy_from_slice(found.moment.as_slice());
+        let wrenches = &mut self.wrenches[..6 * states.len()];
+        for (out, (interface, _)) in wrenches.chunks_exact_mut(6).zip(&*known) {
+            let found = self.world.wrench(*interface).expect("a frame has run");
+            out[..3].copy_from_slice(found.force.as_slice());
+            out[3..].copy_from_slice(found.moment.as_slice());
         }
-        out
+        wrenches
     }
+}
+
+impl Peer for Rig {
+    fn frame(&mut self, states: &[State]) -> usize {
+        std::hint::black_box(self.step(states));
+        self.world.report().contacts as usize
+    }
+}
+
+/// Most threads that a world can use: it has no workers yet.
+pub const MOST_THREADS: usize = 1;
+
+/// Settings of a world that runs on so many threads, the caller's among them.
+pub fn config(threads: usize) -> Config {
+    debug_assert!(threads <= MOST_THREADS);
+    Config::default()
 }
 
 /// FNV-1a over the bits of numbers: equal hashes mean equal results.

@@ -40,6 +40,13 @@ pub enum Tip {
     Point,
 }
 
+impl Tip {
+    /// Radius, m; zero for points.
+    pub fn radius(self) -> f64 {
+        if self == Self::Sphere { TIP_RADIUS } else { 0.0 }
+    }
+}
+
 /// The scene, each body in its own frame.
 pub struct Ring {
     /// Corners of the wedges; the bits of a corner's number say outward, forward, up.

@@ -27,6 +27,19 @@ pub enum Source {
 }
 
 impl Terrain {
+    /// Terrains of about 1e3, 1e4, 1e5 and 1e6 triangles.
+    pub const SIZES: [Self; 4] = [
+        Self { cells: [25, 20] },
+        Self { cells: [100, 50] },
+        Self { cells: [250, 200] },
+        Self { cells: [1000, 500] },
+    ];
+
+    /// Number of triangles.
+    pub fn count(&self) -> usize {
+        2 * self.cells[0] * self.cells[1]
+    }
+
     /// Vertices, row after row.
     pub fn vertices(&self) -> Vec<Vec3> {
         let [nx, ny] = self.cells;
@@ -55,6 +68,12 @@ impl Terrain {
             Source::Obj => (named("ground.obj"), Some(("ground.obj", self.obj().into_bytes()))),
             Source::Inline => (self.inline(), None),
         }
+    }
+
+    /// Heights at the vertices, row after row, and half the size along x and y, m.
+    pub fn heights(&self) -> (Vec<f64>, [f64; 2]) {
+        let heights = self.vertices().iter().map(|vertex| vertex.z).collect();
+        (heights, self.cells.map(|cells| 0.5 * cells as f64 * CELL))
     }
 
     fn stl(&self) -> Vec<u8> {
@@ -99,21 +118,83 @@ fn at(x: f64, y: f64) -> Vec3 {
     Vec3::new(x, y, z).map(|x| f64::from(x as f32))
 }
 
-/// States of the terrain, at rest, and of a body that rolls to and fro near the middle, `depth` below touching for
-/// one that reaches `reach` below its centre.
-pub fn states(frames: usize, reach: f64, depth: f64) -> Vec<[State; 2]> {
-    let state = |frame: usize| {
-        let phase = frame as f64 / frames as f64 * std::f64::consts::TAU;
-        let (x, y) = (0.03 + 0.4 * phase.sin(), -0.02 + 0.3 * phase.cos());
-        let center = Vec3::new(x, y, at(x, y).z + reach - depth);
-        let turn = Quat::from_scaled_axis(Vec3::new(0.2 * phase.cos(), 0.3 * phase.sin(), phase.sin()));
-        let body = State {
-            position: center.into(),
-            orientation: [turn.w, turn.i, turn.j, turn.k],
-            linear_velocity: [0.4 * phase.cos(), -0.3 * phase.sin(), 0.0],
-            ..State::identity()
+/// What rolls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wheel {
+    /// A sphere.
+    Sphere {
+        /// m
+        radius: f64,
+    },
+    /// An ellipsoid with its axes along those of its body.
+    Ellipsoid {
+        /// m
+        semi_axes: [f64; 3],
+    },
+}
+
+impl Wheel {
+    /// The two wheels of the workload.
+    pub const BOTH: [Self; 2] =
+        [Self::Sphere { radius: 0.25 }, Self::Ellipsoid { semi_axes: [0.25, 0.12, 0.25] }];
+
+    /// Name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sphere { .. } => "sphere",
+            Self::Ellipsoid { .. } => "ellipsoid",
+        }
+    }
+
+    /// Model file of one wheel.
+    pub fn model(self) -> String {
+        let shape = match self {
+            Self::Sphere { radius } => {
+                format!("Sphere(name: \"wheel\", center: (0, 0, 0), radius: {radius:?})")
+            }
+            Self::Ellipsoid { semi_axes: [a, b, c] } => {
+                format!("Ellipsoid(name: \"wheel\", center: (0, 0, 0), semi_axes: ({a:?}, {b:?}, {c:?}))")
+            }
         };
-        [State::identity(), body]
+        ron::model("wheel", &shape)
+    }
+
+    /// How far it reaches below its centre when it stands upright, m.
+    fn reach(self) -> f64 {
+        match self {
+            Self::Sphere { radius } => radius,
+            Self::Ellipsoid { semi_axes } => semi_axes[2],
+        }
+    }
+}
+
+/// Number of wheels.
+pub const WHEELS: usize = 6;
+/// Where the wheels are around the middle of the vehicle, m.
+const PLACES: [(f64, f64); WHEELS] =
+    [(-0.5, -0.4), (0.0, -0.4), (0.5, -0.4), (-0.5, 0.4), (0.0, 0.4), (0.5, 0.4)];
+/// How deep the lowest point of a wheel is pressed below the ground beneath it, m.
+const PRESSED: f64 = 0.004;
+
+/// States of the terrain, at rest, and of the wheels, which roll to and fro near the middle, each with the lowest
+/// point of its upright self 4 mm below the ground.
+pub fn states(frames: usize, wheel: Wheel) -> Vec<Vec<State>> {
+    let states = |frame: usize| {
+        let phase = frame as f64 / frames as f64 * std::f64::consts::TAU;
+        let wheels = PLACES.map(|place| rolling(phase, place, wheel.reach() - PRESSED));
+        std::iter::once(State::identity()).chain(wheels).collect()
     };
-    (0..frames).map(state).collect()
+    (0..frames).map(states).collect()
+}
+
+fn rolling(phase: f64, place: (f64, f64), height: f64) -> State {
+    let (x, y) = (place.0 + 0.03 + 0.4 * phase.sin(), place.1 - 0.02 + 0.3 * phase.cos());
+    let center = Vec3::new(x, y, at(x, y).z + height);
+    let turn = Quat::from_scaled_axis(Vec3::new(0.2 * phase.cos(), 0.3 * phase.sin(), phase.sin()));
+    State {
+        position: center.into(),
+        orientation: [turn.w, turn.i, turn.j, turn.k],
+        linear_velocity: [0.4 * phase.cos(), -0.3 * phase.sin(), 0.0],
+        ..State::identity()
+    }
 }

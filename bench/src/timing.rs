@@ -1,49 +1,94 @@
-//! Times of passes, and what is told of them. Processor time of the thread, so that a pass is not charged for the
-//! time that other programs had the core; what they do to its caches is still in it.
+//! Times of passes, and what is told of them.
 
 use cpu_time::ThreadTime;
+use std::time::Instant;
 
-/// Times of equal passes, µs per frame.
-#[derive(Default)]
-pub struct Times(Vec<f64>);
+/// Which clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// Processor time of the calling thread: a pass is not charged for the time that other programs had the core,
+    /// though what they do to its caches is still in it. Says nothing of the work of other threads.
+    Thread,
+    /// Wall-clock time: for passes on more than one thread.
+    Wall,
+}
+
+/// Times of equal passes, in seconds per item by both clocks.
+pub struct Times {
+    items: f64,
+    passes: Vec<[f64; 2]>,
+}
 
 impl Times {
-    /// Runs `pass` and keeps its time, shared among `frames`.
-    pub fn run(&mut self, frames: usize, pass: impl FnOnce()) {
-        let start = ThreadTime::now();
+    /// None yet, of passes over so many items.
+    pub fn new(items: usize) -> Self {
+        Self { items: items as f64, passes: Vec::new() }
+    }
+
+    /// Runs `pass` and keeps its time.
+    pub fn run(&mut self, pass: impl FnOnce()) {
+        let (wall, thread) = (Instant::now(), ThreadTime::now());
         pass();
-        self.0.push(start.elapsed().as_secs_f64() * 1e6 / frames as f64);
+        let (thread, wall) = (thread.elapsed(), wall.elapsed());
+        self.passes.push([thread, wall].map(|time| time.as_secs_f64() / self.items));
     }
 
-    /// The shortest pass.
-    pub fn min(&self) -> f64 {
-        self.0.iter().copied().fold(f64::INFINITY, f64::min)
+    /// The shortest pass, s per item.
+    pub fn min(&self, clock: Clock) -> f64 {
+        self.by(clock).fold(f64::INFINITY, f64::min)
     }
 
-    /// The middle pass.
-    pub fn median(&self) -> f64 {
-        median(&self.0)
+    /// The middle pass, s per item.
+    pub fn median(&self, clock: Clock) -> f64 {
+        median(self.by(clock).collect())
     }
 
     /// Ratios to another's passes of the same rounds.
-    pub fn over(&self, other: &Times) -> Ratios {
-        Ratios(self.0.iter().zip(&other.0).map(|(mine, theirs)| mine / theirs).collect())
+    pub fn over(&self, other: &Times, clock: Clock) -> Ratios {
+        Ratios(self.by(clock).zip(other.by(clock)).map(|(mine, theirs)| mine / theirs).collect())
+    }
+
+    fn by(&self, clock: Clock) -> impl Iterator<Item = f64> + '_ {
+        self.passes.iter().map(move |pass| pass[usize::from(clock == Clock::Wall)])
     }
 }
 
 /// Ratios of passes that ran next to each other.
+#[derive(Clone)]
 pub struct Ratios(Vec<f64>);
+
+impl Ratios {
+    /// The middle one.
+    pub fn median(&self) -> f64 {
+        median(self.0.clone())
+    }
+
+    /// All of them times a number.
+    pub fn times(&self, factor: f64) -> Self {
+        Self(self.0.iter().map(|ratio| ratio * factor).collect())
+    }
+}
 
 impl std::fmt::Display for Ratios {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let low = self.0.iter().copied().fold(f64::INFINITY, f64::min);
         let high = self.0.iter().copied().fold(0.0, f64::max);
-        write!(f, "{:.3} [{low:.3}..{high:.3}]", median(&self.0))
+        write!(f, "{} [{}..{}]", digits(self.median()), digits(low), digits(high))
     }
 }
 
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
+/// A number with three significant digits.
+pub fn digits(x: f64) -> String {
+    let decimals = match x.abs() {
+        x if x >= 100.0 => 0,
+        x if x >= 10.0 => 1,
+        x if x >= 1.0 => 2,
+        _ => 3,
+    };
+    format!("{x:.decimals$}")
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -1,7 +1,8 @@
-//! parry on the same scenes: collision detection alone, without forces, friction or memory of contacts.
+//! parry on the ring and on the terrain.
 
+use super::Peer;
 use crate::ring::{Ring, TIP_RADIUS, Tip, WEDGE_FACES};
-use crate::terrain::Terrain;
+use crate::terrain::{Terrain, Wheel};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -12,19 +13,19 @@ use parry3d_f64::shape::{Ball, Compound, ConvexPolyhedron, Shape, SharedShape, T
 use pong_engine::State;
 use pong_geometry::Vec3;
 
-fn vector(v: &Vec3) -> Vector {
+/// A vector in parry's form.
+pub fn vector(v: &Vec3) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-fn pose(state: &State) -> Pose {
-    let [w, x, y, z] = state.orientation;
-    let [px, py, pz] = state.position;
+/// A pose in parry's form.
+pub fn pose(position: [f64; 3], [w, x, y, z]: [f64; 4]) -> Pose {
+    let [px, py, pz] = position;
     Pose::from_parts(Vector::new(px, py, pz), Rotation::from_xyzw(x, y, z, w))
 }
 
-/// Pose of the second body seen from the first.
-fn relative(states: &[State; 2]) -> Pose {
-    pose(&states[0]).inv_mul(&pose(&states[1]))
+fn pose_of(state: &State) -> Pose {
+    pose(state.position, state.orientation)
 }
 
 fn wedge(corners: &[Vec3; 8]) -> ConvexPolyhedron {
@@ -34,11 +35,11 @@ fn wedge(corners: &[Vec3; 8]) -> ConvexPolyhedron {
         .expect("a wedge is convex")
 }
 
-/// One shape against another through parry's own pair dispatch, with what it keeps from frame to frame.
+/// One shape against others through parry's own pair dispatch, with what it keeps from frame to frame.
 pub struct Manifolds {
-    shapes: [Box<dyn Shape>; 2],
-    manifolds: Vec<ContactManifold<(), ()>>,
-    workspace: Option<ContactManifoldsWorkspace>,
+    first: Box<dyn Shape>,
+    second: Box<dyn Shape>,
+    pairs: Vec<(Vec<ContactManifold<(), ()>>, Option<ContactManifoldsWorkspace>)>,
 }
 
 impl Manifolds {
@@ -49,38 +50,50 @@ impl Manifolds {
             .tips
             .iter()
             .map(|tip| (Pose::from_translation(vector(tip)), SharedShape::new(Ball::new(TIP_RADIUS))));
-        Self::of(Compound::new(wedges.collect()), Compound::new(balls.collect()))
+        Self::of(Compound::new(wedges.collect()), Compound::new(balls.collect()), 1)
     }
 
-    /// A terrain and one ball around its own origin.
-    pub fn terrain(terrain: &Terrain, radius: f64) -> Self {
-        let vertices = terrain.vertices().iter().map(vector).collect();
-        let mesh = TriMesh::new(vertices, terrain.triangles()).expect("a terrain has triangles");
-        Self::of(mesh, Ball::new(radius))
+    /// A terrain and wheels; `None` for ellipsoids, which parry does not have.
+    pub fn terrain(terrain: &Terrain, wheel: Wheel, wheels: usize) -> Option<Self> {
+        let Wheel::Sphere { radius } = wheel else { return None };
+        Some(Self::of(trimesh(terrain), Ball::new(radius), wheels))
     }
 
-    fn of(first: impl Shape, second: impl Shape) -> Self {
-        Self { shapes: [Box::new(first), Box::new(second)], manifolds: Vec::new(), workspace: None }
+    fn of(first: impl Shape, second: impl Shape, pairs: usize) -> Self {
+        Self {
+            first: Box::new(first),
+            second: Box::new(second),
+            pairs: (0..pairs).map(|_| Default::default()).collect(),
+        }
     }
+}
 
-    /// One frame; the number of contacts.
-    ///
-    /// # Panics
-    /// If parry does not know the pair of shapes.
-    pub fn frame(&mut self, states: &[State; 2]) -> usize {
-        let [first, second] = &self.shapes;
-        DefaultQueryDispatcher
-            .contact_manifolds(
-                &relative(states),
-                &**first,
-                &**second,
-                0.0,
-                &mut self.manifolds,
-                &mut self.workspace,
-            )
-            .expect("parry knows these shapes");
-        self.manifolds.iter().flat_map(|manifold| &manifold.points).filter(|point| point.dist < 0.0).count()
+impl Peer for Manifolds {
+    fn frame(&mut self, states: &[State]) -> usize {
+        let first = pose_of(&states[0]);
+        let mut contacts = 0;
+        for (state, (manifolds, workspace)) in states[1..].iter().zip(&mut self.pairs) {
+            let relative = first.inv_mul(&pose_of(state));
+            DefaultQueryDispatcher
+                .contact_manifolds(&relative, &*self.first, &*self.second, 0.0, manifolds, workspace)
+                .expect("parry knows these shapes");
+            contacts += manifolds
+                .iter()
+                .flat_map(|manifold| &manifold.points)
+                .filter(|point| point.dist < 0.0)
+                .count();
+        }
+        contacts
     }
+}
+
+/// parry's triangle mesh of a terrain.
+///
+/// # Panics
+/// If the terrain has no triangle.
+pub fn trimesh(terrain: &Terrain) -> TriMesh {
+    let vertices = terrain.vertices().iter().map(vector).collect();
+    TriMesh::new(vertices, terrain.triangles()).expect("a terrain has triangles")
 }
 
 /// A loop of one's own over parry's tree of wedges and its projection of a point.
@@ -100,13 +113,14 @@ impl Loop {
             tree: Bvh::from_iter(BvhBuildStrategy::Binned, boxes),
             wedges,
             tips: ring.tips.iter().map(vector).collect(),
-            radius: if tip == Tip::Sphere { TIP_RADIUS } else { 0.0 },
+            radius: tip.radius(),
         }
     }
+}
 
-    /// One frame; the number of contacts.
-    pub fn frame(&self, states: &[State; 2]) -> usize {
-        let pose = relative(states);
+impl Peer for Loop {
+    fn frame(&mut self, states: &[State]) -> usize {
+        let pose = pose_of(&states[0]).inv_mul(&pose_of(&states[1]));
         let mut contacts = 0;
         for tip in &self.tips {
             let center = pose.transform_point(*tip);

@@ -1,0 +1,132 @@
+/* MuJoCo as the benchmarks use it. Its library has no function for some of this, its structs no stable layout. */
+#include <mujoco/mujoco.h>
+#include <stdlib.h>
+
+typedef struct {
+    mjModel *model;
+    mjData *data;
+} scene;
+
+void pong_mujoco_free(scene *s)
+{
+    if (s) {
+        mj_deleteData(s->data);
+        mj_deleteModel(s->model);
+        free(s);
+    }
+}
+
+/* A scene from MJCF text; NULL with a message if it is refused. */
+scene *pong_mujoco_load(const char *xml, char *message, int size)
+{
+    scene *s = calloc(1, sizeof *s);
+    mjSpec *spec = mj_parseXMLString(xml, NULL, message, size);
+    s->model = spec ? mj_compile(spec, NULL) : NULL;
+    if (spec && !s->model) {
+        mju_strncpy(message, mjs_getError(spec), size);
+    }
+    mj_deleteSpec(spec);
+    s->data = s->model ? mj_makeData(s->model) : NULL;
+    if (!s->data) {
+        pong_mujoco_free(s);
+        return NULL;
+    }
+    mj_kinematics(s->model, s->data);
+    return s;
+}
+
+/* Fills the height field; the numbers are shares of its greatest height. */
+void pong_mujoco_heights(scene *s, const float *heights, int count)
+{
+    int i;
+    for (i = 0; i < count; i++) {
+        s->model->hfield_data[i] = heights[i];
+    }
+}
+
+/* Poses of the bodies (position, quaternion) in, number of contacts out. */
+int pong_mujoco_frame(scene *s, const double *poses, int bodies)
+{
+    int i, contacts = 0;
+    mju_copy(s->data->qpos, poses, 7 * bodies);
+    mj_kinematics(s->model, s->data);
+    mj_collision(s->model, s->data);
+    for (i = 0; i < s->data->ncon; i++) {
+        contacts += s->data->contact[i].dist < 0;
+    }
+    return contacts;
+}
+
+/* What a query answers: depth (0: none), normal from target to mover, point. */
+typedef struct {
+    double depth, normal[3], point[3];
+} answer;
+
+enum { TARGET, MOVER };
+
+static answer narrow(scene *s, mjfCollision collide)
+{
+    mjPreContact found[mjMAXCONPAIR];
+    answer out = {0};
+    int i, count = collide(s->model, s->data, found, MOVER, TARGET, 0);
+    for (i = 0; i < count; i++) {
+        if (-found[i].dist > out.depth) {
+            out.depth = -found[i].dist;
+            mju_scl3(out.normal, found[i].normal, -1);
+            mju_copy3(out.point, found[i].pos);
+        }
+    }
+    return out;
+}
+
+/* One query per pose of the mover in the target's frame: position, then rotation matrix row by row. By the function
+ * that MuJoCo's own dispatch would call. */
+void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers)
+{
+    mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[MOVER]][s->model->geom_type[TARGET]];
+    int i;
+    for (i = 0; i < count; i++, poses += 12) {
+        mju_copy3(s->data->geom_xpos + 3 * MOVER, poses);
+        mju_copy(s->data->geom_xmat + 9 * MOVER, poses + 3, 9);
+        answers[i] = narrow(s, collide);
+    }
+}
+
+/* The same by the public function for signed distances, which gives no normal for what overlaps. */
+void pong_mujoco_distances(scene *s, const double *poses, int count, answer *answers)
+{
+    int i;
+    for (i = 0; i < count; i++, poses += 12) {
+        double distance, ends[6];
+        answer out = {0};
+        mju_copy3(s->data->geom_xpos + 3 * MOVER, poses);
+        mju_copy(s->data->geom_xmat + 9 * MOVER, poses + 3, 9);
+        distance = mj_geomDistance(s->model, s->data, MOVER, TARGET, 1e-9, ends);
+        if (distance < 0) {
+            out.depth = -distance;
+            mju_copy3(out.point, ends);
+        }
+        answers[i] = out;
+    }
+}
+
+/* A ray along z that starts at `start` of the mover's frame, no longer than `length`. */
+void pong_mujoco_rays(scene *s, const double *poses, int count, double start, double length, answer *answers)
+{
+    int i;
+    for (i = 0; i < count; i++, poses += 12) {
+        const double *r = poses + 3;
+        double direction[3] = {r[2], r[5], r[8]}, origin[3];
+        answer out = {0};
+        mju_addScl3(origin, poses, direction, start);
+        out.depth = mj_rayMesh(s->model, s->data, TARGET, origin, direction, out.normal);
+        if (out.depth < 0 || out.depth >= length) {
+            out.depth = 0;
+        } else {
+            mju_addScl3(out.point, origin, direction, out.depth);
+        }
+        answers[i] = out;
+    }
+}
+
+const char *pong_mujoco_version(void) { return mj_versionString(); }

@@ -1,0 +1,166 @@
+/* ODE as the benchmarks use it: its collision detection, without its dynamics. */
+#include <ode/ode.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BODIES = 2, MOST_CONTACTS = 64 };
+enum { SPHERE, CAPSULE, RAY };
+
+typedef struct {
+    dWorldID world;
+    dBodyID bodies[BODIES];
+    dSpaceID spaces[BODIES];
+    dTriMeshDataID mesh;
+    dGeomID target, mover;
+    int contacts;
+} scene;
+
+scene *pong_ode_new(void)
+{
+    scene *s = calloc(1, sizeof *s);
+    int i;
+    dInitODE2(0);
+    dAllocateODEDataForThread(dAllocateMaskAll);
+    s->world = dWorldCreate();
+    for (i = 0; i < BODIES; i++) {
+        s->bodies[i] = dBodyCreate(s->world);
+        s->spaces[i] = dHashSpaceCreate(0);
+    }
+    return s;
+}
+
+void pong_ode_free(scene *s)
+{
+    int i;
+    if (s->target) dGeomDestroy(s->target);
+    if (s->mover) dGeomDestroy(s->mover);
+    for (i = 0; i < BODIES; i++) dSpaceDestroy(s->spaces[i]);
+    dWorldDestroy(s->world);
+    if (s->mesh) dGeomTriMeshDataDestroy(s->mesh);
+    free(s);
+}
+
+/* --- two bodies of many geoms ------------------------------------------------------------------------------------- */
+
+/* A convex geom on the first body, in its own frame around `center`; the arrays must outlive the scene. */
+void pong_ode_add_convex(scene *s, const double *planes, unsigned plane_count, const double *points,
+                         unsigned point_count, const unsigned *polygons, const double *center)
+{
+    dGeomID geom = dCreateConvex(s->spaces[0], planes, plane_count, points, point_count, polygons);
+    dGeomSetBody(geom, s->bodies[0]);
+    dGeomSetOffsetPosition(geom, center[0], center[1], center[2]);
+}
+
+/* A sphere on the second body. */
+void pong_ode_add_sphere(scene *s, const double *center, double radius)
+{
+    dGeomID geom = dCreateSphere(s->spaces[1], radius);
+    dGeomSetBody(geom, s->bodies[1]);
+    dGeomSetOffsetPosition(geom, center[0], center[1], center[2]);
+}
+
+static void near(void *data, dGeomID first, dGeomID second)
+{
+    dContactGeom contact;
+    ((scene *)data)->contacts += dCollide(first, second, 1, &contact, sizeof contact);
+}
+
+/* Poses of both bodies (position, quaternion) in, number of contacts out. */
+int pong_ode_frame(scene *s, const double *poses)
+{
+    int i;
+    for (i = 0; i < BODIES; i++, poses += 7) {
+        dBodySetPosition(s->bodies[i], poses[0], poses[1], poses[2]);
+        dBodySetQuaternion(s->bodies[i], poses + 3);
+    }
+    s->contacts = 0;
+    dSpaceCollide2((dGeomID)s->spaces[0], (dGeomID)s->spaces[1], s, near);
+    return s->contacts;
+}
+
+/* --- one target, one mover ---------------------------------------------------------------------------------------- */
+
+void pong_ode_target_convex(scene *s, const double *planes, unsigned plane_count, const double *points,
+                            unsigned point_count, const unsigned *polygons)
+{
+    s->target = dCreateConvex(0, planes, plane_count, points, point_count, polygons);
+}
+
+/* A triangle mesh; the arrays must outlive the scene. */
+void pong_ode_target_mesh(scene *s, const double *vertices, int vertex_count, const unsigned *triangles,
+                          int triangle_count)
+{
+    s->mesh = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildDouble(s->mesh, vertices, 3 * sizeof(double), vertex_count, triangles, 3 * triangle_count,
+                                3 * sizeof(unsigned));
+    s->target = dCreateTriMesh(0, s->mesh, 0, 0, 0);
+}
+
+/* Radius and length; rays have no radius. */
+void pong_ode_mover(scene *s, int kind, double radius, double length)
+{
+    switch (kind) {
+    case SPHERE: s->mover = dCreateSphere(0, radius); break;
+    case CAPSULE: s->mover = dCreateCapsule(0, radius, length); break;
+    default: s->mover = dCreateRay(0, length);
+    }
+}
+
+/* Poses of wheels, one after the other: the mover stands for each. Number of contacts out. */
+int pong_ode_wheels(scene *s, const double *poses, int count)
+{
+    dContactGeom found[MOST_CONTACTS];
+    int i, contacts = 0;
+    for (i = 0; i < count; i++, poses += 7) {
+        dGeomSetPosition(s->mover, poses[0], poses[1], poses[2]);
+        dGeomSetQuaternion(s->mover, poses + 3);
+        contacts += dCollide(s->mover, s->target, MOST_CONTACTS, found, sizeof found[0]);
+    }
+    return contacts;
+}
+
+/* What a query answers: depth (0: none), normal from target to mover, point. */
+typedef struct {
+    double depth, normal[3], point[3];
+} answer;
+
+static answer deepest(scene *s)
+{
+    dContactGeom found[MOST_CONTACTS];
+    answer out;
+    int i, count = dCollide(s->mover, s->target, MOST_CONTACTS, found, sizeof found[0]);
+    memset(&out, 0, sizeof out);
+    for (i = 0; i < count; i++) {
+        if (found[i].depth > out.depth) {
+            out.depth = found[i].depth;
+            memcpy(out.normal, found[i].normal, sizeof out.normal);
+            memcpy(out.point, found[i].pos, sizeof out.point);
+        }
+    }
+    return out;
+}
+
+/* One query per pose of the mover in the target's frame: position, then rotation matrix row by row. */
+void pong_ode_pairs(scene *s, const double *poses, int count, answer *answers)
+{
+    int i;
+    for (i = 0; i < count; i++, poses += 12) {
+        const double *r = poses + 3;
+        dMatrix3 rotation = {r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0};
+        dGeomSetPosition(s->mover, poses[0], poses[1], poses[2]);
+        dGeomSetRotation(s->mover, rotation);
+        answers[i] = deepest(s);
+    }
+}
+
+/* A ray along z that starts at `start` of the mover's frame. */
+void pong_ode_rays(scene *s, const double *poses, int count, double start, answer *answers)
+{
+    int i;
+    for (i = 0; i < count; i++, poses += 12) {
+        const double *r = poses + 3;
+        dGeomRaySet(s->mover, poses[0] + start * r[2], poses[1] + start * r[5], poses[2] + start * r[8], r[2], r[5],
+                    r[8]);
+        answers[i] = deepest(s);
+    }
+}

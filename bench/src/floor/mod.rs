@@ -1,0 +1,32 @@
+//! What the processor needs at the very least: plane tests written by hand for its widest registers, without any of
+//! what an engine is for. They use fused multiply-add, which the engine must not.
+
+pub mod planes;
+pub mod ring;
+
+/// Width of the registers that are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Eight numbers at a time.
+    Avx512,
+    /// Four at a time.
+    Avx2,
+    /// What the compiler makes of a loop.
+    Portable,
+}
+
+impl Level {
+    /// The best of this processor.
+    pub fn detect() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if std::is_x86_feature_detected!("fma") {
+            if std::is_x86_feature_detected!("avx512f") {
+                return Self::Avx512;
+            }
+            if std::is_x86_feature_detected!("avx2") {
+                return Self::Avx2;
+            }
+        }
+        Self::Portable
+    }
+}

@@ -1,0 +1,62 @@
+//! The convex polyhedra and the triangle of W1.
+
+use crate::peer::parry::vector;
+use crate::ron;
+use parry3d_f64::transformation::convex_hull;
+use pong_geometry::Vec3;
+use std::f64::consts::PI;
+
+const SEMI_AXES: [f64; 3] = [0.5, 0.4, 0.3];
+
+/// A convex polyhedron with triangular faces.
+pub struct Hull {
+    /// m
+    pub vertices: Vec<Vec3>,
+    /// Vertex numbers, counter-clockwise seen from outside.
+    pub faces: Vec<[u32; 3]>,
+}
+
+impl Hull {
+    /// Vertices of a Fibonacci sphere, scaled: 8, 18, 66 of them give 12, 32, 128 faces.
+    pub fn fibonacci(vertices: usize) -> Self {
+        let golden = PI * (3.0 - 5_f64.sqrt());
+        let vertex = |i: usize| {
+            let z = 1.0 - (2 * i + 1) as f64 / vertices as f64;
+            let (sine, cosine) = (i as f64 * golden).sin_cos();
+            let across = (1.0 - z * z).sqrt();
+            Vec3::new(across * cosine, across * sine, z).component_mul(&Vec3::from(SEMI_AXES))
+        };
+        let cloud: Vec<_> = (0..vertices).map(|i| vector(&vertex(i))).collect();
+        let (vertices, faces) = convex_hull(&cloud);
+        Self { vertices: vertices.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect(), faces }
+    }
+
+    /// Unit normals and offsets of the faces: inside is where normal · p < offset for all.
+    pub fn planes(&self) -> Vec<(Vec3, f64)> {
+        let plane = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| self.vertices[v as usize]);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            (normal, normal.dot(&a))
+        };
+        self.faces.iter().map(plane).collect()
+    }
+
+    /// Model file.
+    pub fn model(&self) -> String {
+        let faces = self.faces.iter().map(|face| format!("{face:?}")).collect::<Vec<_>>().join(",");
+        let vertices = ron::vectors(&self.vertices);
+        ron::model("hull", &format!("Polyhedron(name: \"hull\", vertices: [{vertices}], faces: [{faces}])"))
+    }
+}
+
+/// Corners of the triangle, counter-clockwise seen from +z, m.
+pub const TRIANGLE: [[f64; 3]; 3] = [[-0.25, -0.2, 0.0], [0.35, -0.2, 0.0], [-0.1, 0.4, 0.0]];
+
+/// Model file of the triangle.
+pub fn triangle_model() -> String {
+    let vertices = ron::vectors(&TRIANGLE.map(Vec3::from));
+    ron::model(
+        "triangle",
+        &format!("TriangleMesh(name: \"t\", vertices: [{vertices}], triangles: [(0,1,2)])"),
+    )
+}

@@ -1,0 +1,186 @@
+//! MuJoCo, through `shim/mujoco.c`.
+
+use super::{PairPeer, Peer, pose_numbers};
+use crate::hull::Hull;
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
+use crate::ring::{Ring, Tip};
+use crate::terrain::{Terrain, Wheel};
+use pong_engine::State;
+use pong_geometry::Vec3;
+use std::ffi::{CStr, CString, c_char, c_int};
+use std::ptr::NonNull;
+
+#[repr(C)]
+struct Opaque {
+    _private: [u8; 0],
+}
+
+unsafe extern "C" {
+    fn pong_mujoco_load(xml: *const c_char, message: *mut c_char, size: c_int) -> *mut Opaque;
+    fn pong_mujoco_free(scene: *mut Opaque);
+    fn pong_mujoco_heights(scene: *mut Opaque, heights: *const f32, count: c_int);
+    fn pong_mujoco_frame(scene: *mut Opaque, poses: *const f64, bodies: c_int) -> c_int;
+    fn pong_mujoco_pairs(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
+    fn pong_mujoco_distances(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
+    fn pong_mujoco_rays(
+        scene: *mut Opaque,
+        poses: *const f64,
+        count: c_int,
+        start: f64,
+        length: f64,
+        answers: *mut Answer,
+    );
+    fn pong_mujoco_version() -> *const c_char;
+}
+
+/// Version of the library.
+pub fn version() -> String {
+    // SAFETY: a static string of the library.
+    unsafe { CStr::from_ptr(pong_mujoco_version()) }.to_string_lossy().into_owned()
+}
+
+/// A free body's own part; its inertia is of no account here, but MuJoCo wants one.
+const FREE: &str = "<freejoint/><inertial pos=\"0 0 0\" mass=\"1\" diaginertia=\"1 1 1\"/>";
+
+/// A scene from MJCF text.
+struct Scene(NonNull<Opaque>);
+
+impl Scene {
+    fn load(assets: &str, world: &str) -> Self {
+        let xml = format!(
+            "<mujoco><size memory=\"512M\"/><asset>{assets}</asset><worldbody>{world}</worldbody></mujoco>"
+        );
+        let xml = CString::new(xml).expect("no zero in the text");
+        let mut message = vec![0_u8; 1000];
+        // SAFETY: both texts live through the call; the message has room for what it is told.
+        let scene = unsafe { pong_mujoco_load(xml.as_ptr(), message.as_mut_ptr().cast(), 1000) };
+        let told = CStr::from_bytes_until_nul(&message).unwrap_or_default().to_string_lossy();
+        Self(NonNull::new(scene).unwrap_or_else(|| panic!("MuJoCo: {told}")))
+    }
+
+    fn frame(&mut self, poses: &[f64]) -> usize {
+        // SAFETY: the scene lives; the poses are those of as many bodies.
+        unsafe { pong_mujoco_frame(self.0.as_ptr(), poses.as_ptr(), (poses.len() / 7) as c_int) as usize }
+    }
+}
+
+impl Drop for Scene {
+    fn drop(&mut self) {
+        // SAFETY: made by load, freed once.
+        unsafe { pong_mujoco_free(self.0.as_ptr()) }
+    }
+}
+
+/// MuJoCo on a scene of free bodies.
+pub struct Mujoco {
+    scene: Scene,
+    poses: Vec<f64>,
+    /// Whether the first state is that of the world itself.
+    on_ground: bool,
+}
+
+impl Mujoco {
+    /// The ring: a body of convex meshes and a body of spheres.
+    pub fn ring(ring: &Ring, tip: Tip) -> Self {
+        let names = |i: usize| format!("wedge_{i}");
+        let assets: String = ring.wedges.iter().enumerate().map(|(i, w)| mesh(&names(i), w)).collect();
+        let wedge =
+            |i| format!("<geom type=\"mesh\" mesh=\"{}\" contype=\"1\" conaffinity=\"0\"/>", names(i));
+        let wedges: String = (0..ring.wedges.len()).map(wedge).collect();
+        let tip = |center: &Vec3| {
+            format!(
+                "<geom type=\"sphere\" size=\"{}\" pos=\"{}\" contype=\"0\" conaffinity=\"1\"/>",
+                tip.radius().max(1e-9),
+                numbers(center.as_slice())
+            )
+        };
+        let tips: String = ring.tips.iter().map(tip).collect();
+        let world = format!("<body>{FREE}{wedges}</body><body>{FREE}{tips}</body>");
+        Self { scene: Scene::load(&assets, &world), poses: Vec::new(), on_ground: false }
+    }
+
+    /// Wheels on a height field: MuJoCo has no mesh that is not convex.
+    pub fn terrain(terrain: &Terrain, wheel: Wheel, wheels: usize) -> Self {
+        let (heights, [half_x, half_y]) = terrain.heights();
+        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
+        let span = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max) - low;
+        let [columns, rows] = terrain.cells.map(|cells| cells + 1);
+        let assets = format!(
+            "<hfield name=\"ground\" nrow=\"{rows}\" ncol=\"{columns}\" size=\"{half_x} {half_y} {span} 0.1\"/>"
+        );
+        let shape = match wheel {
+            Wheel::Sphere { radius } => format!("type=\"sphere\" size=\"{radius}\""),
+            Wheel::Ellipsoid { semi_axes } => format!("type=\"ellipsoid\" size=\"{}\"", numbers(&semi_axes)),
+        };
+        let wheel = format!("<body>{FREE}<geom {shape} contype=\"1\" conaffinity=\"0\"/></body>");
+        let ground = format!(
+            "<geom type=\"hfield\" hfield=\"ground\" pos=\"0 0 {low}\" contype=\"0\" conaffinity=\"1\"/>"
+        );
+        let scene = Scene::load(&assets, &(ground + &wheel.repeat(wheels)));
+        let shares: Vec<f32> = heights.iter().map(|height| ((height - low) / span) as f32).collect();
+        // SAFETY: the field was declared with as many numbers.
+        unsafe { pong_mujoco_heights(scene.0.as_ptr(), shares.as_ptr(), shares.len() as c_int) };
+        Self { scene, poses: Vec::new(), on_ground: true }
+    }
+}
+
+impl Peer for Mujoco {
+    fn frame(&mut self, states: &[State]) -> usize {
+        self.poses.clear();
+        self.poses.extend(states[usize::from(self.on_ground)..].iter().flat_map(pose_numbers));
+        self.scene.frame(&self.poses)
+    }
+}
+
+/// MuJoCo on one pair. A point is a sphere of a nanometre, a segment a capsule as thin.
+pub struct MujocoPair {
+    scene: Scene,
+    mover: Mover,
+    by_distance: bool,
+}
+
+impl MujocoPair {
+    /// For one pair; `None` for the triangle, which MuJoCo does not have.
+    pub fn new(mover: Mover, target: &Target) -> Option<Self> {
+        let Target::Hull(Hull { vertices, .. }) = target else { return None };
+        const THIN: f64 = 1e-9;
+        let shape = match mover {
+            Mover::Point | Mover::Ray => format!("type=\"sphere\" size=\"{THIN}\""),
+            Mover::Sphere => format!("type=\"sphere\" size=\"{RADIUS}\""),
+            Mover::Segment => format!("type=\"capsule\" size=\"{THIN} {HALF_LENGTH}\""),
+            Mover::Ellipsoid => format!("type=\"ellipsoid\" size=\"{}\"", numbers(&SEMI_AXES)),
+        };
+        let world = format!("<geom type=\"mesh\" mesh=\"hull\"/><body>{FREE}<geom {shape}/></body>");
+        let scene = Scene::load(&mesh("hull", vertices), &world);
+        Some(Self { scene, mover, by_distance: false })
+    }
+
+    /// The same through `mj_geomDistance`.
+    pub fn by_distance(mover: Mover, target: &Target) -> Option<Self> {
+        Self::new(mover, target).map(|pair| Self { by_distance: true, ..pair })
+    }
+}
+
+impl PairPeer for MujocoPair {
+    fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
+        let (poses, count) = (queries.rows.as_ptr().cast(), answers.len().min(queries.rows.len()) as c_int);
+        let (scene, answers) = (self.scene.0.as_ptr(), answers.as_mut_ptr());
+        // SAFETY: the scene lives; there are as many poses and answers as told, in the form that C knows.
+        unsafe {
+            match self.mover {
+                Mover::Ray => pong_mujoco_rays(scene, poses, count, RAY.0[2], RAY.2, answers),
+                _ if self.by_distance => pong_mujoco_distances(scene, poses, count, answers),
+                _ => pong_mujoco_pairs(scene, poses, count, answers),
+            }
+        }
+    }
+}
+
+fn mesh(name: &str, vertices: &[Vec3]) -> String {
+    let vertices: Vec<f64> = vertices.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+    format!("<mesh name=\"{name}\" vertex=\"{}\"/>", numbers(&vertices))
+}
+
+fn numbers(list: &[f64]) -> String {
+    list.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(" ")
+}

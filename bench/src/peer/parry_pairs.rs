@@ -1,0 +1,110 @@
+//! W1 by parry: the function that its own dispatch would call, called directly.
+
+use super::PairPeer;
+use super::parry::{pose, vector};
+use crate::hull::{Hull, TRIANGLE};
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
+use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::details::{contact_convex_polyhedron_ball, contact_support_map_support_map};
+use parry3d_f64::query::{Contact, PointQuery, Ray, RayCast};
+use parry3d_f64::shape::{Ball, ConvexPolyhedron, Segment, Shape, SupportMap, Triangle};
+
+/// parry on one pair.
+pub struct Parry {
+    mover: Mover,
+    target: Shapes,
+}
+
+enum Shapes {
+    Hull(ConvexPolyhedron),
+    Triangle(Triangle),
+}
+
+/// An ellipsoid is one support function away.
+struct Ellipsoid;
+
+impl SupportMap for Ellipsoid {
+    fn local_support_point(&self, direction: Vector) -> Vector {
+        let semi_axes = Vector::from(SEMI_AXES);
+        let scaled = direction * semi_axes;
+        scaled * semi_axes / scaled.length()
+    }
+}
+
+impl Parry {
+    /// For one pair.
+    ///
+    /// # Panics
+    /// If parry refuses the hull.
+    pub fn new(mover: Mover, target: &Target) -> Self {
+        let target = match target {
+            Target::Hull(hull) => Shapes::Hull(convex(hull)),
+            Target::Triangle => {
+                let [a, b, c] = TRIANGLE.map(Vector::from);
+                Shapes::Triangle(Triangle::new(a, b, c))
+            }
+        };
+        Self { mover, target }
+    }
+}
+
+fn convex(hull: &Hull) -> ConvexPolyhedron {
+    ConvexPolyhedron::from_convex_mesh(hull.vertices.iter().map(vector).collect(), &hull.faces)
+        .expect("a hull is convex")
+}
+
+impl PairPeer for Parry {
+    fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
+        match &self.target {
+            Shapes::Hull(b) => match self.mover {
+                Mover::Point => each(queries, answers, |x| point(x, b)),
+                Mover::Sphere => each(queries, answers, |x| ball(x, b)),
+                Mover::Ray => each(queries, answers, |x| ray(x, b)),
+                Mover::Segment => {
+                    let half = Vector::new(0.0, 0.0, HALF_LENGTH);
+                    let a = Segment::new(-half, half);
+                    each(queries, answers, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
+                }
+                Mover::Ellipsoid => {
+                    each(queries, answers, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
+                }
+            },
+            Shapes::Triangle(b) => match self.mover {
+                Mover::Ray => each(queries, answers, |x| ray(x, b)),
+                _ => each(queries, answers, |x| ball(x, b)),
+            },
+        }
+    }
+}
+
+fn each(queries: &Queries, answers: &mut [Answer], test: impl Fn(&Pose) -> Option<Answer>) {
+    for (x_ba, answer) in queries.poses.iter().zip(answers) {
+        let q = &x_ba.orientation;
+        let x_ba = pose(x_ba.position.into(), [q.w, q.i, q.j, q.k]);
+        *answer = test(&x_ba).unwrap_or_default();
+    }
+}
+
+fn point(x: &Pose, b: &ConvexPolyhedron) -> Option<Answer> {
+    let found = b.project_local_point(x.translation, false);
+    let arm = found.point - x.translation;
+    let depth = arm.length();
+    found.is_inside.then(|| Answer::new(depth, arm / depth, x.translation))
+}
+
+fn ball(x: &Pose, b: &impl Shape) -> Option<Answer> {
+    touch(contact_convex_polyhedron_ball(x, b, &Ball::new(RADIUS), 0.0))
+}
+
+fn ray(x: &Pose, b: &impl RayCast) -> Option<Answer> {
+    let (origin, direction, length) = RAY;
+    let ray = Ray::new(x.transform_point(origin.into()), x.rotation * Vector::from(direction));
+    let hit = b.cast_local_ray_and_get_normal(&ray, length, false)?;
+    let point = ray.origin + ray.dir * hit.time_of_impact;
+    Some(Answer::new(hit.time_of_impact, hit.normal, point))
+}
+
+fn touch(found: Option<Contact>) -> Option<Answer> {
+    let found = found?;
+    Some(Answer::new(-found.dist, found.normal1, found.point1))
+}

@@ -1,0 +1,54 @@
+//! Tables in Markdown that also read well in a terminal.
+
+use crate::timing::{Clock, Times, digits};
+use std::fmt;
+
+/// Rows of cells under a head.
+pub struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with these columns.
+    pub fn new(head: &[&str]) -> Self {
+        Self { rows: vec![head.iter().map(|&cell| cell.to_owned()).collect()] }
+    }
+
+    /// One more row.
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+}
+
+impl fmt::Display for Table {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let cell = |row: &[String], column: usize| row.get(column).cloned().unwrap_or_default();
+        let width = |column| self.rows.iter().map(|row| cell(row, column).chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..columns).map(width).collect();
+        for (number, row) in self.rows.iter().enumerate() {
+            for (column, &width) in widths.iter().enumerate() {
+                write!(f, "| {:<width$} ", cell(row, column))?;
+            }
+            writeln!(f, "|")?;
+            if number == 0 {
+                widths.iter().try_for_each(|&width| write!(f, "|{}", "-".repeat(width + 2)))?;
+                writeln!(f, "|")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Shortest and middle pass: `20.1 / 20.9`, in units of `unit` seconds; a dash for who did not run.
+pub fn min_and_median(times: Option<&Times>, clock: Clock, unit: f64) -> String {
+    let told = |times: &Times| {
+        format!("{} / {}", digits(times.min(clock) / unit), digits(times.median(clock) / unit))
+    };
+    times.map_or("–".to_owned(), told)
+}
+
+/// What a value displays, or a dash.
+pub fn or_dash(value: Option<impl fmt::Display>) -> String {
+    value.map_or("–".to_owned(), |value| value.to_string())
+}
