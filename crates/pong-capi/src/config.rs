@@ -81,7 +81,7 @@ impl pong_config {
                 return Err(Failure::new(pong_status::BadValue, message));
             }
         };
-        Ok(Config { contact_capacity, ledger })
+        Ok(Config { contact_capacity, ledger, workers: None })
     }
 }
 

@@ -36,6 +36,7 @@ impl From<EngineError> for Failure {
             EngineError::UnsetState { .. } => pong_status::UnsetState,
             EngineError::BadValue { .. } => pong_status::BadValue,
             EngineError::State(_) => pong_status::BadStateBlock,
+            EngineError::Workers { .. } => pong_status::SealFailed,
         };
         Self::new(status, error.to_string())
     }

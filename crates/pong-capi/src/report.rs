@@ -46,15 +46,15 @@ pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut 
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(report, "report")?;
-            let (frame, counters) = (inner.world.report(), inner.counters);
+            let (frame, counts, counters) = (inner.world.report(), inner.world.counts(), inner.counters);
             out.set(pong_report {
                 flags: frame.status.bits(),
                 contacts: frame.contacts,
                 contacts_wanted: frame.contacts_wanted,
                 peak_contacts_wanted: counters.peak_contacts_wanted,
-                volumes_tested: frame.volumes_tested,
-                leaf_pairs: frame.leaf_pairs,
-                primitives_tested: frame.primitives_tested,
+                volumes_tested: counts.volumes_tested(),
+                leaf_pairs: counts.leaf_pairs,
+                primitives_tested: counts.primitives_tested(),
                 evaluations: counters.evaluations,
                 commits: counters.commits,
                 evaluate_ns: counters.evaluate_ns,

@@ -1,4 +1,4 @@
-//! What a frame reports: contacts, counts, energies.
+//! What a frame reports: contacts and energies. Counts and times are in `report.rs`.
 
 use crate::ids::{InterfaceId, ObjectId, PairId};
 use pong_geometry::Vec3;
@@ -59,51 +59,6 @@ pub struct ContactSide {
     pub element: u32,
     /// Arm from the origin of the movable group to the contact's place, m, along the axes of the common frame.
     pub arm: Vec3,
-}
-
-/// What a frame had to leave out.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StatusBits(u32);
-
-impl StatusBits {
-    /// More contacts than the world's capacity: the deepest were kept. Raise `Config::contact_capacity`.
-    pub const CONTACT_LIMIT: Self = Self(1);
-
-    /// Whether nothing was left out.
-    pub fn is_complete(self) -> bool {
-        self.0 == 0
-    }
-
-    /// Whether a bit is set.
-    pub fn contains(self, other: Self) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    /// The bits as a number.
-    pub fn bits(self) -> u32 {
-        self.0
-    }
-
-    pub(crate) fn set(&mut self, other: Self) {
-        self.0 |= other.0;
-    }
-}
-
-/// Counts of one frame.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FrameReport {
-    /// What had to be left out.
-    pub status: StatusBits,
-    /// Pairs of bounding volumes tested.
-    pub volumes_tested: u64,
-    /// Pairs of leaves whose contents were tested.
-    pub leaf_pairs: u64,
-    /// Pairs of primitives tested.
-    pub primitives_tested: u64,
-    /// Contacts listed.
-    pub contacts: u32,
-    /// Contacts that would have been listed without the limit; the advised capacity when the limit was hit.
-    pub contacts_wanted: u32,
 }
 
 /// Energies of all contacts. Meaningful if the world keeps the ledger ([`Config::ledger`](crate::Config)).

@@ -55,6 +55,11 @@ pub enum EngineError {
         /// What is wrong and what to give instead.
         cause: String,
     },
+    /// The workers could not be started.
+    Workers {
+        /// What the system said and what to do.
+        cause: String,
+    },
     /// A saved contact state was refused.
     State(StateError),
 }
@@ -85,6 +90,7 @@ impl std::fmt::Display for EngineError {
                 )
             }
             Self::BadValue { what, cause } => write!(f, "{what}: {cause}"),
+            Self::Workers { cause } => write!(f, "workers: {cause}"),
             Self::State(error) => error.fmt(f),
         }
     }

@@ -25,13 +25,15 @@ mod friction;
 mod ids;
 mod law;
 mod registry;
+mod report;
+mod running;
 mod scene;
 mod sealed;
 mod sharing;
 mod state;
 mod world;
 
-pub use contact::{Contact, ContactSide, FrameReport, Ledger, StatusBits};
+pub use contact::{Contact, ContactSide, Ledger};
 pub use dispatch::has_tester;
 pub use error::EngineError;
 pub use friction::{FrictionForce, FrictionInput, FrictionOutput};
@@ -40,8 +42,10 @@ pub use law::{
     CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, PairProps,
     combine as combine_surfaces,
 };
+pub use pong_threads::{LaneWork, WorkerStart};
 pub use registry::Laws;
-pub use scene::{Config, State};
+pub use report::{FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally};
+pub use scene::{Config, State, WorkerSettings};
 pub use sealed::{SealReport, SetupWarning};
 pub use state::StateError;
 pub use world::{StiffestContact, World};

@@ -4,10 +4,11 @@ use crate::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::{Body, Model};
+pub use pong_threads::Settings as WorkerSettings;
 use std::sync::Arc;
 
 /// Settings of a world.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Config {
     /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
     /// 65,536. When a frame has more,
@@ -15,6 +16,9 @@ pub struct Config {
     pub contact_capacity: Option<usize>,
     /// Whether energies are kept (physics contract, section 6).
     pub ledger: bool,
+    /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
+    /// are the same bits.
+    pub workers: Option<WorkerSettings>,
 }
 
 /// An instance of a model.
@@ -32,7 +36,6 @@ pub(crate) struct BodyInstance {
     pub object: usize,
     /// Index into the model's bodies.
     pub body: usize,
-    pub state: Option<State>,
 }
 
 /// Two Objects that are tested.
@@ -40,10 +43,18 @@ pub(crate) struct BodyInstance {
 pub(crate) struct ObjectPair {
     pub a: usize,
     pub b: usize,
-    pub enabled: bool,
 }
 
-/// Everything that set-up decides.
+/// What the host sets at any time.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct States {
+    /// One per movable group, if it was set.
+    pub bodies: Vec<Option<State>>,
+    /// One per pair of Objects: whether it is tested.
+    pub enabled: Vec<bool>,
+}
+
+/// Everything that set-up decides and that nothing changes once the world is sealed.
 pub(crate) struct Scene {
     pub config: Config,
     pub extensions: Extensions,

@@ -2,13 +2,18 @@
 
 use crate::dispatch::has_tester;
 use crate::error::EngineError;
+use crate::frame::{Carried, Found};
 use crate::law::{FrictionProps, NormalProps, PairProps, combine};
 use crate::scene::Scene;
+use crate::sharing::{Sharer, scratch_bytes};
 use crate::state::{ContactKey, fnv1a};
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, PrimitiveInfo, Surface};
+use pong_model::{
+    Batch, Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, PrimitiveInfo, Surface, Tree,
+};
+use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
 
 /// The most contacts of a frame where the scene's worst case is larger and the host names no limit.
@@ -64,7 +69,13 @@ impl SurfaceTable {
 /// What sealing makes of a scene.
 pub(crate) struct Sealed {
     pub group_pairs: Vec<GroupPair>,
-    pub tables: Vec<SurfaceTable>,
+    /// The directions of those pairs in which something can be found, in order.
+    pub plans: Vec<Plan>,
+    /// The movable groups of all pairs, each once.
+    pub paired_bodies: Vec<usize>,
+    /// Whether a ray may hit two movable groups of one Object.
+    pub rays_meet_groups: bool,
+    pub limits: Limits,
     pub volume_tests: VolumeTests,
     pub contact_capacity: usize,
     /// Records: contacts, and as many that are only remembered.
@@ -81,6 +92,112 @@ impl Sealed {
     }
 }
 
+/// How much memory the frames get.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    /// Contacts that the calling thread can hold: all that a frame may keep, and room to find more before it has to
+    /// choose.
+    pub lane_contacts: usize,
+    /// Interferences of one chunk of A before any is left out.
+    pub found: usize,
+    /// For the testers of a block, bytes.
+    pub arena_bytes: usize,
+    /// For solutions among contacts, the ledger and rays, bytes.
+    pub scratch_bytes: usize,
+}
+
+impl Limits {
+    fn new(scene: &Scene, group_pairs: &[GroupPair], record_capacity: usize, custom_stride: usize) -> Self {
+        /// Interferences of one chunk at most, unless a frame may have fewer contacts: what a ball finds on a fine
+        /// mesh before it is settled which of them push.
+        const FOUND_MAX: usize = 8192;
+        /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
+        const SHARED: usize = 128;
+        let found = record_capacity.clamp(1024, FOUND_MAX);
+        let lane_contacts = record_capacity + (record_capacity / 8).max(64);
+        let in_tree = |count: fn(&Tree) -> usize| {
+            let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
+            bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
+        };
+        let lists = in_tree(|tree| tree.nodes.len()) * size_of::<u32>()
+            + in_tree(|tree| tree.batches.len()) * size_of::<&Batch>();
+        /// Every piece of an arena is rounded up to its grain.
+        const GRAINS: usize = 256;
+        let numbers = custom_stride * size_of::<f64>();
+        let arena_bytes = lists
+            + 8 * size_of::<Carried>()
+            + found * (size_of::<Found>() + size_of::<Sharer>())
+            + numbers
+            + GRAINS;
+        let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
+        let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
+        Self { lane_contacts, found, arena_bytes, scratch_bytes }
+    }
+
+    /// Contacts that one of several lanes can hold. A lane that finds more than this leaves the frame to the caller
+    /// alone: an uneven share of the work must be rare, not impossible.
+    pub fn worker_contacts(&self, lanes: usize) -> usize {
+        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(4096))
+    }
+}
+
+/// One direction of a pair of movable groups in which something can be found.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub group_pair: u32,
+    /// 0 if A is in the pair's first body, 1 if in the second.
+    pub flipped: u32,
+    pub body_a: usize,
+    pub body_b: usize,
+    /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
+    element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
+}
+
+impl Plan {
+    /// What an element of A may cost, ns; `None` if nothing of B can touch it.
+    pub fn element_ns(&self, kind: PrimitiveKind) -> Option<u32> {
+        self.element_ns[kind as usize]
+    }
+
+    fn new(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Self {
+        let (body_a, body_b) =
+            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (a, b) = (scene.body(body_a), scene.body(body_b));
+        let in_order = (flipped == 0) == pair.first_named_first;
+        let mut element_ns = [None; PrimitiveKind::ALL.len()];
+        for info_a in representatives(a) {
+            let met = representatives(b)
+                .filter(|info_b| info_a.kind != info_b.kind || in_order)
+                .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)))
+                .map(|info_b| rough_cost_ns(info_a.kind, info_b.kind));
+            let slot = &mut element_ns[info_a.kind as usize];
+            *slot = met.max().max(*slot);
+        }
+        Self { group_pair: group_pair as u32, flipped, body_a, body_b, element_ns }
+    }
+
+    fn finds_something(&self) -> bool {
+        self.element_ns.iter().any(Option::is_some)
+    }
+}
+
+/// One primitive of every kind in a body.
+fn representatives(body: &Body) -> impl Iterator<Item = &PrimitiveInfo> {
+    let mut seen = BTreeSet::new();
+    body.primitives.iter().filter(move |info| seen.insert(kind_name(body, info).to_owned()))
+}
+
+/// Time that an element of A takes against a body with elements of B, for cutting the work into blocks and for the
+/// choice to do it alone. It decides nothing else.
+fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
+    match (a, b) {
+        (PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => 1000,
+        (PrimitiveKind::Point | PrimitiveKind::Sphere, _) => 15,
+        (PrimitiveKind::LineSegment | PrimitiveKind::Ray, _) => 50,
+        _ => 200,
+    }
+}
+
 /// What sealing tells the host.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SealReport {
@@ -90,6 +207,8 @@ pub struct SealReport {
     pub contact_capacity: usize,
     /// Size of the contact state block, bytes.
     pub state_size: usize,
+    /// How every worker started: its core and priority, or why it has none.
+    pub workers: Vec<WorkerStart>,
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
 }
@@ -127,12 +246,15 @@ impl std::fmt::Display for SetupWarning {
 /// Beyond this a slip of the pen is likelier than a scene.
 const CONTACTS_MAX: usize = 1 << 24;
 
-pub(crate) fn seal(scene: &Scene) -> Result<(Sealed, SealReport), EngineError> {
+pub(crate) fn seal(
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
+) -> Result<(Sealed, Vec<SurfaceTable>, SealReport), EngineError> {
     let mut group_pairs = group_pairs(scene);
     let volume_tests = VolumeTests::new(&scene.extensions);
     let mut problems = untestable_volumes(scene, &group_pairs, &volume_tests);
     let mut tables = Vec::new();
-    match surface_tables(scene, &group_pairs) {
+    match surface_tables(scene, surfaces, &group_pairs) {
         Ok(made) => tables = made,
         Err(more) => problems.extend(more),
     }
@@ -162,11 +284,23 @@ pub(crate) fn seal(scene: &Scene) -> Result<(Sealed, SealReport), EngineError> {
         group_pairs: group_pairs.len(),
         contact_capacity,
         state_size,
+        workers: Vec::new(),
         warnings: warnings(scene, &group_pairs),
     };
-    let sealed =
-        Sealed { group_pairs, tables, volume_tests, contact_capacity, record_capacity, custom_stride, hash };
-    Ok((sealed, report))
+    let limits = Limits::new(scene, &group_pairs, record_capacity, custom_stride);
+    let sealed = Sealed {
+        plans: plans(scene, &group_pairs),
+        paired_bodies: paired_bodies(&group_pairs),
+        rays_meet_groups: rays_meet_groups(scene, &group_pairs),
+        group_pairs,
+        limits,
+        volume_tests,
+        contact_capacity,
+        record_capacity,
+        custom_stride,
+        hash,
+    };
+    Ok((sealed, tables, report))
 }
 
 /// Every pair of movable groups of paired Objects, in the order of their bodies.
@@ -191,6 +325,30 @@ fn group_pairs(scene: &Scene) -> Vec<GroupPair> {
     }
     found.sort_by_key(|pair| (pair.first, pair.second));
     found
+}
+
+fn plans(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<Plan> {
+    let directions = group_pairs
+        .iter()
+        .enumerate()
+        .flat_map(|(index, pair)| [0, 1].map(|flipped| Plan::new(scene, index, pair, flipped)));
+    directions.filter(Plan::finds_something).collect()
+}
+
+fn paired_bodies(group_pairs: &[GroupPair]) -> Vec<usize> {
+    let bodies: BTreeSet<usize> = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]).collect();
+    bodies.into_iter().collect()
+}
+
+fn rays_meet_groups(scene: &Scene, group_pairs: &[GroupPair]) -> bool {
+    let has_rays = |body: usize| !scene.body(body).rays.is_empty();
+    let mut met = BTreeSet::new();
+    group_pairs.iter().any(|pair| {
+        [(pair.first, pair.second), (pair.second, pair.first)]
+            .into_iter()
+            .filter(|&(a, _)| has_rays(a))
+            .any(|(a, b)| !met.insert((a, scene.bodies[b].object)))
+    })
 }
 
 fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTests) -> Vec<String> {
@@ -229,6 +387,7 @@ fn can_be_tested(extensions: &Extensions, a: (&Body, &PrimitiveInfo), b: (&Body,
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
 pub(crate) fn surface_tables(
     scene: &Scene,
+    surfaces: &[Vec<Surface>],
     group_pairs: &[GroupPair],
 ) -> Result<Vec<SurfaceTable>, Vec<String>> {
     let mut tables: Vec<SurfaceTable> = Vec::new();
@@ -240,25 +399,25 @@ pub(crate) fn surface_tables(
             let index = match tables.iter().position(|t| (t.model_a, t.model_b) == (model_a, model_b)) {
                 Some(index) => index,
                 None => {
-                    tables.push(SurfaceTable::empty(model_a, model_b, &scene.models));
+                    tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
                     tables.len() - 1
                 }
             };
-            fill_table(scene, &mut tables[index], scene.body(a), scene.body(b), &mut problems);
+            fill_table((scene, surfaces), &mut tables[index], scene.body(a), scene.body(b), &mut problems);
         }
     }
     if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
 }
 
 impl SurfaceTable {
-    fn empty(model_a: usize, model_b: usize, models: &[std::sync::Arc<Model>]) -> Self {
-        let columns = models[model_b].surfaces.len();
-        Self { model_a, model_b, columns, props: vec![None; models[model_a].surfaces.len() * columns] }
+    fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
+        let columns = surfaces[model_b].len();
+        Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
     }
 }
 
 fn fill_table(
-    scene: &Scene,
+    (scene, surfaces): (&Scene, &[Vec<Surface>]),
     table: &mut SurfaceTable,
     body_a: &Body,
     body_b: &Body,
@@ -284,8 +443,8 @@ fn fill_table(
             }
             let model_a = &scene.models[table.model_a];
             let model_b = &scene.models[table.model_b];
-            let a = &model_a.surfaces[info_a.surface as usize];
-            let b = &model_b.surfaces[info_b.surface as usize];
+            let a = &surfaces[table.model_a][info_a.surface as usize];
+            let b = &surfaces[table.model_b][info_b.surface as usize];
             let made = table_entry(model_a, model_b, a, b)
                 .and_then(|entry| combine(a, b, entry, &scene.laws).map_err(|e| (e.cause, e.cure)));
             match made {

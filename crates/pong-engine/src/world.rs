@@ -1,13 +1,13 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
-use crate::contact::{Contact, FrameReport, Ledger};
+use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
-use crate::frame::{self, Frame};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::registry::Laws;
-use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, check_state};
-use crate::sealed::{self, SealReport, Sealed};
-use crate::state::{ContactMemory, block_len, read_block, write_block};
+use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes};
+use crate::running::Running;
+use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
+use crate::sealed::{self, SealReport};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_model::{Model, Surface};
@@ -30,12 +30,14 @@ pub struct StiffestContact {
 /// and change nothing.
 pub struct World {
     stamp: WorldStamp,
-    scene: Scene,
-    sealed: Option<Sealed>,
-    memory: ContactMemory,
-    frame: Frame,
-    /// Whether `frame` belongs to the states presently set.
-    evaluated: bool,
+    /// Shared with the workers once the world is sealed; until then this is the only one.
+    scene: Arc<Scene>,
+    /// The surfaces of every model as they are now.
+    surfaces: Vec<Vec<Surface>>,
+    states: States,
+    clock: Clock,
+    /// All that exists from seal on.
+    running: Option<Running>,
 }
 
 impl World {
@@ -57,11 +59,11 @@ impl World {
         };
         Self {
             stamp: WorldStamp::fresh(),
-            scene,
-            sealed: None,
-            memory: ContactMemory::default(),
-            frame: Frame::default(),
-            evaluated: false,
+            scene: Arc::new(scene),
+            surfaces: Vec::new(),
+            states: States::default(),
+            clock: Clock::default(),
+            running: None,
         }
     }
 
@@ -72,14 +74,14 @@ impl World {
 
     /// The registered force laws; more may be added until the world is sealed.
     pub fn laws_mut(&mut self) -> Result<&mut Laws, EngineError> {
-        self.must_not_be_sealed("register a law")?;
-        Ok(&mut self.scene.laws)
+        Ok(&mut self.set_up("register a law")?.laws)
     }
 
     /// Adds a model.
     pub fn add_model(&mut self, model: Arc<Model>) -> Result<ModelId, EngineError> {
-        self.must_not_be_sealed("add a model")?;
-        self.scene.models.push(model);
+        let surfaces = model.surfaces.clone();
+        self.set_up("add a model")?.models.push(model);
+        self.surfaces.push(surfaces);
         Ok(ModelId::new(self.stamp, self.scene.models.len() - 1))
     }
 
@@ -94,11 +96,13 @@ impl World {
         if self.scene.objects.iter().any(|object| object.name == name) {
             return Err(EngineError::Duplicate { what: format!("object `{name}`") });
         }
-        let object = self.scene.objects.len();
-        let first_body = self.scene.bodies.len();
-        self.scene.objects.push(Object { name: name.to_owned(), model, first_body });
-        let bodies = self.scene.models[model].bodies.len();
-        self.scene.bodies.extend((0..bodies).map(|body| BodyInstance { object, body, state: None }));
+        let scene = self.set_up("create an object")?;
+        let object = scene.objects.len();
+        let first_body = scene.bodies.len();
+        scene.objects.push(Object { name: name.to_owned(), model, first_body });
+        let bodies = scene.models[model].bodies.len();
+        scene.bodies.extend((0..bodies).map(|body| BodyInstance { object, body }));
+        self.states.bodies.resize(first_body + bodies, None);
         Ok(ObjectId::new(self.stamp, object))
     }
 
@@ -116,7 +120,8 @@ impl World {
                          pair out";
             return Err(EngineError::BadValue { what: names, cause: cause.to_owned() });
         }
-        self.scene.pairs.push(ObjectPair { a, b, enabled: true });
+        self.set_up("pair objects")?.pairs.push(ObjectPair { a, b });
+        self.states.enabled.push(true);
         Ok(PairId::new(self.stamp, self.scene.pairs.len() - 1))
     }
 
@@ -160,14 +165,32 @@ impl World {
         Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
     }
 
-    /// Ends set-up: checks that everything that may meet can be tested and combined, and sizes the contact state.
+    /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
+    /// and takes it, and starts the workers. From here on frames take no memory and give none back.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.must_not_be_sealed("seal")?;
-        let (sealed, report) = sealed::seal(&self.scene)?;
-        self.memory = ContactMemory::new(sealed.group_pairs.len(), sealed.custom_stride);
-        self.frame = Frame::new(self.scene.bodies.len(), &self.memory);
-        self.sealed = Some(sealed);
+        let (sealed, tables, mut report) = sealed::seal(&self.scene, &self.surfaces)?;
+        let running = Running::start(&self.scene, sealed, tables, self.clock)?;
+        report.workers = running.worker_starts().to_vec();
+        self.running = Some(running);
         Ok(report)
+    }
+
+    /// Gives the world a clock, in ns, with which it times the stages of its frames ([`stage_times`](Self::stage_times))
+    /// and its workers; set it before the world is sealed to have the workers timed. Without one it never asks.
+    pub fn set_clock(&mut self, now_ns: fn() -> u64) {
+        self.clock = Clock(Some(now_ns));
+    }
+
+    /// Wakes the workers shortly before a frame: they look for its work until it comes or `at_most` has passed. For
+    /// hosts whose frames are further apart than the workers spin. Does nothing without workers.
+    pub fn prewake(&mut self, at_most: std::time::Duration) {
+        self.running.iter_mut().for_each(|running| running.prewake(at_most));
+    }
+
+    /// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
+    pub fn quiesce(&mut self) {
+        self.running.iter_mut().for_each(Running::quiesce);
     }
 
     /// Sets the state of one movable group. See [`set_states`](Self::set_states).
@@ -187,11 +210,11 @@ impl World {
         }
         for (interface, state) in states {
             let index = self.interface_index(*interface)?;
-            let known = &mut self.scene.bodies[index].state;
+            let known = &mut self.states.bodies[index];
             // A host that sets the same states again, for a commit, must not pay for a second evaluation.
             if known.as_ref() != Some(state) {
                 *known = Some(*state);
-                self.evaluated = false;
+                self.changed();
             }
         }
         Ok(())
@@ -200,34 +223,31 @@ impl World {
     /// Computes wrenches from the states and the committed contact state. Changes nothing that a later evaluate
     /// or commit can see.
     pub fn evaluate(&mut self) -> Result<FrameReport, EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("evaluate"))?;
-        frame::require_states(&self.scene, sealed)?;
-        frame::evaluate(&self.scene, sealed, &self.memory, &mut self.frame);
-        self.evaluated = true;
-        Ok(self.frame.report)
+        let running = self.running.as_mut().ok_or(not_sealed("evaluate"))?;
+        running.evaluate(&self.scene, &self.states, self.clock)
     }
 
     /// Whether the last frame belongs to the states presently set: a commit would accept it as it is.
     pub fn is_evaluated(&self) -> bool {
-        self.evaluated
+        self.running.as_ref().is_some_and(|running| running.evaluated)
     }
 
     /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated.
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.must_be_evaluated()?;
-        std::mem::swap(&mut self.memory, &mut self.frame.trial);
-        self.evaluated = false;
+        self.running_mut("commit")?.commit();
         Ok(())
     }
 
     /// As [`commit`](Self::commit), for some pairs only: the others keep their last committed state.
     pub fn commit_pairs(&mut self, pairs: &[PairId]) -> Result<(), EngineError> {
-        let accepted: Vec<usize> =
-            pairs.iter().map(|pair| self.pair_index(*pair)).collect::<Result<_, _>>()?;
+        for pair in pairs {
+            self.pair_index(*pair)?;
+        }
         self.must_be_evaluated()?;
-        let group_pairs = &self.sealed.as_ref().ok_or(not_sealed("commit"))?.group_pairs;
-        self.memory.accept(&self.frame.trial, |index| accepted.contains(&group_pairs[index as usize].pair));
-        self.evaluated = false;
+        let stamp = self.stamp;
+        let accepts = |pair| pairs.iter().any(|accepted| accepted.index_in(stamp) == Some(pair));
+        self.running_mut("commit")?.commit_pairs(accepts);
         Ok(())
     }
 
@@ -240,14 +260,15 @@ impl World {
 
     /// Wrench on a movable group in the last frame: about the group's origin, expressed in the group's frame.
     pub fn wrench(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
-        Ok(self.frame.wrenches[self.framed_index(interface)?])
+        let index = self.interface_index(interface)?;
+        Ok(self.framed()?.frame.wrenches[index])
     }
 
     /// As [`wrench`](Self::wrench), expressed along the axes of the common frame.
     pub fn wrench_common(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
-        let index = self.framed_index(interface)?;
-        let orientation = self.frame.poses[index].orientation;
-        let wrench = self.frame.wrenches[index];
+        let index = self.interface_index(interface)?;
+        let frame = &self.framed()?.frame;
+        let (orientation, wrench) = (frame.poses[index].orientation, frame.wrenches[index]);
         Ok(Wrench { force: orientation * wrench.force, moment: orientation * wrench.moment })
     }
 
@@ -258,57 +279,71 @@ impl World {
 
     /// As [`contacts`](Self::contacts), one by one and without a list of their own.
     pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
-        let sealed = self.sealed.iter();
-        sealed.flat_map(|sealed| self.frame.list_contacts(&self.scene, sealed, self.stamp))
+        let running = self.running.iter();
+        running.flat_map(|running| running.frame.list_contacts(&self.scene, &running.sealed, self.stamp))
     }
 
     /// Number of contacts of the last frame.
     pub fn contact_count(&self) -> usize {
-        self.frame.listed()
+        self.report().contacts as usize
     }
 
-    /// Counts of the last frame.
+    /// The last frame in short.
     pub fn report(&self) -> FrameReport {
-        self.frame.report
+        self.running.as_ref().map_or_else(FrameReport::default, |running| running.frame.report)
+    }
+
+    /// How often what was tested in the last frame, and what that found.
+    pub fn counts(&self) -> FrameCounts {
+        self.running.as_ref().map_or_else(FrameCounts::default, |running| running.frame.counts)
+    }
+
+    /// Time per stage of the last frame; zero without a clock ([`set_clock`](Self::set_clock)).
+    pub fn stage_times(&self) -> StageTimes {
+        self.running.as_ref().map_or_else(StageTimes::default, |running| running.frame.times)
+    }
+
+    /// What the calling thread (first) and each worker did in the last round of work that they shared. Empty without
+    /// workers.
+    pub fn lane_work(&self) -> impl Iterator<Item = pong_threads::LaneWork> + '_ {
+        self.running.iter().flat_map(Running::lane_work)
+    }
+
+    /// Memory that frames have needed against what there is.
+    pub fn memory(&self) -> MemoryReport {
+        self.running.as_ref().map_or_else(MemoryReport::default, Running::memory_report)
     }
 
     /// Energies at the last commit. Zero unless [`Config::ledger`] is set.
     pub fn ledger(&self) -> Ledger {
-        let stored = self.memory.records.iter().map(|record| record.stored).sum();
-        Ledger { stored, work: self.memory.work, dissipated: self.memory.dissipated }
+        let Some(running) = &self.running else { return Ledger::default() };
+        let memory = &running.memory;
+        let stored = memory.records.iter().map(|record| record.stored).sum();
+        Ledger { stored, work: memory.work, dissipated: memory.dissipated }
     }
 
     /// Size of the contact state block, bytes; fixed when the world is sealed.
     pub fn state_size(&self) -> Result<usize, EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("ask for the size of the contact state"))?;
-        Ok(block_len(sealed.group_pairs.len(), sealed.record_capacity, sealed.custom_stride))
+        Ok(self.running("ask for the size of the contact state")?.state_size())
     }
 
     /// Saves the committed contact state into a buffer of [`state_size`](Self::state_size) bytes.
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("save the contact state"))?;
-        Ok(write_block(&self.memory, sealed.hash, sealed.record_capacity, out)?)
+        Ok(self.running("save the contact state")?.save_state(out)?)
     }
 
     /// Restores a contact state that a world built by the same calls saved. The states of the movable groups are
     /// the host's and are not part of it.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("restore the contact state"))?;
-        self.memory = read_block(&self.memory, sealed.hash, sealed.record_capacity, block)?;
-        self.evaluated = false;
-        Ok(())
+        Ok(self.running_mut("restore the contact state")?.restore_state(block)?)
     }
 
     /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
     pub fn forget(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.object_index(object)?;
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("forget an Object"))?;
+        let running = self.running.as_mut().ok_or(not_sealed("forget an Object"))?;
         let bodies = &self.scene.bodies;
-        self.memory.forget(|index| {
-            let pair = &sealed.group_pairs[index as usize];
-            bodies[pair.first].object == object || bodies[pair.second].object == object
-        });
-        self.evaluated = false;
+        running.forget(|pair| bodies[pair.first].object == object || bodies[pair.second].object == object);
         Ok(())
     }
 
@@ -316,11 +351,10 @@ impl World {
     /// past.
     pub fn set_pair_enabled(&mut self, pair: PairId, enabled: bool) -> Result<(), EngineError> {
         let pair = self.pair_index(pair)?;
-        if self.scene.pairs[pair].enabled != enabled {
-            self.scene.pairs[pair].enabled = enabled;
-            self.evaluated = false;
-            if let Some(sealed) = &self.sealed {
-                self.memory.forget(|index| sealed.group_pairs[index as usize].pair == pair);
+        if self.states.enabled[pair] != enabled {
+            self.states.enabled[pair] = enabled;
+            if let Some(running) = &mut self.running {
+                running.forget(|groups| groups.pair == pair);
             }
         }
         Ok(())
@@ -329,33 +363,29 @@ impl World {
     /// Replaces the values of a surface of a model (found by its name), for all its Objects. Laws may not change.
     pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
         let index = self.model_index(model)?;
-        let mut changed = (*self.scene.models[index]).clone();
-        let Some(old) = changed.surfaces.iter_mut().find(|old| old.name == surface.name) else {
-            return Err(EngineError::UnknownName {
-                what: "surface",
-                name: surface.name.clone(),
-                known: changed.surfaces.iter().map(|old| old.name.clone()).collect(),
-            });
+        let known = |surfaces: &[Surface]| surfaces.iter().map(|surface| surface.name.clone()).collect();
+        let surfaces = &mut self.surfaces[index];
+        let Some(place) = surfaces.iter().position(|old| old.name == surface.name) else {
+            let (what, name) = ("surface", surface.name.clone());
+            return Err(EngineError::UnknownName { what, name, known: known(surfaces) });
         };
-        sealed::check_surface_change(old, surface)?;
-        *old = surface.clone();
-        let before = std::mem::replace(&mut self.scene.models[index], Arc::new(changed));
-        if let Some(sealed) = &mut self.sealed {
-            match sealed::surface_tables(&self.scene, &sealed.group_pairs) {
-                Ok(tables) => sealed.tables = tables,
-                Err(problems) => {
-                    self.scene.models[index] = before;
-                    return Err(EngineError::Seal { problems });
-                }
+        sealed::check_surface_change(&surfaces[place], surface)?;
+        let before = std::mem::replace(&mut surfaces[place], surface.clone());
+        let Some(running) = &mut self.running else { return Ok(()) };
+        let tables = sealed::surface_tables(&self.scene, &self.surfaces, &running.sealed.group_pairs);
+        match tables {
+            Ok(tables) => running.set_tables(tables),
+            Err(problems) => {
+                self.surfaces[index][place] = before;
+                return Err(EngineError::Seal { problems });
             }
         }
-        self.evaluated = false;
         Ok(())
     }
 
     /// A surface of a model as it is now.
     pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
-        let surfaces = &self.scene.models[self.model_index(model)?].surfaces;
+        let surfaces = &self.surfaces[self.model_index(model)?];
         surfaces.iter().find(|surface| surface.name == name).ok_or_else(|| EngineError::UnknownName {
             what: "surface",
             name: name.to_owned(),
@@ -393,41 +423,67 @@ impl World {
 
     /// Pose and twist last set for a movable group; `None` if never set.
     pub fn state(&self, interface: InterfaceId) -> Result<Option<(Pose, Twist)>, EngineError> {
-        let state = &self.scene.bodies[self.interface_index(interface)?].state;
+        let state = &self.states.bodies[self.interface_index(interface)?];
         Ok(state.as_ref().map(|state| (state.pose(), state.twist())))
     }
 
     /// The stiffest single contact that each pair of movable groups can have, as far as it does not depend on the
     /// depth (Hertz contacts and registered laws do): what a step must be short enough for.
     pub fn stiffest_contacts(&self) -> Result<Vec<StiffestContact>, EngineError> {
-        let sealed = self.sealed.as_ref().ok_or(not_sealed("ask for the stiffest contacts"))?;
+        let running = self.running("ask for the stiffest contacts")?;
         let of_pair = |pair: &sealed::GroupPair| {
-            let tables = pair.tables.iter().map(|&table| &sealed.tables[table]);
+            let tables = pair.tables.iter().map(|&table| &running.tables[table]);
             let stiffest =
                 tables.filter_map(sealed::SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))?;
             let interfaces = [pair.first, pair.second].map(|body| InterfaceId::new(self.stamp, body));
             Some(StiffestContact { interfaces, stiffness: stiffest.0, damping: stiffest.1 })
         };
-        Ok(sealed.group_pairs.iter().filter_map(of_pair).collect())
+        Ok(running.sealed.group_pairs.iter().filter_map(of_pair).collect())
     }
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.
     pub fn scene_hash(&self) -> Result<u64, EngineError> {
-        Ok(self.sealed.as_ref().ok_or(not_sealed("ask for the hash"))?.hash)
+        Ok(self.running("ask for the hash")?.sealed.hash)
     }
 
     fn must_be_evaluated(&mut self) -> Result<(), EngineError> {
-        if !self.evaluated {
+        if !self.is_evaluated() {
             self.evaluate()?;
         }
         Ok(())
     }
 
+    /// The last frame does not belong to what is set now.
+    fn changed(&mut self) {
+        self.running.iter_mut().for_each(|running| running.evaluated = false);
+    }
+
     fn must_not_be_sealed(&self, call: &'static str) -> Result<(), EngineError> {
-        match self.sealed {
+        match self.running {
             None => Ok(()),
             Some(_) => Err(EngineError::WrongPhase { call, cure: "do it before the world is sealed" }),
         }
+    }
+
+    /// The scene, as long as it may change.
+    fn set_up(&mut self, call: &'static str) -> Result<&mut Scene, EngineError> {
+        self.must_not_be_sealed(call)?;
+        Ok(Arc::get_mut(&mut self.scene).expect("nobody shares the scene before the world is sealed"))
+    }
+
+    fn running(&self, call: &'static str) -> Result<&Running, EngineError> {
+        self.running.as_ref().ok_or(not_sealed(call))
+    }
+
+    fn running_mut(&mut self, call: &'static str) -> Result<&mut Running, EngineError> {
+        self.running.as_mut().ok_or(not_sealed(call))
+    }
+
+    /// What runs, if a frame has been computed.
+    fn framed(&self) -> Result<&Running, EngineError> {
+        let computed = self.running.as_ref().filter(|running| running.frame.computed);
+        computed
+            .ok_or(EngineError::WrongPhase { call: "get a wrench", cure: "evaluate or step a frame first" })
     }
 
     fn model_index(&self, id: ModelId) -> Result<usize, EngineError> {
@@ -448,16 +504,6 @@ impl World {
     fn interface_index(&self, id: InterfaceId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.scene.bodies.len());
         index.ok_or(EngineError::UnknownId { what: "interface" })
-    }
-
-    /// The index of an interface, if a frame has been computed.
-    fn framed_index(&self, id: InterfaceId) -> Result<usize, EngineError> {
-        let index = self.interface_index(id)?;
-        if self.frame.computed {
-            Ok(index)
-        } else {
-            Err(EngineError::WrongPhase { call: "get a wrench", cure: "evaluate or step a frame first" })
-        }
     }
 }
 

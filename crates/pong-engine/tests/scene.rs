@@ -114,7 +114,7 @@ fn the_contact_limit_keeps_the_deepest_and_tells() {
         .map(|i| format!("Point(name: \"p{i}\", position: ({i},0,{:?}))", 1e-4 * f64::from(i)))
         .collect();
     let comb = model("comb", &surface(1e5, ""), &points.join(","));
-    let config = Config { contact_capacity: Some(4), ledger: false };
+    let config = Config { contact_capacity: Some(4), ..Config::default() };
     let (mut tight, mut roomy) = (Rig::with_config(config, &comb, &floor()), Rig::new(&comb, &floor()));
     for rig in [&mut tight, &mut roomy] {
         rig.place_a(Vec3::new(0.0, 0.0, -1.05e-3), Quat::identity());

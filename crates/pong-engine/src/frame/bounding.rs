@@ -1,99 +1,156 @@
-//! Trees of bounding volumes against each other: streams the pairs of leaves that may touch.
+//! Trees of bounding volumes: lays out the blocks of work, and finds the leaves of B that a leaf of A may touch.
 
-use super::Frame;
-use super::buffers::FrameContact;
-use super::relative::Motion;
-use crate::contact::FrameReport;
+use super::input::{Block, FrameInput, PairContext};
+use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
-use pong_geometry::bounding::VolumeTests;
-use pong_model::{Body, Item, Tree};
+use crate::sealed::{Plan, Sealed};
+use pong_arena::List;
+use pong_geometry::Transform;
+use pong_geometry::bounding::Volume;
+use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
+use pong_model::{Batch, Node};
 
-/// One pair of movable groups as the testers see it.
-pub(super) struct PairContext<'a> {
-    pub scene: &'a Scene,
-    pub group_pair: u32,
-    /// First and second body.
-    pub bodies: [&'a Body; 2],
-    /// Motion of the first against the second, and of the second against the first.
-    pub motions: &'a [Motion; 2],
-    pub volume_tests: &'a VolumeTests,
-    /// Whether the first body's Object was named first in the pair.
-    pub first_named_first: bool,
-    /// Whether each body's model remembers the side of entry.
-    pub entry_memory: [bool; 2],
-}
+/// Blocks of one round: when so many are laid out they are worked off before more are.
+pub(crate) const ROUND: usize = 4096;
 
-/// What a pair of leaves holds.
-pub(super) type LeafItems<'a> = [&'a [Item]; 2];
+/// What a block may cost before it is cut, ns: long against claiming one, short against a frame.
+const BLOCK_NS: u32 = 4000;
 
-/// Where testers put what they find.
-pub(super) struct Found<'a> {
-    pub contacts: &'a mut Vec<FrameContact>,
-    pub report: &'a mut FrameReport,
-}
-
-/// Calls `test` with every pair of leaves whose volumes overlap.
-pub(super) fn stream_leaf_pairs(
+/// Lays out all blocks of a frame, and calls `work` with them whenever a round is full and at the end. Every call
+/// is told what the round may cost, ns.
+pub(super) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
-    frame: &mut Frame,
-    mut test: impl FnMut(&PairContext<'_>, LeafItems<'_>, &mut Found<'_>),
+    enabled: &[bool],
+    input: &mut FrameInput,
+    counts: &mut FrameCounts,
+    work: &mut dyn FnMut(&mut FrameInput, u64),
 ) {
-    let Frame { motions, stack, contacts, report, .. } = frame;
-    for (index, pair) in sealed.group_pairs.iter().enumerate() {
-        if !scene.pairs[pair.pair].enabled {
+    let mut cost = 0;
+    input.blocks.clear();
+    for (index, plan) in sealed.plans.iter().enumerate() {
+        if !enabled[sealed.group_pairs[plan.group_pair as usize].pair] {
             continue;
         }
-        let context = PairContext {
-            scene,
-            group_pair: index as u32,
-            bodies: [scene.body(pair.first), scene.body(pair.second)],
-            motions: &motions[index],
-            volume_tests: &sealed.volume_tests,
-            first_named_first: pair.first_named_first,
-            entry_memory: [pair.first, pair.second].map(|body| scene.model_of_body(body).entry_memory),
-        };
-        let mut found = Found { contacts: &mut *contacts, report: &mut *report };
-        walk(&context, stack, &mut found, &mut test);
+        let mut layout =
+            Layout { scene, sealed, plan, index: index as u32, input, counts, cost: &mut cost, work };
+        layout.visit_leaves(0);
+    }
+    work(input, cost);
+    input.blocks.clear();
+}
+
+/// Lays out the blocks of one direction of a pair of movable groups.
+struct Layout<'a, 'w> {
+    scene: &'a Scene,
+    sealed: &'a Sealed,
+    plan: &'a Plan,
+    index: u32,
+    input: &'a mut FrameInput,
+    counts: &'a mut FrameCounts,
+    cost: &'a mut u64,
+    work: &'a mut (dyn FnMut(&mut FrameInput, u64) + 'w),
+}
+
+impl Layout<'_, '_> {
+    fn x_ba(&self) -> Transform {
+        self.input.motions[self.plan.group_pair as usize][self.plan.flipped as usize].x_ba
+    }
+
+    /// Whether a volume of A reaches the root of B's tree.
+    fn reaches_b(&mut self, volume: &Volume) -> bool {
+        let root = &self.scene.body(self.plan.body_b).tree.nodes[0].volume;
+        let meets = self.sealed.volume_tests.overlap(volume, root, &self.x_ba());
+        self.counts.note_volumes(volume, root, meets);
+        meets
+    }
+
+    fn visit_leaves(&mut self, node: u32) {
+        let tree = &self.scene.body(self.plan.body_a).tree;
+        let Node { volume, children, batches, .. } = &tree.nodes[node as usize];
+        if !self.reaches_b(volume) {
+            return;
+        }
+        for child in children.clone() {
+            self.visit_leaves(child);
+        }
+        for batch in batches.clone() {
+            let Some(element_ns) = self.plan.element_ns(tree.batches[batch as usize].kind) else { continue };
+            let boxes = &tree.batches[batch as usize].boxes;
+            let at_most = (BLOCK_NS / element_ns).next_multiple_of(8);
+            let block = Block { plan: self.index, leaf: node, batch, first: 0, end: 0 };
+            self.cut(boxes, 0, at_most, element_ns, block);
+        }
+    }
+
+    /// Cuts the elements below a node of boxes into blocks; a node too large for one is first asked whether it
+    /// reaches B at all.
+    fn cut(&mut self, boxes: &BoxTree, node: u32, at_most: u32, element_ns: u32, block: Block) {
+        let node: &BoxNode = &boxes.nodes[node as usize];
+        let elements = node.elements.clone();
+        if elements.end - elements.start <= at_most || node.is_bottom() {
+            let cost = u64::from(elements.end - elements.start) * u64::from(element_ns);
+            return self.add(Block { first: elements.start, end: elements.end, ..block }, cost);
+        }
+        for (lane, child) in node.children().enumerate() {
+            let Child::Node(child) = child else { continue };
+            let below = &boxes.nodes[child as usize].elements;
+            let small = below.end - below.start <= at_most;
+            if small || self.reaches_b(&as_volume(boxes, &node.boxes.lane(lane))) {
+                self.cut(boxes, child, at_most, element_ns, block);
+            }
+        }
+    }
+
+    fn add(&mut self, block: Block, cost: u64) {
+        self.input.blocks.push(block);
+        *self.cost += cost;
+        if self.input.blocks.len() == ROUND {
+            (self.work)(self.input, *self.cost);
+            self.input.blocks.clear();
+            *self.cost = 0;
+        }
     }
 }
 
-fn walk(
-    context: &PairContext<'_>,
-    stack: &mut Vec<(u32, u32)>,
-    found: &mut Found<'_>,
-    test: &mut impl FnMut(&PairContext<'_>, LeafItems<'_>, &mut Found<'_>),
-) {
-    let [first, second] = context.bodies.map(|body| &body.tree);
-    let x_second_first = &context.motions[0].x_ba;
-    stack.clear();
-    if !first.nodes.is_empty() && !second.nodes.is_empty() {
-        stack.push((0, 0));
-    }
-    while let Some((a, b)) = stack.pop() {
-        let (node_a, node_b) = (&first.nodes[a as usize], &second.nodes[b as usize]);
-        found.report.volumes_tested += 1;
-        if !context.volume_tests.overlap(&node_a.volume, &node_b.volume, x_second_first) {
-            continue;
-        }
-        match (node_a.children.is_empty(), node_b.children.is_empty()) {
-            (true, true) => {
-                found.report.leaf_pairs += 1;
-                test(context, [items(first, a), items(second, b)], found);
-            }
-            (false, true) => stack.extend(node_a.children.clone().map(|child| (child, b))),
-            (true, false) => stack.extend(node_b.children.clone().map(|child| (a, child))),
-            // The tree with more below it is opened first; which one decides nothing but the cost.
-            (false, false) if first.nodes.len() - a as usize >= second.nodes.len() - b as usize => {
-                stack.extend(node_a.children.clone().map(|child| (child, b)));
-            }
-            (false, false) => stack.extend(node_b.children.clone().map(|child| (a, child))),
-        }
-    }
+fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
+    let (low, high) = boxes.widened(narrow);
+    let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
+    if half.iter().all(|x| x.is_finite()) { Volume::Aabb { center, half } } else { Volume::Unbounded }
 }
 
-fn items(tree: &Tree, node: u32) -> &[Item] {
-    let range = &tree.nodes[node as usize].items;
-    &tree.items[range.start as usize..range.end as usize]
+/// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch.
+pub(super) fn batches_of_b<'a>(
+    context: &PairContext<'a>,
+    block: &Block,
+    out: &mut List<'_, &'a Batch>,
+    stack: &mut List<'_, u32>,
+    counts: &mut FrameCounts,
+) {
+    let (tree_a, tree_b) = (&context.body_a.tree, &context.body_b.tree);
+    let volume = &tree_a.nodes[block.leaf as usize].volume;
+    let kind_a = tree_a.batches[block.batch as usize].kind;
+    let room = "room for every node of B";
+    // The layout has asked about the root.
+    stack.push(0).expect(room);
+    let mut next = 0;
+    while next < stack.len() {
+        let node = &tree_b.nodes[stack[next] as usize];
+        next += 1;
+        counts.leaf_pairs += u64::from(block.first == 0 && node.children.is_empty());
+        for batch in node.batches.clone() {
+            let batch = &tree_b.batches[batch as usize];
+            if context.may_touch(kind_a, batch.kind) {
+                out.push(batch).expect(room);
+            }
+        }
+        for child in node.children.clone() {
+            let below = &tree_b.nodes[child as usize].volume;
+            let meets = context.volume_tests.overlap(volume, below, &context.motion.x_ba);
+            counts.note_volumes(volume, below, meets);
+            if meets {
+                stack.push(child).expect(room);
+            }
+        }
+    }
 }

@@ -1,13 +1,14 @@
-//! Normal and friction force of every contact, and the record that a commit would keep of it.
+//! Normal and friction force of every contact.
 
 use super::Frame;
-use super::buffers::FrameContact;
-use super::relative::Motion;
+use super::buffers::{Found, FrameContact, Stance};
+use super::input::PairContext;
+use super::lane::{Lane, Output};
 use crate::friction::{FrictionInput, FrictionOutput, friction};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{ContactMemory, ContactRecord, Role};
+use crate::state::{ContactRecord, Role};
 use pong_geometry::Vec3;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
@@ -16,41 +17,53 @@ use pong_model::Body;
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
 const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
-/// Presses every contact and writes the trial records in the contacts' order.
-pub(super) fn press(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
-    let mut start = 0;
-    while start < frame.contacts.len() {
-        let key = frame.contacts[start].key;
-        let count = frame.contacts[start..].partition_point(|contact| contact.key == key);
-        let pair = &sealed.group_pairs[key.group_pair as usize];
-        let bodies = [pair.first, pair.second].map(|body| scene.body(body));
-        let flipped = key.flipped as usize;
-        let side = KeyContext {
-            body_a: bodies[flipped],
-            body_b: bodies[1 - flipped],
-            motion: frame.motions[key.group_pair as usize][flipped],
-            memory,
-        };
-        for index in start..start + count {
-            let mut contact = frame.contacts[index];
-            let surface_a = side.body_a.primitives[key.primitive_a as usize].surface;
-            let surface_b = side.body_b.primitives[contact.primitive_b as usize].surface;
-            let props = sealed.tables[pair.tables[flipped]].props(surface_a, surface_b);
-            let share = bristle_share(&contact, &frame.contacts[start..start + count]);
-            let custom = frame.trial.custom.len();
-            frame.trial.custom.resize(custom + memory.custom_stride, 0.0);
-            let record = side.press(&mut contact, props, share, &mut frame.trial.custom[custom..]);
-            frame.contacts[index] = contact;
-            frame.trial.records.push(record);
+/// Presses what was found for a chunk of A, in the order of sums, and hands it to the lane.
+///
+/// `custom` has room for the numbers of one contact's registered friction law.
+pub(super) fn press_found(
+    context: &PairContext<'_>,
+    sealed: &Sealed,
+    found: &[Found],
+    custom: &mut [f64],
+    out: &mut Output,
+) {
+    for group in found.chunk_by(|a, b| a.key == b.key) {
+        let counts = || group.iter().filter(|contact| contact.stance != Stance::Dropped);
+        for one in counts() {
+            let mut contact = FrameContact::new(*one);
+            context.press(&mut contact, bristle_share(one, counts()), custom);
+            out.add(contact, custom, sealed);
         }
-        start += count;
+    }
+}
+
+/// Presses contacts again, after some of their keys were left out by a limit: what is left carries the bristle.
+pub(super) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+    let Frame { input, lane, order, .. } = frame;
+    lane.scratch.reset();
+    let Lane { scratch, out, .. } = lane;
+    let custom = scratch.slice(out.custom_stride, 0.0).expect("sealing has sized the scratch");
+    let places = &*order;
+    for group in places.chunk_by(|a, b| a.order.0 == b.order.0) {
+        let key = &group[0].order.0;
+        let context = PairContext::of_direction(scene, sealed, input, key.group_pair, key.flipped);
+        for place in group {
+            let index = place.index as usize;
+            let found = out.contacts[index].found;
+            let share =
+                bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
+            let mut contact = FrameContact::new(found);
+            context.press(&mut contact, share, custom);
+            out.contacts[index] = contact;
+            let first = index * out.custom_stride;
+            out.custom[first..first + out.custom_stride].copy_from_slice(custom);
+        }
     }
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
-fn bristle_share(contact: &FrameContact, same_key: &[FrameContact]) -> f64 {
+fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
     let whole: f64 = same_key
-        .iter()
         .filter(|other| {
             other.role == Role::Pushes && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
         })
@@ -61,41 +74,34 @@ fn bristle_share(contact: &FrameContact, same_key: &[FrameContact]) -> f64 {
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
 
-struct KeyContext<'a> {
-    body_a: &'a Body,
-    body_b: &'a Body,
-    motion: Motion,
-    memory: &'a ContactMemory,
-}
-
-impl KeyContext<'_> {
-    fn press(
-        &self,
-        contact: &mut FrameContact,
-        props: &PairProps,
-        share: f64,
-        custom: &mut [f64],
-    ) -> ContactRecord {
-        contact.point = contact.point_a + contact.normal * (props.share_a * contact.depth);
+impl PairContext<'_> {
+    /// Fills in the forces of a contact.
+    fn press(&self, contact: &mut FrameContact, share: f64, custom: &mut [f64]) {
+        custom.fill(0.0);
+        let found = contact.found;
+        let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
+        let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
+        let props = self.table.props(surface_a, surface_b);
+        contact.point = found.point_a + found.normal * (props.share_a * found.depth);
         let velocity = self.motion.velocity_at(&contact.point);
-        let closing = -contact.normal.dot(&velocity);
+        let closing = -found.normal.dot(&velocity);
         contact.rate = closing;
-        contact.slip_velocity = velocity + contact.normal * closing;
+        contact.slip_velocity = velocity + found.normal * closing;
         contact.continues =
-            self.memory.matching(&contact.key, &contact.normal, Role::Pushes).map(|record| record as u32);
+            self.memory.matching(&found.key, &found.normal, Role::Pushes).map(|record| record as u32);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
-        if contact.role == Role::Pushes {
-            let weight = contact.full_weight();
-            contact.normal_force = normal_force(props, weight, contact.depth, closing);
-            contact.stored = stored_energy(props, weight, contact.depth);
+        if found.role == Role::Pushes {
+            let weight = found.full_weight();
+            contact.normal_force = normal_force(props, weight, found.depth, closing);
+            contact.stored = stored_energy(props, weight, found.depth);
             if contact.normal_force > 0.0 {
                 output = self.rub(contact, props, share, custom);
             }
         }
         contact.friction_force = output.force;
+        contact.bristle = output.bristle;
         contact.sticks = output.sticks;
         contact.stored += output.stored;
-        self.record(contact, &output)
     }
 
     fn rub(
@@ -110,7 +116,7 @@ impl KeyContext<'_> {
         }
         let mut input = FrictionInput {
             normal_force: contact.normal_force,
-            normal: contact.normal,
+            normal: contact.found.normal,
             slip: Vec3::zeros(),
             slip_velocity: contact.slip_velocity,
             share,
@@ -121,7 +127,8 @@ impl KeyContext<'_> {
         };
         if let Some(index) = contact.continues {
             let record = &self.memory.records[index as usize];
-            input.carried = carry_by_smallest_rotation(&record.bristle, &record.normal, &contact.normal);
+            input.carried =
+                carry_by_smallest_rotation(&record.bristle, &record.normal, &contact.found.normal);
             input.stuck = record.sticks;
             input.slip = self.slip(contact, record);
             custom.copy_from_slice(self.memory.custom_of(index as usize));
@@ -133,35 +140,17 @@ impl KeyContext<'_> {
     /// the contact was then.
     fn slip(&self, contact: &FrameContact, record: &ContactRecord) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
-        let reference = reference_point(self.body_a, contact);
+        let reference = reference_point(self.body_a, &contact.found);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
         let displacement = now - before + since.turn.cross(&(record.point - before));
-        displacement - contact.normal * contact.normal.dot(&displacement)
-    }
-
-    fn record(&self, contact: &FrameContact, output: &FrictionOutput) -> ContactRecord {
-        ContactRecord {
-            key: contact.key,
-            feature: contact.feature.0,
-            element_b: contact.element_b,
-            entry_face: contact.entry_face,
-            sticks: output.sticks,
-            role: contact.role,
-            normal: contact.normal,
-            point: contact.point,
-            bristle: output.bristle,
-            force: contact.force(),
-            stored: contact.stored,
-            work: 0.0,
-            dissipated: 0.0,
-        }
+        displacement - contact.found.normal * contact.found.normal.dot(&displacement)
     }
 }
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
 /// a segment's end, a ray's tip.
-pub(super) fn reference_point(body_a: &Body, contact: &FrameContact) -> Vec3 {
+pub(super) fn reference_point(body_a: &Body, contact: &Found) -> Vec3 {
     let element = contact.element_a as usize;
     match body_a.primitives[contact.key.primitive_a as usize].kind {
         PrimitiveKind::Point => body_a.points[element].position,

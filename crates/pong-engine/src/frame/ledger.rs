@@ -11,27 +11,32 @@
 
 use super::Frame;
 use super::forces::reference_point;
+use super::input::FrameInput;
+use super::lane::Lane;
 use super::relative::SinceCommit;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, ContactRecord, Role};
 use pong_geometry::{Transform, Vec3};
 
-/// Fills in the energies of the trial records and the totals.
+/// Fills in the energies of the contacts and the totals.
 pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
-    frame.trial.work = memory.work;
-    frame.trial.dissipated = memory.dissipated;
+    frame.work = memory.work;
+    frame.dissipated = memory.dissipated;
     if !scene.config.ledger {
         return;
     }
-    let mut continued = vec![false; memory.records.len()];
-    for index in 0..frame.contacts.len() {
-        let contact = &frame.contacts[index];
-        if contact.role != Role::Pushes {
+    let Frame { input, lane, order, work: all_work, dissipated: all_dissipated, .. } = frame;
+    let Lane { scratch, out, .. } = lane;
+    scratch.reset();
+    let continued = scratch.slice(memory.records.len(), false).expect("sealing has sized the scratch");
+    for place in order.iter() {
+        let contact = &mut out.contacts[place.index as usize];
+        let found = &contact.found;
+        if found.role != Role::Pushes {
             continue;
         }
-        let motion = frame.motions[contact.key.group_pair as usize][contact.key.flipped as usize];
-        let record = &mut frame.trial.records[index];
+        let motion = &input.motions[found.key.group_pair as usize][found.key.flipped as usize];
         let mut before = Before::default();
         // Two contacts may continue one record; its energy goes to the first.
         if let Some(earlier) = contact.continues.filter(|&i| !continued[i as usize]) {
@@ -40,24 +45,23 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         }
         let mut work = 0.0;
         if let Some(since) = &motion.since_commit {
-            let (body_a, _) = sealed.bodies_of(&contact.key);
-            let reference = reference_point(scene.body(body_a), contact);
+            let (body_a, _) = sealed.bodies_of(&found.key);
+            let reference = reference_point(scene.body(body_a), found);
             let displacement = Displacement::new(since, &motion.x_ba, &reference);
             work = displacement.half_work(&before.point, &before.force, false)
-                + displacement.half_work(&record.point, &record.force, true);
+                + displacement.half_work(&contact.point, &contact.force(), true);
         }
-        let dissipated = -work - (record.stored - before.stored);
-        record.work = before.work + work;
-        record.dissipated = before.dissipated + dissipated;
-        let totals = (record.work, record.dissipated);
-        (frame.contacts[index].work, frame.contacts[index].dissipated) = totals;
-        frame.trial.work += work;
-        frame.trial.dissipated += dissipated;
+        let dissipated = -work - (contact.stored - before.stored);
+        contact.work = before.work + work;
+        contact.dissipated = before.dissipated + dissipated;
+        *all_work += work;
+        *all_dissipated += dissipated;
     }
-    for (earlier, _) in
-        memory.records.iter().zip(&continued).filter(|(r, done)| r.role == Role::Pushes && !**done)
-    {
-        end_contact(earlier, frame);
+    let ended = memory.records.iter().zip(&*continued).filter(|(r, done)| r.role == Role::Pushes && !**done);
+    for (earlier, _) in ended {
+        let (work, dissipated) = end_contact(earlier, input);
+        *all_work += work;
+        *all_dissipated += dissipated;
     }
 }
 
@@ -102,9 +106,10 @@ impl Displacement {
     }
 }
 
-/// A contact that is no more: half of the work of its last force, and its stored energy is gone.
-fn end_contact(earlier: &ContactRecord, frame: &mut Frame) {
-    let motion = frame.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
+/// Work and dissipation of a contact that is no more: half of the work of its last force, and its stored energy is
+/// gone.
+fn end_contact(earlier: &ContactRecord, input: &FrameInput) -> (f64, f64) {
+    let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
     let mut work = 0.0;
     if let Some(since) = &motion.since_commit {
         // Any point carried by A serves as reference; the contact's own place then is at hand.
@@ -112,6 +117,5 @@ fn end_contact(earlier: &ContactRecord, frame: &mut Frame) {
         work =
             Displacement::new(since, &motion.x_ba, &local).half_work(&earlier.point, &earlier.force, false);
     }
-    frame.trial.work += work;
-    frame.trial.dissipated += earlier.stored - work;
+    (work, earlier.stored - work)
 }

@@ -6,7 +6,6 @@ use crate::contact::{Contact, ContactSide};
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::Role;
 use pong_geometry::Vec3;
 
 impl Frame {
@@ -17,8 +16,7 @@ impl Frame {
         sealed: &'a Sealed,
         stamp: WorldStamp,
     ) -> impl Iterator<Item = Contact> + 'a {
-        let pushing = self.contacts.iter().filter(|contact| contact.role == Role::Pushes);
-        pushing.map(move |contact| self.list_contact(contact, scene, sealed, stamp))
+        self.pushing().map(move |contact| self.list_contact(contact, scene, sealed, stamp))
     }
 
     fn list_contact(
@@ -28,10 +26,10 @@ impl Frame {
         sealed: &Sealed,
         stamp: WorldStamp,
     ) -> Contact {
-        let pair = &sealed.group_pairs[contact.key.group_pair as usize];
-        let flipped = contact.key.flipped as usize;
-        let (body_a, body_b) = sealed.bodies_of(&contact.key);
-        let x_ba = &self.motions[contact.key.group_pair as usize][flipped].x_ba;
+        let pair = &sealed.group_pairs[contact.found.key.group_pair as usize];
+        let flipped = contact.found.key.flipped as usize;
+        let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
+        let x_ba = &self.input.motions[contact.found.key.group_pair as usize][flipped].x_ba;
         let x_wb = &self.poses[body_b];
         let to_common = |v: &Vec3| x_wb.orientation * v;
         let side = |body: usize, primitive: u32, element: u32, arm: Vec3| ContactSide {
@@ -45,15 +43,15 @@ impl Frame {
         let arm_b = to_common(&contact.point);
         Contact {
             pair: PairId::new(stamp, pair.pair),
-            a: side(body_a, contact.key.primitive_a, contact.element_a, arm_a),
-            b: side(body_b, contact.primitive_b, contact.element_b, arm_b),
-            feature: contact.feature.0,
-            end: contact.key.end,
+            a: side(body_a, contact.found.key.primitive_a, contact.found.element_a, arm_a),
+            b: side(body_b, contact.found.primitive_b, contact.found.element_b, arm_b),
+            feature: contact.found.feature.0,
+            end: contact.found.key.end,
             point: x_wb.position + arm_b,
-            normal: to_common(&contact.normal),
-            depth: contact.depth,
+            normal: to_common(&contact.found.normal),
+            depth: contact.found.depth,
             rate: contact.rate,
-            weight: contact.full_weight(),
+            weight: contact.found.full_weight(),
             normal_force: contact.normal_force,
             friction_force: to_common(&contact.friction_force),
             force: to_common(&contact.force()),

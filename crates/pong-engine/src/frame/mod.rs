@@ -1,11 +1,17 @@
 //! One frame: the stages in order.
 
+mod block;
 mod bounding;
 mod buffers;
+mod carried;
+mod chunk;
+mod crew;
 mod forces;
+mod input;
+mod lane;
 mod ledger;
-mod limit;
 mod listing;
+mod order;
 mod reduce;
 mod relative;
 mod sharing;
@@ -13,24 +19,71 @@ mod side_of_entry;
 mod state_in;
 mod testers;
 
-pub(crate) use buffers::Frame;
+pub(crate) use bounding::ROUND;
+pub(crate) use buffers::{Found, Frame};
+pub(crate) use carried::Carried;
+pub(crate) use crew::Crew;
+pub(crate) use input::FrameInput;
+pub(crate) use relative::Motion;
 pub(crate) use state_in::require_states;
 
-use crate::scene::Scene;
+use crate::report::{Clock, Stage};
+use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 use crate::state::ContactMemory;
+use lane::Lane;
+use std::sync::Arc;
+
+/// What a frame is computed from.
+pub(crate) struct Given<'a> {
+    pub scene: &'a Scene,
+    pub sealed: &'a Sealed,
+    pub states: &'a States,
+    pub memory: &'a Arc<ContactMemory>,
+    pub clock: Clock,
+}
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
-pub(crate) fn evaluate(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
+pub(crate) fn evaluate(given: &Given<'_>, crew: Option<&mut Crew>, frame: &mut Frame) {
+    let Given { scene, sealed, states, memory, clock } = *given;
     frame.begin(sealed);
-    state_in::latch(scene, frame);
-    relative::relate(scene, sealed, memory, frame);
-    bounding::stream_leaf_pairs(scene, sealed, frame, |context, leaves, out| {
-        testers::test_leaves(context, leaves, memory, out);
-    });
-    sharing::settle(scene, sealed, frame);
-    limit::keep_deepest(sealed, frame);
-    forces::press(scene, sealed, memory, frame);
+    let mut watch = clock.start();
+    state_in::latch(sealed, states, frame);
+    relative::relate(sealed, &states.enabled, memory, frame);
+    watch.lap(Stage::Relative, &mut frame.times);
+    find_contacts(given, crew, frame);
+    watch.lap(Stage::Contacts, &mut frame.times);
+    order::put_in_order(scene, sealed, frame);
+    watch.lap(Stage::Order, &mut frame.times);
     ledger::balance(scene, sealed, memory, frame);
+    watch.lap(Stage::Ledger, &mut frame.times);
     reduce::sum(sealed, frame);
+    watch.lap(Stage::Reduce, &mut frame.times);
+}
+
+/// Bounding, testers, sharing and forces: block by block, by all hands or by the caller alone.
+fn find_contacts(given: &Given<'_>, mut crew: Option<&mut Crew>, frame: &mut Frame) {
+    let Given { scene, sealed, states, memory, .. } = *given;
+    let Frame { input, lane, counts, .. } = frame;
+    input.memory = Arc::clone(memory);
+    bounding::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
+        input.phase += 1;
+        let shared = crew.as_mut().is_some_and(|crew| share_out(crew, input, cost_ns, lane));
+        if !shared {
+            for block in 0..input.blocks.len() {
+                block::work_off(scene, sealed, input, block, lane);
+            }
+        }
+    });
+    counts.add(&lane.out.counts);
+}
+
+/// Whether the crew has done this round. If it could not, the lane is as it was before.
+fn share_out(crew: &mut Crew, input: &FrameInput, cost_ns: u64, lane: &mut Lane) -> bool {
+    let before = lane.out.mark();
+    let done = crew.work_off(input, cost_ns, lane);
+    if !done {
+        lane.out.return_to(&before);
+    }
+    done
 }

@@ -4,7 +4,6 @@
 //! where the common origin is or how fast it moves (physics contract, section 1).
 
 use super::Frame;
-use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, PairPose};
 use pong_geometry::pose::rotation_vector;
@@ -25,6 +24,19 @@ pub(crate) struct Motion {
     pub since_commit: Option<SinceCommit>,
 }
 
+impl Motion {
+    /// No motion at all.
+    pub fn none() -> Self {
+        Self {
+            x_ba: Transform::identity(),
+            linear: Vec3::zeros(),
+            omega_a: Vec3::zeros(),
+            omega_b: Vec3::zeros(),
+            since_commit: None,
+        }
+    }
+}
+
 /// Displacement since the last commit, seen from B's group frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SinceCommit {
@@ -42,10 +54,10 @@ impl Motion {
 }
 
 /// Fills in the motions, and the relative poses that a commit would remember.
-pub(super) fn relate(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
+pub(super) fn relate(sealed: &Sealed, enabled: &[bool], memory: &ContactMemory, frame: &mut Frame) {
     for (index, pair) in sealed.group_pairs.iter().enumerate() {
         let bodies = [pair.first, pair.second];
-        let known = scene.pairs[pair.pair].enabled;
+        let known = enabled[pair.pair];
         let mut remembered = PairPose { known, ..PairPose::unknown() };
         let committed = &memory.poses[index];
         let motions = [0, 1].map(|flipped| {
@@ -55,8 +67,8 @@ pub(super) fn relate(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fra
             let earlier = committed.known.then(|| &committed.relative[flipped]);
             motion(&pose, (&frame.twists[a], &frame.twists[b]), &frame.poses[b], earlier)
         });
-        frame.motions.push(motions);
-        frame.trial.poses.push(if known { remembered } else { PairPose::unknown() });
+        frame.input.motions[index] = motions;
+        frame.remembered[index] = if known { remembered } else { PairPose::unknown() };
     }
 }
 

@@ -1,66 +1,75 @@
-//! Which of the interferences found count, and with what weight.
+//! Which of the interferences found for a chunk of A count, and with what weight.
 
-use super::Frame;
-use super::buffers::{FrameContact, Stance};
-use crate::scene::Scene;
-use crate::sealed::Sealed;
-use crate::sharing::{Sharer, share};
+use super::buffers::{Found, Stance};
+use super::input::PairContext;
+use crate::sharing::{Sharer, share_within};
 use crate::state::{NO_FACE, Role};
+use pong_arena::{Arena, Full, List};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{PrimitiveKind, TriangleSet};
 
 /// Relative: a spare contact counts if no other is deeper by more than rounding.
 const SPARE_DEPTH_SLACK: f64 = 1e-9;
 
-/// Sorts the contacts into the order of every sum and settles their weights.
-pub(super) fn settle(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
-    frame.contacts.sort_unstable_by_key(order);
-    keep_first_ray_hits(scene, sealed, &mut frame.contacts);
-    let mut start = 0;
-    while start < frame.contacts.len() {
-        let key = frame.contacts[start].key;
-        let count = frame.contacts[start..].partition_point(|contact| contact.key == key);
-        let group = &mut frame.contacts[start..start + count];
+/// Sorts the contacts into the order of every sum and settles their weights. Those that do not count are marked as
+/// dropped. All contacts of a key are among those of one chunk.
+///
+/// # Errors
+/// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
+pub(super) fn settle(
+    context: &PairContext<'_>,
+    found: &mut List<'_, Found>,
+    sharers: &mut List<'_, Sharer>,
+    scratch: &mut Arena,
+) -> Result<(), Full> {
+    if found.len() == 1 {
         // A lone contact has nothing to share with: it keeps the weight 1.
-        if group[0].shares && count > 1 {
-            let (_, body_b) = sealed.bodies_of(&key);
-            settle_surface(group, &scene.body(body_b).triangles, &mut frame.sharers);
+        return Ok(());
+    }
+    let mut outcome = Ok(());
+    found.sort_unstable_by_key(Found::order);
+    keep_first_ray_hits(found);
+    for group in found.chunk_by_mut(|a, b| a.key == b.key) {
+        if group[0].shares && group.len() > 1 {
+            outcome = outcome.and(settle_surface(group, &context.body_b.triangles, sharers, scratch));
         }
-        start += count;
     }
-    frame.contacts.retain(|contact| contact.stance != Stance::Dropped);
+    outcome
 }
 
-fn order(contact: &FrameContact) -> impl Ord + use<> {
-    (contact.key, contact.primitive_b, contact.element_b, contact.feature)
-}
-
-/// One contact per ray and opposing Object: the least distance, ties in key order.
-fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, contacts: &mut [FrameContact]) {
-    let mut hits: Vec<(usize, u32, usize, f64, usize)> = Vec::new();
-    for (index, contact) in contacts.iter().enumerate() {
-        let Some(distance) = contact.ray_distance else { continue };
-        let (a, b) = sealed.bodies_of(&contact.key);
-        hits.push((a, contact.key.primitive_a, scene.bodies[b].object, distance, index));
-    }
-    hits.sort_by(|x, y| (x.0, x.1, x.2).cmp(&(y.0, y.1, y.2)).then(x.3.total_cmp(&y.3)).then(x.4.cmp(&y.4)));
-    for later in hits.windows(2) {
-        let same = (later[0].0, later[0].1, later[0].2) == (later[1].0, later[1].1, later[1].2);
-        if same {
-            contacts[later[1].4].stance = Stance::Dropped;
+/// One contact per ray: the least distance, ties in key order. Rays that also hit other movable groups of the same
+/// Object are settled when all are known.
+fn keep_first_ray_hits(found: &mut [Found]) {
+    for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
+        if hits.len() == 1 || hits[0].ray_distance == f64::INFINITY {
+            continue;
+        }
+        let mut first = 0;
+        for other in 1..hits.len() {
+            let nearer = hits[other].ray_distance < hits[first].ray_distance;
+            hits[if nearer { first } else { other }].stance = Stance::Dropped;
+            first = if nearer { other } else { first };
         }
     }
 }
 
 /// Contacts of one sphere or ellipsoid with one surface.
-fn settle_surface(group: &mut [FrameContact], triangles: &TriangleSet, sharers: &mut Vec<Sharer>) {
+fn settle_surface(
+    group: &mut [Found],
+    triangles: &TriangleSet,
+    sharers: &mut List<'_, Sharer>,
+    scratch: &mut Arena,
+) -> Result<(), Full> {
     drop_deeper_of_convex_faces(group, triangles);
     drop_idle_spares(group);
-    let counts = |contact: &FrameContact| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
+    let counts = |contact: &Found| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
     sharers.clear();
-    sharers.extend(group.iter().filter(|c| counts(c)).map(|c| Sharer::new(c.normal, c.depth)));
-    share(sharers);
-    for (contact, sharer) in group.iter_mut().filter(|c| counts(c)).zip(&*sharers) {
+    for contact in group.iter().filter(|contact| counts(contact)) {
+        let sharer = Sharer::new(contact.normal, contact.depth);
+        sharers.push(sharer).expect("as much room as for what was found");
+    }
+    let outcome = share_within(sharers, scratch);
+    for (contact, sharer) in group.iter_mut().filter(|c| counts(c)).zip(sharers.iter()) {
         contact.weight = sharer.lambda / sharer.depth;
         if contact.weight > 0.0 {
             continue;
@@ -71,10 +80,11 @@ fn settle_surface(group: &mut [FrameContact], triangles: &TriangleSet, sharers: 
             contact.stance = Stance::Dropped;
         }
     }
+    outcome
 }
 
 /// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
-fn drop_deeper_of_convex_faces(group: &mut [FrameContact], triangles: &TriangleSet) {
+fn drop_deeper_of_convex_faces(group: &mut [Found], triangles: &TriangleSet) {
     for i in 0..group.len() {
         if group[i].stance != Stance::Behind {
             continue;
@@ -99,7 +109,7 @@ fn drop_deeper_of_convex_faces(group: &mut [FrameContact], triangles: &TriangleS
 }
 
 /// A spare contact counts only where rounding has left nothing else that is as deep.
-fn drop_idle_spares(group: &mut [FrameContact]) {
+fn drop_idle_spares(group: &mut [Found]) {
     let deepest = group
         .iter()
         .filter(|contact| contact.stance != Stance::Spare && contact.role == Role::Pushes)

@@ -1,17 +1,16 @@
 //! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
 //! (physics contract, 2.2 and 2.4).
 
-use super::bounding::PairContext;
 use crate::state::{ContactKey, ContactMemory, NO_FACE, Role};
-use pong_geometry::bounding::Volume;
+use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, pushing_face, shallowest_face,
 };
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact, TriangleView};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
-use pong_geometry::{Transform, Vec3};
 use pong_model::Body;
+use pong_model::box_tree::Child;
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +113,6 @@ impl PolyhedronEntry<'_> {
 
 /// The centre of a sphere or ellipsoid against one triangle of B.
 pub(super) struct TriangleEntry<'a> {
-    pub context: &'a PairContext<'a>,
     pub memory: &'a ContactMemory,
     pub body: &'a Body,
     pub triangle: u32,
@@ -163,11 +161,9 @@ impl TriangleEntry<'_> {
         };
         let forward = ray(*earlier, path / length);
         let backward = ray(self.center, -path / length);
-        let half = path.map(f64::abs) * 0.5;
-        let around_path = Volume::Aabb { center: earlier + path * 0.5, half };
         // Distances of crossings from the present centre: the smaller came later.
         let (mut from_behind, mut from_front) = (f64::INFINITY, f64::INFINITY);
-        self.visit_triangles(&around_path, 0, &mut |triangle| {
+        self.visit_triangles(&earlier.inf(&self.center), &earlier.sup(&self.center), &mut |triangle| {
             let set = &self.body.triangles;
             if set.triangles[triangle as usize].shell != shell {
                 return;
@@ -182,18 +178,17 @@ impl TriangleEntry<'_> {
         from_behind < from_front
     }
 
-    fn visit_triangles(&self, around: &Volume, node: u32, visit: &mut dyn FnMut(u32)) {
-        let node = &self.body.tree.nodes[node as usize];
-        if !self.context.volume_tests.overlap(around, &node.volume, &Transform::identity()) {
-            return;
-        }
-        for item in &self.body.tree.items[node.items.start as usize..node.items.end as usize] {
-            if self.body.primitives[item.primitive as usize].kind == PrimitiveKind::Triangle {
-                visit(item.element);
-            }
-        }
-        for child in node.children.clone() {
-            self.visit_triangles(around, child, visit);
+    /// Calls `visit` with every triangle whose box meets that between two corners.
+    fn visit_triangles(&self, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(u32)) {
+        let tree = &self.body.tree;
+        for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
+            batch.boxes.visit(&batch.boxes.narrowed(low, high), |node, met| {
+                for lane in met {
+                    if let Child::Element(place) = node.child(lane) {
+                        visit(tree.items[(batch.items.start + place) as usize].element);
+                    }
+                }
+            });
         }
     }
 }

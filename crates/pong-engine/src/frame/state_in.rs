@@ -2,14 +2,14 @@
 
 use super::Frame;
 use crate::error::EngineError;
-use crate::scene::Scene;
+use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 
 /// Refuses a frame while a movable group of an enabled pair has no state.
-pub(crate) fn require_states(scene: &Scene, sealed: &Sealed) -> Result<(), EngineError> {
-    for pair in sealed.group_pairs.iter().filter(|pair| scene.pairs[pair.pair].enabled) {
+pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
+    for pair in sealed.group_pairs.iter().filter(|pair| states.enabled[pair.pair]) {
         for body in [pair.first, pair.second] {
-            if scene.bodies[body].state.is_none() {
+            if states.bodies[body].is_none() {
                 return Err(EngineError::UnsetState { interface: scene.body_name(body) });
             }
         }
@@ -18,9 +18,9 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed) -> Result<(), Engin
 }
 
 /// Takes the states over into the frame.
-pub(super) fn latch(scene: &Scene, frame: &mut Frame) {
-    for (body, instance) in scene.bodies.iter().enumerate() {
-        if let Some(state) = &instance.state {
+pub(super) fn latch(sealed: &Sealed, states: &States, frame: &mut Frame) {
+    for &body in &sealed.paired_bodies {
+        if let Some(state) = &states.bodies[body] {
             frame.poses[body] = state.pose();
             frame.twists[body] = state.twist();
         }

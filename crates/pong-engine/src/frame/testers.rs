@@ -1,11 +1,16 @@
-//! Pairs of primitives: carries A into B's frame, runs the tester, hands out contacts under their keys.
+//! Pairs of primitives: runs the tester of a pair of kinds, hands out contacts under their keys.
 
-use super::bounding::{Found, LeafItems, PairContext};
-use super::buffers::{FrameContact, Stance};
+use super::buffers::{Found, Stance};
+use super::carried::Carried;
+use super::chunk::Chunk;
+use super::input::PairContext;
 use super::relative::Motion;
 use super::side_of_entry::{PolyhedronEntry, TriangleEntry};
 use crate::dispatch::has_tester;
-use crate::state::{ContactKey, ContactMemory};
+use crate::report::FrameCounts;
+use crate::state::ContactKey;
+use pong_arena::List;
+use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
@@ -20,98 +25,124 @@ use pong_geometry::interference::{
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
-use pong_geometry::{Transform, Vec3};
+use pong_geometry::simd::Simd;
+use pong_model::box_tree::Met;
 use pong_model::{Body, Item, PrimitiveInfo};
 
-/// Tests everything in one leaf against everything in another, in the orders that the table knows.
-pub(super) fn test_leaves(
-    context: &PairContext<'_>,
-    leaves: LeafItems<'_>,
-    memory: &ContactMemory,
-    found: &mut Found<'_>,
-) {
-    for flipped in [0, 1] {
-        for &item_a in leaves[flipped] {
-            let kind_a = kind_of(context.bodies[flipped], item_a);
-            let a = Carried::new(context.bodies[flipped], item_a, &context.motions[flipped].x_ba);
-            if a.is_none() && context.scene.extensions.has_no_contact_tests() {
-                continue;
-            }
-            for &item_b in leaves[1 - flipped] {
-                let kind_b = kind_of(context.bodies[1 - flipped], item_b);
-                // Of two primitives of one kind, A is that of the Object named first.
-                if kind_a == kind_b && (flipped == 0) != context.first_named_first {
-                    continue;
-                }
-                let side = Side { context, memory, flipped, item_a, item_b };
-                match &a {
-                    Some(a) if has_tester(kind_a, kind_b) => {
-                        found.report.primitives_tested += 1;
-                        side.test(a, kind_b, found);
-                    }
-                    _ if context.scene.extensions.has_no_contact_tests() => {}
-                    _ => side.test_custom(found),
-                }
-            }
+/// What testers find for one chunk of A.
+pub(super) struct Findings<'m> {
+    pub list: List<'m, Found>,
+    /// Contacts that found no room: of all found for the chunk the least deep.
+    pub refused: u64,
+}
+
+impl<'m> Findings<'m> {
+    pub fn new(list: List<'m, Found>) -> Self {
+        Self { list, refused: 0 }
+    }
+
+    fn add(&mut self, found: Found) {
+        if self.list.push(found).is_ok() {
+            return;
+        }
+        self.refused += 1;
+        let rank = |f: &Found| (f.depth, std::cmp::Reverse(f.order()));
+        let last = (0..self.list.len()).min_by(|&i, &j| {
+            let (a, b) = (rank(&self.list[i]), rank(&self.list[j]));
+            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+        });
+        let Some(last) = last else { return };
+        let deeper = found.depth.total_cmp(&self.list[last].depth);
+        if deeper.then(self.list[last].order().cmp(&found.order())).is_gt() {
+            self.list[last] = found;
         }
     }
 }
 
-fn kind_of(body: &Body, item: Item) -> PrimitiveKind {
-    body.primitives[item.primitive as usize].kind
+/// One element of B against a chunk of A.
+pub(super) struct Target<'a> {
+    pub context: &'a PairContext<'a>,
+    pub item_b: Item,
+    pub kind_b: PrimitiveKind,
 }
 
-/// A primitive that can be A, in B's frame: carried once for everything that it meets in a leaf.
-enum Carried {
-    Point(Point),
-    Segment(LineSegment),
-    Ray(Ray),
-    Sphere(Sphere),
-    Ellipsoid(Ellipsoid),
-}
+impl<'a> Target<'a> {
+    /// Tests the elements of A whose boxes the element's box meets.
+    #[inline(always)]
+    pub fn test_lanes<S: Simd>(
+        &self,
+        simd: S,
+        chunk: &Chunk<'_, '_, '_>,
+        near: Met,
+        found: &mut Findings<'_>,
+        counts: &mut FrameCounts,
+    ) {
+        let tested = near.count();
+        let near = self.not_separated(simd, chunk, near);
+        let before = found.list.len();
+        for lane in near {
+            self.test_one(chunk, lane, found);
+        }
+        counts.note_testers(chunk.kind, self.kind_b, tested, (found.list.len() - before) as u32);
+    }
 
-impl Carried {
-    /// `None` for kinds that are never A in the table.
-    fn new(body: &Body, item: Item, x_ba: &Transform) -> Option<Self> {
-        let i = item.element as usize;
-        Some(match kind_of(body, item) {
-            PrimitiveKind::Point => Self::Point(body.points[i].carried(x_ba)),
-            PrimitiveKind::LineSegment => Self::Segment(body.segments[i].carried(x_ba)),
-            PrimitiveKind::Ray => Self::Ray(body.rays[i].carried(x_ba)),
-            PrimitiveKind::Sphere => Self::Sphere(body.spheres[i].carried(x_ba)),
-            PrimitiveKind::Ellipsoid => Self::Ellipsoid(body.ellipsoids[i].carried(x_ba)),
-            Triangle | Polyhedron | Plane | Custom => return None,
-        })
+    /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
+    #[inline(always)]
+    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_, '_>, near: Met) -> Met {
+        if self.kind_b != Polyhedron {
+            return near;
+        }
+        let polyhedron = &self.context.body_b.polyhedra[self.item_b.element as usize];
+        match chunk.kind {
+            PrimitiveKind::Point => near.only(polyhedron.lanes_contain_in(simd, &chunk.centers)),
+            PrimitiveKind::Sphere => {
+                near.only(!polyhedron.lanes_outside_in(simd, &chunk.centers, chunk.radii))
+            }
+            _ => near,
+        }
+    }
+
+    fn test_one(&self, chunk: &Chunk<'_, '_, '_>, lane: usize, found: &mut Findings<'_>) {
+        let side = Side {
+            context: self.context,
+            item_a: chunk.items[lane],
+            item_b: self.item_b,
+            kind_b: self.kind_b,
+        };
+        match chunk.carried(lane) {
+            Some(a) if has_tester(chunk.kind, self.kind_b) => side.test(&a, found),
+            _ => side.test_custom(found),
+        }
     }
 }
 
 /// One element as A against one element as B.
 struct Side<'a> {
     context: &'a PairContext<'a>,
-    memory: &'a ContactMemory,
-    flipped: usize,
     item_a: Item,
     item_b: Item,
+    kind_b: PrimitiveKind,
 }
 
 impl<'a> Side<'a> {
     fn body_a(&self) -> &'a Body {
-        self.context.bodies[self.flipped]
+        self.context.body_a
     }
 
     fn body_b(&self) -> &'a Body {
-        self.context.bodies[1 - self.flipped]
+        self.context.body_b
     }
 
     fn motion(&self) -> &'a Motion {
-        &self.context.motions[self.flipped]
+        self.context.motion
     }
 
     fn info_b(&self) -> &'a PrimitiveInfo {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    fn test(&self, a: &Carried, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test(&self, a: &Carried, found: &mut Findings<'_>) {
+        let kind_b = self.kind_b;
         match a {
             Carried::Point(point) => self.test_point(point, kind_b, found),
             Carried::Segment(segment) => self.test_segment(segment, kind_b, found),
@@ -121,7 +152,7 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_point(&self, point: &Point, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_point(&self, point: &Point, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         match kind_b {
             Plane => self.whole(point_plane(point, &body.planes[b]), found),
@@ -130,10 +161,8 @@ impl<'a> Side<'a> {
                 self.whole(point_ellipsoid(&point.position, &body.ellipsoids[b]), found);
             }
             _ => {
+                // Only points inside get here.
                 let polyhedron = &body.polyhedra[b];
-                if !polyhedron.contains(&point.position) {
-                    return;
-                }
                 let local = self.body_a().points[self.item_a.element as usize].position;
                 let Some(face) = self.entry_face(&local, &point.position) else { return };
                 let contact = point_below_face(&point.position, polyhedron, face.pushes);
@@ -142,7 +171,7 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_segment(&self, segment: &LineSegment, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_segment(&self, segment: &LineSegment, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         let ends = match kind_b {
             Plane => line_segment_plane(segment, &body.planes[b]),
@@ -157,7 +186,7 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_ray(&self, ray: &Ray, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_ray(&self, ray: &Ray, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         let hit: Option<RayHit> = match kind_b {
             Plane => ray_plane(ray, &body.planes[b]),
@@ -168,11 +197,11 @@ impl<'a> Side<'a> {
             }
         };
         if let Some(hit) = hit {
-            self.emit(&ray_contact(ray, &hit), found, |out| out.ray_distance = Some(hit.distance));
+            self.emit(&ray_contact(ray, &hit), found, |out| out.ray_distance = hit.distance);
         }
     }
 
-    fn test_sphere(&self, sphere: &Sphere, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_sphere(&self, sphere: &Sphere, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         match kind_b {
             Plane => self.whole(sphere_plane(sphere, &body.planes[b]), found),
@@ -187,12 +216,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Found<'_>) {
+    fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Findings<'_>) {
         let polyhedron = &self.body_b().polyhedra[self.item_b.element as usize];
-        // Most pairs end here: apart by the plane of one face.
-        if polyhedron.faces.iter().any(|face| face.height(&sphere.center) >= sphere.radius) {
-            return;
-        }
         if !polyhedron.contains(&sphere.center) {
             self.sharing(sphere_outside_polyhedron(sphere, polyhedron), found);
             return;
@@ -206,7 +231,7 @@ impl<'a> Side<'a> {
         });
     }
 
-    fn test_ellipsoid(&self, ellipsoid: &Ellipsoid, kind_b: PrimitiveKind, found: &mut Found<'_>) {
+    fn test_ellipsoid(&self, ellipsoid: &Ellipsoid, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         match kind_b {
             Plane => self.whole(ellipsoid_plane(ellipsoid, &body.planes[b]), found),
@@ -220,20 +245,18 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn test_custom(&self, found: &mut Found<'_>) {
+    fn test_custom(&self, found: &mut Findings<'_>) {
         let a = element_ref(self.body_a(), self.item_a);
         let b = element_ref(self.body_b(), self.item_b);
         let extensions = &self.context.scene.extensions;
         let Some(test) = extensions.contact_test(a.kind_name(), b.kind_name()) else { return };
-        found.report.primitives_tested += 1;
         self.whole(test(a, b, &self.motion().x_ba), found);
     }
 
     /// A contact of one sphere's or ellipsoid's centre with one triangle, unless the centre came from behind.
-    fn on_triangle(&self, local: &Vec3, center: &Vec3, contact: TriangleContact, found: &mut Found<'_>) {
+    fn on_triangle(&self, local: &Vec3, center: &Vec3, contact: TriangleContact, found: &mut Findings<'_>) {
         let entry = TriangleEntry {
-            context: self.context,
-            memory: self.memory,
+            memory: self.context.memory,
             body: self.body_b(),
             triangle: self.item_b.element,
             center: *center,
@@ -255,13 +278,13 @@ impl<'a> Side<'a> {
     /// For a point inside B's polyhedron, the face that memory reaches and the one that pushes.
     fn entry_face(&self, local: &Vec3, p: &Vec3) -> Option<super::side_of_entry::EntryFace> {
         PolyhedronEntry {
-            memory: self.memory,
+            memory: self.context.memory,
             body: self.body_b(),
             shell: self.info_b().shell,
             piece: self.item_b.element,
             point: *p,
             earlier: self.motion().since_commit.map(|since| since.x_ba.point(local)),
-            remembers: self.context.entry_memory[1 - self.flipped],
+            remembers: self.context.remembers_entry,
         }
         .face(&self.key())
     }
@@ -274,39 +297,39 @@ impl<'a> Side<'a> {
         };
         ContactKey {
             group_pair: self.context.group_pair,
-            flipped: self.flipped as u32,
+            flipped: self.context.flipped,
             primitive_a: self.item_a.primitive,
             shell_b,
             end: 0,
         }
     }
 
-    fn whole(&self, contact: Option<Interference>, found: &mut Found<'_>) {
+    fn whole(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |_| ());
         }
     }
 
-    fn sharing(&self, contact: Option<Interference>, found: &mut Found<'_>) {
+    fn sharing(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |out| out.shares = true);
         }
     }
 
-    fn with_entry_face(&self, contact: Option<Interference>, face: usize, found: &mut Found<'_>) {
+    fn with_entry_face(&self, contact: Option<Interference>, face: usize, found: &mut Findings<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |out| out.entry_face = face as u32);
         }
     }
 
-    fn emit(&self, contact: &Interference, found: &mut Found<'_>, adjust: impl FnOnce(&mut FrameContact)) {
-        let mut out = FrameContact::found(self.key(), contact);
+    fn emit(&self, contact: &Interference, found: &mut Findings<'_>, adjust: impl FnOnce(&mut Found)) {
+        let mut out = Found::new(self.key(), contact);
         out.primitive_b = self.item_b.primitive;
         out.element_a = self.item_a.element;
         out.element_b = self.item_b.element;
-        out.kind_b = self.info_b().kind;
+        out.kind_b = self.kind_b;
         adjust(&mut out);
-        found.contacts.push(out);
+        found.add(out);
     }
 }
 

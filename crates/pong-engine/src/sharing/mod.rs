@@ -48,7 +48,7 @@ impl Sharer {
 }
 
 /// Bytes of scratch memory in which [`share_within`] shares any set of so many contacts exactly.
-#[allow(dead_code)] // Until the frame hands in its scratch memory.
+
 pub fn scratch_bytes(contacts: usize) -> usize {
     uncoupled::tableau_bytes(contacts)
 }
@@ -65,6 +65,7 @@ pub fn share_within(contacts: &mut [Sharer], scratch: &mut Arena) -> Result<(), 
     solve(contacts, scratch).inspect_err(|_| deepest::share(contacts, scratch))
 }
 
+#[cfg(test)]
 /// As [`share_within`], taking the scratch memory from the heap.
 pub fn share(contacts: &mut [Sharer]) {
     let alone = contacts.len() < 3 || all_couple(contacts);

@@ -22,7 +22,6 @@ type Named<'a> = (&'a str, Option<Arc<Model>>);
 
 impl Setting {
     pub fn new(document: &Document, folder: &Path, extensions: &Extensions, faults: &mut Faults<'_>) -> Self {
-        #[allow(clippy::needless_update, reason = "settings that come later take their defaults")]
         let config = Config {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,

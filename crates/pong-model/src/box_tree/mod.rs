@@ -132,10 +132,13 @@ impl Met {
         self.0.count_ones()
     }
 
-    /// Those of both.
+    /// Those whose bit is set as well, the lowest bit for the first box.
     #[inline]
-    pub fn and(self, other: Self) -> Self {
-        Self(self.0 & other.0)
+    pub fn only(self, bits: u8) -> Self {
+        // Bit i moves to byte i: copies of the bits into all bytes, one bit of each kept, and brought down.
+        let spread = (u64::from(bits) * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
+        let bytes = ((spread + 0x7f7f_7f7f_7f7f_7f7f) | spread) >> 7 & 0x0101_0101_0101_0101;
+        Self(self.0 & bytes)
     }
 }
 
@@ -214,6 +217,31 @@ impl BoxTree {
     #[inline]
     pub fn narrowed(&self, low: &Vec3, high: &Vec3) -> NarrowBox {
         NarrowBox::outward(&(low - self.origin), &(high - self.origin))
+    }
+
+    /// The box of an element in the movable group's frame, m; infinite where the element is unbounded.
+    pub fn bounds(&self, element: u32) -> (Vec3, Vec3) {
+        let (mut node, mut lane) = (&self.nodes[0], 0);
+        loop {
+            let holds = |child: Child| match child {
+                Child::Element(place) => place == element,
+                Child::Node(below) => self.nodes[below as usize].elements.contains(&element),
+            };
+            lane = node.children().position(holds).unwrap_or(lane);
+            match node.child(lane) {
+                Child::Node(below) => node = &self.nodes[below as usize],
+                Child::Element(_) => break,
+            }
+        }
+        self.widened(&node.boxes.lane(lane))
+    }
+
+    /// A box of this tree in the movable group's frame, m.
+    pub fn widened(&self, narrow: &NarrowBox) -> (Vec3, Vec3) {
+        let wide = |x: f32, beyond: f64| if x.abs() < f32::MAX { f64::from(x) } else { beyond };
+        let low = Vec3::from(narrow.low.map(|x| wide(x, f64::NEG_INFINITY)));
+        let high = Vec3::from(narrow.high.map(|x| wide(x, f64::INFINITY)));
+        (self.origin + low, self.origin + high)
     }
 
     /// Calls `visit` with every bottom node that has boxes which a box meets; answers how many nodes were looked

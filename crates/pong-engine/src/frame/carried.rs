@@ -1,0 +1,53 @@
+//! A primitive that can be A, in B's frame.
+
+use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, PrimitiveKind, Ray, Sphere};
+use pong_geometry::{Transform, Vec3};
+use pong_model::{Body, Item};
+
+/// The primitive.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Carried {
+    Point(Point),
+    Segment(LineSegment),
+    Ray(Ray),
+    Sphere(Sphere),
+    Ellipsoid(Ellipsoid),
+}
+
+impl Carried {
+    /// `None` for kinds that are never A in the table.
+    pub fn new(body: &Body, item: Item, x_ba: &Transform) -> Option<Self> {
+        let i = item.element as usize;
+        Some(match body.primitives[item.primitive as usize].kind {
+            PrimitiveKind::Point => Self::Point(body.points[i].carried(x_ba)),
+            PrimitiveKind::LineSegment => Self::Segment(body.segments[i].carried(x_ba)),
+            PrimitiveKind::Ray => Self::Ray(body.rays[i].carried(x_ba)),
+            PrimitiveKind::Sphere => Self::Sphere(body.spheres[i].carried(x_ba)),
+            PrimitiveKind::Ellipsoid => Self::Ellipsoid(body.ellipsoids[i].carried(x_ba)),
+            PrimitiveKind::Triangle
+            | PrimitiveKind::Polyhedron
+            | PrimitiveKind::Plane
+            | PrimitiveKind::Custom => return None,
+        })
+    }
+
+    /// Least and greatest coordinates, m.
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let around = |center: &Vec3, half: Vec3| (center - half, center + half);
+        match self {
+            Self::Point(point) => (point.position, point.position),
+            Self::Segment(LineSegment { ends: [a, b] }) => (a.inf(b), a.sup(b)),
+            Self::Ray(ray) => {
+                // A ray also hits what lies up to its reach behind its origin; where the reach is left to the
+                // triangle, the triangle's box has room for it.
+                let start = ray.origin - ray.direction * ray.reach.unwrap_or(0.0);
+                (start.inf(&ray.tip()), start.sup(&ray.tip()))
+            }
+            Self::Sphere(sphere) => around(&sphere.center, Vec3::repeat(sphere.radius)),
+            Self::Ellipsoid(ellipsoid) => {
+                let half = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| ellipsoid.half_width(&axis));
+                around(&ellipsoid.center, Vec3::from(half))
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The calling thread and its workers on the blocks of a frame.
+//!
+//! Workers read a copy of the frame's input and write into lanes of their own, under locks that nobody waits for in
+//! the common case. A worker that does not come back from a block keeps its lane and the input it reads; the frame
+//! then goes on without the crew, alone and with the same results, until that worker has let go.
+
+use super::block;
+use super::input::FrameInput;
+use super::lane::Lane;
+use crate::scene::Scene;
+use crate::sealed::Sealed;
+use crate::state::ContactMemory;
+use pong_threads::{Job, Outcome, Pool, Settings, StartError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
+use std::time::Duration;
+
+/// Work below this is done by the caller alone, ns: waking nobody is quicker.
+const WORTH_SHARING_NS: u64 = 5_000;
+
+/// Workers and what they share with the caller.
+pub(crate) struct Crew {
+    pool: Pool,
+    shared: Arc<Shared>,
+}
+
+struct Shared {
+    scene: Arc<Scene>,
+    sealed: Arc<Sealed>,
+    input: RwLock<FrameInput>,
+    /// The caller's first, then one per worker.
+    lanes: Vec<Mutex<Lane>>,
+}
+
+impl Job for Shared {
+    fn run(&self, block: u32, lane: usize) {
+        let input = self.input.read().unwrap_or_else(PoisonError::into_inner);
+        let mut lane = locked(&self.lanes[lane]);
+        if lane.out.phase != input.phase {
+            lane.out.begin(input.phase);
+        }
+        block::work_off(&self.scene, &self.sealed, &input, block as usize, &mut lane);
+    }
+}
+
+/// A lane whose owner panicked is still memory: what it holds is thrown away when the next phase begins.
+fn locked(lane: &Mutex<Lane>) -> MutexGuard<'_, Lane> {
+    lane.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Crew {
+    /// Starts the workers.
+    pub fn start(
+        scene: &Arc<Scene>,
+        sealed: &Arc<Sealed>,
+        input: FrameInput,
+        settings: &Settings,
+    ) -> Result<Self, StartError> {
+        let lanes = settings.workers + 1;
+        let contacts = sealed.limits.worker_contacts(lanes);
+        let shared = Arc::new(Shared {
+            scene: Arc::clone(scene),
+            sealed: Arc::clone(sealed),
+            input: RwLock::new(input),
+            lanes: (0..lanes).map(|_| Mutex::new(Lane::new(sealed, contacts, false))).collect(),
+        });
+        let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
+        Ok(Self { pool, shared })
+    }
+
+    /// Works off the blocks of `input` with all hands and gathers in `lane` what was found; whether that is whole.
+    /// If not, the caller does it all again by itself.
+    pub fn work_off(&mut self, input: &FrameInput, cost_ns: u64, lane: &mut Lane) -> bool {
+        if cost_ns < WORTH_SHARING_NS || input.blocks.len() < 2 || self.pool.workers() == 0 {
+            return false;
+        }
+        match self.shared.input.try_write() {
+            Ok(mut shared) => shared.copy_from(input),
+            Err(TryLockError::Poisoned(shared)) => shared.into_inner().copy_from(input),
+            Err(TryLockError::WouldBlock) => return false,
+        }
+        if self.pool.run(input.blocks.len() as u32) == Outcome::Abandoned {
+            return false;
+        }
+        self.shared.lanes.iter().all(|other| {
+            let other = locked(other);
+            other.out.phase != input.phase || lane.out.absorb(&other.out)
+        })
+    }
+
+    /// Lets go of the contact state that the workers were given, unless one still reads it.
+    pub fn release(&self, nothing: &Arc<ContactMemory>) {
+        if let Ok(mut shared) = self.shared.input.try_write() {
+            shared.memory = Arc::clone(nothing);
+        }
+    }
+
+    /// See [`Pool::prewake`].
+    pub fn prewake(&mut self, at_most: Duration) {
+        self.pool.prewake(at_most);
+    }
+
+    /// See [`Pool::quiesce`].
+    pub fn quiesce(&mut self) {
+        self.pool.quiesce();
+    }
+
+    /// The pool, for what it reports.
+    pub fn pool(&self) -> &Pool {
+        &self.pool
+    }
+}

@@ -1,0 +1,107 @@
+//! What the stages that are spread over workers read, and nobody writes while they run.
+
+use super::relative::Motion;
+use crate::scene::Scene;
+use crate::sealed::{GroupPair, Plan, Sealed, SurfaceTable};
+use crate::state::ContactMemory;
+use pong_geometry::bounding::VolumeTests;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::Body;
+use std::sync::Arc;
+
+/// One frame's input.
+#[derive(Clone)]
+pub(crate) struct FrameInput {
+    /// Number of the phase: what a lane holds of another one is stale.
+    pub phase: u64,
+    /// Two directions per pair of movable groups.
+    pub motions: Vec<[Motion; 2]>,
+    /// Committed contact state.
+    pub memory: Arc<ContactMemory>,
+    /// Values of all pairs of surfaces.
+    pub tables: Arc<Vec<SurfaceTable>>,
+    /// The work of this phase.
+    pub blocks: Vec<Block>,
+}
+
+/// A piece of work: some elements of one leaf as A, against everything of one movable group as B. All contacts of
+/// one key are found in one block.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block {
+    pub plan: u32,
+    /// Leaf of A's tree.
+    pub leaf: u32,
+    /// Batch of that leaf (index into the tree's batches).
+    pub batch: u32,
+    /// First element, a multiple of eight, and one past the last.
+    pub first: u32,
+    pub end: u32,
+}
+
+impl FrameInput {
+    /// Takes over another frame's input without asking for memory.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.phase = other.phase;
+        self.motions.copy_from_slice(&other.motions);
+        self.memory = Arc::clone(&other.memory);
+        self.tables = Arc::clone(&other.tables);
+        self.blocks.clear();
+        self.blocks.extend_from_slice(&other.blocks);
+    }
+}
+
+/// One direction of a pair of movable groups, as the testers see it.
+pub(super) struct PairContext<'a> {
+    pub scene: &'a Scene,
+    pub group_pair: u32,
+    pub pair: &'a GroupPair,
+    /// 0 if A is in the pair's first body, 1 if in the second.
+    pub flipped: u32,
+    pub body_a: &'a Body,
+    pub body_b: &'a Body,
+    /// Motion of A against B.
+    pub motion: &'a Motion,
+    pub memory: &'a ContactMemory,
+    pub table: &'a SurfaceTable,
+    pub volume_tests: &'a VolumeTests,
+    /// Whether B's model remembers the side of entry.
+    pub remembers_entry: bool,
+}
+
+impl<'a> PairContext<'a> {
+    pub fn new(scene: &'a Scene, sealed: &'a Sealed, input: &'a FrameInput, plan: &Plan) -> Self {
+        Self::of_direction(scene, sealed, input, plan.group_pair, plan.flipped)
+    }
+
+    pub fn of_direction(
+        scene: &'a Scene,
+        sealed: &'a Sealed,
+        input: &'a FrameInput,
+        group_pair: u32,
+        flipped: u32,
+    ) -> Self {
+        let pair = &sealed.group_pairs[group_pair as usize];
+        let (a, b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        Self {
+            scene,
+            group_pair,
+            pair,
+            flipped,
+            body_a: scene.body(a),
+            body_b: scene.body(b),
+            motion: &input.motions[group_pair as usize][flipped as usize],
+            memory: &input.memory,
+            table: &input.tables[pair.tables[flipped as usize]],
+            volume_tests: &sealed.volume_tests,
+            remembers_entry: scene.model_of_body(b).entry_memory,
+        }
+    }
+
+    /// Whether a kind of A and a kind of B may touch: by the table of testers, of two primitives of one kind only
+    /// with A in the Object that was named first; or, for all that is known here, by a registered test.
+    pub fn may_touch(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+        let in_order = kind_a != kind_b || (self.flipped == 0) == self.pair.first_named_first;
+        in_order
+            && (crate::dispatch::has_tester(kind_a, kind_b) || !self.scene.extensions.has_no_contact_tests())
+    }
+}

@@ -1,0 +1,69 @@
+//! The contacts that count, in the order of every sum; where there are too many, the deepest.
+
+use super::Frame;
+use super::buffers::{Place, Stance};
+use super::forces;
+use super::lane::Lane;
+use crate::report::StatusBits;
+use crate::scene::Scene;
+use crate::sealed::Sealed;
+
+/// Puts the contacts in order, whoever found them.
+pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+    list(frame);
+    if sealed.rays_meet_groups {
+        keep_first_ray_hits(scene, sealed, frame);
+    }
+    let pushing = frame.pushing().count();
+    let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
+    let overflowed = frame.lane.out.overflowed;
+    frame.report.contacts_wanted = if overflowed { frame.lane.out.pushing as u32 } else { pushing as u32 };
+    if overflowed || pushing > capacity || frame.order.len() - pushing > spare {
+        frame.report.status.set(StatusBits::CONTACT_LIMIT);
+        frame.lane.out.keep_deepest(capacity, spare);
+        list(frame);
+        forces::press_again(scene, sealed, frame);
+    }
+    if frame.lane.out.unshared {
+        frame.report.status.set(StatusBits::SHARING_LIMIT);
+    }
+    frame.report.contacts = frame.pushing().count() as u32;
+}
+
+fn list(frame: &mut Frame) {
+    frame.order.clear();
+    for (index, contact) in frame.lane.out.contacts.iter().enumerate() {
+        let place = Place { order: contact.found.order(), index: index as u32 };
+        frame.order.push(place).expect("as many places as contacts");
+    }
+    frame.order.sort_unstable();
+}
+
+/// One contact per ray and opposing Object: the least distance, ties in the order of sums.
+fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+    let Frame { lane, order, .. } = frame;
+    let Lane { scratch, out, .. } = lane;
+    scratch.reset();
+    // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
+    let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
+    for (place, found) in order.iter().map(|place| &out.contacts[place.index as usize].found).enumerate() {
+        if found.ray_distance < f64::INFINITY {
+            let (a, b) = sealed.bodies_of(&found.key);
+            let hit = (a, found.key.primitive_a, scene.bodies[b].object, place);
+            hits.push((hit, found.ray_distance)).expect("as much room as contacts");
+        }
+    }
+    hits.sort_unstable_by(|((a, ray, object, place), distance), (other, further)| {
+        (a, ray, object)
+            .cmp(&(&other.0, &other.1, &other.2))
+            .then(distance.total_cmp(further))
+            .then(place.cmp(&other.3))
+    });
+    for later in hits.windows(2) {
+        let [(first, _), (second, _)] = [later[0], later[1]];
+        if (first.0, first.1, first.2) == (second.0, second.1, second.2) {
+            out.contacts[order[second.3].index as usize].found.stance = Stance::Dropped;
+        }
+    }
+    order.retain(|place| out.contacts[place.index as usize].found.stance != Stance::Dropped);
+}

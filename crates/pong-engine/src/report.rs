@@ -1,0 +1,237 @@
+//! What a frame reports: what was left out, counts and times.
+
+use pong_geometry::bounding::Volume;
+use pong_geometry::primitive::PrimitiveKind;
+
+/// What a frame had to leave out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StatusBits(u32);
+
+impl StatusBits {
+    /// More contacts than the world's capacity: the deepest were kept. Raise `Config::contact_capacity`.
+    pub const CONTACT_LIMIT: Self = Self(1);
+
+    /// More contacts of one ball with one surface, with normals more than 90° apart, than could be shared exactly: the
+    /// deepest were. Raise `Config::contact_capacity`.
+    pub const SHARING_LIMIT: Self = Self(2);
+
+    /// Whether nothing was left out.
+    pub fn is_complete(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether a bit is set.
+    pub fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    /// The bits as a number.
+    pub fn bits(self) -> u32 {
+        self.0
+    }
+
+    pub(crate) fn set(&mut self, other: Self) {
+        self.0 |= other.0;
+    }
+}
+
+/// The frame in short.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FrameReport {
+    /// What had to be left out.
+    pub status: StatusBits,
+    /// Contacts listed.
+    pub contacts: u32,
+    /// Contacts that would have been listed without the limit; the advised capacity when the limit was hit.
+    pub contacts_wanted: u32,
+}
+
+/// How often something was tested, and how often that found something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Tests.
+    pub tested: u32,
+    /// Tests that did not find the two apart. Of contact tests: contacts found, of which a test may find several.
+    pub met: u32,
+}
+
+impl Tally {
+    fn add(&mut self, other: Self) {
+        self.tested += other.tested;
+        self.met += other.met;
+    }
+}
+
+/// Kinds of primitives.
+const KINDS: usize = PrimitiveKind::ALL.len();
+/// Kinds of bounding volumes: box, ball, turned box, a user's own, none.
+const VOLUME_KINDS: usize = 5;
+
+/// Counts of one frame: the same numbers for any number of workers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrameCounts {
+    /// Pairs of leaves whose contents were tested, each direction of A and B for itself.
+    pub leaf_pairs: u64,
+    /// Comparisons of a box with the eight boxes of a node below a leaf.
+    pub boxes_tested: u64,
+    volumes: [[Tally; VOLUME_KINDS]; VOLUME_KINDS],
+    testers: [[Tally; KINDS]; KINDS],
+}
+
+impl Default for FrameCounts {
+    fn default() -> Self {
+        Self {
+            leaf_pairs: 0,
+            boxes_tested: 0,
+            volumes: [[Tally::default(); VOLUME_KINDS]; VOLUME_KINDS],
+            testers: [[Tally::default(); KINDS]; KINDS],
+        }
+    }
+}
+
+impl FrameCounts {
+    /// Tests of authored bounding volumes: names of the two kinds, A's first, and their tally, if there were any.
+    pub fn volumes(&self) -> impl Iterator<Item = (&'static str, &'static str, Tally)> + '_ {
+        const NAMES: [&str; VOLUME_KINDS] = ["Aabb", "Sphere", "Obb", "Custom", "Unbounded"];
+        let row = move |a: usize| (0..VOLUME_KINDS).map(move |b| (NAMES[a], NAMES[b], self.volumes[a][b]));
+        (0..VOLUME_KINDS).flat_map(row).filter(|(_, _, tally)| tally.tested > 0)
+    }
+
+    /// Contact tests: the two kinds, A's first, and their tally, if there were any.
+    pub fn testers(&self) -> impl Iterator<Item = (PrimitiveKind, PrimitiveKind, Tally)> + '_ {
+        let kinds = PrimitiveKind::ALL;
+        let row = move |a: PrimitiveKind| {
+            kinds.into_iter().map(move |b| (a, b, self.testers[a as usize][b as usize]))
+        };
+        kinds.into_iter().flat_map(row).filter(|(_, _, tally)| tally.tested > 0)
+    }
+
+    /// Pairs of authored bounding volumes tested.
+    pub fn volumes_tested(&self) -> u64 {
+        self.volumes.iter().flatten().map(|tally| u64::from(tally.tested)).sum()
+    }
+
+    /// Pairs of primitives tested.
+    pub fn primitives_tested(&self) -> u64 {
+        self.testers.iter().flatten().map(|tally| u64::from(tally.tested)).sum()
+    }
+
+    pub(crate) fn note_volumes(&mut self, a: &Volume, b: &Volume, meets: bool) {
+        self.volumes[place(a)][place(b)].add(Tally { tested: 1, met: u32::from(meets) });
+    }
+
+    #[inline]
+    pub(crate) fn note_testers(&mut self, a: PrimitiveKind, b: PrimitiveKind, tested: u32, found: u32) {
+        self.testers[a as usize][b as usize].add(Tally { tested, met: found });
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.leaf_pairs += other.leaf_pairs;
+        self.boxes_tested += other.boxes_tested;
+        let pairs = self.volumes.iter_mut().flatten().zip(other.volumes.iter().flatten());
+        pairs.for_each(|(own, more)| own.add(*more));
+        let pairs = self.testers.iter_mut().flatten().zip(other.testers.iter().flatten());
+        pairs.for_each(|(own, more)| own.add(*more));
+    }
+}
+
+fn place(volume: &Volume) -> usize {
+    match volume {
+        Volume::Aabb { .. } => 0,
+        Volume::Sphere { .. } => 1,
+        Volume::Obb { .. } => 2,
+        Volume::Custom(_) => 3,
+        Volume::Unbounded => 4,
+    }
+}
+
+/// A part of a frame that is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Stage {
+    /// States in, relative motion.
+    Relative = 0,
+    /// Bounding volumes, testers, sharing and forces, by all hands.
+    Contacts = 1,
+    /// The order of every sum; limits.
+    Order = 2,
+    /// Energies, if they are kept.
+    Ledger = 3,
+    /// Wrenches.
+    Reduce = 4,
+    /// Contact state, when a frame is committed.
+    Commit = 5,
+}
+
+impl Stage {
+    /// All stages in order.
+    pub const ALL: [Self; 6] =
+        [Self::Relative, Self::Contacts, Self::Order, Self::Ledger, Self::Reduce, Self::Commit];
+
+    /// A name for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Relative => "relative",
+            Self::Contacts => "contacts",
+            Self::Order => "order",
+            Self::Ledger => "ledger",
+            Self::Reduce => "reduce",
+            Self::Commit => "commit",
+        }
+    }
+}
+
+/// Time per stage of the last frame, ns; all zero unless the host has given a clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StageTimes([u64; Stage::ALL.len()]);
+
+impl StageTimes {
+    /// Time of one stage, ns.
+    pub fn of(&self, stage: Stage) -> u64 {
+        self.0[stage as usize]
+    }
+}
+
+/// A host's clock in ns, or none: the engine itself never asks the time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Clock(pub Option<fn() -> u64>);
+
+/// Measures one stage after another.
+pub(crate) struct Watch {
+    clock: Clock,
+    last: u64,
+}
+
+impl Clock {
+    pub fn start(self) -> Watch {
+        Watch { clock: self, last: self.0.map_or(0, |now| now()) }
+    }
+}
+
+impl Watch {
+    /// The time since the last lap belongs to a stage.
+    pub fn lap(&mut self, stage: Stage, times: &mut StageTimes) {
+        if let Some(now) = self.clock.0 {
+            let now = now();
+            times.0[stage as usize] = now.saturating_sub(self.last);
+            self.last = now;
+        }
+    }
+}
+
+/// Memory in use against memory taken at seal; in bytes, or contacts where that is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MemoryReport {
+    /// Most contacts that a frame found, those only remembered included.
+    pub contacts_peak: usize,
+    /// Contacts that there is room for.
+    pub contacts_capacity: usize,
+    /// Most that the testers of one block needed.
+    pub arena_peak: usize,
+    /// What there is for them.
+    pub arena_capacity: usize,
+    /// Most that the solution among contacts of one surface needed.
+    pub scratch_peak: usize,
+    /// What there is for it.
+    pub scratch_capacity: usize,
+}

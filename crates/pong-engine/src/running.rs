@@ -1,0 +1,210 @@
+//! What exists once a world is sealed: its memory, its workers, its frames.
+
+use crate::error::EngineError;
+use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
+use crate::report::{Clock, FrameReport, MemoryReport, Stage};
+use crate::scene::{Scene, States};
+use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::state::{ContactMemory, Remembered, StateError, block_len, read_block, write_block};
+use pong_threads::{LaneWork, WorkerStart};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// A sealed world at work.
+pub(crate) struct Running {
+    pub sealed: Arc<Sealed>,
+    pub tables: Arc<Vec<SurfaceTable>>,
+    /// The committed contact state.
+    pub memory: Arc<ContactMemory>,
+    /// Where the next contact state is written. A worker that is stuck may still read one that was committed once,
+    /// so there is one more than the two that take turns.
+    spares: Vec<Arc<ContactMemory>>,
+    /// A contact state without room.
+    nothing: Arc<ContactMemory>,
+    pub frame: Frame,
+    crew: Option<Crew>,
+    /// Whether `frame` belongs to the states presently set.
+    pub evaluated: bool,
+    clock: Clock,
+    contacts_peak: usize,
+}
+
+impl Running {
+    /// Takes all memory and starts the workers.
+    pub fn start(
+        scene: &Arc<Scene>,
+        sealed: Sealed,
+        tables: Vec<SurfaceTable>,
+        clock: Clock,
+    ) -> Result<Self, EngineError> {
+        let (sealed, tables) = (Arc::new(sealed), Arc::new(tables));
+        let pairs = sealed.group_pairs.len();
+        let memory =
+            || Arc::new(ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.custom_stride));
+        let nothing = Arc::new(ContactMemory::with_capacity(0, 0, 0));
+        let input = || FrameInput {
+            phase: 0,
+            motions: vec![[Motion::none(); 2]; pairs],
+            memory: Arc::clone(&nothing),
+            tables: Arc::clone(&tables),
+            blocks: Vec::with_capacity(ROUND),
+        };
+        let crew = match &scene.config.workers {
+            None => None,
+            Some(settings) => {
+                let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
+                let started = Crew::start(scene, &sealed, input(), &settings);
+                Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
+            }
+        };
+        let spares = if crew.is_some() { 2 } else { 1 };
+        Ok(Self {
+            memory: memory(),
+            spares: (0..spares).map(|_| memory()).collect(),
+            frame: Frame::new(scene.bodies.len(), &sealed, input()),
+            crew,
+            evaluated: false,
+            clock,
+            contacts_peak: 0,
+            nothing: Arc::clone(&nothing),
+            sealed,
+            tables,
+        })
+    }
+
+    /// Computes a frame.
+    pub fn evaluate(
+        &mut self,
+        scene: &Scene,
+        states: &States,
+        clock: Clock,
+    ) -> Result<FrameReport, EngineError> {
+        frame::require_states(scene, &self.sealed, states)?;
+        self.clock = clock;
+        let given = Given { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
+        frame::evaluate(&given, self.crew.as_mut(), &mut self.frame);
+        self.let_go_of_memory();
+        self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
+        self.evaluated = true;
+        Ok(self.frame.report)
+    }
+
+    /// Once a frame is done only a worker that is stuck may still hold a contact state.
+    fn let_go_of_memory(&mut self) {
+        self.frame.input.memory = Arc::clone(&self.nothing);
+        if let Some(crew) = &self.crew {
+            crew.release(&self.nothing);
+        }
+    }
+
+    /// Makes what the frame found the committed contact state.
+    pub fn commit(&mut self) {
+        let mut watch = self.clock.start();
+        let Self { memory, spares, frame, .. } = self;
+        take_turns(memory, spares, |_, next| {
+            next.replace(fresh(frame), &frame.remembered);
+            (next.work, next.dissipated) = (frame.work, frame.dissipated);
+        });
+        watch.lap(Stage::Commit, &mut frame.times);
+        self.evaluated = false;
+    }
+
+    /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state.
+    pub fn commit_pairs(&mut self, accepts: impl Fn(usize) -> bool) {
+        let mut watch = self.clock.start();
+        let Self { sealed, memory, spares, frame, .. } = self;
+        let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
+        take_turns(memory, spares, |old, next| {
+            old.accept_into(fresh(frame), &frame.remembered, accepted, next);
+        });
+        watch.lap(Stage::Commit, &mut frame.times);
+        self.evaluated = false;
+    }
+
+    /// Drops what is remembered of some pairs of movable groups.
+    pub fn forget(&mut self, forgotten: impl Fn(&GroupPair) -> bool) {
+        let pairs = &self.sealed.group_pairs;
+        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+            next.copy_from(old);
+            next.forget(|index| forgotten(&pairs[index as usize]));
+        });
+        self.evaluated = false;
+    }
+
+    pub fn state_size(&self) -> usize {
+        let sealed = &self.sealed;
+        block_len(sealed.group_pairs.len(), sealed.record_capacity, sealed.custom_stride)
+    }
+
+    pub fn save_state(&self, out: &mut [u8]) -> Result<(), StateError> {
+        write_block(&self.memory, self.sealed.hash, out)
+    }
+
+    pub fn restore_state(&mut self, block: &[u8]) -> Result<(), StateError> {
+        let hash = self.sealed.hash;
+        let mut outcome = Ok(());
+        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+            next.copy_from(old);
+            outcome = read_block(next, hash, block);
+        });
+        outcome?;
+        self.evaluated = false;
+        Ok(())
+    }
+
+    /// Replaces the values of surfaces.
+    pub fn set_tables(&mut self, tables: Vec<SurfaceTable>) {
+        self.tables = Arc::new(tables);
+        self.frame.input.tables = Arc::clone(&self.tables);
+        self.evaluated = false;
+    }
+
+    pub fn worker_starts(&self) -> &[WorkerStart] {
+        self.crew.as_ref().map_or(&[], |crew| crew.pool().start_report())
+    }
+
+    pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
+        self.crew.iter().flat_map(|crew| crew.pool().work())
+    }
+
+    pub fn prewake(&mut self, at_most: Duration) {
+        self.crew.iter_mut().for_each(|crew| crew.prewake(at_most));
+    }
+
+    pub fn quiesce(&mut self) {
+        self.crew.iter_mut().for_each(Crew::quiesce);
+    }
+
+    pub fn memory_report(&self) -> MemoryReport {
+        let lane = &self.frame.lane;
+        MemoryReport {
+            contacts_peak: self.contacts_peak,
+            contacts_capacity: self.sealed.record_capacity,
+            arena_peak: lane.arena.peak(),
+            arena_capacity: lane.arena.capacity(),
+            scratch_peak: lane.scratch.peak(),
+            scratch_capacity: lane.scratch.capacity(),
+        }
+    }
+}
+
+/// Writes the next contact state and makes it the committed one. The old one waits for its turn.
+fn take_turns(
+    memory: &mut Arc<ContactMemory>,
+    spares: &mut [Arc<ContactMemory>],
+    write: impl FnOnce(&ContactMemory, &mut ContactMemory),
+) {
+    let free = spares.iter_mut().find(|spare| Arc::strong_count(spare) == 1);
+    let spare = free.expect("at most one contact state is held by a worker that is stuck");
+    write(memory, Arc::get_mut(spare).expect("nobody else has it"));
+    std::mem::swap(memory, spare);
+}
+
+/// What a commit would remember of the frame's contacts, in order.
+fn fresh(frame: &Frame) -> impl Iterator<Item = Remembered<'_>> + Clone {
+    let out = &frame.lane.out;
+    frame.order.iter().map(|place| {
+        let index = place.index as usize;
+        (out.contacts[index].record(), out.custom_of(index))
+    })
+}
