@@ -56,3 +56,28 @@ unsafe impl GlobalAlloc for Counting {
         unsafe { System.realloc(pointer, layout, size) }
     }
 }
+
+/// Bytes held now by the account of the C library, memory that engines in C took included.
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub fn held_in_c() -> usize {
+    /// `struct mallinfo2` of glibc 2.33 and later.
+    #[repr(C)]
+    struct Account {
+        arena: usize,
+        free_chunks: usize,
+        fast_chunks: usize,
+        mapped_count: usize,
+        mapped_bytes: usize,
+        unused: usize,
+        fast_bytes: usize,
+        used_bytes: usize,
+        free_bytes: usize,
+        top_bytes: usize,
+    }
+    unsafe extern "C" {
+        fn mallinfo2() -> Account;
+    }
+    // SAFETY: reads the C library's own counters.
+    let account = unsafe { mallinfo2() };
+    account.used_bytes + account.mapped_bytes
+}

@@ -1,12 +1,16 @@
 //! What the benchmark programs share: scenes, peers on the same scenes, clocks, counters and tables.
 
+pub mod docking;
 pub mod floor;
 pub mod heap;
 pub mod hull;
+pub mod motion;
+pub mod optional;
 pub mod options;
 pub mod ours;
 pub mod pairs;
 pub mod peer;
+pub mod plot;
 pub mod race;
 pub mod random;
 pub mod rig;

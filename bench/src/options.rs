@@ -1,7 +1,9 @@
 //! Command line of the benchmark programs.
 
+use std::path::PathBuf;
+
 /// What the user asked for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Options {
     /// Small scenes and few frames: does it run at all?
     pub smoke: bool,
@@ -11,27 +13,31 @@ pub struct Options {
     pub alone: bool,
     /// Only the scene of this number, from 0.
     pub only: Option<usize>,
+    /// A folder for files, where a program writes any.
+    pub into: Option<PathBuf>,
 }
 
 impl Options {
-    /// Reads `[--smoke] [--alone] [--rounds N] [--only N]` from the command line.
+    /// Reads `[--smoke] [--alone] [--rounds N] [--only N] [--into FOLDER]` from the command line.
     ///
     /// # Errors
     /// An argument that is none of these.
     pub fn read(rounds: usize) -> Result<Self, String> {
         let mut arguments = std::env::args().skip(1);
-        let mut options = Self { smoke: false, rounds, alone: false, only: None };
+        let mut options = Self { smoke: false, rounds, alone: false, only: None, into: None };
         while let Some(argument) = arguments.next() {
-            let mut number = || {
-                let text = arguments.next().ok_or(format!("{argument} needs a number"))?;
-                text.parse::<usize>().map_err(|error| format!("{argument} {text}: {error}"))
-            };
+            let mut value = || arguments.next().ok_or(format!("{argument} needs a value"));
             match argument.as_str() {
                 "--smoke" => (options.smoke, options.rounds) = (true, 1),
                 "--alone" => options.alone = true,
-                "--rounds" => options.rounds = number()?.max(1),
-                "--only" => options.only = Some(number()?),
-                other => return Err(format!("{other}: use --smoke, --alone, --rounds N, --only N")),
+                "--rounds" => options.rounds = number(&value()?)?.max(1),
+                "--only" => options.only = Some(number(&value()?)?),
+                "--into" => options.into = Some(value()?.into()),
+                other => {
+                    return Err(format!(
+                        "{other}: use --smoke, --alone, --rounds N, --only N, --into FOLDER"
+                    ));
+                }
             }
         }
         Ok(options)
@@ -41,4 +47,8 @@ impl Options {
     pub fn wants(&self, scene: usize) -> bool {
         self.only.is_none_or(|only| only == scene)
     }
+}
+
+fn number(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|error| format!("{text}: {error}"))
 }

@@ -1,9 +1,10 @@
 //! The engine on a scene of Objects.
 
 use crate::peer::Peer;
-use pong_engine::{Config, EngineError, InterfaceId, SealReport, State, World};
+use core_affinity::CoreId;
+use pong_engine::{Config, EngineError, InterfaceId, PairId, SealReport, State, WorkerSettings, World};
 use pong_model::Model;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Objects, paired and sealed.
 pub struct Rig {
@@ -11,6 +12,8 @@ pub struct Rig {
     pub world: World,
     /// What sealing told.
     pub report: SealReport,
+    /// The pairs, in the order in which they were named.
+    pub pairs: Vec<PairId>,
     states: Vec<(InterfaceId, State)>,
     wrenches: Vec<f64>,
 }
@@ -43,9 +46,8 @@ impl Rig {
             known.push(id);
             objects.push(world.create_object(id, &format!("object_{number}"))?);
         }
-        for &(a, b) in pairs {
-            world.pair(objects[a], objects[b])?;
-        }
+        let pairs = pairs.iter().map(|&(a, b)| world.pair(objects[a], objects[b]));
+        let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
         let mut states = Vec::new();
         for object in objects {
             for interface in world.interfaces(object)? {
@@ -54,7 +56,7 @@ impl Rig {
         }
         let report = world.seal()?;
         let wrenches = vec![0.0; 6 * states.len()];
-        Ok(Self { world, report, states, wrenches })
+        Ok(Self { world, report, pairs, states, wrenches })
     }
 
     /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
@@ -84,13 +86,34 @@ impl Peer for Rig {
     }
 }
 
-/// Most threads that a world can use: it has no workers yet.
-pub const MOST_THREADS: usize = 1;
-
-/// Settings of a world that runs on so many threads, the caller's among them.
+/// Settings of a world that runs on so many threads, the caller's among them. Workers that outnumber the cores are
+/// allowed; those that do not are bound to cores of their own, as [`bind_caller`] binds the caller.
 pub fn config(threads: usize) -> Config {
-    debug_assert!(threads <= MOST_THREADS);
-    Config::default()
+    let cores = cores();
+    let workers = (threads > 1).then(|| WorkerSettings {
+        workers: threads - 1,
+        oversubscribe: true,
+        pin: threads <= cores.len(),
+        cores: cores.iter().skip(1).copied().collect(),
+        ..WorkerSettings::default()
+    });
+    Config { workers, ..Config::default() }
+}
+
+/// Binds the calling thread to the first core that it may use, beside which the workers of [`config`] have theirs.
+pub fn bind_caller() {
+    if let Some(&id) = cores().first() {
+        core_affinity::set_for_current(CoreId { id });
+    }
+}
+
+/// The cores that this process may use, or might when it began.
+fn cores() -> &'static [usize] {
+    static CORES: OnceLock<Vec<usize>> = OnceLock::new();
+    CORES.get_or_init(|| {
+        let cores = core_affinity::get_core_ids().unwrap_or_default();
+        cores.into_iter().map(|core| core.id).collect()
+    })
 }
 
 /// FNV-1a over the bits of numbers: equal hashes mean equal results.

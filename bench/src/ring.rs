@@ -3,11 +3,11 @@
 //! Both bodies move and turn; against each other they move by a few millimetres and milliradians. The motion
 //! closes after [`FRAMES`], so that passes can follow one another.
 
+use crate::motion::state;
 use crate::random::Random;
 use crate::ron;
 use pong_engine::State;
-use pong_geometry::pose::rotation_vector;
-use pong_geometry::{Pose, Quat, Twist, Vec3};
+use pong_geometry::{Pose, Quat, Vec3};
 use std::f64::consts::TAU;
 
 /// Numbers of wedges and tips.
@@ -114,18 +114,9 @@ fn tip(random: &mut Random) -> Vec3 {
 
 /// States of both bodies in every frame, the wedges' first.
 pub fn states() -> Vec<[State; 2]> {
-    (0..FRAMES).map(|frame| [0, 1].map(|body| state(frame as f64, body))).collect()
-}
-
-fn state(frame: f64, body: usize) -> State {
-    const STEP: f64 = 1e-3;
-    let (before, now, after) = (pose(frame - STEP, body), pose(frame, body), pose(frame + STEP, body));
-    let seconds = 2.0 * STEP * FRAME_SECONDS;
-    let twist = Twist {
-        linear: (after.position - before.position) / seconds,
-        angular: rotation_vector(&(after.orientation * before.orientation.inverse())) / seconds,
-    };
-    State::from_motion(&now, &twist)
+    (0..FRAMES)
+        .map(|frame| [0, 1].map(|body| state(|frame| pose(frame, body), frame as f64, FRAME_SECONDS)))
+        .collect()
 }
 
 /// Pose of the wedges (0) or the tips (1) in the common frame.

@@ -103,6 +103,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 type Named = (&'static str, Box<dyn PairPeer>);
 
 fn peers(case: &Case, target: &Target) -> Vec<Named> {
+    // Without the features there is only one.
+    #[allow(unused_mut)]
     let mut peers: Vec<Named> = vec![("parry", Box::new(Parry::new(case.mover, target)))];
     #[cfg(feature = "mujoco")]
     if let Some(pair) = pong_bench::peer::mujoco::MujocoPair::new(case.mover, target) {

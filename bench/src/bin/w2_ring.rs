@@ -6,7 +6,7 @@ use pong_bench::options::Options;
 use pong_bench::peer::Peer;
 use pong_bench::peer::parry::{Loop, Manifolds};
 use pong_bench::race::{Outcome, Race};
-use pong_bench::rig::{Fingerprint, MOST_THREADS, Rig};
+use pong_bench::rig::{Fingerprint, Rig, bind_caller};
 use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::table::{Table, min_and_median, or_dash};
 use pong_bench::timing::Clock;
@@ -57,10 +57,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", tables.times);
     println!("Pong's whole frame over the others' detection, middle [least..greatest] of the rounds\n");
     println!("{}", tables.ratios);
-    if MOST_THREADS > 1 {
-        println!("Threads of Pong, µs per frame by the clock on the wall\n");
-        println!("{}", tables.threads);
-    }
+    println!("Threads of Pong, µs per frame by the clock on the wall\n");
+    println!("{}", tables.threads);
     Ok(())
 }
 
@@ -82,10 +80,9 @@ fn run(size: (usize, usize), tip: Tip, options: &Options, tables: &mut Tables) -
     tables.frames.row(first_pass(&name, &mut rig, &states)?);
 
     let mut others = if options.alone { Vec::new() } else { others(&ring, tip) };
+    others.push((TWO, Box::new(self::rig(&ring, tip, 2)?)));
+    bind_caller();
     cross_check(&name, &mut rig, &mut others, &states)?;
-    if MOST_THREADS > 1 {
-        others.push((TWO, Box::new(self::rig(&ring, tip, 2)?)));
-    }
     let mut race = Race::new();
     race.enter(ONE, || pass(&mut rig, &states));
     for (name, peer) in &mut others {
@@ -128,8 +125,8 @@ fn first_pass(name: &str, rig: &mut Rig, states: &States) -> Result<[String; 6],
         fingerprint.add(rig.step(states));
         let report = rig.world.report();
         contacts += f64::from(report.contacts);
-        volumes += report.volumes_tested as f64;
-        primitives += report.primitives_tested as f64;
+        volumes += rig.world.counts().volumes_tested() as f64;
+        primitives += rig.world.counts().primitives_tested() as f64;
     }
     let before = heap::calls();
     pass(rig, states);

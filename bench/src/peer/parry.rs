@@ -35,11 +35,14 @@ fn wedge(corners: &[Vec3; 8]) -> ConvexPolyhedron {
         .expect("a wedge is convex")
 }
 
+/// What parry keeps of one pair of shapes.
+type Kept = (Vec<ContactManifold<(), ()>>, Option<ContactManifoldsWorkspace>);
+
 /// One shape against others through parry's own pair dispatch, with what it keeps from frame to frame.
 pub struct Manifolds {
     first: Box<dyn Shape>,
     second: Box<dyn Shape>,
-    pairs: Vec<(Vec<ContactManifold<(), ()>>, Option<ContactManifoldsWorkspace>)>,
+    pairs: Vec<Kept>,
 }
 
 impl Manifolds {

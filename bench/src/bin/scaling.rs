@@ -1,0 +1,145 @@
+//! How a frame's time grows: with threads, with triangles, with points. Writes a table of numbers and a plot.
+
+use pong_bench::floor::ring::ByHand;
+use pong_bench::options::Options;
+use pong_bench::peer::Peer;
+use pong_bench::peer::parry::{Loop, Manifolds};
+use pong_bench::plot::{Panel, svg};
+use pong_bench::race::Race;
+use pong_bench::rig::{Rig, bind_caller};
+use pong_bench::ring::{self, Ring, Tip};
+use pong_bench::table::Table;
+use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
+use pong_bench::timing::{Clock, digits};
+use pong_engine::State;
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+use std::error::Error;
+use std::fmt::Write as _;
+use std::hint::black_box;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// One engine at one place of an axis.
+struct Entry {
+    line: String,
+    at: f64,
+    peer: Box<dyn Peer>,
+    states: Vec<Vec<State>>,
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let options = Options::read(20)?;
+    let into = options.into.clone().unwrap_or_else(|| PathBuf::from("."));
+    let smoke = options.smoke;
+    let axes = [
+        ("threads", Clock::Wall, threads(smoke)?),
+        ("triangles", Clock::Thread, triangles(smoke)?),
+        ("points", Clock::Thread, points(smoke)?),
+    ];
+    // The pools have begun, with all cores before them.
+    bind_caller();
+    let (mut panels, mut numbers) = (Vec::new(), String::from("axis,line,at,least_us,middle_us\n"));
+    let mut table = Table::new(&["axis", "line", "at", "µs per frame, shortest"]);
+    for (axis, clock, entries) in axes {
+        let mut panel = Panel { x: axis, lines: Vec::new() };
+        for (line, at, least, middle) in measure(entries, clock, options.rounds) {
+            writeln!(numbers, "{axis},{line},{at},{least:.3},{middle:.3}")?;
+            table.row([axis.to_owned(), line.clone(), at.to_string(), digits(least)]);
+            match panel.lines.iter_mut().find(|(known, _)| *known == line) {
+                Some((_, points)) => points.push((at, least)),
+                None => panel.lines.push((line, vec![(at, least)])),
+            }
+        }
+        panels.push(panel);
+    }
+    println!("{table}");
+    if !smoke {
+        std::fs::write(into.join("performance_scaling.csv"), numbers)?;
+        std::fs::write(into.join("performance_scaling.svg"), svg(&panels, "µs per frame"))?;
+    }
+    Ok(())
+}
+
+/// Line, place, shortest and middle pass in µs per frame; all in the same rounds.
+fn measure(mut entries: Vec<Entry>, clock: Clock, rounds: usize) -> Vec<(String, f64, f64, f64)> {
+    let frames = entries[0].states.len();
+    let mut race = Race::new();
+    for Entry { line, peer, states, .. } in &mut entries {
+        race.enter(line, || states.iter().for_each(|states| _ = black_box(peer.frame(states))));
+    }
+    let outcome = race.run(rounds, frames);
+    let told =
+        outcome.0.into_iter().zip(&entries).map(|((line, times), entry)| {
+            (line, entry.at, times.min(clock) * 1e6, times.median(clock) * 1e6)
+        });
+    told.collect()
+}
+
+// ---- axes
+
+/// From one thread to eight times as many as there are cores.
+fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
+    let cores = std::thread::available_parallelism()?.get();
+    let most = if smoke { 2 } else { 8 * cores };
+    let doubled = std::iter::successors(Some(1), |n| Some(2 * n));
+    let counts: Vec<usize> = doubled.take_while(|&n| n <= most).collect();
+    let sizes = if smoke { &ring::SIZES[..1] } else { &ring::SIZES[..] };
+    let mut out = Vec::new();
+    for &size in sizes {
+        let ring = Ring::new(size);
+        for &count in &counts {
+            out.push(ring_entry(format!("ring of {} points", size.1), count as f64, &ring, count)?);
+        }
+    }
+    Ok(out)
+}
+
+fn triangles(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
+    let mut out = Vec::new();
+    for terrain in &Terrain::SIZES[..if smoke { 1 } else { 4 }] {
+        let ground = parse(&terrain.files(Source::Inline).0)?;
+        for wheel in Wheel::BOTH {
+            let models: Vec<_> =
+                std::iter::once(Arc::clone(&ground)).chain(vec![parse(&wheel.model())?; WHEELS]).collect();
+            let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
+            let (at, states) = (terrain.count() as f64, terrain::states(ring::FRAMES, wheel));
+            let entry = |line: String, peer| Entry { line, at, peer, states: states.clone() };
+            out.push(entry(format!("six {}s", wheel.name()), Box::new(Rig::new(&models, &pairs, 1)?)));
+            if let Some(parry) = Manifolds::terrain(terrain, wheel, WHEELS) {
+                out.push(entry("parry, six spheres, detection".to_owned(), Box::new(parry)));
+            }
+        }
+    }
+    Ok(out)
+}
+
+fn points(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
+    let mut out = Vec::new();
+    for count in if smoke { vec![100] } else { vec![100, 300, 1000, 3000, 10_000, 30_000] } {
+        let ring = Ring::new((48, count));
+        out.push(ring_entry("48 wedges".to_owned(), count as f64, &ring, 1)?);
+        let others: [(&str, Box<dyn Peer>); 2] = [
+            ("parry, own loop, detection", Box::new(Loop::ring(&ring, Tip::Point))),
+            ("floor by hand, detection", Box::new(ByHand::new(&ring, Tip::Point))),
+        ];
+        for (line, peer) in others {
+            out.push(Entry { line: line.to_owned(), at: count as f64, peer, states: ring_states() });
+        }
+    }
+    Ok(out)
+}
+
+fn ring_entry(line: String, at: f64, ring: &Ring, threads: usize) -> Result<Entry, Box<dyn Error>> {
+    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Point))?];
+    let rig = Rig::new(&models, &[(0, 1)], threads)?;
+    Ok(Entry { line, at, peer: Box::new(rig), states: ring_states() })
+}
+
+fn ring_states() -> Vec<Vec<State>> {
+    ring::states().iter().map(|states| states.to_vec()).collect()
+}
+
+fn parse(text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
+    Ok(Arc::new(pong_model::parse(text, "scaling.ron", None, &Extensions::new())?))
+}

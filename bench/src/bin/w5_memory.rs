@@ -1,0 +1,217 @@
+//! W5: what a terrain of a million triangles occupies, bytes per contact, calls for memory per frame.
+
+use pong_bench::heap;
+use pong_bench::options::Options;
+use pong_bench::peer::Peer;
+use pong_bench::peer::parry::{Manifolds, trimesh};
+use pong_bench::rig::{self, Rig};
+use pong_bench::ring::{self, Ring, Tip};
+use pong_bench::table::Table;
+use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
+use pong_engine::{Config, World};
+use pong_geometry::extension::Extensions;
+use pong_model::{Body, Model};
+use std::error::Error;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+#[global_allocator]
+static HEAP: heap::Counting = heap::Counting;
+
+const MEBIBYTE: f64 = 1024.0 * 1024.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let options = Options::read(1)?;
+    let large = Terrain::SIZES[if options.smoke { 1 } else { 3 }];
+    println!("{}", triangles(large)?);
+    println!("{}", contacts(if options.smoke { 0 } else { 2 })?);
+    println!("{}", calls(if options.smoke { 0 } else { 1 })?);
+    Ok(())
+}
+
+// ---- triangles
+
+fn triangles(large: Terrain) -> Result<Table, Box<dyn Error>> {
+    let mut table = Table::new(&[
+        "terrain",
+        "file, MiB",
+        "loaded in, s",
+        "peak, MiB",
+        "B per triangle",
+        "of which without the tree",
+    ]);
+    let folder = Folder::new()?;
+    for (terrain, source) in [
+        (large, Source::Stl),
+        (large, Source::Obj),
+        (large, Source::Inline),
+        (Terrain::SIZES[0], Source::Inline),
+    ] {
+        table.row(load(&folder.0, terrain, source)?);
+    }
+    for (engine, held, bare) in peers(&large) {
+        let per_triangle = |bytes: usize| format!("{:.1}", bytes as f64 / large.count() as f64);
+        let name = format!("{engine}, {}", large.count());
+        let dash = || "–".to_owned();
+        table.row([name, dash(), dash(), dash(), per_triangle(held), bare.map_or_else(dash, per_triangle)]);
+    }
+    Ok(table)
+}
+
+/// A folder of one's own that goes when it is dropped.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new() -> std::io::Result<Self> {
+        let path = std::env::temp_dir().join(format!("pong_w5_memory_{}", std::process::id()));
+        std::fs::create_dir(&path)?;
+        Ok(Self(path))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Nothing to be done about a folder that will not go.
+        _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 6], Box<dyn Error>> {
+    let (text, mesh) = terrain.files(source);
+    let path = folder.join("terrain.ron");
+    let mut bytes = text.len();
+    std::fs::write(&path, text)?;
+    if let Some((name, content)) = mesh {
+        bytes += content.len();
+        std::fs::write(folder.join(name), content)?;
+    }
+    let before = heap::held();
+    heap::reset_peak();
+    let start = Instant::now();
+    let model = pong_model::load(&path, &Extensions::new())?;
+    let seconds = start.elapsed().as_secs_f64();
+    let (held, peak) = (heap::held() - before, heap::peak() - before);
+    let per_triangle = |bytes: usize| format!("{:.1}", bytes as f64 / terrain.count() as f64);
+    Ok([
+        format!("Pong, {} from {source:?}", terrain.count()),
+        format!("{:.1}", bytes as f64 / MEBIBYTE),
+        format!("{seconds:.2}"),
+        format!("{:.1}", peak as f64 / MEBIBYTE),
+        per_triangle(held),
+        per_triangle(without_tree(&model.bodies[0])),
+    ])
+}
+
+/// Corners and what is known of each triangle: all but what finds them.
+fn without_tree(body: &Body) -> usize {
+    size_of_val(&*body.triangles.vertices) + size_of_val(&*body.triangles.triangles)
+}
+
+/// Bytes that others hold for the terrain, and what corners and triangles alone take. Engines in C are asked through
+/// the C library's own account.
+fn peers(terrain: &Terrain) -> Vec<(&'static str, usize, Option<usize>)> {
+    let mut out = Vec::new();
+    let before = heap::held();
+    let mesh = trimesh(terrain);
+    let bare = size_of_val(mesh.vertices()) + size_of_val(mesh.indices());
+    out.push(("parry", heap::held() - before, Some(bare)));
+    drop(mesh);
+    #[cfg(any(feature = "mujoco", feature = "ode"))]
+    let [sphere, _] = Wheel::BOTH;
+    #[cfg(feature = "ode")]
+    {
+        let before = heap::held_in_c();
+        let ode = pong_bench::peer::ode::OdeTerrain::new(terrain, sphere);
+        let bare = terrain.vertices().len() * 24 + terrain.count() * 12;
+        out.push(("ODE", heap::held_in_c() - before, Some(bare)));
+        drop(ode);
+    }
+    #[cfg(feature = "mujoco")]
+    {
+        // The arena that every scene gets is none of the terrain's.
+        let small = Terrain { cells: [2, 2] };
+        let held = |terrain: &Terrain| {
+            let before = heap::held_in_c();
+            let mujoco = pong_bench::peer::mujoco::Mujoco::terrain(terrain, sphere, WHEELS);
+            let held = heap::held_in_c() - before;
+            drop(mujoco);
+            held
+        };
+        out.push(("MuJoCo, height field", held(terrain).saturating_sub(held(&small)), None));
+    }
+    out
+}
+
+// ---- contacts
+
+/// Memory of sealed worlds that differ in nothing but how many contacts they have room for.
+fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
+    const ROOM: usize = 1024;
+    let ring = Ring::new(ring::SIZES[size]);
+    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Sphere))?];
+    let states = ring::states();
+    let with_room = |contacts: usize| -> Result<(usize, usize), Box<dyn Error>> {
+        let before = heap::held();
+        let world = World::new(Config { contact_capacity: Some(contacts), ..rig::config(1) });
+        let mut rig = Rig::in_world(world, &models, &[(0, 1)])?;
+        states.iter().for_each(|states| _ = rig.frame(states));
+        Ok((heap::held() - before, rig.world.state_size()?))
+    };
+    let (less, more) = (with_room(ROOM)?, with_room(2 * ROOM)?);
+    let mut table = Table::new(&["memory of contacts", "B per contact"]);
+    let mut row = |what: &str, bytes: f64| table.row([what.to_owned(), format!("{bytes:.1}")]);
+    let per_contact = |more: usize, less: usize| (more - less) as f64 / ROOM as f64;
+    row("Pong, everything that grows with the room for contacts", per_contact(more.0, less.0));
+    row("Pong, contact state as saved", per_contact(more.1, less.1));
+
+    let before = heap::held();
+    let mut manifolds = Manifolds::ring(&ring);
+    let empty = heap::held() - before;
+    let most = states.iter().map(|states| manifolds.frame(states)).max().unwrap_or(0);
+    row(
+        "parry, what manifolds of the ring hold after 64 frames",
+        (heap::held() - before - empty) as f64 / most as f64,
+    );
+    row("parry, one point of a manifold", size_of::<parry3d_f64::query::TrackedContact<()>>() as f64);
+    row("parry, one manifold", size_of::<parry3d_f64::query::ContactManifold<(), ()>>() as f64);
+    Ok(table)
+}
+
+fn parse(text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
+    Ok(Arc::new(pong_model::parse(text, "w5.ron", None, &Extensions::new())?))
+}
+
+// ---- calls
+
+fn calls(size: usize) -> Result<Table, Box<dyn Error>> {
+    let mut table = Table::new(&["scene", "Pong, calls for memory per frame", "parry"]);
+    let ring = Ring::new(ring::SIZES[size]);
+    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Sphere))?];
+    let mut row = |name: &str, pong: f64, parry: f64| {
+        table.row([name.to_owned(), format!("{pong:.2}"), format!("{parry:.2}")]);
+    };
+    let states: Vec<_> = ring::states().iter().map(|states| states.to_vec()).collect();
+    let mut rig = Rig::new(&models, &[(0, 1)], 1)?;
+    row("ring, spheres", per_frame(&mut rig, &states), per_frame(&mut Manifolds::ring(&ring), &states));
+
+    let (terrain, [sphere, _]) = (Terrain::SIZES[1], Wheel::BOTH);
+    let ground = parse(&terrain.files(Source::Inline).0)?;
+    let wheel = parse(&sphere.model())?;
+    let models: Vec<_> = std::iter::once(ground).chain(vec![wheel; WHEELS]).collect();
+    let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
+    let states = terrain::states(64, sphere);
+    let mut rig = Rig::new(&models, &pairs, 1)?;
+    let mut parry = Manifolds::terrain(&terrain, sphere, WHEELS).ok_or("parry knows spheres")?;
+    row("six wheels on 10,000 triangles", per_frame(&mut rig, &states), per_frame(&mut parry, &states));
+    Ok(table)
+}
+
+/// Calls that took memory in a second pass over the same frames.
+fn per_frame(peer: &mut dyn Peer, states: &[Vec<pong_engine::State>]) -> f64 {
+    let mut pass = || states.iter().for_each(|states| _ = std::hint::black_box(peer.frame(states)));
+    pass();
+    let before = heap::calls();
+    pass();
+    (heap::calls() - before) as f64 / states.len() as f64
+}

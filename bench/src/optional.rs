@@ -1,0 +1,30 @@
+//! Everything that a world may have and that this one does not use: what that costs must not be measurable.
+
+use crate::rig;
+use pong_engine::{Laws, NormalForce, NormalInput, World};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+/// A law that no surface names.
+#[derive(Debug)]
+struct Unused;
+
+impl NormalForce for Unused {
+    fn force(&self, _: &NormalInput<'_>) -> f64 {
+        f64::NAN
+    }
+
+    fn stored(&self, _: &NormalInput<'_>) -> f64 {
+        f64::NAN
+    }
+}
+
+/// A world with laws, tests of primitives and tests of volumes that belong to kinds no model has.
+pub fn world_with_everything_off() -> World {
+    let mut extensions = Extensions::new();
+    extensions.add_contact_test("Gadget", "Gizmo", Arc::new(|_, _, _| None));
+    extensions.add_volume_test("Gadget", "Gizmo", Arc::new(|_, _, _| true));
+    let mut laws = Laws::default();
+    laws.add_normal("unused", Arc::new(Unused));
+    World::with_extensions(rig::config(1), extensions, laws)
+}
