@@ -14,7 +14,7 @@ use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release};
 
 use crossbeam_utils::CachePadded;
 
-use crate::sync::{AtomicU64, Thread, current};
+use crate::sync::{AtomicU64, Thread, current, mutant};
 use crate::word::Word;
 
 /// What a worker writes when it has finished a block. It alone writes, so no read-modify-write is needed, and it
@@ -97,8 +97,10 @@ impl Board {
         None
     }
 
-    #[cfg(not(mutant = "fetch_add"))]
     fn take_one(&self, seen: Word) -> Result<u32, Word> {
+        if mutant("fetch_add") {
+            return self.take_one_unseen();
+        }
         match self.claim.compare_exchange_weak(seen.0, seen.one_less().0, AcqRel, Acquire) {
             Ok(_) => Ok(seen.number() - 1),
             Err(now) => Err(Word(now)),
@@ -106,8 +108,7 @@ impl Board {
     }
 
     /// The mistake that the models must find.
-    #[cfg(mutant = "fetch_add")]
-    fn take_one(&self, _seen: Word) -> Result<u32, Word> {
+    fn take_one_unseen(&self) -> Result<u32, Word> {
         let before = Word(self.claim.fetch_sub(Word::ONE, AcqRel));
         if before.number() > 0 { Ok(before.number() - 1) } else { Err(before) }
     }
@@ -143,7 +144,7 @@ impl Board {
     pub fn done(&self, lane: usize, epoch: u64) -> Done {
         let tally = &self.tallies[lane - 1];
         let word = Word(tally.word.load(Acquire));
-        if word.epoch() != epoch && !cfg!(mutant = "untagged_tally") {
+        if word.epoch() != epoch && !mutant("untagged_tally") {
             return Done::default();
         }
         Done { blocks: word.number(), busy_ns: tally.busy_ns.load(Relaxed), panicked: word.flag() }

@@ -157,10 +157,11 @@ impl Caller {
         }
     }
 
-    /// Tells all workers to end.
+    /// Tells all workers to end. Those that lie down just now are counted neither way, so no count bounds the waking.
     pub fn end(&mut self) {
         self.shared.board.end();
-        let asleep = self.shared.board.asleep();
-        self.shared.board.wake(asleep);
+        if self.shared.board.asleep() > 0 {
+            self.shared.board.wake(u32::MAX);
+        }
     }
 }

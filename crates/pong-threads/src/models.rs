@@ -1,1 +1,212 @@
-//! Models.
+//! Models: the protocol's own code in every order in which its threads can meet, at small sizes.
+//!
+//!     RUSTFLAGS="--cfg loom" cargo test -p pong-threads --lib --release models
+//!
+//! Loom runs each model again and again, once per order of accesses and per value that a load may see, and fails on a
+//! data race, on a failed assertion, and when all threads wait. Blocks are cells that loom watches: two blocks on one
+//! cell, or a caller that reads a cell too early, are races.
+
+use std::sync::{Arc, Mutex};
+
+use loom::cell::UnsafeCell;
+use loom::sync::atomic::{AtomicBool, Ordering};
+use loom::thread::{self, JoinHandle};
+
+use crate::board::Board;
+use crate::caller::Caller;
+use crate::sync::Watch;
+use crate::worker::{Shared, Worker};
+use crate::{Job, Outcome};
+
+/// One cell per block, that each block adds 1 to.
+struct Cells(Vec<UnsafeCell<u32>>);
+
+// SAFETY: loom watches the accesses to the cells and fails on a race.
+unsafe impl Sync for Cells {}
+
+impl Cells {
+    fn new(blocks: u32) -> Arc<Cells> {
+        Arc::new(Cells((0..blocks).map(|_| UnsafeCell::new(0)).collect()))
+    }
+
+    fn add_one(&self, block: u32) {
+        // SAFETY: as above.
+        self.0[block as usize].with_mut(|cell| unsafe { *cell += 1 });
+    }
+
+    fn get(&self, block: usize) -> u32 {
+        // SAFETY: as above.
+        self.0[block].with(|cell| unsafe { *cell })
+    }
+
+    /// What the caller does after a complete phase: reads all and starts again.
+    fn expect_once_each(&self, blocks: usize) {
+        for block in 0..self.0.len() {
+            assert_eq!(self.get(block), u32::from(block < blocks), "block {block}");
+            // SAFETY: as above.
+            self.0[block].with_mut(|cell| unsafe { *cell = 0 });
+        }
+    }
+}
+
+impl Job for Cells {
+    fn run(&self, block: u32, _lane: usize) {
+        self.add_one(block);
+    }
+}
+
+/// Loom's clock ticks once per look, so `PATIENT` callers look until the phase is complete.
+const PATIENT: u64 = u64::MAX;
+
+struct Model {
+    caller: Caller,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Model {
+    fn start(job: Arc<dyn Job>, workers: usize, spin_ns: u64, patience_ns: u64) -> Model {
+        let shared = Arc::new(Shared {
+            board: Board::new(workers),
+            job,
+            spin_ns,
+            patience_ns,
+            clock: None,
+            origin: Watch::start(),
+            panic: Mutex::new(None),
+        });
+        let serve = |lane| {
+            let shared = shared.clone();
+            thread::spawn(move || Worker::new(shared, lane).serve())
+        };
+        Model { threads: (1..=workers).map(serve).collect(), caller: Caller::new(shared.clone()) }
+    }
+
+    /// Fails if a worker is never told: loom sees that all wait.
+    fn end(mut self) {
+        self.caller.end();
+        self.threads.into_iter().for_each(|thread| thread.join().unwrap());
+    }
+}
+
+fn explore(preemptions: usize, model: impl Fn() + Sync + Send + 'static) {
+    let mut builder = loom::model::Builder::new();
+    builder.preemption_bound = Some(preemptions);
+    builder.max_branches = 10_000;
+    builder.check(model);
+}
+
+/// A worker that comes late to a phase finds the next one open, with other blocks.
+#[test]
+fn a_late_worker_enters_no_closed_phase() {
+    explore(3, || {
+        let cells = Cells::new(3);
+        let mut model = Model::start(cells.clone(), 1, 0, PATIENT);
+        for blocks in [3, 2] {
+            assert_eq!(model.caller.run(blocks), Outcome::Complete);
+            cells.expect_once_each(blocks as usize);
+        }
+        model.end();
+    });
+}
+
+#[test]
+fn two_workers_and_the_caller_run_each_block_once() {
+    let two_workers = |phases: &'static [u32]| {
+        move || {
+            let cells = Cells::new(3);
+            let mut model = Model::start(cells.clone(), 2, 0, PATIENT);
+            for blocks in phases {
+                assert_eq!(model.caller.run(*blocks), Outcome::Complete);
+                cells.expect_once_each(*blocks as usize);
+            }
+            model.end();
+        }
+    };
+    explore(2, two_workers(&[3]));
+    explore(1, two_workers(&[3, 2]));
+}
+
+/// A worker that parks just when the end is told, or a phase opens, is woken: nobody sleeps for ever.
+#[test]
+fn no_wake_up_is_lost() {
+    explore(3, || Model::start(Cells::new(0), 2, 0, PATIENT).end());
+    explore(3, || {
+        let job = Arc::new(NeedsWorker { called: AtomicBool::new(false) });
+        let mut model = Model::start(job, 1, 0, PATIENT);
+        assert_eq!(model.caller.run(2), Outcome::Complete);
+        model.end();
+    });
+}
+
+/// The caller's block does not end before a worker has the other.
+struct NeedsWorker {
+    called: AtomicBool,
+}
+
+impl Job for NeedsWorker {
+    fn run(&self, _block: u32, lane: usize) {
+        if lane != 0 {
+            return self.called.store(true, Ordering::Release);
+        }
+        while !self.called.load(Ordering::Acquire) {
+            thread::yield_now();
+        }
+    }
+}
+
+/// What the engine does: a phase that is abandoned is done again in memory of the caller's own, and cells that a
+/// worker may still be in are left alone until all is quiet.
+#[test]
+fn an_abandoned_block_counts_for_no_later_phase() {
+    explore(3, || {
+        let job = Arc::new(ByPhase::default());
+        let mut model = Model::start(job.clone(), 1, 0, 0);
+        for phase in 0..3 {
+            job.phase.store(phase, Ordering::Release);
+            let outcome = model.caller.run(2);
+            if outcome == Outcome::Complete {
+                job.phases[phase].expect_once_each(2);
+            }
+        }
+        while model.caller.stuck() > 0 {
+            thread::yield_now();
+        }
+        for cells in &job.phases {
+            assert!((0..2).all(|block| cells.get(block) <= 1));
+        }
+        model.end();
+    });
+}
+
+/// Cells of its own for each of three phases, so that an abandoned block may write late.
+struct ByPhase {
+    phase: loom::sync::atomic::AtomicUsize,
+    phases: [Arc<Cells>; 3],
+}
+
+impl Default for ByPhase {
+    fn default() -> ByPhase {
+        ByPhase { phase: Default::default(), phases: std::array::from_fn(|_| Cells::new(2)) }
+    }
+}
+
+impl Job for ByPhase {
+    fn run(&self, block: u32, _lane: usize) {
+        self.phases[self.phase.load(Ordering::Acquire)].add_one(block);
+    }
+}
+
+#[test]
+fn prewake_and_quiesce_disturb_no_phase() {
+    explore(2, || {
+        let cells = Cells::new(2);
+        let mut model = Model::start(cells.clone(), 1, 0, PATIENT);
+        model.caller.prewake(2);
+        assert_eq!(model.caller.run(2), Outcome::Complete);
+        cells.expect_once_each(2);
+        model.caller.quiesce();
+        assert_eq!(model.caller.run(2), Outcome::Complete);
+        cells.expect_once_each(2);
+        model.end();
+    });
+}

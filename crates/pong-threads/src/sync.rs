@@ -12,6 +12,11 @@ mod real {
     /// Looks at a shared word between two looks at the clock. A look with its pause takes 20 to 60 ns.
     pub const LOOKS: u32 = 64;
 
+    /// Mistakes are made in models only.
+    pub const fn mutant(_name: &str) -> bool {
+        false
+    }
+
     /// Time since it was started.
     pub struct Watch(std::time::Instant);
 
@@ -37,6 +42,13 @@ mod real {
     }
 
     pub const LOOKS: u32 = 1;
+
+    /// Whether to make the mistake `name`, to see the models find it: it is named in the environment.
+    pub fn mutant(name: &str) -> bool {
+        static CHOSEN: std::sync::LazyLock<Option<String>> =
+            std::sync::LazyLock::new(|| std::env::var("PONG_THREADS_MUTANT").ok());
+        CHOSEN.as_deref() == Some(name)
+    }
 
     /// One nanosecond per look.
     pub struct Watch(std::sync::atomic::AtomicU64);

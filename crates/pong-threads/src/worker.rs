@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use crate::Job;
 use crate::board::{Board, CALM, Done, PARK};
-use crate::sync::{LOOKS, Watch, park, spin_loop, yield_now};
+use crate::sync::{LOOKS, Watch, mutant, park, spin_loop, yield_now};
 use crate::word::Word;
 
 /// What a panic carried.
@@ -136,7 +136,7 @@ impl Worker {
         let board = &self.shared.board;
         board.lie_down(self.lane);
         let has_news = board.news(seen).is_some() || self.is_alerted(board.alert());
-        if !has_news || cfg!(mutant = "sleep_unseen") {
+        if !has_news || mutant("sleep_unseen") {
             park();
         }
         board.get_up(self.lane);

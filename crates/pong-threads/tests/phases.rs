@@ -2,11 +2,12 @@
 
 mod common;
 
-use std::sync::atomic::Ordering::SeqCst;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::SeqCst};
 use std::time::Duration;
 
-use common::{Count, patient, start};
-use pong_threads::{LaneWork, Outcome, Settings};
+use common::{Count, patient, start, wait_until};
+use pong_threads::{Grant, Job, LaneWork, Outcome, Settings};
 
 #[test]
 fn every_block_runs_once() {
@@ -40,6 +41,34 @@ fn prewake_and_quiesce_at_any_time_change_no_phase() {
     }
 }
 
+/// A block ends when as many blocks have begun as there are lanes: each lane must have one.
+struct All {
+    lanes: u32,
+    begun: AtomicU32,
+}
+
+impl Job for All {
+    fn run(&self, _block: u32, _lane: usize) {
+        self.begun.fetch_add(1, SeqCst);
+        wait_until("all lanes have a block", || self.begun.load(SeqCst) >= self.lanes);
+    }
+}
+
+#[test]
+fn sleeping_workers_are_woken_as_many_as_there_are_blocks() {
+    for workers in [1, 2, 3, 8, 16] {
+        let all = Arc::new(All { lanes: workers + 1, begun: AtomicU32::new(0) });
+        let mut pool = start(&all, &patient(workers as usize));
+        for _ in 0..5 {
+            pool.quiesce();
+            std::thread::sleep(Duration::from_millis(5));
+            assert_eq!(pool.run(workers + 1), Outcome::Complete);
+            assert!(pool.work().all(|lane| lane.blocks == 1));
+            all.begun.store(0, SeqCst);
+        }
+    }
+}
+
 #[test]
 fn a_pool_of_the_size_of_the_mask_leaves_a_core_to_the_caller() {
     let cores = core_affinity::get_core_ids().unwrap().len();
@@ -55,7 +84,7 @@ fn pinned_workers_tell_their_cores() {
         println!("{report}");
     }
     assert_eq!(pool.start_report().iter().map(|worker| worker.lane).collect::<Vec<_>>(), [1, 2]);
-    assert!(pool.start_report().iter().all(|worker| worker.core != pong_threads::Grant::NotAsked));
+    assert!(pool.start_report().iter().all(|worker| worker.core != Grant::NotAsked));
     assert_eq!(pool.run(50), Outcome::Complete);
     assert_eq!(count.take(), [1; 50]);
 }
@@ -65,7 +94,7 @@ fn a_core_that_does_not_exist_is_a_report_and_no_error() {
     let count = Count::new(50);
     let settings = Settings { pin: true, cores: vec![1000], ..patient(1) };
     let mut pool = start(&count, &settings);
-    assert!(matches!(pool.start_report()[0].core, pong_threads::Grant::Refused { asked: 1000, .. }));
+    assert!(matches!(pool.start_report()[0].core, Grant::Refused { asked: 1000, .. }));
     assert_eq!(pool.run(50), Outcome::Complete);
     assert_eq!(count.take(), [1; 50]);
 }
@@ -73,7 +102,7 @@ fn a_core_that_does_not_exist_is_a_report_and_no_error() {
 #[test]
 fn busy_time_is_told_by_the_clock_of_the_host() {
     fn one_more() -> u64 {
-        static TIME_NS: std::sync::atomic::AtomicU64 = std::sync::atomic::AtomicU64::new(0);
+        static TIME_NS: AtomicU64 = AtomicU64::new(0);
         TIME_NS.fetch_add(1, SeqCst)
     }
     let mut pool = start(&Count::new(40), &Settings { clock: Some(one_more), ..patient(2) });

@@ -40,6 +40,7 @@ fn real_time() {
     phases_do_not_allocate();
     an_idle_pool_costs_little();
     a_quiesced_pool_costs_less_than_one_that_spins();
+    prewake_keeps_workers_awake_until_the_next_phase();
     a_start_under_fifo_does_not_hang();
 }
 
@@ -117,6 +118,28 @@ fn a_quiesced_pool_costs_less_than_one_that_spins() {
         quiesced * 100.0
     );
     assert!(pool.workers() == 0 || quiesced < spinning);
+}
+
+/// The worker has no spin time of its own, so what it takes is by the prewake.
+fn prewake_keeps_workers_awake_until_the_next_phase() {
+    let count = Count::new(2);
+    let mut pool = start(&count, &Settings { spin: Duration::ZERO, ..patient(1) });
+    let cpu_over_100_ms = || {
+        std::thread::sleep(Duration::from_millis(5));
+        let before = cpu_time();
+        std::thread::sleep(Duration::from_millis(100));
+        cpu_time() - before
+    };
+    pool.prewake(Duration::from_secs(10));
+    let awake = cpu_over_100_ms();
+    assert_eq!(pool.run(2), Outcome::Complete);
+    let after = cpu_over_100_ms();
+    pool.prewake(Duration::from_millis(1));
+    let past = cpu_over_100_ms();
+    println!(
+        "processor time in 100 ms: prewoken {awake:?}, after the phase {after:?}, after the deadline {past:?}"
+    );
+    assert!(awake > 3 * after && awake > 3 * past);
 }
 
 /// The caller has the highest claim to its core, and the worker begins there.

@@ -1,3 +1,98 @@
-//! The test for ThreadSanitizer.
+//! The test for ThreadSanitizer, which sees accesses to memory that are in no order. `ci/threads` builds it so; in an
+//! ordinary run it checks the results alone. With the argument `race` it makes a mistake that must be seen.
 
-fn main() {}
+use std::cell::UnsafeCell;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use pong_threads::{Job, Outcome, Pool, Settings};
+
+const BLOCKS: u32 = 12;
+
+/// Plain memory, as an engine has it: what the caller wrote is read by the blocks, and the reverse.
+struct Plain {
+    input: UnsafeCell<u64>,
+    outputs: Vec<UnsafeCell<u64>>,
+    /// All blocks write the first output.
+    race: bool,
+    /// Blocks of workers take longer than the caller has patience.
+    slow: AtomicBool,
+}
+
+// SAFETY: each block writes its own output, and the caller touches memory only when no block can run. That this
+// holds is what is tested.
+unsafe impl Sync for Plain {}
+
+impl Plain {
+    fn new(race: bool) -> Arc<Plain> {
+        let outputs = (0..BLOCKS).map(|_| UnsafeCell::new(0)).collect();
+        Arc::new(Plain { input: UnsafeCell::new(0), outputs, race, slow: AtomicBool::new(false) })
+    }
+
+    fn set_input(&self, input: u64) {
+        // SAFETY: called when no block can run.
+        unsafe { *self.input.get() = input }
+    }
+
+    fn output(&self, block: u32) -> u64 {
+        // SAFETY: called when no block can run.
+        unsafe { *self.outputs[block as usize].get() }
+    }
+}
+
+impl Job for Plain {
+    fn run(&self, block: u32, lane: usize) {
+        match lane {
+            // Workers shall have their share, however short the blocks.
+            0 => std::thread::yield_now(),
+            _ if self.slow.load(Ordering::Relaxed) => std::thread::sleep(Duration::from_micros(300)),
+            _ => {}
+        }
+        let place = if self.race { 0 } else { block as usize };
+        // SAFETY: no other block writes there, unless the race is wanted.
+        unsafe { *self.outputs[place].get() = *self.input.get() + u64::from(block) }
+    }
+}
+
+fn phases(plain: &Arc<Plain>, workers: usize, patience: Duration) -> (u32, u32) {
+    let settings = Settings { workers, oversubscribe: true, patience, ..Settings::default() };
+    let mut pool = Pool::start(plain.clone(), &settings).unwrap();
+    let (mut abandoned, mut of_workers) = (0, 0);
+    for turn in 0..600 {
+        prepare(&mut pool, turn);
+        plain.set_input(turn);
+        if pool.run(BLOCKS) == Outcome::Abandoned {
+            abandoned += 1;
+            while !pool.is_quiet() {
+                std::thread::yield_now();
+            }
+        }
+        for block in (0..BLOCKS).filter(|_| !plain.race) {
+            assert_eq!(plain.output(block), turn + u64::from(block));
+        }
+        of_workers += pool.work().skip(1).map(|lane| lane.blocks).sum::<u32>();
+    }
+    (abandoned, of_workers)
+}
+
+fn prepare(pool: &mut Pool, turn: u64) {
+    match turn % 5 {
+        0 => pool.quiesce(),
+        1 => std::thread::sleep(Duration::from_micros(turn)),
+        2 => pool.prewake(Duration::from_micros(turn)),
+        _ => {}
+    }
+}
+
+fn main() {
+    let race = std::env::args().any(|argument| argument == "race");
+    for workers in [1, 2, 3] {
+        let plain = Plain::new(race);
+        let (_, of_workers) = phases(&plain, workers, Duration::from_secs(60));
+        println!("{workers} workers ran {of_workers} of {} blocks", 600 * BLOCKS);
+        plain.slow.store(true, Ordering::Relaxed);
+        let (abandoned, _) = phases(&plain, workers, Duration::ZERO);
+        println!("{workers} workers, no patience: {abandoned} of 600 phases abandoned");
+    }
+}
