@@ -27,7 +27,7 @@ mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
-pub use model::{Balls, Batch, Body, Item, Model, Node, PrimitiveInfo, Tree};
+pub use model::{Balls, Batch, Body, ChunkBoxes, Item, Model, Node, PrimitiveInfo, Tree};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
 use pong_geometry::extension::Extensions;

@@ -1,8 +1,7 @@
 //! The flat, immutable form of a model that the engine reads.
 
-use crate::box_tree::BoxTree;
+use crate::box_tree::{BoxNode, BoxTree};
 use crate::surface::{PairOverride, Surface};
-use pong_geometry::Pose;
 use pong_geometry::bounding::Volume;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{
@@ -10,6 +9,7 @@ use pong_geometry::primitive::{
     TriangleSet,
 };
 use pong_geometry::simd::LANES;
+use pong_geometry::{Pose, Vec3};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -129,11 +129,51 @@ pub struct Batch {
     pub items: Range<u32>,
     /// Boxes around them. Its element *i* is item `items.start + i`.
     pub boxes: BoxTree,
+    /// Boxes around eight elements each, eight boxes at a time; empty if the elements are unbounded, or of a kind
+    /// that is B in all of the engine's own tests.
+    pub chunks: Vec<ChunkBoxes>,
     /// Centres and radii by lane, for points and spheres.
     pub balls: Option<Balls>,
 }
 
-/// Points or spheres in lanes of eight: those of the elements 8·i … 8·i + 7 at place *i*. Unused lanes hold zeros.
+/// Boxes around eight times eight elements of a batch: around its elements 64·i … 64·i + 7 in lane 0 at place *i*.
+/// Unused lanes repeat the last box.
+#[derive(Clone, Debug)]
+pub struct ChunkBoxes {
+    /// Centres in the movable group's frame, m.
+    pub center: Lanes,
+    /// Half extents along its axes, m.
+    pub half: Lanes,
+}
+
+impl ChunkBoxes {
+    /// The boxes around the elements of every bottom node of a tree.
+    pub(crate) fn of(boxes: &BoxTree) -> Vec<Self> {
+        let around = |node: &BoxNode| boxes.widened(&node.boxes.around());
+        let mut bottoms: Vec<_> = boxes.nodes.iter().filter(|node| node.is_bottom()).collect();
+        bottoms.sort_unstable_by_key(|node| node.elements.start);
+        let is_bounded = |(low, high): &(Vec3, Vec3)| low.iter().chain(high.iter()).all(|x| x.is_finite());
+        if !bottoms.iter().all(|node| is_bounded(&around(node))) {
+            return Vec::new();
+        }
+        let eight = |nodes: &[&BoxNode]| {
+            let mut made = Self { center: Lanes::ORIGIN, half: Lanes::ORIGIN };
+            for lane in 0..LANES {
+                let (low, high) = around(nodes[lane.min(nodes.len() - 1)]);
+                set(&mut made.center, lane, &(0.5 * (low + high)));
+                set(&mut made.half, lane, &(0.5 * (high - low)));
+            }
+            made
+        };
+        bottoms.chunks(LANES).map(eight).collect()
+    }
+}
+
+fn set(lanes: &mut Lanes, lane: usize, p: &Vec3) {
+    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (p.x, p.y, p.z);
+}
+
+/// Points or spheres in lanes of eight: those of the elements 8·i … 8·i + 7 at place *i*. Unused lanes repeat the last element.
 #[derive(Clone, Debug)]
 pub struct Balls {
     /// Centres in the movable group's frame, m.
@@ -156,9 +196,9 @@ impl Balls {
         let mut balls = Self { centers: Vec::new(), radii: Vec::new() };
         for chunk in items.chunks(LANES) {
             let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
-            for (lane, item) in chunk.iter().enumerate() {
-                let (center, radius) = ball(item)?;
-                (centers.x[lane], centers.y[lane], centers.z[lane]) = (center.x, center.y, center.z);
+            for lane in 0..LANES {
+                let (center, radius) = ball(&chunk[lane.min(chunk.len() - 1)])?;
+                set(&mut centers, lane, &center);
                 radii[lane] = radius;
             }
             balls.centers.push(centers);

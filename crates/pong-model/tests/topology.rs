@@ -4,7 +4,8 @@ mod common;
 use common::{CUBE_FACES, cube, cube_vertices, load, model_of};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron, PrimitiveKind};
-use pong_model::box_tree::{Child, NarrowBox};
+use pong_geometry::simd::Portable;
+use pong_model::box_tree::{Child, NarrowBox, lanes};
 use pong_model::{Body, Model};
 use std::collections::BTreeSet;
 
@@ -430,8 +431,8 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
 /// Every ball lies in the box that its batch has for it, and in the lane that its place says.
 fn check_batch(body: &Body, batch: &pong_model::Batch) {
     let balls = batch.balls.as_ref().expect("spheres have lanes");
-    batch.boxes.visit(&NarrowBox::EVERYTHING, |node, met| {
-        for lane in met {
+    batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, |node, met| {
+        for lane in lanes(met) {
             let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
             let item = body.tree.items[(batch.items.start + place) as usize];
             let ball = &body.spheres[item.element as usize];

@@ -1,7 +1,8 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
 use super::bounding::batches_of_b;
-use super::chunk::Chunk;
+use super::carried::Carried;
+use super::chunk::{Chunk, LaneBoxes};
 use super::input::{Block, FrameInput, PairContext};
 use super::lane::Lane;
 use super::testers::{Findings, Target};
@@ -9,9 +10,10 @@ use super::{forces, sharing};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use pong_geometry::simd::{self, Kernel, LANES, Simd};
+use pong_arena::List;
+use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::Child;
+use pong_model::box_tree::{Child, NarrowBoxes, lanes};
 
 /// Works off one block; what it finds goes to the lane.
 pub(super) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
@@ -41,19 +43,24 @@ impl Kernel for BlockWork<'_> {
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
         let mut stack = arena.list(tree_b.nodes.len()).expect(room);
         batches_of_b(&context, &block, &mut batches_b, &mut stack, &mut out.counts);
+        let mut reach = arena.list(batches_b.len()).expect(room);
         let mut carried = arena.list(LANES).expect(room);
         let mut found = Findings::new(arena.list(sealed.limits.found).expect(room));
         let custom = arena.slice(sealed.custom_stride, 0.0).expect(room);
         let mut sharers = arena.list(sealed.limits.found).expect(room);
-        for first in (block.first..block.end).step_by(LANES) {
-            let x_ba = &context.motion.x_ba;
-            let chunk = Chunk::new(simd, (context.body_a, batch_a), first, x_ba, &mut carried);
-            test_chunk(simd, &context, &chunk, &batches_b, &mut found, &mut out.counts);
-            if !found.list.is_empty() {
-                let shared = sharing::settle(&context, &mut found.list, &mut sharers, scratch);
-                out.unshared |= shared.is_err();
-                forces::press_found(&context, sealed, &found.list, custom, out);
-                found.list.clear();
+        for group in block.first / GROUP..block.end.div_ceil(GROUP) {
+            let near =
+                chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
+            for lane in lanes(near) {
+                let first = group * GROUP + (lane * LANES) as u32;
+                let chunk = ChunkOfA { context: &context, batch: batch_a, first, lane };
+                test_chunk(simd, &chunk, &reach, &mut carried, &mut found, &mut out.counts);
+                if !found.list.is_empty() {
+                    let shared = sharing::settle(&context, &mut found.list, &mut sharers, scratch);
+                    out.unshared |= shared.is_err();
+                    forces::press_found(&context, sealed, &found.list, custom, out);
+                    found.list.clear();
+                }
             }
         }
         out.overflowed |= found.refused > 0;
@@ -61,31 +68,90 @@ impl Kernel for BlockWork<'_> {
     }
 }
 
-/// Tests a chunk of A against all batches of B in reach.
+/// Elements whose boxes are carried together: eight chunks of eight.
+const GROUP: u32 = (LANES * LANES) as u32;
+
+/// A batch of B, and the boxes around eight chunks of A as its tree sees them.
+#[derive(Clone, Copy)]
+struct Reach<'a> {
+    batch: &'a Batch,
+    boxes: NarrowBoxes,
+    /// The chunks that reach the batch at all.
+    met: LaneBits,
+}
+
+/// Which chunks of a group reach any batch of B.
+#[inline(always)]
+fn chunks_in_reach<'a, S: Simd>(
+    simd: S,
+    context: &PairContext<'_>,
+    block: &Block,
+    group: u32,
+    batches_b: &[&'a Batch],
+    reach: &mut List<'_, Reach<'a>>,
+    counts: &mut FrameCounts,
+) -> LaneBits {
+    let batch_a = &context.body_a.tree.batches[block.batch as usize];
+    let first_chunk = block.first.saturating_sub(group * GROUP) / LANES as u32;
+    let past_chunk = (block.end - group * GROUP).div_ceil(LANES as u32).min(LANES as u32);
+    let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
+    let carried = batch_a.chunks.get(group as usize);
+    let carried = carried.map(|boxes| LaneBoxes::of_chunks(simd, boxes, &context.motion.x_ba));
+    let mut any = 0;
+    reach.clear();
+    for &batch in batches_b {
+        let boxes =
+            carried.as_ref().map_or(NarrowBoxes::EVERYTHING, |carried| carried.narrowed(&batch.boxes));
+        let met = boxes.met_by(simd, &batch.boxes.around) & in_block;
+        any |= met;
+        reach.push(Reach { batch, boxes, met }).expect("as much room as for batches");
+    }
+    counts.boxes_tested += batches_b.len() as u64;
+    any
+}
+
+/// Which chunk of A, before it is carried.
+struct ChunkOfA<'a> {
+    context: &'a PairContext<'a>,
+    batch: &'a Batch,
+    first: u32,
+    /// Its lane in its group.
+    lane: usize,
+}
+
+/// Tests a chunk of A against all batches of B in reach. It is carried into B's frame when the first box of an element
+/// is met.
 #[inline(always)]
 fn test_chunk<S: Simd>(
     simd: S,
-    context: &PairContext<'_>,
-    chunk: &Chunk<'_, '_, '_>,
-    batches_b: &[&Batch],
+    of_a: &ChunkOfA<'_>,
+    reach: &[Reach<'_>],
+    carried: &mut List<'_, Carried>,
     found: &mut Findings<'_>,
     counts: &mut FrameCounts,
 ) {
-    for batch in batches_b {
-        let around = chunk.boxes.around(&batch.boxes);
-        counts.boxes_tested += 1;
-        if !around.meets(&batch.boxes.around) {
+    let context = of_a.context;
+    let mut carry = Some(carried);
+    let mut chunk = None;
+    for Reach { batch, boxes, met } in reach {
+        if met >> of_a.lane & 1 == 0 {
             continue;
         }
-        let boxes_a = chunk.boxes.narrowed(&batch.boxes);
-        let looked_at = batch.boxes.visit(&around, |node, met| {
-            for lane_b in met {
-                let near = boxes_a.met_by(&node.boxes.lane(lane_b));
+        let mut boxes_a = None;
+        let looked_at = batch.boxes.visit(simd, &boxes.lane(of_a.lane), |node, met| {
+            let chunk = chunk.get_or_insert_with(|| {
+                let carried = carry.take().expect("a chunk is carried once");
+                let from = (context.body_a, of_a.batch);
+                Chunk::new(simd, from, of_a.first, &context.motion.x_ba, carried)
+            });
+            let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
+            for lane_b in lanes(met) {
+                let near = boxes_a.met_by(simd, &node.boxes.lane(lane_b)) & chunk.used();
                 let Child::Element(place) = node.child(lane_b) else { continue };
-                if !near.is_empty() {
+                if near != 0 {
                     let item_b = context.body_b.tree.items[(batch.items.start + place) as usize];
-                    Target { context, item_b, kind_b: batch.kind }
-                        .test_lanes(simd, chunk, near, found, counts);
+                    let target = Target { context, item_b, kind_b: batch.kind };
+                    target.test_lanes(simd, chunk, near, found, counts);
                 }
             }
         });

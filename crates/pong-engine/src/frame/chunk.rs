@@ -5,10 +5,10 @@ use pong_arena::List;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
-use pong_geometry::simd::{LANES, Simd};
+use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_geometry::{Transform, Vec3};
-use pong_model::box_tree::{BoxTree, NarrowBox, NarrowBoxes, round_down, round_up};
-use pong_model::{Batch, Body, Item};
+use pong_model::box_tree::{BoxTree, NarrowBoxes, round_down, round_up};
+use pong_model::{Batch, Body, ChunkBoxes, Item};
 
 /// The elements and where they are.
 pub(super) struct Chunk<'a, 'l, 'm> {
@@ -23,9 +23,8 @@ pub(super) struct Chunk<'a, 'l, 'm> {
     pub boxes: LaneBoxes,
 }
 
-/// One box per lane in B's frame, m; unused lanes are empty.
+/// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
 pub(super) struct LaneBoxes {
-    count: usize,
     low: [[f64; LANES]; 3],
     high: [[f64; LANES]; 3],
 }
@@ -49,7 +48,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
                 let place = first as usize / LANES;
                 centers = balls.centers[place].carried_in(simd, x_ba);
                 radii = &balls.radii[place];
-                LaneBoxes::of_balls(&centers, radii, items.len())
+                LaneBoxes::of_balls(&centers, radii)
             }
             None => {
                 carry_each(body, items, x_ba, carried);
@@ -62,6 +61,12 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
             }
         };
         Self { kind: batch.kind, items, centers, radii, carried, boxes }
+    }
+
+    /// The lanes that hold elements.
+    #[inline]
+    pub fn used(&self) -> LaneBits {
+        LaneBits::MAX >> (LANES - self.items.len())
     }
 
     /// One element; `None` for kinds that are never A in the table.
@@ -95,44 +100,47 @@ fn carried_box(boxes: &BoxTree, element: u32, x_ba: &Transform) -> (Vec3, Vec3) 
 }
 
 impl LaneBoxes {
-    /// Beyond every box, and beyond it on the other side.
-    const NOTHING: Self = Self { count: 0, low: [[f64::MAX; LANES]; 3], high: [[-f64::MAX; LANES]; 3] };
-
     #[inline(always)]
-    fn of_balls(centers: &Lanes, radii: &[f64; LANES], count: usize) -> Self {
-        let mut boxes = Self { count, ..Self::NOTHING };
+    fn of_balls(centers: &Lanes, radii: &[f64; LANES]) -> Self {
+        let mut boxes = Self { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] };
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
             for lane in 0..LANES {
                 let half = radii[lane] + margin(center[lane].abs() + radii[lane]);
-                let used = lane < count;
-                boxes.low[axis][lane] = if used { center[lane] - half } else { f64::MAX };
-                boxes.high[axis][lane] = if used { center[lane] + half } else { -f64::MAX };
+                boxes.low[axis][lane] = center[lane] - half;
+                boxes.high[axis][lane] = center[lane] + half;
+            }
+        }
+        boxes
+    }
+
+    /// Boxes around turned boxes of A.
+    #[inline(always)]
+    pub fn of_chunks<S: Simd>(simd: S, chunks: &ChunkBoxes, x_ba: &Transform) -> Self {
+        let center = chunks.center.carried_in(simd, x_ba);
+        let turn = Transform { rotation: x_ba.rotation.abs(), translation: Vec3::zeros() };
+        let half = chunks.half.carried_in(simd, &turn);
+        let mut boxes = Self { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] };
+        let axes = [(&center.x, &half.x), (&center.y, &half.y), (&center.z, &half.z)];
+        for (axis, (center, half)) in axes.into_iter().enumerate() {
+            for lane in 0..LANES {
+                let half = half[lane] + margin(center[lane].abs() + half[lane]);
+                boxes.low[axis][lane] = center[lane] - half;
+                boxes.high[axis][lane] = center[lane] + half;
             }
         }
         boxes
     }
 
     fn of_each(bounds: impl Iterator<Item = (Vec3, Vec3)>) -> Self {
-        let mut boxes = Self::NOTHING;
+        let mut boxes = Self { low: [[f64::MAX; LANES]; 3], high: [[-f64::MAX; LANES]; 3] };
         for (lane, (low, high)) in bounds.enumerate() {
             for axis in 0..3 {
                 let extra = margin(low[axis].abs().max(high[axis].abs()));
                 boxes.low[axis][lane] = low[axis] - extra;
                 boxes.high[axis][lane] = high[axis] + extra;
             }
-            boxes.count = lane + 1;
         }
         boxes
-    }
-
-    /// The box around all, as a tree sees it.
-    #[inline(always)]
-    pub fn around(&self, tree: &BoxTree) -> NarrowBox {
-        let least = |x: &[f64; LANES]| x.iter().fold(f64::MAX, |least, &x| if x < least { x } else { least });
-        let most = |x: &[f64; LANES]| x.iter().fold(-f64::MAX, |most, &x| if x > most { x } else { most });
-        let low = Vec3::new(least(&self.low[0]), least(&self.low[1]), least(&self.low[2]));
-        let high = Vec3::new(most(&self.high[0]), most(&self.high[1]), most(&self.high[2]));
-        tree.narrowed(&low, &high)
     }
 
     /// All boxes, as a tree sees them.
@@ -141,11 +149,8 @@ impl LaneBoxes {
         let mut narrow = NarrowBoxes::NOTHING;
         for axis in 0..3 {
             for lane in 0..LANES {
-                let low = round_down(self.low[axis][lane] - tree.origin[axis]);
-                let high = round_up(self.high[axis][lane] - tree.origin[axis]);
-                let used = lane < self.count;
-                narrow.low[axis][lane] = if used { low } else { f32::INFINITY };
-                narrow.high[axis][lane] = if used { high } else { f32::NEG_INFINITY };
+                narrow.bounds[0][axis][lane] = round_down(self.low[axis][lane] - tree.origin[axis]);
+                narrow.bounds[1][axis][lane] = round_up(self.high[axis][lane] - tree.origin[axis]);
             }
         }
         narrow

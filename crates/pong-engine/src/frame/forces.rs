@@ -30,9 +30,9 @@ pub(super) fn press_found(
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.stance != Stance::Dropped);
         for one in counts() {
-            let mut contact = FrameContact::new(*one);
-            context.press(&mut contact, bristle_share(one, counts()), custom);
-            out.add(contact, custom, sealed);
+            let Some(contact) = out.add(FrameContact::new(*one), sealed) else { continue };
+            context.press(contact, bristle_share(one, counts()), custom);
+            out.custom.extend_from_slice(custom).expect("as much room as for contacts");
         }
     }
 }

@@ -119,19 +119,20 @@ impl Output {
         room && !other.overflowed
     }
 
-    /// Adds a contact with its custom numbers. Where there is no room the deepest so far stay, if this lane can
-    /// rank them; else the contact is lost and the whole phase must be done again by one that can.
-    pub fn add(&mut self, contact: FrameContact, custom: &[f64], sealed: &Sealed) {
+    /// Adds a contact, whose custom numbers the caller adds. Where there is no room the deepest so far stay, if this
+    /// lane can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
+    #[inline]
+    pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
         self.pushing += u64::from(contact.found.role == Role::Pushes);
         if self.contacts.len() == self.contacts.capacity() {
             self.overflowed = true;
             if self.ranked.capacity() == 0 {
-                return;
+                return None;
             }
             self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
         }
         self.contacts.push(contact).expect("ranking makes room");
-        self.custom.extend_from_slice(custom).expect("as much room as for contacts");
+        self.contacts.last_mut()
     }
 
     /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties

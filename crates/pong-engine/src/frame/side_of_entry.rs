@@ -9,8 +9,9 @@ use pong_geometry::interference::point_polyhedron::{
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact, TriangleView};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
+use pong_geometry::simd::Portable;
 use pong_model::Body;
-use pong_model::box_tree::Child;
+use pong_model::box_tree::{Child, lanes};
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
 #[derive(Clone, Copy, Debug)]
@@ -182,8 +183,8 @@ impl TriangleEntry<'_> {
     fn visit_triangles(&self, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(u32)) {
         let tree = &self.body.tree;
         for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
-            batch.boxes.visit(&batch.boxes.narrowed(low, high), |node, met| {
-                for lane in met {
+            batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {
+                for lane in lanes(met) {
                     if let Child::Element(place) = node.child(lane) {
                         visit(tree.items[(batch.items.start + place) as usize].element);
                     }

@@ -25,8 +25,8 @@ use pong_geometry::interference::{
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
-use pong_geometry::simd::Simd;
-use pong_model::box_tree::Met;
+use pong_geometry::simd::{LaneBits, Simd};
+use pong_model::box_tree::lanes;
 use pong_model::{Body, Item, PrimitiveInfo};
 
 /// What testers find for one chunk of A.
@@ -73,14 +73,14 @@ impl<'a> Target<'a> {
         &self,
         simd: S,
         chunk: &Chunk<'_, '_, '_>,
-        near: Met,
+        near: LaneBits,
         found: &mut Findings<'_>,
         counts: &mut FrameCounts,
     ) {
-        let tested = near.count();
+        let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
         let before = found.list.len();
-        for lane in near {
+        for lane in lanes(near) {
             self.test_one(chunk, lane, found);
         }
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.list.len() - before) as u32);
@@ -88,16 +88,14 @@ impl<'a> Target<'a> {
 
     /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
     #[inline(always)]
-    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_, '_>, near: Met) -> Met {
+    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_, '_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
             return near;
         }
         let polyhedron = &self.context.body_b.polyhedra[self.item_b.element as usize];
         match chunk.kind {
-            PrimitiveKind::Point => near.only(polyhedron.lanes_contain_in(simd, &chunk.centers)),
-            PrimitiveKind::Sphere => {
-                near.only(!polyhedron.lanes_outside_in(simd, &chunk.centers, chunk.radii))
-            }
+            PrimitiveKind::Point => near & polyhedron.lanes_contain_in(simd, &chunk.centers),
+            PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, &chunk.centers, chunk.radii),
             _ => near,
         }
     }

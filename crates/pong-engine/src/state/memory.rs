@@ -7,7 +7,7 @@ use pong_geometry::{Pose, Vec3};
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
 /// What a contact is remembered under. Its order is the order of every sum.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct ContactKey {
     /// Index of the pair of movable groups.
     pub group_pair: u32,
@@ -19,6 +19,33 @@ pub(crate) struct ContactKey {
     pub shell_b: u32,
     /// End of a segment; 0 otherwise.
     pub end: u32,
+}
+
+impl ContactKey {
+    /// The fields one after another, as two numbers: they compare faster than five.
+    #[inline]
+    fn rank(&self) -> (u128, u32) {
+        let wide = |x: u32, place: u32| u128::from(x) << (32 * place);
+        let first = wide(self.group_pair, 3)
+            | wide(self.flipped, 2)
+            | wide(self.primitive_a, 1)
+            | wide(self.shell_b, 0);
+        (first, self.end)
+    }
+}
+
+impl Ord for ContactKey {
+    #[inline]
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.rank().cmp(&other.rank())
+    }
+}
+
+impl PartialOrd for ContactKey {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 /// Why a contact is remembered.
@@ -178,7 +205,7 @@ impl ContactMemory {
     /// The records under one key, with the index of the first.
     pub fn under(&self, key: &ContactKey) -> (usize, &[ContactRecord]) {
         let first = self.records.partition_point(|record| record.key < *key);
-        let count = self.records[first..].partition_point(|record| record.key == *key);
+        let count = self.records[first..].iter().take_while(|record| record.key == *key).count();
         (first, &self.records[first..first + count])
     }
 

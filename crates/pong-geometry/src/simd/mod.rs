@@ -5,10 +5,12 @@
 //! nothing is summed across lanes: the level changes the time, never the answer. (The payload of a NaN is not part of
 //! the answer.)
 
+mod boxes;
 mod portable;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
+pub use boxes::{BoxSimd, EightBoxes};
 pub use portable::Portable;
 
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -23,7 +25,7 @@ pub type LaneBits = u8;
 ///
 /// Comparisons with a NaN are false, as they are for `f64`.
 #[allow(missing_docs)]
-pub trait Simd: Copy {
+pub trait Simd: BoxSimd {
     /// Eight numbers.
     type Eight: Copy;
     /// Eight truths.

@@ -9,10 +9,11 @@ mod build;
 pub(crate) use build::Boxed;
 
 use pong_geometry::Vec3;
+use pong_geometry::simd::{EightBoxes, LANES, LaneBits, Simd};
 use std::ops::Range;
 
 /// Boxes of one node.
-pub const WIDTH: usize = 8;
+pub const WIDTH: usize = LANES;
 
 /// In [`BoxNode::children`]: the child is an element, not a node.
 const ELEMENT: u32 = 1 << 31;
@@ -28,12 +29,9 @@ pub struct NarrowBox {
 
 /// Eight boxes, coordinate by coordinate; unused ones are empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(32))]
 pub struct NarrowBoxes {
-    /// Least coordinates by axis less the tree's origin, m.
-    pub low: [[f32; WIDTH]; 3],
-    /// Greatest coordinates by axis less the tree's origin, m.
-    pub high: [[f32; WIDTH]; 3],
+    /// Least coordinates by axis less the tree's origin, then the greatest, m.
+    pub bounds: EightBoxes,
 }
 
 /// Up to eight boxes, each around a child node or an element.
@@ -75,7 +73,10 @@ impl NarrowBox {
     /// The box between two corners given from the tree's origin, rounded outward.
     #[inline]
     pub fn outward(low: &Vec3, high: &Vec3) -> Self {
-        Self { low: [0, 1, 2].map(|k| round_down(low[k])), high: [0, 1, 2].map(|k| round_up(high[k])) }
+        Self {
+            low: [round_down(low.x), round_down(low.y), round_down(low.z)],
+            high: [round_up(high.x), round_up(high.y), round_up(high.z)],
+        }
     }
 
     /// Whether two boxes around the same origin share a place.
@@ -109,84 +110,67 @@ pub fn round_up(x: f64) -> f32 {
     -round_down(-x)
 }
 
-/// One byte per box of a node, 1 where it was met.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Met(u64);
-
-impl Met {
-    /// From one byte per box: 0 or 1.
-    #[inline]
-    pub fn new(bytes: [u8; WIDTH]) -> Self {
-        Self(u64::from_le_bytes(bytes))
-    }
-
-    /// Whether no box was met.
-    #[inline]
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
-    }
-
-    /// How many boxes were met.
-    #[inline]
-    pub fn count(self) -> u32 {
-        self.0.count_ones()
-    }
-
-    /// Those whose bit is set as well, the lowest bit for the first box.
-    #[inline]
-    pub fn only(self, bits: u8) -> Self {
-        // Bit i moves to byte i: copies of the bits into all bytes, one bit of each kept, and brought down.
-        let spread = (u64::from(bits) * 0x0101_0101_0101_0101) & 0x8040_2010_0804_0201;
-        let bytes = ((spread + 0x7f7f_7f7f_7f7f_7f7f) | spread) >> 7 & 0x0101_0101_0101_0101;
-        Self(self.0 & bytes)
-    }
+#[inline(always)]
+fn least(x: &[f32; WIDTH]) -> f32 {
+    let pick = |a: f32, b: f32| if a < b { a } else { b };
+    let four = [pick(x[0], x[4]), pick(x[1], x[5]), pick(x[2], x[6]), pick(x[3], x[7])];
+    pick(pick(four[0], four[2]), pick(four[1], four[3]))
 }
 
-impl Iterator for Met {
-    type Item = usize;
+#[inline(always)]
+fn greatest(x: &[f32; WIDTH]) -> f32 {
+    let pick = |a: f32, b: f32| if a > b { a } else { b };
+    let four = [pick(x[0], x[4]), pick(x[1], x[5]), pick(x[2], x[6]), pick(x[3], x[7])];
+    pick(pick(four[0], four[2]), pick(four[1], four[3]))
+}
 
-    #[inline]
-    fn next(&mut self) -> Option<usize> {
-        if self.0 == 0 {
-            return None;
-        }
-        let lane = self.0.trailing_zeros() as usize / 8;
-        self.0 &= self.0 - 1;
-        Some(lane)
-    }
+/// The lanes whose bits are set, in order.
+#[inline(always)]
+pub fn lanes(mut bits: LaneBits) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < WIDTH).then_some(lane)
+    })
 }
 
 impl NarrowBoxes {
     /// No place at all.
-    pub const NOTHING: Self =
-        Self { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+    pub const NOTHING: Self = Self { bounds: [[[f32::INFINITY; WIDTH]; 3], [[f32::NEG_INFINITY; WIDTH]; 3]] };
+
+    /// Eight times all space.
+    pub const EVERYTHING: Self = Self { bounds: [[[-f32::MAX; WIDTH]; 3], [[f32::MAX; WIDTH]; 3]] };
 
     /// Which of the boxes a box meets.
     #[inline(always)]
-    pub fn met_by(&self, query: &NarrowBox) -> Met {
-        let mut bytes = [0_u8; WIDTH];
-        for (i, byte) in bytes.iter_mut().enumerate() {
-            let apart = (self.low[0][i] > query.high[0])
-                | (self.high[0][i] < query.low[0])
-                | (self.low[1][i] > query.high[1])
-                | (self.high[1][i] < query.low[1])
-                | (self.low[2][i] > query.high[2])
-                | (self.high[2][i] < query.low[2]);
-            *byte = u8::from(!apart);
+    pub fn met_by<S: Simd>(&self, simd: S, query: &NarrowBox) -> LaneBits {
+        simd.boxes_met(&self.bounds, &query.low, &query.high)
+    }
+
+    /// The box around all of them.
+    #[inline(always)]
+    pub fn around(&self) -> NarrowBox {
+        let [low, high] = &self.bounds;
+        NarrowBox {
+            low: [least(&low[0]), least(&low[1]), least(&low[2])],
+            high: [greatest(&high[0]), greatest(&high[1]), greatest(&high[2])],
         }
-        Met::new(bytes)
     }
 
     /// One of the boxes.
     #[inline]
     pub fn lane(&self, lane: usize) -> NarrowBox {
-        NarrowBox { low: [0, 1, 2].map(|k| self.low[k][lane]), high: [0, 1, 2].map(|k| self.high[k][lane]) }
+        let [low, high] = &self.bounds;
+        NarrowBox {
+            low: [low[0][lane], low[1][lane], low[2][lane]],
+            high: [high[0][lane], high[1][lane], high[2][lane]],
+        }
     }
 
     fn set(&mut self, lane: usize, one: &NarrowBox) {
         for k in 0..3 {
-            self.low[k][lane] = one.low[k];
-            self.high[k][lane] = one.high[k];
+            self.bounds[0][k][lane] = one.low[k];
+            self.bounds[1][k][lane] = one.high[k];
         }
     }
 }
@@ -207,7 +191,8 @@ impl BoxNode {
 
     /// What the boxes hold.
     pub fn children(&self) -> impl Iterator<Item = Child> + '_ {
-        let used = |&lane: &usize| self.boxes.low[0][lane] <= self.boxes.high[0][lane];
+        let [low, high] = &self.boxes.bounds;
+        let used = move |&lane: &usize| low[0][lane] <= high[0][lane];
         (0..WIDTH).filter(used).map(|lane| self.child(lane))
     }
 }
@@ -247,7 +232,12 @@ impl BoxTree {
     /// Calls `visit` with every bottom node that has boxes which a box meets; answers how many nodes were looked
     /// at.
     #[inline(always)]
-    pub fn visit(&self, query: &NarrowBox, mut visit: impl FnMut(&BoxNode, Met)) -> u32 {
+    pub fn visit<S: Simd>(
+        &self,
+        simd: S,
+        query: &NarrowBox,
+        mut visit: impl FnMut(&BoxNode, LaneBits),
+    ) -> u32 {
         /// A tree of 2³¹ elements has eleven levels; each leaves at most seven nodes waiting.
         const DEPTH_MAX: usize = 80;
         let mut stack = [0_u32; DEPTH_MAX];
@@ -256,16 +246,16 @@ impl BoxTree {
         while waiting > 0 {
             waiting -= 1;
             let node = &self.nodes[stack[waiting] as usize];
-            let met = node.boxes.met_by(query);
+            let met = node.boxes.met_by(simd, query);
             looked_at += 1;
-            if met.is_empty() {
+            if met == 0 {
                 continue;
             }
             if node.is_bottom() {
                 visit(node, met);
                 continue;
             }
-            for lane in met {
+            for lane in lanes(met) {
                 stack[waiting] = node.children[lane];
                 waiting += 1;
             }

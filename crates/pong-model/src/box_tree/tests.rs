@@ -1,6 +1,7 @@
 use super::build::Boxed;
-use super::{BoxNode, BoxTree, Child, NarrowBox, WIDTH, round_down, round_up};
+use super::{BoxNode, BoxTree, Child, NarrowBox, WIDTH, lanes, round_down, round_up};
 use pong_geometry::Vec3;
+use pong_geometry::simd::Portable;
 use std::collections::BTreeSet;
 
 fn scatter(seed: &mut u64) -> f64 {
@@ -50,8 +51,8 @@ fn nothing_that_a_box_touches_is_missed() {
             let low = around + Vec3::from_fn(|_, _| scatter(&mut seed));
             let high = low + Vec3::from_fn(|_, _| scatter(&mut seed) * 0.1);
             let mut found = BTreeSet::new();
-            tree.visit(&tree.narrowed(&low, &high), |node, met| {
-                for lane in met {
+            tree.visit(Portable, &tree.narrowed(&low, &high), |node, met| {
+                for lane in lanes(met) {
                     let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
                     assert!(found.insert(elements[place as usize].item), "found twice");
                 }
@@ -89,8 +90,9 @@ fn check(tree: &BoxTree, node: &BoxNode, expected: std::ops::Range<u32>) {
             }
             Child::Node(child) => {
                 let child = &tree.nodes[child as usize];
-                let lanes = (0..WIDTH).map(|below| child.boxes.lane(below));
-                let around = lanes.fold(NarrowBox::NOTHING, |all, one| all.join(&one));
+                let below = (0..WIDTH).map(|below| child.boxes.lane(below));
+                let around = below.fold(NarrowBox::NOTHING, |all, one| all.join(&one));
+                assert_eq!(around, child.boxes.around());
                 assert_eq!(around, node.boxes.lane(lane));
                 check(tree, child, next..child.elements.end);
                 next = child.elements.end;
@@ -105,7 +107,9 @@ fn unbounded_elements_are_always_met() {
     let infinite = Vec3::repeat(f64::INFINITY);
     let tree = BoxTree::build(&mut [Boxed { item: 0_u32, low: -infinite, high: infinite }]);
     let mut met = 0;
-    tree.visit(&tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), |_, lanes| met += lanes.count());
+    tree.visit(Portable, &tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), |_, bits| {
+        met += bits.count_ones()
+    });
     assert_eq!(met, 1);
     assert!(tree.around == NarrowBox::EVERYTHING);
 }
