@@ -1,7 +1,7 @@
 //! The caller's side: opens a phase, works along, and waits only for blocks that others have claimed.
 
 use std::panic::resume_unwind;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use crate::board::{CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
@@ -117,7 +117,7 @@ impl Caller {
         if !panicked {
             return None;
         }
-        let mut kept = self.shared.panic.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut kept = self.shared.panic.lock().unwrap_or_else(PoisonError::into_inner);
         kept.take().filter(|(epoch, _)| *epoch == self.epoch).map(|(_, payload)| payload)
     }
 

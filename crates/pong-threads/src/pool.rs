@@ -1,8 +1,7 @@
 //! The pool: starts the workers, holds the caller's side, ends them.
 
 use std::fmt;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -68,13 +67,13 @@ impl Pool {
             patience: settings.patience,
             process: std::process::id(),
         };
-        let (started, starts) = channel();
+        let muster = Arc::new(Muster::new(cores.len()));
         for (worker, core) in cores.iter().enumerate() {
-            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, started.clone());
+            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &muster);
             // On an error the pool is dropped, which ends the workers that run already.
             pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
         }
-        pool.start_report = collect(starts, cores.len());
+        pool.start_report = muster.wait_for_all();
         Ok(pool)
     }
 
@@ -161,21 +160,40 @@ fn start_worker(
     lane: usize,
     core: Option<usize>,
     fifo_priority: Option<u8>,
-    started: Sender<WorkerStart>,
+    muster: &Arc<Muster>,
 ) -> std::io::Result<JoinHandle<()>> {
-    let shared = shared.clone();
+    let (shared, muster) = (shared.clone(), muster.clone());
     std::thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(move || {
         let report = settle(lane, core, fifo_priority);
         let mut worker = Worker::new(shared, lane);
-        // Nobody listens any more if a later worker could not be started.
-        let _ = started.send(report);
-        drop(started);
+        muster.report(report);
         worker.serve();
     })
 }
 
-fn collect(starts: Receiver<WorkerStart>, workers: usize) -> Vec<WorkerStart> {
-    let mut report: Vec<_> = starts.iter().take(workers).collect();
-    report.sort_by_key(|start| start.lane);
-    report
+/// Where the workers report and the caller sleeps until all have. Each worker holds it to its end: what it freed
+/// after its report would fall into the first phases.
+struct Muster {
+    reports: Mutex<Vec<WorkerStart>>,
+    one_more: Condvar,
+    workers: usize,
+}
+
+impl Muster {
+    fn new(workers: usize) -> Muster {
+        Muster { reports: Mutex::new(Vec::with_capacity(workers)), one_more: Condvar::new(), workers }
+    }
+
+    fn report(&self, report: WorkerStart) {
+        self.reports.lock().unwrap_or_else(PoisonError::into_inner).push(report);
+        self.one_more.notify_one();
+    }
+
+    fn wait_for_all(&self) -> Vec<WorkerStart> {
+        let reports = self.reports.lock().unwrap_or_else(PoisonError::into_inner);
+        let all = self.one_more.wait_while(reports, |reports| reports.len() < self.workers);
+        let mut all = std::mem::take(&mut *all.unwrap_or_else(PoisonError::into_inner));
+        all.sort_by_key(|report| report.lane);
+        all
+    }
 }

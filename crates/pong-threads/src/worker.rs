@@ -2,7 +2,7 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::Job;
 use crate::board::{Board, CALM, Done, PARK};
@@ -40,7 +40,7 @@ impl Shared {
     }
 
     fn keep_panic(&self, epoch: u64, payload: Payload) {
-        let mut kept = self.panic.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+        let mut kept = self.panic.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch != epoch) {
             *kept = Some((epoch, payload));
         }

@@ -34,9 +34,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// One after the other: the counts are of the whole process.
-#[test]
-fn real_time() {
+fn main() {
     phases_do_not_allocate();
     an_idle_pool_costs_little();
     a_quiesced_pool_costs_less_than_one_that_spins();
