@@ -27,6 +27,7 @@ impl Pose {
     }
 
     /// `x_wg · x_gh = x_wh`.
+    #[inline]
     pub fn compose(&self, x_gh: &Pose) -> Pose {
         Pose {
             position: self.position + self.orientation * x_gh.position,
@@ -35,6 +36,7 @@ impl Pose {
     }
 
     /// `x_gw` from `x_wg`.
+    #[inline]
     pub fn inverse(&self) -> Pose {
         let inverse = self.orientation.inverse();
         Pose { position: inverse * (-self.position), orientation: inverse }
@@ -44,6 +46,7 @@ impl Pose {
     ///
     /// The positions are subtracted before anything is rotated (physics contract, section 1), so the result
     /// does not depend on where the common origin is beyond the rounding of the inputs.
+    #[inline]
     pub fn relative(x_wa: &Pose, x_wb: &Pose) -> Pose {
         let r_ba_w = x_wa.position - x_wb.position;
         let b_from_w = x_wb.orientation.inverse();
@@ -51,6 +54,7 @@ impl Pose {
     }
 
     /// The same pose with its rotation as a matrix, for carrying many points.
+    #[inline]
     pub fn transform(&self) -> Transform {
         Transform { translation: self.position, rotation: self.orientation.to_rotation_matrix().into_inner() }
     }
@@ -84,11 +88,13 @@ impl Transform {
     }
 
     /// `x_ab · x_bc = x_ac`.
+    #[inline]
     pub fn compose(&self, other: &Transform) -> Transform {
         Transform { translation: self.point(&other.translation), rotation: self.rotation * other.rotation }
     }
 
     /// The transform the other way.
+    #[inline]
     pub fn inverse(&self) -> Transform {
         let rotation = self.rotation.transpose();
         Transform { translation: -(rotation * self.translation), rotation }

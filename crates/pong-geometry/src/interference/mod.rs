@@ -8,6 +8,7 @@ pub mod ellipsoid_plane;
 pub mod ellipsoid_polyhedron;
 mod ellipsoid_prepared;
 pub mod ellipsoid_triangle;
+mod highest_face;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
 pub mod point_ellipsoid;

@@ -6,16 +6,80 @@
 //! Degenerate cases: a point on an active face is outside; one on an inner wall belongs to the piece whose face
 //! is `closed`. Ties go to the lower index.
 
+use super::highest_face::{Highest, Whereabouts, has_few, highest_of_few, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Polyhedron;
+use crate::simd::{Simd, is_moderate, run_at_level};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
 /// across anything sharper it stays (physics contract, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
 
+/// The contact of a point that remembers no side: with the active face under which it lies least deep.
+///
+/// The same as [`Polyhedron::contains`], [`shallowest_face`] and [`point_below_face`], in one pass over the faces.
+#[inline]
+pub fn point_polyhedron(p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
+    if has_few(polyhedron.planes()) {
+        run_at_level!(point_few(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
+    } else {
+        run_at_level!(point_many(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
+    }
+}
+
+/// [`point_polyhedron`] within a kernel.
+#[inline(always)]
+pub fn point_polyhedron_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
+    if has_few(polyhedron.planes()) {
+        point_few(simd, p, polyhedron)
+    } else {
+        point_many(simd, p, polyhedron)
+    }
+}
+
+#[inline(always)]
+fn point_few<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
+    let highest = highest_of_few(simd, p, polyhedron.planes(), Whereabouts::Inside)?;
+    below_highest(p, polyhedron, &highest)
+}
+
+#[inline(always)]
+fn point_many<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
+    let highest = highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Inside)?;
+    below_highest(p, polyhedron, &highest)
+}
+
+#[inline(always)]
+fn below_highest(p: &Vec3, polyhedron: &Polyhedron, highest: &Highest) -> Option<Interference> {
+    if highest.height >= 0.0 {
+        return None;
+    }
+    Some(Interference {
+        depth: -highest.height,
+        normal: polyhedron.faces[highest.face].normal,
+        point_a: *p,
+        feature: Feature::face(highest.face),
+    })
+}
+
 /// The active face under which the point lies least deep; `None` if no face is active.
+#[inline]
 pub fn shallowest_face(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+    if !(is_moderate(p) && polyhedron.planes().moderate) {
+        return shallowest_face_one_by_one(p, polyhedron);
+    }
+    run_at_level!(shallowest_face_in(p: Vec3, polyhedron: Polyhedron) -> Option<usize>)
+}
+
+#[inline(always)]
+fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+    highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
+}
+
+/// With heights that may be infinite or no numbers: the first active face stands until one is less deep.
+#[cold]
+fn shallowest_face_one_by_one(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     let mut best: Option<(usize, f64)> = None;
     for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
         let depth = -face.height(p);

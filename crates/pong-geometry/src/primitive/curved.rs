@@ -24,6 +24,7 @@ pub struct Ellipsoid {
 
 impl Sphere {
     /// The same sphere in another frame.
+    #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), radius: self.radius }
     }
@@ -31,6 +32,7 @@ impl Sphere {
 
 impl Ellipsoid {
     /// The same ellipsoid in another frame.
+    #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { center: x.point(&self.center), axes: x.rotation * self.axes, semi_axes: self.semi_axes }
     }

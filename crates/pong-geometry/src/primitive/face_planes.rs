@@ -1,16 +1,21 @@
 //! The planes of a polyhedron's faces, coordinate by coordinate.
 
 use super::PolyhedronFace;
-use crate::simd::{LANES, LaneBits};
+use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
 /// Faces in blocks of eight, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FacePlanes {
     /// The blocks; the last one may have empty lanes.
     pub blocks: Vec<PlaneBlock>,
+    /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
+    pub moderate: bool,
+    /// Whether all faces are active and none is closed.
+    pub simple: bool,
 }
 
-/// Eight planes. An empty lane has no normal and lies infinitely far off: every point is infinitely deep below it.
+/// Eight planes. Lanes beyond the last face repeat it: what holds for all faces, or for any, is then the same, and of
+/// equals the lower place wins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub struct PlaneBlock {
@@ -22,33 +27,45 @@ pub struct PlaneBlock {
     pub active: LaneBits,
     /// Which lanes hold a closed face.
     pub closed: LaneBits,
-    /// Which lanes hold a face.
-    pub filled: LaneBits,
 }
 
 impl PlaneBlock {
-    /// No faces.
-    pub const EMPTY: Self =
-        Self { normal: [[0.0; LANES]; 3], offset: [f64::INFINITY; LANES], active: 0, closed: 0, filled: 0 };
+    /// Heights of a point above the planes, in the bits of [`PolyhedronFace::height`].
+    #[inline(always)]
+    pub fn heights<S: Simd>(&self, simd: S, p: &Splat<S>) -> S::Eight {
+        simd.sub(p.dot(&self.normal), simd.load(&self.offset))
+    }
+
+    /// For which planes a point at these heights is on the solid's side: below, or on one that is closed.
+    #[inline(always)]
+    pub fn held<S: Simd>(&self, simd: S, heights: S::Eight) -> LaneBits {
+        let zero = simd.splat(0.0);
+        let below = simd.bits(simd.below(heights, zero));
+        match self.closed {
+            0 => below,
+            closed => below | simd.bits(simd.equal(heights, zero)) & closed,
+        }
+    }
 }
 
 impl FacePlanes {
     /// The planes of the faces.
     pub fn new(faces: &[PolyhedronFace]) -> Self {
-        Self { blocks: faces.chunks(LANES).map(block).collect() }
+        let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);
+        let simple = faces.iter().all(|face| face.active && !face.closed);
+        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, simple }
     }
 }
 
 fn block(faces: &[PolyhedronFace]) -> PlaneBlock {
-    let mut block = PlaneBlock::EMPTY;
-    for (lane, face) in faces.iter().enumerate() {
-        for axis in 0..3 {
-            block.normal[axis][lane] = face.normal[axis];
-        }
-        block.offset[lane] = face.offset;
-        block.active |= LaneBits::from(face.active) << lane;
-        block.closed |= LaneBits::from(face.closed) << lane;
-        block.filled |= 1 << lane;
+    let face = |lane: usize| &faces[lane.min(faces.len() - 1)];
+    let bits = |is: &dyn Fn(&PolyhedronFace) -> bool| {
+        (0..LANES).fold(0, |bits, lane| bits | LaneBits::from(is(face(lane))) << lane)
+    };
+    PlaneBlock {
+        normal: std::array::from_fn(|axis| std::array::from_fn(|lane| face(lane).normal[axis])),
+        offset: std::array::from_fn(|lane| face(lane).offset),
+        active: bits(&|face| face.active),
+        closed: bits(&|face| face.closed),
     }
-    block
 }

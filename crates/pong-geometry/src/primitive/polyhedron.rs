@@ -6,6 +6,7 @@
 
 use super::face_planes::FacePlanes;
 use crate::Vec3;
+use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 
 /// A convex solid: the intersection of the half spaces of its faces.
 ///
@@ -132,10 +133,8 @@ impl Polyhedron {
     /// Whether a point lies inside this piece (the tie rule of inner walls included).
     #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {
-        self.faces.iter().all(|face| {
-            let height = face.height(p);
-            height < 0.0 || (face.closed && height == 0.0)
-        })
+        let planes = self.planes();
+        run_at_level!(planes_hold(p: Vec3, planes: FacePlanes) -> bool)
     }
 }
 
@@ -168,6 +167,15 @@ impl PolyhedronParts {
     pub fn height(&self, face: usize, p: &Vec3) -> f64 {
         self.faces[face].height(p)
     }
+}
+
+#[inline(always)]
+fn planes_hold<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> bool {
+    let at = Splat::new(simd, p);
+    planes.blocks.iter().all(
+        #[inline(always)]
+        |block| block.held(simd, block.heights(simd, &at)) == LaneBits::MAX,
+    )
 }
 
 impl PolyhedronFace {

@@ -52,6 +52,7 @@ pub struct Ray {
 
 impl Point {
     /// The same point in another frame.
+    #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { position: x.point(&self.position) }
     }
@@ -59,6 +60,7 @@ impl Point {
 
 impl LineSegment {
     /// The same segment in another frame.
+    #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { ends: [x.point(&self.ends[0]), x.point(&self.ends[1])] }
     }
@@ -66,11 +68,13 @@ impl LineSegment {
 
 impl Ray {
     /// The free tip, m.
+    #[inline]
     pub fn tip(&self) -> Vec3 {
         self.origin + self.direction * self.length
     }
 
     /// The same ray in another frame.
+    #[inline]
     pub fn carried(&self, x: &Transform) -> Self {
         Self { origin: x.point(&self.origin), direction: x.vector(&self.direction), ..*self }
     }

@@ -6,12 +6,16 @@
 //! the answer.)
 
 mod boxes;
+mod first;
 mod portable;
+mod splat;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
 pub use boxes::{BoxSimd, EightBoxes};
+pub use first::First;
 pub use portable::Portable;
+pub use splat::{MODERATE, Splat, is_moderate};
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
@@ -38,13 +42,20 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    fn sqrt(self, values: Self::Eight) -> Self::Eight;
     /// `a < b`.
     fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
     /// `a ≥ b`.
     fn at_least(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
     /// `a = b`; the two zeros are equal.
     fn equal(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
+    /// The larger: `if a > b { a } else { b }`.
+    fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// The largest of the eight, where none is a NaN; of two zeros either.
+    fn largest(self, values: Self::Eight) -> f64;
     fn bits(self, mask: Self::Mask) -> LaneBits;
+    fn mask(self, bits: LaneBits) -> Self::Mask;
+    fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(self, mask: Self::Mask, a: Self::Eight, b: Self::Eight) -> Self::Eight;
 }
@@ -70,8 +81,8 @@ pub enum Level {
     Avx512 = 3,
 }
 
-/// The level in use, 0 until the first question.
-static LEVEL: AtomicU8 = AtomicU8::new(0);
+/// The highest level that may be used.
+static LEVEL: AtomicU8 = AtomicU8::new(Level::Avx512 as u8);
 
 impl Level {
     const ALL: [Self; 3] = [Self::Portable, Self::Avx2, Self::Avx512];
@@ -106,15 +117,10 @@ impl Level {
     }
 }
 
-/// The level that kernels run at: the best that the machine has, or what [`set_level`] chose.
-#[inline]
+/// The level that kernels run at: the best that the machine has, but none above what [`set_level`] chose.
 pub fn level() -> Level {
-    match LEVEL.load(Ordering::Relaxed) {
-        1 => Level::Portable,
-        2 => Level::Avx2,
-        3 => Level::Avx512,
-        _ => set_level(Level::best()),
-    }
+    let most = LEVEL.load(Ordering::Relaxed);
+    Level::available().filter(|&level| level as u8 <= most).max().unwrap_or(Level::Portable)
 }
 
 /// The name of the level in use.
@@ -122,32 +128,56 @@ pub fn level_name() -> &'static str {
     level().name()
 }
 
-/// Chooses the level for the whole process, at most the best that the machine has, and says which it became.
+/// Chooses the highest level that the whole process may use, and says which it then uses.
 ///
 /// For comparisons and tests: results are the same bits at every level. May be called at any time from any thread.
 pub fn set_level(level: Level) -> Level {
-    let level = level.min(Level::best());
     LEVEL.store(level as u8, Ordering::Relaxed);
-    level
+    self::level()
 }
+
+/// Runs a function of a [`Simd`] and references at the level in use.
+macro_rules! run_at_level {
+    ($function:ident($($argument:ident: $kind:ty),*) -> $output:ty) => {{
+        struct Work<'a> {
+            $($argument: &'a $kind),*
+        }
+        impl $crate::simd::Kernel for Work<'_> {
+            type Output = $output;
+
+            #[inline(always)]
+            fn run<S: $crate::simd::Simd>(self, simd: S) -> $output {
+                $function(simd, $(self.$argument),*)
+            }
+        }
+        $crate::simd::run(Work { $($argument),* })
+    }};
+}
+pub(crate) use run_at_level;
 
 /// Runs a kernel at the level in use. The choice and the call take a few nanoseconds: work that has many small
 /// kernels is itself made one.
 #[inline(always)]
 pub fn run<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(target_arch = "x86_64")]
-    match level() {
-        Level::Avx512 => {
-            if let Some(v4) = pulp::x86::V4::try_new() {
-                return v4.vectorize(x86::With(kernel, x86::Avx512(v4)));
-            }
+    {
+        let most = LEVEL.load(Ordering::Relaxed);
+        if most >= Level::Avx512 as u8
+            && let Some(v4) = pulp::x86::V4::try_new()
+        {
+            return v4.vectorize(x86::With(kernel, x86::Avx512(v4)));
         }
-        Level::Avx2 => {
-            if let Some(v3) = pulp::x86::V3::try_new() {
-                return v3.vectorize(x86::With(kernel, x86::Avx2(v3)));
-            }
+        if most >= Level::Avx2 as u8
+            && let Some(v3) = pulp::x86::V3::try_new()
+        {
+            return v3.vectorize(x86::With(kernel, x86::Avx2(v3)));
         }
-        Level::Portable => {}
     }
+    run_portable(kernel)
+}
+
+/// Apart, so that the callers of kernels stay small where it is not used.
+#[cfg_attr(target_arch = "x86_64", inline(never))]
+fn run_portable<K: Kernel>(kernel: K) -> K::Output {
     kernel.run(Portable)
 }

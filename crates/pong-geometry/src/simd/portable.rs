@@ -69,6 +69,26 @@ impl Simd for Portable {
         compare(a, b, |a, b| a == b)
     }
     #[inline(always)]
+    fn sqrt(self, values: Self::Eight) -> Self::Eight {
+        values.map(f64::sqrt)
+    }
+    #[inline(always)]
+    fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        zip(a, b, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn largest(self, values: Self::Eight) -> f64 {
+        values.into_iter().fold(f64::NEG_INFINITY, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn mask(self, bits: LaneBits) -> Self::Mask {
+        bits
+    }
+    #[inline(always)]
+    fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        a & b
+    }
+    #[inline(always)]
     fn bits(self, mask: Self::Mask) -> LaneBits {
         mask
     }

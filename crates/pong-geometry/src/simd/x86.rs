@@ -4,8 +4,7 @@
 use super::{Kernel, LANES, LaneBits, Simd};
 use pulp::cast;
 use pulp::x86::{V3, V4};
-use std::arch::x86_64::{__m256d, __m512d};
-use std::arch::x86_64::{_CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
+use std::arch::x86_64::{__m128d, __m256d, __m256i, __m512d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};
 
 /// A kernel with the level it runs at.
 pub(super) struct With<K, S>(pub K, pub S);
@@ -68,6 +67,27 @@ impl Simd for Avx512 {
         self.0.avx512f._mm512_cmp_pd_mask::<_CMP_EQ_OQ>(a, b)
     }
     #[inline(always)]
+    fn sqrt(self, values: __m512d) -> __m512d {
+        self.0.avx512f._mm512_sqrt_pd(values)
+    }
+    #[inline(always)]
+    fn larger(self, a: __m512d, b: __m512d) -> __m512d {
+        self.0.avx512f._mm512_max_pd(a, b)
+    }
+    #[inline(always)]
+    fn largest(self, values: __m512d) -> f64 {
+        let [low, high] = cast(values);
+        largest_of_four(*self.0, self.0.avx._mm256_max_pd(low, high))
+    }
+    #[inline(always)]
+    fn mask(self, bits: LaneBits) -> LaneBits {
+        bits
+    }
+    #[inline(always)]
+    fn and(self, a: LaneBits, b: LaneBits) -> LaneBits {
+        a & b
+    }
+    #[inline(always)]
     fn bits(self, mask: LaneBits) -> LaneBits {
         mask
     }
@@ -75,6 +95,14 @@ impl Simd for Avx512 {
     fn select(self, mask: LaneBits, a: __m512d, b: __m512d) -> __m512d {
         self.0.avx512f._mm512_mask_blend_pd(mask, b, a)
     }
+}
+
+#[inline(always)]
+fn largest_of_four(v3: V3, values: __m256d) -> f64 {
+    let [low, high]: [__m128d; 2] = cast(values);
+    let two = v3.sse2._mm_max_pd(low, high);
+    let one = v3.sse2._mm_max_pd(two, v3.sse2._mm_unpackhi_pd(two, two));
+    cast::<__m128d, [f64; 2]>(one)[0]
 }
 
 /// Four numbers per instruction.
@@ -127,6 +155,31 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn equal(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
         [self.0.avx._mm256_cmp_pd::<_CMP_EQ_OQ>(a, c), self.0.avx._mm256_cmp_pd::<_CMP_EQ_OQ>(b, d)]
+    }
+    #[inline(always)]
+    fn sqrt(self, [a, b]: Halves) -> Halves {
+        [self.0.avx._mm256_sqrt_pd(a), self.0.avx._mm256_sqrt_pd(b)]
+    }
+    #[inline(always)]
+    fn larger(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_max_pd(a, c), self.0.avx._mm256_max_pd(b, d)]
+    }
+    #[inline(always)]
+    fn largest(self, [a, b]: Halves) -> f64 {
+        largest_of_four(self.0, self.0.avx._mm256_max_pd(a, b))
+    }
+    #[inline(always)]
+    fn mask(self, bits: LaneBits) -> Halves {
+        let lanes = self.0.avx._mm256_set1_epi64x(bits.into());
+        let of = |lanes_of: [i64; 4]| {
+            let single: __m256i = cast(lanes_of);
+            cast(self.0.avx2._mm256_cmpeq_epi64(self.0.avx2._mm256_and_si256(lanes, single), single))
+        };
+        [of([1, 2, 4, 8]), of([16, 32, 64, 128])]
+    }
+    #[inline(always)]
+    fn and(self, [a, b]: Halves, [c, d]: Halves) -> Halves {
+        [self.0.avx._mm256_and_pd(a, c), self.0.avx._mm256_and_pd(b, d)]
     }
     #[inline(always)]
     fn bits(self, [a, b]: Halves) -> LaneBits {

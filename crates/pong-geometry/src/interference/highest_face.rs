@@ -1,0 +1,130 @@
+//! The active face that a point is highest above, or least deep below, in one pass over the planes of a polyhedron.
+
+use crate::Vec3;
+use crate::primitive::{FacePlanes, PlaneBlock};
+use crate::simd::{First, LANES, LaneBits, Simd, Splat};
+
+/// Blocks whose heights are kept in registers at a time, if there are that many.
+const MANY: usize = 4;
+const FEW: usize = 2;
+
+/// The active face that a point is highest above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Highest {
+    /// The face; of faces of equal height the first.
+    pub face: usize,
+    /// The height, m; of two zeros either.
+    pub height: f64,
+}
+
+/// Which points are asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Whereabouts {
+    Anywhere,
+    Inside,
+}
+
+/// Whether [`highest_of_few`] does; else [`highest_of_many`].
+#[inline(always)]
+pub(super) fn has_few(planes: &FacePlanes) -> bool {
+    planes.blocks.len() <= FEW
+}
+
+/// `None` if the point is not where it is asked for, if no face is active, or no height is a number above −∞.
+#[inline(always)]
+pub(super) fn highest_of_few<S: Simd>(
+    simd: S,
+    p: &Vec3,
+    planes: &FacePlanes,
+    whereabouts: Whereabouts,
+) -> Option<Highest> {
+    let search = Search { simd, at: Splat::new(simd, p), planes, whereabouts };
+    search.highest_of_group::<FEW>(0)
+}
+
+/// As [`highest_of_few`], for any number of faces.
+#[inline(always)]
+pub(super) fn highest_of_many<S: Simd>(
+    simd: S,
+    p: &Vec3,
+    planes: &FacePlanes,
+    whereabouts: Whereabouts,
+) -> Option<Highest> {
+    let search = Search { simd, at: Splat::new(simd, p), planes, whereabouts };
+    if planes.blocks.len() <= MANY {
+        return search.highest_of_group::<MANY>(0);
+    }
+    let mut first = First::above(simd, f64::NEG_INFINITY);
+    for start in (0..planes.blocks.len()).step_by(MANY) {
+        first.offer(start, search.top(&search.heights::<MANY>(start)?));
+    }
+    let (start, height) = first.place()?;
+    search.first_at(&search.heights::<MANY>(start)?, start, height)
+}
+
+#[derive(Clone, Copy)]
+struct Search<'a, S: Simd> {
+    simd: S,
+    at: Splat<S>,
+    planes: &'a FacePlanes,
+    whereabouts: Whereabouts,
+}
+
+impl<S: Simd> Search<'_, S> {
+    /// Heights above the planes of some blocks, −∞ for those of inactive faces. Blocks beyond the last repeat it.
+    #[inline(always)]
+    fn heights<const N: usize>(&self, start: usize) -> Option<[S::Eight; N]> {
+        let blocks = self.planes.blocks.as_slice();
+        let mut heights = [self.simd.splat(f64::NEG_INFINITY); N];
+        let mut held = LaneBits::MAX;
+        for (k, heights) in heights.iter_mut().enumerate() {
+            let block = blocks.get((start + k).min(blocks.len() - 1))?;
+            let all = block.heights(self.simd, &self.at);
+            if self.planes.simple {
+                held &= self.simd.bits(self.simd.below(all, self.simd.splat(0.0)));
+                *heights = all;
+            } else {
+                held &= block.held(self.simd, all);
+                *heights = self.active(block, all);
+            }
+        }
+        if held == LaneBits::MAX || self.whereabouts == Whereabouts::Anywhere { Some(heights) } else { None }
+    }
+
+    #[inline(always)]
+    fn active(&self, block: &PlaneBlock, heights: S::Eight) -> S::Eight {
+        self.simd.select(self.simd.mask(block.active), heights, self.simd.splat(f64::NEG_INFINITY))
+    }
+
+    #[inline(always)]
+    fn top<const N: usize>(&self, heights: &[S::Eight; N]) -> S::Eight {
+        let mut top = heights[0];
+        for &other in &heights[1..] {
+            top = self.simd.larger(top, other);
+        }
+        top
+    }
+
+    /// The first face of a height among those of some blocks.
+    #[inline(always)]
+    fn first_at<const N: usize>(
+        &self,
+        heights: &[S::Eight; N],
+        start: usize,
+        height: f64,
+    ) -> Option<Highest> {
+        let wanted = self.simd.splat(height);
+        let mut equal = 0;
+        for (k, &heights) in heights.iter().enumerate() {
+            equal |= u64::from(self.simd.bits(self.simd.equal(heights, wanted))) << (k * LANES);
+        }
+        let face = start * LANES + equal.trailing_zeros() as usize;
+        if equal != 0 && height > f64::NEG_INFINITY { Some(Highest { face, height }) } else { None }
+    }
+
+    #[inline(always)]
+    fn highest_of_group<const N: usize>(&self, start: usize) -> Option<Highest> {
+        let heights = self.heights::<N>(start)?;
+        self.first_at(&heights, start, self.simd.largest(self.top(&heights)))
+    }
+}
