@@ -112,13 +112,13 @@ impl Caller {
         }
     }
 
-    /// The panic of a worker in this phase. One of an abandoned phase is nobody's any more.
+    /// The panic of a worker in this phase. What is kept of a late panic of an earlier one stays where it is until then.
     fn take_panic(&self, panicked: bool) -> Option<Payload> {
         if !panicked {
             return None;
         }
         let mut kept = self.shared.panic.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.take().filter(|(epoch, _)| *epoch == self.epoch).map(|(_, payload)| payload)
+        kept.take().map(|(_, payload)| payload)
     }
 
     /// Blocks that workers have claimed and not finished. Between phases: workers inside abandoned blocks.

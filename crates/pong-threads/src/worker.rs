@@ -22,7 +22,8 @@ pub struct Shared {
     pub clock: Option<fn() -> u64>,
     /// Times of alerts count from here.
     pub origin: Watch,
-    /// The first panic of a worker that the caller has not taken yet, and its epoch.
+    /// The first panic in the latest phase that had one, and its epoch, until the caller takes it. The caller looks only
+    /// when a tally of its phase tells of a panic, so one of an abandoned phase reaches nobody.
     pub panic: Mutex<Option<(u64, Payload)>>,
 }
 
@@ -41,9 +42,14 @@ impl Shared {
 
     fn keep_panic(&self, epoch: u64, payload: Payload) {
         let mut kept = self.panic.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch != epoch) {
-            *kept = Some((epoch, payload));
-        }
+        keep_latest(&mut kept, epoch, payload);
+    }
+}
+
+/// A late panic must not hide that of a phase which the caller is still in.
+fn keep_latest(kept: &mut Option<(u64, Payload)>, epoch: u64, payload: Payload) {
+    if kept.as_ref().is_none_or(|(kept_epoch, _)| *kept_epoch < epoch) {
+        *kept = Some((epoch, payload));
     }
 }
 
@@ -141,5 +147,19 @@ impl Worker {
         }
         board.get_up(self.lane);
         board.wake_others(self.is_alerted(board.alert()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_panics_the_first_of_the_latest_phase_is_kept() {
+        let mut kept = None;
+        for (epoch, payload) in [(3, "early"), (5, "first"), (5, "second"), (4, "late")] {
+            keep_latest(&mut kept, epoch, Box::new(payload));
+        }
+        assert_eq!(*kept.unwrap().1.downcast::<&str>().unwrap(), "first");
     }
 }

@@ -3,11 +3,13 @@
 
 mod common;
 
-use std::sync::atomic::Ordering::SeqCst;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::time::{Duration, Instant};
 
 use common::{Count, FOR_EVER, Meet, patient, start};
-use pong_threads::Outcome;
+use pong_threads::{Outcome, Settings};
 
 /// Runs `child` in a forked process and answers whether it returned true. A child that hangs is ended.
 fn in_a_fork(child: impl FnOnce() -> bool) -> bool {
@@ -16,7 +18,8 @@ fn in_a_fork(child: impl FnOnce() -> bool) -> bool {
     let process = unsafe { libc::fork() };
     assert!(process >= 0, "fork: {}", std::io::Error::last_os_error());
     if process == 0 {
-        let status = i32::from(!child());
+        let succeeds = catch_unwind(AssertUnwindSafe(child)).unwrap_or(false);
+        let status = i32::from(!succeeds);
         // SAFETY: ends the child and nothing else.
         unsafe { libc::_exit(status) };
     }
@@ -77,13 +80,13 @@ fn the_child_can_drop_the_pool() {
 
 #[test]
 fn a_block_that_was_abandoned_before_the_fork_disturbs_nothing() {
-    let held = std::sync::Arc::new(std::sync::atomic::AtomicBool::new(true));
+    let held = Arc::new(AtomicBool::new(true));
     let on_worker = {
         let held = held.clone();
         move || common::wait_until("the test lets go", || !held.load(SeqCst))
     };
     let meet = Meet::new(on_worker);
-    let settings = pong_threads::Settings { patience: Duration::from_millis(1), ..patient(1) };
+    let settings = Settings { patience: Duration::from_millis(1), ..patient(1) };
     let mut pool = start(&meet, &settings);
     assert_eq!(pool.run(2), Outcome::Abandoned);
     assert!(!pool.is_quiet());
