@@ -1,5 +1,6 @@
 //! What the benchmark programs share: scenes, peers on the same scenes, clocks, counters and tables.
 
+pub mod difference;
 pub mod docking;
 pub mod floor;
 pub mod heap;
@@ -16,6 +17,7 @@ pub mod random;
 pub mod rig;
 pub mod ring;
 pub mod ron;
+pub mod scenes;
 pub mod table;
 pub mod terrain;
 pub mod timing;

@@ -7,7 +7,7 @@ use pong_geometry::extension::Extensions;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
-use pong_geometry::interference::point_polyhedron::{point_below_face, shallowest_face};
+use pong_geometry::interference::point_polyhedron::{point_polyhedron_in, shallowest_face};
 use pong_geometry::interference::ray_plane::RayHit;
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
 use pong_geometry::interference::ray_triangle::ray_triangle;
@@ -16,6 +16,7 @@ use pong_geometry::interference::sphere_triangle::sphere_triangle;
 use pong_geometry::primitive::{
     Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere, TriangleSet,
 };
+use pong_geometry::simd::{self, Kernel, Simd};
 use pong_geometry::{Mat3, Transform, Vec3};
 use pong_model::Model;
 
@@ -70,7 +71,7 @@ impl Ours {
         let body = &self.model.bodies[0];
         let triangles = &body.triangles;
         match (self.mover, body.polyhedra.first()) {
-            (Mover::Point, Some(b)) => each(transforms, answers, |x| point(&POINT.carried(x), b)),
+            (Mover::Point, Some(b)) => simd::run(Points { transforms, b, answers }),
             (Mover::Segment, Some(b)) => each(transforms, answers, |x| segment(&SEGMENT.carried(x), b)),
             (Mover::Sphere, Some(b)) => each(transforms, answers, |x| sphere(&SPHERE.carried(x), b)),
             (Mover::Ellipsoid, Some(b)) => {
@@ -109,11 +110,23 @@ fn each(transforms: &[Transform], answers: &mut [Answer], test: impl Fn(&Transfo
     }
 }
 
-fn point(a: &Point, b: &Polyhedron) -> Option<Answer> {
-    if !b.contains(&a.position) {
-        return None;
+/// All points in one kernel, as the engine has all points of a block in one.
+struct Points<'a> {
+    transforms: &'a [Transform],
+    b: &'a Polyhedron,
+    answers: &'a mut [Answer],
+}
+
+impl Kernel for Points<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { transforms, b, answers } = self;
+        each(transforms, answers, |x| {
+            point_polyhedron_in(simd, &POINT.carried(x).position, b).map(Answer::from)
+        });
     }
-    point_below_face(&a.position, b, shallowest_face(&a.position, b)?).map(Answer::from)
 }
 
 fn sphere(a: &Sphere, b: &Polyhedron) -> Option<Answer> {

@@ -46,13 +46,21 @@ struct Axis {
 }
 
 impl Axis {
-    /// From a power of ten (or of two, where that is too wide) to one.
+    /// From a power of ten, or of two where that is enough, to one.
     fn around(values: impl Iterator<Item = f64> + Clone, length: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min).log10();
         let high = values.fold(0.0, f64::max).log10();
         let step = if high - low > 1.5 { 1.0 } else { 2_f64.log10() };
-        let (low, high) = ((low / step - 1e-9).floor() * step, (high / step + 1e-9).ceil() * step);
+        let (low, high) = ((low / step - 0.05).floor() * step, (high / step + 0.05).ceil() * step);
         Self { low, high: high.max(low + step), length }
+    }
+
+    /// From the least value to the greatest, with a little room.
+    fn between(values: impl Iterator<Item = f64> + Clone, length: f64) -> Self {
+        let low = values.clone().fold(f64::INFINITY, f64::min).log10();
+        let high = values.fold(0.0, f64::max).log10();
+        let room = 0.05 * (high - low).max(0.1);
+        Self { low: low - room, high: high + room, length }
     }
 
     fn at(&self, value: f64) -> f64 {
@@ -79,7 +87,7 @@ fn label(value: f64) -> String {
 impl Panel {
     fn draw(&self, out: &mut String, y_name: &str) {
         let points = || self.lines.iter().flat_map(|(_, points)| points);
-        let x = Axis::around(points().map(|p| p.0), WIDTH - 20.0);
+        let x = Axis::between(points().map(|p| p.0), WIDTH - 20.0);
         let y = Axis::around(points().map(|p| p.1), HEIGHT);
         let right = x.length;
         let mut line = |text: String| {

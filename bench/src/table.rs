@@ -52,3 +52,20 @@ pub fn min_and_median(times: Option<&Times>, clock: Clock, unit: f64) -> String 
 pub fn or_dash(value: Option<impl fmt::Display>) -> String {
     value.map_or("–".to_owned(), |value| value.to_string())
 }
+
+/// A target for a ratio, and whether it is reached: `≤ 2.00, reached`, `≤ 2.00, missed 1.3 times`.
+pub fn at_most(wanted: f64, ratio: Option<f64>) -> String {
+    let wanted_text = digits(wanted);
+    match ratio {
+        None => format!("≤ {wanted_text}"),
+        Some(ratio) if ratio <= wanted => format!("≤ {wanted_text}, reached"),
+        Some(ratio) => format!("≤ {wanted_text}, missed {} times", digits(ratio / wanted)),
+    }
+}
+
+/// The same where more is better.
+pub fn at_least(wanted: f64, ratio: Option<f64>) -> String {
+    let inverse = at_most(1.0 / wanted, ratio.map(|ratio| 1.0 / ratio));
+    let (_, verdict) = inverse.split_once(", ").unwrap_or_default();
+    format!("≥ {}, {verdict}", digits(wanted))
+}

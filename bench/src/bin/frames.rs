@@ -5,12 +5,10 @@
 
 use pong_bench::rig::{self, Rig};
 use pong_bench::ring::{self, Ring, Tip};
-use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
-use pong_bench::{docking, optional};
+use pong_bench::terrain::{self, Terrain, Wheel};
+use pong_bench::{docking, optional, scenes};
 use pong_engine::{State, World};
-use pong_geometry::extension::Extensions;
 use pong_geometry::simd::{Level, set_level};
-use pong_model::Model;
 use std::error::Error;
 use std::sync::Arc;
 
@@ -57,8 +55,11 @@ fn scene(name: &str) -> Result<Scene, Box<dyn Error>> {
         "docking" => docking_scene(World::new(rig::config(1)), 0)?,
         "docking_crowded" => docking_scene(World::new(rig::config(1)), BYSTANDERS)?,
         "docking_switched_off" => switched_off_scene()?,
-        "ring" => ring_scene()?,
-        "wheels" => wheels_scene()?,
+        "ring" => (scenes::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere, 1)?, scenes::ring_states()),
+        "wheels" => {
+            let [sphere, _] = Wheel::BOTH;
+            (scenes::wheels(&Terrain::SIZES[1], sphere)?, terrain::states(FRAMES, sphere))
+        }
         other => return Err(format!("{other}: use one of {SCENES}").into()),
     })
 }
@@ -66,7 +67,7 @@ fn scene(name: &str) -> Result<Scene, Box<dyn Error>> {
 fn docking_scene(world: World, bystanders: usize) -> Result<Scene, Box<dyn Error>> {
     let mut models = docking::models()?.to_vec();
     let states = docking::states(&models[0]);
-    let bystander = parse("bystander", &Wheel::BOTH[0].model())?;
+    let bystander = scenes::parse(&Wheel::BOTH[0].model())?;
     models.extend(vec![bystander; bystanders]);
     Ok((Rig::in_world(world, &models, &[(0, 1)])?, states))
 }
@@ -80,24 +81,4 @@ fn switched_off_scene() -> Result<Scene, Box<dyn Error>> {
     let mut rig = Rig::in_world(optional::world_with_everything_off(), &models, &[(0, 1), (0, 2)])?;
     rig.world.set_pair_enabled(rig.pairs[1], false)?;
     Ok((rig, states))
-}
-
-fn ring_scene() -> Result<Scene, Box<dyn Error>> {
-    let ring = Ring::new(ring::SIZES[1]);
-    let models = [parse("ring", &ring.wedge_model())?, parse("tips", &ring.tip_model(Tip::Sphere))?];
-    let states = ring::states().iter().map(|states| states.to_vec()).collect();
-    Ok((Rig::new(&models, &[(0, 1)], 1)?, states))
-}
-
-fn wheels_scene() -> Result<Scene, Box<dyn Error>> {
-    let [sphere, _] = Wheel::BOTH;
-    let ground = parse("ground", &Terrain::SIZES[1].files(Source::Inline).0)?;
-    let wheel = parse("wheel", &sphere.model())?;
-    let models: Vec<_> = std::iter::once(ground).chain(vec![wheel; WHEELS]).collect();
-    let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
-    Ok((Rig::new(&models, &pairs, 1)?, terrain::states(64, sphere)))
-}
-
-fn parse(name: &str, text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
-    Ok(Arc::new(pong_model::parse(text, name, None, &Extensions::new())?))
 }

@@ -6,19 +6,17 @@ use pong_bench::peer::Peer;
 use pong_bench::peer::parry::{Loop, Manifolds};
 use pong_bench::plot::{Panel, svg};
 use pong_bench::race::Race;
-use pong_bench::rig::{Rig, bind_caller};
+use pong_bench::rig::bind_caller;
 use pong_bench::ring::{self, Ring, Tip};
-use pong_bench::table::Table;
-use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
+use pong_bench::scenes::{self, ring_states};
+use pong_bench::table::{Table, or_dash};
+use pong_bench::terrain::{self, Terrain, WHEELS, Wheel};
 use pong_bench::timing::{Clock, digits};
 use pong_engine::State;
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
 use std::error::Error;
 use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// One engine at one place of an axis.
 struct Entry {
@@ -40,20 +38,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     // The pools have begun, with all cores before them.
     bind_caller();
     let (mut panels, mut numbers) = (Vec::new(), String::from("axis,line,at,least_us,middle_us\n"));
-    let mut table = Table::new(&["axis", "line", "at", "µs per frame, shortest"]);
+    println!("µs per frame, shortest of {} passes\n", options.rounds);
     for (axis, clock, entries) in axes {
         let mut panel = Panel { x: axis, lines: Vec::new() };
         for (line, at, least, middle) in measure(entries, clock, options.rounds) {
             writeln!(numbers, "{axis},{line},{at},{least:.3},{middle:.3}")?;
-            table.row([axis.to_owned(), line.clone(), at.to_string(), digits(least)]);
             match panel.lines.iter_mut().find(|(known, _)| *known == line) {
                 Some((_, points)) => points.push((at, least)),
                 None => panel.lines.push((line, vec![(at, least)])),
             }
         }
+        println!("{}", table(&panel));
         panels.push(panel);
     }
-    println!("{table}");
     if !smoke {
         std::fs::write(into.join("performance_scaling.csv"), numbers)?;
         std::fs::write(into.join("performance_scaling.svg"), svg(&panels, "µs per frame"))?;
@@ -76,6 +73,22 @@ fn measure(mut entries: Vec<Entry>, clock: Clock, rounds: usize) -> Vec<(String,
     told.collect()
 }
 
+/// A row per place, a column per line.
+fn table(panel: &Panel) -> Table {
+    let head: Vec<&str> =
+        std::iter::once(panel.x).chain(panel.lines.iter().map(|(line, _)| line.as_str())).collect();
+    let mut table = Table::new(&head);
+    let mut places: Vec<f64> = panel.lines.iter().flat_map(|(_, points)| points).map(|p| p.0).collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    for at in places {
+        let time = |points: &[(f64, f64)]| points.iter().find(|p| p.0 == at).map(|p| digits(p.1));
+        let cells = panel.lines.iter().map(|(_, points)| or_dash(time(points)));
+        table.row(std::iter::once(at.to_string()).chain(cells));
+    }
+    table
+}
+
 // ---- axes
 
 /// From one thread to eight times as many as there are cores.
@@ -89,7 +102,7 @@ fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     for &size in sizes {
         let ring = Ring::new(size);
         for &count in &counts {
-            out.push(ring_entry(format!("ring of {} points", size.1), count as f64, &ring, count)?);
+            out.push(ring_entry(format!("Pong, ring of {} points", size.1), count as f64, &ring, count)?);
         }
     }
     Ok(out)
@@ -98,16 +111,19 @@ fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
 fn triangles(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     let mut out = Vec::new();
     for terrain in &Terrain::SIZES[..if smoke { 1 } else { 4 }] {
-        let ground = parse(&terrain.files(Source::Inline).0)?;
         for wheel in Wheel::BOTH {
-            let models: Vec<_> =
-                std::iter::once(Arc::clone(&ground)).chain(vec![parse(&wheel.model())?; WHEELS]).collect();
-            let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
             let (at, states) = (terrain.count() as f64, terrain::states(ring::FRAMES, wheel));
             let entry = |line: String, peer| Entry { line, at, peer, states: states.clone() };
-            out.push(entry(format!("six {}s", wheel.name()), Box::new(Rig::new(&models, &pairs, 1)?)));
+            out.push(entry(
+                format!("Pong, six {}s", wheel.name()),
+                Box::new(scenes::wheels(terrain, wheel)?),
+            ));
             if let Some(parry) = Manifolds::terrain(terrain, wheel, WHEELS) {
                 out.push(entry("parry, six spheres, detection".to_owned(), Box::new(parry)));
+            }
+            #[cfg(feature = "ode")]
+            if let Some(ode) = pong_bench::peer::ode::OdeTerrain::new(terrain, wheel) {
+                out.push(entry("ODE, six spheres, detection".to_owned(), Box::new(ode)));
             }
         }
     }
@@ -118,7 +134,7 @@ fn points(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     let mut out = Vec::new();
     for count in if smoke { vec![100] } else { vec![100, 300, 1000, 3000, 10_000, 30_000] } {
         let ring = Ring::new((48, count));
-        out.push(ring_entry("48 wedges".to_owned(), count as f64, &ring, 1)?);
+        out.push(ring_entry("Pong, 48 wedges".to_owned(), count as f64, &ring, 1)?);
         let others: [(&str, Box<dyn Peer>); 2] = [
             ("parry, own loop, detection", Box::new(Loop::ring(&ring, Tip::Point))),
             ("floor by hand, detection", Box::new(ByHand::new(&ring, Tip::Point))),
@@ -131,15 +147,5 @@ fn points(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
 }
 
 fn ring_entry(line: String, at: f64, ring: &Ring, threads: usize) -> Result<Entry, Box<dyn Error>> {
-    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Point))?];
-    let rig = Rig::new(&models, &[(0, 1)], threads)?;
-    Ok(Entry { line, at, peer: Box::new(rig), states: ring_states() })
-}
-
-fn ring_states() -> Vec<Vec<State>> {
-    ring::states().iter().map(|states| states.to_vec()).collect()
-}
-
-fn parse(text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
-    Ok(Arc::new(pong_model::parse(text, "scaling.ron", None, &Extensions::new())?))
+    Ok(Entry { line, at, peer: Box::new(scenes::ring(ring, Tip::Point, threads)?), states: ring_states() })
 }

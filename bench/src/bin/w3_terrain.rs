@@ -4,18 +4,18 @@ use pong_bench::options::Options;
 use pong_bench::peer::Peer;
 use pong_bench::peer::parry::Manifolds;
 use pong_bench::race::{Outcome, Race};
-use pong_bench::rig::Rig;
-use pong_bench::table::{Table, min_and_median, or_dash};
-use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
+use pong_bench::scenes;
+use pong_bench::table::{Table, at_most, min_and_median, or_dash};
+use pong_bench::terrain::{self, Terrain, WHEELS, Wheel};
 use pong_bench::timing::Clock;
 use pong_engine::State;
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
 use std::error::Error;
 use std::hint::black_box;
-use std::sync::Arc;
 
 const MICRO: f64 = 1e-6;
+/// Greatest time as a share of the best peer's, and over that on the smallest terrain.
+const OVER_BEST: f64 = 1.0 / 3.0;
+const OVER_SMALLEST: f64 = 1.2;
 const PEERS: [&str; 3] = ["parry", "MuJoCo", "ODE"];
 
 type Named = (String, Box<dyn Peer>);
@@ -36,7 +36,7 @@ fn run(sizes: &[Terrain], wheel: Wheel, options: &Options) -> Result<Table, Box<
     let mut all: Vec<Named> = Vec::new();
     for terrain in sizes {
         let name = |who: &str| format!("{who} {}", terrain.count());
-        all.push((name("Pong"), Box::new(rig(terrain, wheel)?)));
+        all.push((name("Pong"), Box::new(scenes::wheels(terrain, wheel)?)));
         if !options.alone {
             all.extend(peers(terrain, wheel).into_iter().map(|(who, peer)| (name(who), peer)));
         }
@@ -47,15 +47,6 @@ fn run(sizes: &[Terrain], wheel: Wheel, options: &Options) -> Result<Table, Box<
         race.enter(name, || states.iter().for_each(|states| _ = black_box(peer.frame(states))));
     }
     Ok(table(sizes, wheel, &contacts, &race.run(options.rounds, states.len())))
-}
-
-fn rig(terrain: &Terrain, wheel: Wheel) -> Result<Rig, Box<dyn Error>> {
-    let parse = |text: &str| pong_model::parse(text, "w3.ron", None, &Extensions::new()).map(Arc::new);
-    let ground: Arc<Model> = parse(&terrain.files(Source::Inline).0)?;
-    let wheel = parse(&wheel.model())?;
-    let models: Vec<_> = std::iter::once(ground).chain(vec![wheel; WHEELS]).collect();
-    let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
-    Ok(Rig::new(&models, &pairs, 1)?)
 }
 
 fn peers(terrain: &Terrain, wheel: Wheel) -> Vec<(&'static str, Box<dyn Peer>)> {
@@ -88,7 +79,10 @@ fn contacts(all: &mut [Named], states: &[Vec<State>]) -> Result<Vec<f64>, Box<dy
 fn table(sizes: &[Terrain], wheel: Wheel, contacts: &[f64], outcome: &Outcome) -> Table {
     let mut head = vec![format!("{}s, triangles", wheel.name()), "Pong".to_owned()];
     head.extend(PEERS.map(str::to_owned));
-    head.extend(["contacts in the same order", "Pong over best", "over the smallest"].map(str::to_owned));
+    head.extend(
+        ["contacts, in that order", "Pong over best", "wanted", "over the smallest", "wanted"]
+            .map(str::to_owned),
+    );
     let mut table = Table::new(&head.iter().map(String::as_str).collect::<Vec<_>>());
     let each = contacts.len() / sizes.len();
     for (terrain, contacts) in sizes.iter().zip(contacts.chunks(each)) {
@@ -97,15 +91,17 @@ fn table(sizes: &[Terrain], wheel: Wheel, contacts: &[f64], outcome: &Outcome) -
         let time = |who: &str| outcome.of(&name(who)).map(|times| times.min(Clock::Thread));
         let best = PEERS.into_iter().filter(|who| time(who).is_some());
         let best = best.min_by(|a, b| time(a).unwrap_or(0.0).total_cmp(&time(b).unwrap_or(0.0)));
-        let over_best =
-            best.and_then(|who| Some(format!("{who}: {}", outcome.ratio(&ours, &name(who), Clock::Thread)?)));
+        let over_best = best.and_then(|who| Some((who, outcome.ratio(&ours, &name(who), Clock::Thread)?)));
         let smallest = format!("Pong {}", sizes[0].count());
         let mut row = vec![terrain.count().to_string()];
         let everyone = std::iter::once("Pong").chain(PEERS);
         row.extend(everyone.map(|who| min_and_median(outcome.of(&name(who)), Clock::Thread, MICRO)));
         row.push(contacts.iter().map(|n| format!("{n:.1}")).collect::<Vec<_>>().join(", "));
-        row.push(or_dash(over_best));
-        row.push(or_dash(outcome.ratio(&ours, &smallest, Clock::Thread)));
+        row.push(or_dash(over_best.as_ref().map(|(who, ratio)| format!("{who}: {ratio}"))));
+        row.push(at_most(OVER_BEST, over_best.map(|(_, ratio)| ratio.median())));
+        let over_smallest = outcome.ratio(&ours, &smallest, Clock::Thread);
+        row.push(or_dash(over_smallest.as_ref()));
+        row.push(at_most(OVER_SMALLEST, over_smallest.map(|ratio| ratio.median())));
         table.row(row);
     }
     table

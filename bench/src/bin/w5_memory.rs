@@ -6,14 +6,14 @@ use pong_bench::peer::Peer;
 use pong_bench::peer::parry::{Manifolds, trimesh};
 use pong_bench::rig::{self, Rig};
 use pong_bench::ring::{self, Ring, Tip};
+use pong_bench::scenes;
 use pong_bench::table::Table;
 use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{Config, World};
 use pong_geometry::extension::Extensions;
-use pong_model::{Body, Model};
+use pong_model::Body;
 use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::Instant;
 
 #[global_allocator]
@@ -149,21 +149,22 @@ fn peers(terrain: &Terrain) -> Vec<(&'static str, usize, Option<usize>)> {
 fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
     const ROOM: usize = 1024;
     let ring = Ring::new(ring::SIZES[size]);
-    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Sphere))?];
+    let models = scenes::ring_models(&ring, Tip::Sphere)?;
     let states = ring::states();
-    let with_room = |contacts: usize| -> Result<(usize, usize), Box<dyn Error>> {
+    let with_room = |contacts: usize| -> Result<[usize; 3], Box<dyn Error>> {
         let before = heap::held();
         let world = World::new(Config { contact_capacity: Some(contacts), ..rig::config(1) });
         let mut rig = Rig::in_world(world, &models, &[(0, 1)])?;
         states.iter().for_each(|states| _ = rig.frame(states));
-        Ok((heap::held() - before, rig.world.state_size()?))
+        let records = rig.world.memory().contacts_capacity;
+        Ok([heap::held() - before, rig.world.state_size()?, records])
     };
     let (less, more) = (with_room(ROOM)?, with_room(2 * ROOM)?);
     let mut table = Table::new(&["memory of contacts", "B per contact"]);
     let mut row = |what: &str, bytes: f64| table.row([what.to_owned(), format!("{bytes:.1}")]);
-    let per_contact = |more: usize, less: usize| (more - less) as f64 / ROOM as f64;
-    row("Pong, everything that grows with the room for contacts", per_contact(more.0, less.0));
-    row("Pong, contact state as saved", per_contact(more.1, less.1));
+    let [all, saved, records] = [0, 1, 2].map(|i| (more[i] - less[i]) as f64);
+    row("Pong, what is kept of one contact from frame to frame", saved / records);
+    row("Pong, everything that grows with the room for contacts", all / ROOM as f64);
 
     let before = heap::held();
     let mut manifolds = Manifolds::ring(&ring);
@@ -178,30 +179,21 @@ fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
     Ok(table)
 }
 
-fn parse(text: &str) -> Result<Arc<Model>, Box<dyn Error>> {
-    Ok(Arc::new(pong_model::parse(text, "w5.ron", None, &Extensions::new())?))
-}
-
 // ---- calls
 
 fn calls(size: usize) -> Result<Table, Box<dyn Error>> {
     let mut table = Table::new(&["scene", "Pong, calls for memory per frame", "parry"]);
     let ring = Ring::new(ring::SIZES[size]);
-    let models = [parse(&ring.wedge_model())?, parse(&ring.tip_model(Tip::Sphere))?];
     let mut row = |name: &str, pong: f64, parry: f64| {
         table.row([name.to_owned(), format!("{pong:.2}"), format!("{parry:.2}")]);
     };
-    let states: Vec<_> = ring::states().iter().map(|states| states.to_vec()).collect();
-    let mut rig = Rig::new(&models, &[(0, 1)], 1)?;
+    let states = scenes::ring_states();
+    let mut rig = scenes::ring(&ring, Tip::Sphere, 1)?;
     row("ring, spheres", per_frame(&mut rig, &states), per_frame(&mut Manifolds::ring(&ring), &states));
 
     let (terrain, [sphere, _]) = (Terrain::SIZES[1], Wheel::BOTH);
-    let ground = parse(&terrain.files(Source::Inline).0)?;
-    let wheel = parse(&sphere.model())?;
-    let models: Vec<_> = std::iter::once(ground).chain(vec![wheel; WHEELS]).collect();
-    let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
     let states = terrain::states(64, sphere);
-    let mut rig = Rig::new(&models, &pairs, 1)?;
+    let mut rig = scenes::wheels(&terrain, sphere)?;
     let mut parry = Manifolds::terrain(&terrain, sphere, WHEELS).ok_or("parry knows spheres")?;
     row("six wheels on 10,000 triangles", per_frame(&mut rig, &states), per_frame(&mut parry, &states));
     Ok(table)

@@ -19,7 +19,9 @@ const CELL: f64 = 2.0 * HALF_SIDE / CELLS as f64;
 pub struct ByHand {
     level: Level,
     wedges: Vec<[Vec3; 8]>,
-    planes: Vec<Block>,
+    planes: Vec<Vec<(Vec3, f64)>>,
+    /// The same planes, ready for wide registers.
+    blocks: Vec<Block>,
     /// Per cell, where its wedges begin in the list; one more at the end.
     starts: Vec<u32>,
     list: Vec<u32>,
@@ -35,7 +37,8 @@ impl ByHand {
         let mut grid = Self {
             level: Level::detect(),
             wedges: ring.wedges.clone(),
-            planes: ring.wedges.iter().map(|wedge| blocks(&planes(wedge))[0]).collect(),
+            planes: ring.wedges.iter().map(planes).collect(),
+            blocks: ring.wedges.iter().map(|wedge| blocks(&planes(wedge))[0]).collect(),
             starts: vec![0],
             list: Vec::new(),
             tips: ring.tips.clone(),
@@ -60,7 +63,7 @@ impl ByHand {
         let cell = row * CELLS + column;
         for i in self.starts[cell]..self.starts[cell + 1] {
             let wedge = self.list[i as usize] as usize;
-            let height = greatest(&self.planes[wedge..=wedge], &p);
+            let height = greatest(&self.blocks[wedge..=wedge], &p);
             if height < self.radius {
                 self.take(tip, wedge, height, &p);
             }
@@ -69,7 +72,10 @@ impl ByHand {
 
     /// Below all planes or within a radius of them: of a sphere above a plane the true distance counts.
     fn take(&mut self, tip: usize, wedge: usize, height: f64, p: &Vec3) {
-        let distance = if height < 0.0 { height } else { distance(p, &self.wedges[wedge]) };
+        let distance = match height < 0.0 {
+            true => height,
+            false => distance(p, &self.wedges[wedge], &self.planes[wedge]),
+        };
         if distance < self.radius {
             self.found.push((tip as u32, wedge as u32, self.radius - distance));
         }
@@ -80,7 +86,7 @@ impl ByHand {
     fn test_avx512(&mut self, x: &Transform) {
         for tip in 0..self.tips.len() {
             let p = carried(x, &self.tips[tip]);
-            self.test_tip(tip, p, |planes, p| greatest_avx512(planes, p));
+            self.test_tip(tip, p, |blocks, p| greatest_avx512(blocks, p));
         }
     }
 
@@ -89,7 +95,7 @@ impl ByHand {
     fn test_avx2(&mut self, x: &Transform) {
         for tip in 0..self.tips.len() {
             let p = carried(x, &self.tips[tip]);
-            self.test_tip(tip, p, |planes, p| greatest_avx2(planes, p));
+            self.test_tip(tip, p, |blocks, p| greatest_avx2(blocks, p));
         }
     }
 
@@ -142,18 +148,21 @@ fn reaches(wedge: &[Vec3; 8], middle: [f64; 2], radius: f64) -> bool {
     })
 }
 
-/// Distance of a point outside from a wedge, m.
-fn distance(p: &Vec3, wedge: &[Vec3; 8]) -> f64 {
-    let to_face = |(face, (normal, offset)): (&[u32; 4], (Vec3, f64))| {
+/// Distance of a point outside from a wedge, m: only faces that it lies above can be nearest.
+fn distance(p: &Vec3, wedge: &[Vec3; 8], planes: &[(Vec3, f64)]) -> f64 {
+    let to_face = |(face, (normal, offset)): (&[u32; 4], &(Vec3, f64))| {
+        let height = normal.dot(p) - offset;
+        if height < 0.0 {
+            return f64::INFINITY;
+        }
         let corners = face.map(|v| wedge[v as usize]);
         let edges = || (0..4).map(|i| (corners[i], corners[(i + 1) % 4]));
-        let over = edges().all(|(a, b)| (b - a).cross(&(p - a)).dot(&normal) >= 0.0);
-        if over {
-            return (normal.dot(p) - offset).abs();
+        match edges().all(|(a, b)| (b - a).cross(&(p - a)).dot(normal) >= 0.0) {
+            true => height,
+            false => edges().map(|(a, b)| to_edge(p, &a, &b)).fold(f64::INFINITY, f64::min),
         }
-        edges().map(|(a, b)| to_edge(p, &a, &b)).fold(f64::INFINITY, f64::min)
     };
-    WEDGE_FACES.iter().zip(planes(wedge)).map(to_face).fold(f64::INFINITY, f64::min)
+    WEDGE_FACES.iter().zip(planes).map(to_face).fold(f64::INFINITY, f64::min)
 }
 
 fn to_edge(p: &Vec3, a: &Vec3, b: &Vec3) -> f64 {
