@@ -92,24 +92,6 @@ void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers
     }
 }
 
-/* The same by the public function for signed distances, which gives no normal for what overlaps. */
-void pong_mujoco_distances(scene *s, const double *poses, int count, answer *answers)
-{
-    int i;
-    for (i = 0; i < count; i++, poses += 12) {
-        double distance, ends[6];
-        answer out = {0};
-        mju_copy3(s->data->geom_xpos + 3 * MOVER, poses);
-        mju_copy(s->data->geom_xmat + 9 * MOVER, poses + 3, 9);
-        distance = mj_geomDistance(s->model, s->data, MOVER, TARGET, 1e-9, ends);
-        if (distance < 0) {
-            out.depth = -distance;
-            mju_copy3(out.point, ends);
-        }
-        answers[i] = out;
-    }
-}
-
 /* A ray along z that starts at `start` of the mover's frame, no longer than `length`. */
 void pong_mujoco_rays(scene *s, const double *poses, int count, double start, double length, answer *answers)
 {

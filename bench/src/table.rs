@@ -69,3 +69,16 @@ pub fn at_least(wanted: f64, ratio: Option<f64>) -> String {
     let (_, verdict) = inverse.split_once(", ").unwrap_or_default();
     format!("≥ {}, {verdict}", digits(wanted))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn verdicts_turn_at_the_target() {
+        assert_eq!(at_most(2.0, Some(2.0)), "≤ 2.00, reached");
+        assert_eq!(at_most(2.0, Some(3.0)), "≤ 2.00, missed 1.50 times");
+        assert_eq!(at_least(1.9, Some(1.9)), "≥ 1.90, reached");
+        assert_eq!(at_least(1.9, Some(0.95)), "≥ 1.90, missed 2.00 times");
+    }
+}

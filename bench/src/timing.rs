@@ -92,3 +92,27 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn times(passes: &[f64]) -> Times {
+        Times { items: 1.0, passes: passes.iter().map(|&pass| [pass, 2.0 * pass]).collect() }
+    }
+
+    #[test]
+    fn ratios_are_those_of_the_same_round() {
+        let (mine, theirs) = (times(&[1.0, 6.0, 2.0]), times(&[2.0, 2.0, 8.0]));
+        assert_eq!(mine.over(&theirs, Clock::Thread).to_string(), "0.500 [0.250..3.00]");
+        assert_eq!((mine.min(Clock::Thread), mine.median(Clock::Wall)), (1.0, 4.0));
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        assert_eq!(
+            [0.01234, 1.234, 12.34, 123.4, 12345.6].map(digits),
+            ["0.012", "1.23", "12.3", "123", "12346"]
+        );
+    }
+}

@@ -1,5 +1,6 @@
 //! W5: what a terrain of a million triangles occupies, bytes per contact, calls for memory per frame.
 
+use parry3d_f64::query::{ContactManifold, TrackedContact};
 use pong_bench::heap;
 use pong_bench::options::Options;
 use pong_bench::peer::Peer;
@@ -7,7 +8,7 @@ use pong_bench::peer::parry::{Manifolds, trimesh};
 use pong_bench::rig::{self, Rig};
 use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::scenes;
-use pong_bench::table::Table;
+use pong_bench::table::{Table, at_most, or_dash};
 use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{Config, World};
 use pong_geometry::extension::Extensions;
@@ -19,6 +20,9 @@ use std::time::Instant;
 #[global_allocator]
 static HEAP: heap::Counting = heap::Counting;
 
+/// Most bytes of a triangle without the tree, and of what is kept of a contact.
+const PER_TRIANGLE: f64 = 48.0;
+const PER_CONTACT: f64 = 160.0;
 const MEBIBYTE: f64 = 1024.0 * 1024.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -39,7 +43,8 @@ fn triangles(large: Terrain) -> Result<Table, Box<dyn Error>> {
         "loaded in, s",
         "peak, MiB",
         "B per triangle",
-        "of which without the tree",
+        "without the tree",
+        "wanted",
     ]);
     let folder = Folder::new()?;
     for (terrain, source) in [
@@ -54,7 +59,15 @@ fn triangles(large: Terrain) -> Result<Table, Box<dyn Error>> {
         let per_triangle = |bytes: usize| format!("{:.1}", bytes as f64 / large.count() as f64);
         let name = format!("{engine}, {}", large.count());
         let dash = || "–".to_owned();
-        table.row([name, dash(), dash(), dash(), per_triangle(held), bare.map_or_else(dash, per_triangle)]);
+        table.row([
+            name,
+            dash(),
+            dash(),
+            dash(),
+            per_triangle(held),
+            bare.map_or_else(dash, per_triangle),
+            dash(),
+        ]);
     }
     Ok(table)
 }
@@ -77,7 +90,7 @@ impl Drop for Folder {
     }
 }
 
-fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 6], Box<dyn Error>> {
+fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 7], Box<dyn Error>> {
     let (text, mesh) = terrain.files(source);
     let path = folder.join("terrain.ron");
     let mut bytes = text.len();
@@ -92,6 +105,7 @@ fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 6], 
     let model = pong_model::load(&path, &Extensions::new())?;
     let seconds = start.elapsed().as_secs_f64();
     let (held, peak) = (heap::held() - before, heap::peak() - before);
+    let bare = without_tree(&model.bodies[0]);
     let per_triangle = |bytes: usize| format!("{:.1}", bytes as f64 / terrain.count() as f64);
     Ok([
         format!("Pong, {} from {source:?}", terrain.count()),
@@ -99,7 +113,8 @@ fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 6], 
         format!("{seconds:.2}"),
         format!("{:.1}", peak as f64 / MEBIBYTE),
         per_triangle(held),
-        per_triangle(without_tree(&model.bodies[0])),
+        per_triangle(bare),
+        at_most(PER_TRIANGLE, Some(bare as f64 / terrain.count() as f64)),
     ])
 }
 
@@ -160,11 +175,14 @@ fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
         Ok([heap::held() - before, rig.world.state_size()?, records])
     };
     let (less, more) = (with_room(ROOM)?, with_room(2 * ROOM)?);
-    let mut table = Table::new(&["memory of contacts", "B per contact"]);
-    let mut row = |what: &str, bytes: f64| table.row([what.to_owned(), format!("{bytes:.1}")]);
+    let mut table = Table::new(&["memory of contacts", "B per contact", "wanted"]);
+    let mut row = |what: &str, bytes: f64, wanted: Option<f64>| {
+        let wanted = wanted.map(|wanted| at_most(wanted, Some(bytes)));
+        table.row([what.to_owned(), format!("{bytes:.1}"), or_dash(wanted)]);
+    };
     let [all, saved, records] = [0, 1, 2].map(|i| (more[i] - less[i]) as f64);
-    row("Pong, what is kept of one contact from frame to frame", saved / records);
-    row("Pong, everything that grows with the room for contacts", all / ROOM as f64);
+    row("Pong, what is kept of one contact from frame to frame", saved / records, Some(PER_CONTACT));
+    row("Pong, everything that grows with the room for contacts", all / ROOM as f64, None);
 
     let before = heap::held();
     let mut manifolds = Manifolds::ring(&ring);
@@ -173,19 +191,21 @@ fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
     row(
         "parry, what manifolds of the ring hold after 64 frames",
         (heap::held() - before - empty) as f64 / most as f64,
+        None,
     );
-    row("parry, one point of a manifold", size_of::<parry3d_f64::query::TrackedContact<()>>() as f64);
-    row("parry, one manifold", size_of::<parry3d_f64::query::ContactManifold<(), ()>>() as f64);
+    row("parry, one point of a manifold", size_of::<TrackedContact<()>>() as f64, None);
+    row("parry, one manifold", size_of::<ContactManifold<(), ()>>() as f64, None);
     Ok(table)
 }
 
 // ---- calls
 
 fn calls(size: usize) -> Result<Table, Box<dyn Error>> {
-    let mut table = Table::new(&["scene", "Pong, calls for memory per frame", "parry"]);
+    let mut table = Table::new(&["calls for memory per frame", "Pong", "wanted", "parry"]);
     let ring = Ring::new(ring::SIZES[size]);
     let mut row = |name: &str, pong: f64, parry: f64| {
-        table.row([name.to_owned(), format!("{pong:.2}"), format!("{parry:.2}")]);
+        let verdict = if pong == 0.0 { "0, reached" } else { "0, missed" };
+        table.row([name.to_owned(), format!("{pong:.2}"), verdict.to_owned(), format!("{parry:.2}")]);
     };
     let states = scenes::ring_states();
     let mut rig = scenes::ring(&ring, Tip::Sphere, 1)?;

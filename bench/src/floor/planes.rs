@@ -112,3 +112,37 @@ pub(super) fn greatest_portable(blocks: &[Block], p: &Vec3) -> f64 {
     }
     greatest.into_iter().fold(f64::NEG_INFINITY, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::Hull;
+    use crate::pairs::{Mover, Queries, Target};
+
+    /// Every level that this machine has finds the height that the planes have, one by one.
+    #[test]
+    fn all_levels_find_the_highest_plane() {
+        for vertices in [8, 18, 66] {
+            let hull = Hull::fibonacci(vertices);
+            let planes = hull.planes();
+            assert_eq!(planes.len(), 2 * vertices - 4);
+            let queries = Queries::new(64, Mover::Point, &Target::Hull(hull), |x| x.translation.norm() < 0.3);
+            let point = Vec3::new(0.01, -0.02, 0.03);
+            for level in [Level::Portable, Level::Avx2, Level::Avx512] {
+                if level == Level::Avx512 && Level::detect() != level
+                    || level == Level::Avx2 && Level::detect() == Level::Portable
+                {
+                    continue;
+                }
+                let mut found = vec![0.0; 64];
+                heights(level, &blocks(&planes), &point, &queries.transforms, &mut found);
+                for (found, x) in found.iter().zip(&queries.transforms) {
+                    let p = x.point(&point);
+                    let height = |(normal, offset): &(Vec3, f64)| normal.dot(&p) - offset;
+                    let highest = planes.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
+                    assert!((found - highest).abs() < 1e-14, "{level:?}: {found} for {highest}");
+                }
+            }
+        }
+    }
+}

@@ -21,7 +21,6 @@ unsafe extern "C" {
     fn pong_mujoco_heights(scene: *mut Opaque, heights: *const f32, count: c_int);
     fn pong_mujoco_frame(scene: *mut Opaque, poses: *const f64, bodies: c_int) -> c_int;
     fn pong_mujoco_pairs(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
-    fn pong_mujoco_distances(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
     fn pong_mujoco_rays(
         scene: *mut Opaque,
         poses: *const f64,
@@ -136,7 +135,6 @@ impl Peer for Mujoco {
 pub struct MujocoPair {
     scene: Scene,
     mover: Mover,
-    by_distance: bool,
 }
 
 impl MujocoPair {
@@ -152,12 +150,7 @@ impl MujocoPair {
         };
         let world = format!("<geom type=\"mesh\" mesh=\"hull\"/><body>{FREE}<geom {shape}/></body>");
         let scene = Scene::load(&mesh("hull", vertices), &world);
-        Some(Self { scene, mover, by_distance: false })
-    }
-
-    /// The same through `mj_geomDistance`.
-    pub fn by_distance(mover: Mover, target: &Target) -> Option<Self> {
-        Self::new(mover, target).map(|pair| Self { by_distance: true, ..pair })
+        Some(Self { scene, mover })
     }
 }
 
@@ -169,7 +162,6 @@ impl PairPeer for MujocoPair {
         unsafe {
             match self.mover {
                 Mover::Ray => pong_mujoco_rays(scene, poses, count, RAY.0[2], RAY.2, answers),
-                _ if self.by_distance => pong_mujoco_distances(scene, poses, count, answers),
                 _ => pong_mujoco_pairs(scene, poses, count, answers),
             }
         }
