@@ -1,13 +1,10 @@
 //! One block of bytes that is handed out piece by piece and taken back as a whole.
 
+use crate::demand::{GRAIN, rounded};
 use crate::full::Full;
 use crate::list::List;
 use bumpalo::Bump;
 use std::cell::Cell;
-
-/// Every request is rounded up to a multiple of this many bytes, so that alignment never costs a byte that depends on
-/// an address. No element may ask for a larger alignment.
-const GRAIN: usize = 16;
 
 /// Memory of one frame: slices and lists that all end with the next [`reset`](Self::reset).
 ///
@@ -85,11 +82,10 @@ impl Arena {
     /// Books a request, if it fits.
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };
-        let asked = len.saturating_mul(size_of::<T>());
-        let whole = asked.checked_next_multiple_of(GRAIN).unwrap_or(usize::MAX);
+        let whole = rounded::<T>(len);
         if whole > self.capacity - self.used.get() {
             self.refuse(whole);
-            return Err(self.full(asked));
+            return Err(self.full(len.saturating_mul(size_of::<T>())));
         }
         self.used.set(self.used.get() + whole);
         self.note_peak();

@@ -2,11 +2,13 @@
 #![forbid(unsafe_code)]
 
 mod arena;
+mod demand;
 mod full;
 mod list;
 mod table;
 
 pub use arena::Arena;
+pub use demand::Demand;
 pub use full::Full;
 pub use list::List;
 pub use table::Table;

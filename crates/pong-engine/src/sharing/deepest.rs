@@ -15,10 +15,9 @@ pub(super) fn share(contacts: &mut [Sharer], scratch: &mut Arena) {
     }
 }
 
-/// Scratch memory for the choice and the shares of so many contacts.
+/// Scratch memory for the choice and the shares of so many contacts, bytes.
 fn bytes(count: usize) -> usize {
-    let rounded = |bytes: usize| bytes.next_multiple_of(16);
-    rounded(count * size_of::<u32>()) + rounded(count * size_of::<Sharer>()) + uncoupled::tableau_bytes(count)
+    uncoupled::tableau(count).and::<u32>(count).and::<Sharer>(count).bytes()
 }
 
 /// Shares the `count` deepest, in the order that they have among all.

@@ -48,9 +48,8 @@ impl Sharer {
 }
 
 /// Bytes of scratch memory in which [`share_within`] shares any set of so many contacts exactly.
-
 pub fn scratch_bytes(contacts: usize) -> usize {
-    uncoupled::tableau_bytes(contacts)
+    uncoupled::tableau(contacts).bytes()
 }
 
 /// Fills in the λ of every contact of one ball with one surface. The order of the contacts decides ties only.
@@ -63,14 +62,6 @@ pub fn scratch_bytes(contacts: usize) -> usize {
 pub fn share_within(contacts: &mut [Sharer], scratch: &mut Arena) -> Result<(), Full> {
     scratch.reset();
     solve(contacts, scratch).inspect_err(|_| deepest::share(contacts, scratch))
-}
-
-#[cfg(test)]
-/// As [`share_within`], taking the scratch memory from the heap.
-pub fn share(contacts: &mut [Sharer]) {
-    let alone = contacts.len() < 3 || all_couple(contacts);
-    let mut scratch = Arena::with_capacity(if alone { 0 } else { scratch_bytes(contacts.len()) });
-    share_within(contacts, &mut scratch).expect("room for the whole tableau");
 }
 
 /// Fills in every λ, or none if the scratch memory is too small.

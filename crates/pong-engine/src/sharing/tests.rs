@@ -2,6 +2,12 @@
 
 use super::*;
 
+/// With as much scratch memory as it takes.
+fn share(contacts: &mut [Sharer]) {
+    let mut scratch = Arena::with_capacity(scratch_bytes(contacts.len()));
+    share_within(contacts, &mut scratch).unwrap();
+}
+
 fn solved(contacts: &[(Vec3, f64)]) -> (Vec<f64>, Vec3) {
     let mut sharers: Vec<Sharer> = contacts.iter().map(|(n, d)| Sharer::new(n.normalize(), *d)).collect();
     share(&mut sharers);

@@ -9,13 +9,12 @@
 //! The tableau of n contacts has n·(2n + 2) numbers. They come from an arena that was sized beforehand.
 
 use super::{Sharer, coupling};
-use pong_arena::{Arena, Full};
+use pong_arena::{Arena, Demand, Full};
 
-/// Bytes that the tableau of so many contacts takes.
-pub(super) fn tableau_bytes(contacts: usize) -> usize {
+/// What the tableau of so many contacts takes.
+pub(super) fn tableau(contacts: usize) -> Demand {
     let columns = contacts.saturating_mul(2).saturating_add(2);
-    let cells = contacts.saturating_mul(columns).saturating_mul(size_of::<f64>());
-    cells.saturating_add((contacts * size_of::<u32>()).next_multiple_of(16))
+    Demand::default().and::<u32>(contacts).and::<f64>(contacts.saturating_mul(columns))
 }
 
 /// Fills in the λ of every contact.
