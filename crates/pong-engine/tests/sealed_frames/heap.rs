@@ -1,0 +1,106 @@
+//! A counting allocator that keeps one count per kind of call, so that a failure names the call.
+//!
+//! Counted are the thread that runs the frames and the world's own workers; those are recognised by the registered law
+//! that they evaluate.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+struct Counting;
+
+thread_local! {
+    static COUNTED: Cell<bool> = const { Cell::new(false) };
+}
+/// Whether frames are running.
+static WATCHING: AtomicBool = AtomicBool::new(false);
+/// Calls to the allocator, by the kind of call that was under way.
+static COUNTS: [AtomicUsize; CALLS.len()] = [const { AtomicUsize::new(0) }; CALLS.len()];
+/// Threads beside the first that were counted.
+static HELPERS: AtomicUsize = AtomicUsize::new(0);
+static CALL: AtomicUsize = AtomicUsize::new(0);
+/// One test at a time.
+static TURN: Mutex<()> = Mutex::new(());
+
+/// What a host calls in a frame.
+const CALLS: [&str; 15] = [
+    "between the calls",
+    "set_states",
+    "set_state",
+    "evaluate",
+    "commit",
+    "commit_pairs",
+    "step",
+    "set_pair_enabled",
+    "forget",
+    "save_state",
+    "restore_state",
+    "contacts_iter",
+    "wrench and wrench_common",
+    "prewake and quiesce",
+    "reports",
+];
+
+fn count() {
+    // A thread that ends may free memory after its own variables are gone.
+    if COUNTED.try_with(Cell::get).unwrap_or(false) && WATCHING.load(Relaxed) {
+        COUNTS[CALL.load(Relaxed)].fetch_add(1, Relaxed);
+    }
+}
+
+// SAFETY: every call is handed on to `System` as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count();
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static HEAP: Counting = Counting;
+
+/// Counts what the calling thread, and every thread that evaluates one of the laws below, asks of the allocator.
+/// Answers the calls of the host during which there was any, each with how often.
+pub fn counted(work: impl FnOnce()) -> Vec<(&'static str, usize)> {
+    COUNTS.iter().for_each(|count| count.store(0, Relaxed));
+    HELPERS.store(0, Relaxed);
+    COUNTED.set(true);
+    WATCHING.store(true, Relaxed);
+    work();
+    WATCHING.store(false, Relaxed);
+    COUNTED.set(false);
+    let counts = CALLS.iter().zip(&COUNTS).map(|(call, count)| (*call, count.load(Relaxed)));
+    counts.filter(|(_, count)| *count > 0).collect()
+}
+
+/// Books what `work` asks of the allocator under a name of [`CALLS`].
+pub fn during<T>(call: &str, work: impl FnOnce() -> T) -> T {
+    CALL.store(CALLS.iter().position(|name| *name == call).expect("a known call"), Relaxed);
+    let answer = work();
+    CALL.store(0, Relaxed);
+    answer
+}
+
+pub fn my_turn() -> MutexGuard<'static, ()> {
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Has the calling thread counted as well, if frames are running.
+pub fn count_this_thread() {
+    if WATCHING.load(Relaxed) && !COUNTED.replace(true) {
+        HELPERS.fetch_add(1, Relaxed);
+    }
+}
+
+/// How many threads were counted during the last count, beside the one that ran it.
+pub fn helpers() -> usize {
+    HELPERS.load(Relaxed)
+}
