@@ -44,12 +44,36 @@ static void configurations(void)
     config.keep_ledger = 2;
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "keep_ledger is 2");
     config = pong_default_config();
+    config.report_times = 7;
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "report_times is 7; give 0 or 1");
+    config = pong_default_config();
     config.contact_capacity = (uint64_t)1 << 60;
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "contact_capacity");
     REFUSED(pong_create_world(NULL, &world), NULL_ARGUMENT, "`config`");
     config = pong_default_config();
     REFUSED(pong_create_world(&config, NULL), NULL_ARGUMENT, "`world`");
     OK(pong_destroy_world(NULL));
+}
+
+/* Refused whether or not there are to be workers. */
+static void worker_settings(void)
+{
+    static const uint32_t bad[] = { 65, 1000001, 0, 1000001, 100, 2, 2 };
+    static const char *const said[] = { "workers is 65; give 0 to 64", "spin_us is 1000001", "patience_us is 0; give 1",
+                                        "patience_us is 1000001", "fifo_priority is 100; give 0 to 99",
+                                        "pin_workers is 2", "oversubscribe is 2" };
+    pong_config cores = pong_default_config();
+    pong_world *world;
+    int i;
+    for (i = 0; i < 7; i += 1) {
+        pong_config config = pong_default_config();
+        uint32_t *const fields[7] = { &config.workers, &config.spin_us, &config.patience_us, &config.patience_us,
+                                      &config.fifo_priority, &config.pin_workers, &config.oversubscribe };
+        *fields[i] = bad[i];
+        REFUSED(pong_create_world(&config, &world), BAD_VALUE, said[i]);
+    }
+    cores.worker_cores = 2;
+    REFUSED(pong_create_world(&cores, &world), BAD_VALUE, "worker_cores is 0x2 but pin_workers is 0");
 }
 
 static void models(scene *s)
@@ -105,6 +129,13 @@ static void order_before_seal(scene *s)
 {
     pong_wrench wrench;
     size_t size;
+    pong_worker worker;
+    const char *text;
+    REFUSED(pong_prewake(s->world, 100), WRONG_PHASE, "seal");
+    REFUSED(pong_quiesce(s->world), WRONG_PHASE, "seal");
+    REFUSED(pong_worker_count(s->world, &size), WRONG_PHASE, "seal");
+    REFUSED(pong_get_worker(s->world, 0, &worker), WRONG_PHASE, "seal");
+    REFUSED(pong_worker_text(s->world, 1, &text), WRONG_PHASE, "seal");
     REFUSED(pong_step(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_evaluate(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_commit(s->world), WRONG_PHASE, "seal");
@@ -162,6 +193,9 @@ static void bad_results(scene *s)
 {
     pong_wrench wrench;
     pong_contact contact;
+    pong_tally tally;
+    pong_worker worker;
+    const char *text;
     pong_interface_id wild = { 12345 };
     pong_pair_id no_pair = { 0 };
     size_t count = 77;
@@ -178,6 +212,14 @@ static void bad_results(scene *s)
     REFUSED(pong_get_contacts(s->world, NULL, 1, &count), NULL_ARGUMENT, "`contacts`");
     OK(pong_get_contacts(s->world, &contact, 1, &count));
     REFUSED(pong_get_report(s->world, NULL), NULL_ARGUMENT, "`report`");
+    REFUSED(pong_tally_count(s->world, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_tally(s->world, 0, NULL), NULL_ARGUMENT, "`tally`");
+    REFUSED(pong_get_tally(s->world, 99, &tally), UNKNOWN_ID, "tally 99");
+    REFUSED(pong_worker_count(s->world, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_worker(s->world, 0, NULL), NULL_ARGUMENT, "`worker`");
+    REFUSED(pong_get_worker(s->world, 1, &worker), UNKNOWN_ID, "worker 1: there are 0");
+    REFUSED(pong_worker_text(s->world, 1, NULL), NULL_ARGUMENT, "`text`");
+    REFUSED(pong_worker_text(s->world, 0, &text), UNKNOWN_ID, "worker 0");
     REFUSED(pong_get_ledger(s->world, NULL), NULL_ARGUMENT, "`ledger`");
     REFUSED(pong_commit_pairs(s->world, &no_pair, 1), UNKNOWN_ID, "pair");
     REFUSED(pong_commit_pairs(s->world, NULL, 1), NULL_ARGUMENT, "`pairs`");
@@ -190,8 +232,18 @@ static void no_world(void)
     pong_state state = pong_default_state();
     pong_wrench wrench;
     size_t size;
+    pong_worker worker;
+    pong_tally tally;
+    const char *text;
     REFUSED(pong_seal(NULL, NULL), NULL_ARGUMENT, "`world`");
     REFUSED(pong_set_states(NULL, &interface, &state, 1), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_prewake(NULL, 100), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_quiesce(NULL), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_worker_count(NULL, &size), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_get_worker(NULL, 0, &worker), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_worker_text(NULL, 1, &text), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_tally_count(NULL, &size), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_get_tally(NULL, 0, &tally), NULL_ARGUMENT, "`world`");
     REFUSED(pong_step(NULL), NULL_ARGUMENT, "`world`");
     REFUSED(pong_evaluate(NULL), NULL_ARGUMENT, "`world`");
     REFUSED(pong_commit(NULL), NULL_ARGUMENT, "`world`");
@@ -222,6 +274,7 @@ int main(void)
     pong_wrench first, last;
     versions();
     configurations();
+    worker_settings();
     no_world();
     open_scene(&s, &config);
     models(&s);

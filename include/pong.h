@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x0590f77165109b79ULL
+#define PONG_LAYOUT_HASH 0x46cfeea82f961acdULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -27,9 +27,44 @@
 /// `feature_kind` of a vertex.
 #define PONG_FEATURE_VERTEX 2
 
-/// The frame had more contacts than the world's capacity: the deepest were kept. `contacts_wanted` advises a
-/// capacity.
+/// The frame had more contacts than the world's capacity: the deepest were kept.
 #define PONG_FLAG_CONTACT_LIMIT 1
+
+/// More contacts of one ball with one surface than could be shared exactly: the deepest were.
+#define PONG_FLAG_SHARING_LIMIT 2
+
+/// `stage_ns` of states in and relative motion.
+#define PONG_STAGE_RELATIVE 0
+
+/// `stage_ns` of bounding volumes, testers, sharing and forces, on the calling thread and the workers.
+#define PONG_STAGE_CONTACTS 1
+
+/// `stage_ns` of putting contacts in order and keeping to the limits.
+#define PONG_STAGE_ORDER 2
+
+/// `stage_ns` of the energies, if they are kept.
+#define PONG_STAGE_LEDGER 3
+
+/// `stage_ns` of the wrenches.
+#define PONG_STAGE_REDUCE 4
+
+/// `stage_ns` of the contact state, if the frame was committed.
+#define PONG_STAGE_COMMIT 5
+
+/// `what` of a tally of tests of the bounding volumes that models give.
+#define PONG_TALLY_VOLUMES 0
+
+/// `what` of a tally of contact tests.
+#define PONG_TALLY_PRIMITIVES 1
+
+/// The configuration did not ask for it.
+#define PONG_GRANT_NOT_ASKED 0
+
+/// It is so.
+#define PONG_GRANT_GRANTED 1
+
+/// It was asked for and refused; pong_worker_text() tells why.
+#define PONG_GRANT_REFUSED 2
 
 /// F = k d + c d', with a ramp.
 #define PONG_NORMAL_LINEAR 0
@@ -128,10 +163,33 @@ typedef struct pong_config {
     uint64_t contact_capacity;
     /// 1 keeps energies for pong_get_ledger(); 0 (default) does not and costs nothing.
     uint32_t keep_ledger;
+    /// 1 times the stages of a frame and the workers by CLOCK_MONOTONIC, for pong_get_report() and pong_get_worker();
+    /// 0 (default) does not ask for the time in them.
+    uint32_t report_times;
+    /// Threads that share a frame's work with the calling one, at most 64; 0 (default) for the calling thread alone.
+    /// The results are the same bits for any number. There will be no more than there are cores beside the caller's
+    /// in the affinity mask of the thread that seals the world; see `oversubscribe`.
+    uint32_t workers;
+    /// 1 starts all `workers`, even if there are fewer cores; 0 by default.
+    uint32_t oversubscribe;
+    /// How long a worker looks for work before it sleeps, us; 50 by default, at most 1000000. To wake one that sleeps
+    /// takes tens of us; see pong_prewake().
+    uint32_t spin_us;
+    /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
+    /// then it does that work again by itself. 1000 by default, 1 to 1000000.
+    uint32_t patience_us;
+    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
+    /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
+    uint32_t pin_workers;
+    /// Ask for SCHED_FIFO with this priority, 1 to 99, for the workers; 0 (default) does not ask. What became of it:
+    /// pong_get_worker().
+    uint32_t fifo_priority;
+    /// With pin_workers: the cores of the workers, bit n for core n, the lowest for the first worker. They may be
+    /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
+    /// affinity mask after the first.
+    uint64_t worker_cores;
     /// Zero.
-    uint32_t reserved_u32;
-    /// Zero.
-    uint64_t reserved[4];
+    uint64_t reserved[8];
 } pong_config;
 
 /// State of a movable group, relative to and expressed in the common frame: any frame that paired Objects share.
@@ -255,6 +313,10 @@ typedef struct pong_seal_report {
     uint64_t contact_state_size;
     /// How many warnings there are: see pong_seal_warning().
     uint64_t warning_count;
+    /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
+    uint64_t workers;
+    /// Zero in this version.
+    uint64_t reserved[4];
 } pong_seal_report;
 
 /// One side of a contact.
@@ -312,11 +374,11 @@ typedef struct pong_contact {
 
 /// What the last frame did.
 typedef struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing.
+    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_limit_name().
     uint32_t flags;
     /// Contacts listed.
     uint32_t contacts;
-    /// Contacts there would have been without the limit.
+    /// Contacts there would have been without the limit: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
     uint32_t contacts_wanted;
     /// Largest `contacts_wanted` of any frame of this world.
     uint32_t peak_contacts_wanted;
@@ -324,7 +386,9 @@ typedef struct pong_report {
     uint64_t volumes_tested;
     /// Pairs of leaves whose contents were tested.
     uint64_t leaf_pairs;
-    /// Pairs of primitives tested.
+    /// Tests of a box with the eight boxes of a node below a leaf.
+    uint64_t boxes_tested;
+    /// Pairs of primitives tested. By kind: pong_get_tally().
     uint64_t primitives_tested;
     /// Evaluations since the world was made, those that a step or a commit asked for included.
     uint64_t evaluations;
@@ -334,6 +398,23 @@ typedef struct pong_report {
     uint64_t evaluate_ns;
     /// Duration of the last commit without the evaluation it may have asked for, ns.
     uint64_t commit_ns;
+    /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
+    uint64_t stage_ns[8];
+    /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
+    /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
+    uint64_t advised_capacity;
+    /// Most contacts that a frame of this world had to hold, those included that are only remembered.
+    uint64_t contacts_peak;
+    /// How many there is room for: the contact capacity.
+    uint64_t contacts_capacity;
+    /// Most memory that the testers of one part of a frame needed on the calling thread, bytes.
+    uint64_t arena_peak;
+    /// What there is for them, bytes.
+    uint64_t arena_capacity;
+    /// Most memory that sharing among the contacts of one surface needed on the calling thread, bytes.
+    uint64_t scratch_peak;
+    /// What there is for it, bytes.
+    uint64_t scratch_capacity;
     /// Zero in this version.
     uint64_t reserved[8];
 } pong_report;
@@ -347,6 +428,42 @@ typedef struct pong_ledger {
     /// Dissipated since the world began, J.
     double dissipated;
 } pong_ledger;
+
+/// Tests of one kind against another in the last frame.
+typedef struct pong_tally {
+    /// What was tested: PONG_TALLY_...
+    uint32_t what;
+    /// Tests.
+    uint32_t tested;
+    /// Volumes: tests that did not find the two apart; the others were rejected. Primitives: contacts found, of which
+    /// one test may find several.
+    uint32_t met;
+    /// Zero.
+    uint32_t reserved;
+    /// Name of A's kind, as models write it.
+    char kind_a[16];
+    /// Name of B's kind.
+    char kind_b[16];
+} pong_tally;
+
+/// What became of a worker, and what it did last.
+typedef struct pong_worker {
+    /// 0 is the calling thread, 1 the first worker.
+    uint32_t lane;
+    /// Whether it is bound to a core: PONG_GRANT_...
+    uint32_t core_grant;
+    /// The core that was asked for; 0 if none was.
+    uint32_t core;
+    /// Whether it runs under SCHED_FIFO as asked: PONG_GRANT_...
+    uint32_t fifo_grant;
+    /// The priority that was asked for; 0 if none was.
+    uint32_t fifo_priority;
+    /// Blocks of work that it did in the last round of work that was shared out. A frame with too little work to share
+    /// has none, and the number stays that of an earlier frame.
+    uint32_t blocks;
+    /// With report_times: time in them, ns; else 0.
+    uint64_t busy_ns;
+} pong_worker;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
 /// do not use are 0 when got and ignored when set.
@@ -579,8 +696,9 @@ pong_status pong_find_primitive(const struct pong_world *world,
                                 const char *path,
                                 uint32_t *primitive);
 
-/// Ends set-up: checks that everything that may meet can be tested and combined, and sizes all memory. `report`
-/// may be NULL. After a failure the world is still in set-up, and the message lists every reason.
+/// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
+/// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
+/// message lists every reason.
 pong_status pong_seal(struct pong_world *world,
                       struct pong_seal_report *report);
 
@@ -614,11 +732,54 @@ pong_status pong_get_contacts(const struct pong_world *world,
                               size_t capacity,
                               size_t *count);
 
-/// Counts, times and flags of the last frame; all zero before the first.
+/// Counts, times, memory and flags of the last frame; all zero before the first.
 pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
+
+/// What a flag of the report means, in words: "contact limit", "sharing limit"; "unknown limit" for a number that is
+/// no single flag. Lives as long as the library.
+const char *pong_limit_name(uint32_t flag);
+
+/// Name of a stage, PONG_STAGE_...: "relative", "contacts", "order", "ledger", "reduce", "commit"; empty for a place
+/// of `stage_ns` that has no stage. Lives as long as the library.
+const char *pong_stage_name(size_t stage);
 
 /// The energies; zero unless the configuration has keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
+
+/// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
+/// frame; 0 before the first.
+pong_status pong_tally_count(const struct pong_world *world,
+                             size_t *count);
+
+/// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
+/// numbers are the same for any number of workers.
+pong_status pong_get_tally(const struct pong_world *world,
+                           size_t index,
+                           struct pong_tally *tally);
+
+/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
+/// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_prewake(struct pong_world *world,
+                         uint64_t at_most_us);
+
+/// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_quiesce(struct pong_world *world);
+
+/// Number of workers that were started, which may be fewer than the configuration asks for.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_worker_count(const struct pong_world *world, size_t *count);
+
+/// What became of a worker and what it did last. `lane` is 1 to pong_worker_count(), or 0 for the calling thread.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_get_worker(const struct pong_world *world,
+                            size_t lane,
+                            struct pong_worker *worker);
+
+/// What became of a worker, in words: its core and priority, or why it has not got them. `lane` is 1 to
+/// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
+pong_status pong_worker_text(const struct pong_world *world, size_t lane, const char **text);
 
 /// Size of the saved contact state, bytes; fixed when the world is sealed.
 pong_status pong_contact_state_size(const struct pong_world *world, size_t *size);

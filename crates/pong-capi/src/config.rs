@@ -3,7 +3,8 @@
 use crate::guard::{Failure, Outcome};
 use crate::status::pong_status;
 use crate::version::PONG_ABI_VERSION;
-use pong_engine::Config;
+use pong_engine::{Config, WorkerSettings};
+use std::time::Duration;
 
 /// Tells a configuration that pong_default_config() made from one that nobody filled in.
 const COOKIE: u64 = 0x706f_6e67_2d63_6667;
@@ -24,10 +25,33 @@ pub struct pong_config {
     pub contact_capacity: u64,
     /// 1 keeps energies for pong_get_ledger(); 0 (default) does not and costs nothing.
     pub keep_ledger: u32,
+    /// 1 times the stages of a frame and the workers by CLOCK_MONOTONIC, for pong_get_report() and pong_get_worker();
+    /// 0 (default) does not ask for the time in them.
+    pub report_times: u32,
+    /// Threads that share a frame's work with the calling one, at most 64; 0 (default) for the calling thread alone.
+    /// The results are the same bits for any number. There will be no more than there are cores beside the caller's
+    /// in the affinity mask of the thread that seals the world; see `oversubscribe`.
+    pub workers: u32,
+    /// 1 starts all `workers`, even if there are fewer cores; 0 by default.
+    pub oversubscribe: u32,
+    /// How long a worker looks for work before it sleeps, us; 50 by default, at most 1000000. To wake one that sleeps
+    /// takes tens of us; see pong_prewake().
+    pub spin_us: u32,
+    /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
+    /// then it does that work again by itself. 1000 by default, 1 to 1000000.
+    pub patience_us: u32,
+    /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
+    /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
+    pub pin_workers: u32,
+    /// Ask for SCHED_FIFO with this priority, 1 to 99, for the workers; 0 (default) does not ask. What became of it:
+    /// pong_get_worker().
+    pub fifo_priority: u32,
+    /// With pin_workers: the cores of the workers, bit n for core n, the lowest for the first worker. They may be
+    /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
+    /// affinity mask after the first.
+    pub worker_cores: u64,
     /// Zero.
-    pub reserved_u32: u32,
-    /// Zero.
-    pub reserved: [u64; 4],
+    pub reserved: [u64; 8],
 }
 
 /// The default settings.
@@ -39,51 +63,112 @@ pub extern "C" fn pong_default_config() -> pong_config {
         cookie: COOKIE,
         contact_capacity: 0,
         keep_ledger: 0,
-        reserved_u32: 0,
-        reserved: [0; 4],
+        report_times: 0,
+        workers: 0,
+        oversubscribe: 0,
+        spin_us: 50,
+        patience_us: 1000,
+        pin_workers: 0,
+        fifo_priority: 0,
+        worker_cores: 0,
+        reserved: [0; 8],
     }
 }
 
+/// What a configuration asks for.
+pub(crate) struct Wanted {
+    pub engine: Config,
+    /// Whether the engine is to be given a clock.
+    pub times: bool,
+}
+
 impl pong_config {
-    /// The engine's settings, if the struct is one this library made.
-    pub(crate) fn check(&self) -> Outcome<Config> {
+    /// The engine's settings, if the struct is one this library made and every value can be.
+    pub(crate) fn check(&self) -> Outcome<Wanted> {
+        self.check_origin()?;
+        let contact_capacity = match self.contact_capacity {
+            0 => None,
+            _ => Some(within(
+                "contact_capacity",
+                self.contact_capacity,
+                0,
+                MOST_CONTACTS,
+                "0 for the default",
+            )?),
+        };
+        let engine = Config {
+            contact_capacity: contact_capacity.map(|wanted| wanted as usize),
+            ledger: switch("keep_ledger", self.keep_ledger)?,
+            workers: self.worker_settings()?,
+        };
+        Ok(Wanted { engine, times: switch("report_times", self.report_times)? })
+    }
+
+    fn check_origin(&self) -> Outcome {
         let expected = pong_default_config();
         let made_here = (self.cookie, self.struct_size, self.abi_version)
             == (expected.cookie, expected.struct_size, expected.abi_version);
-        let known = self.reserved_u32 == 0 && self.reserved == [0; 4];
-        if !made_here || !known {
-            let cause = if made_here {
-                "has values in its reserved fields"
-            } else {
-                "was not filled in by pong_default_config()"
-            };
-            let message = format!(
-                "config: it {cause}; start from pong_default_config() and change only what is documented"
-            );
-            return Err(Failure::new(pong_status::Config, message));
-        }
-        let contact_capacity = match self.contact_capacity {
-            0 => None,
-            wanted => Some(usize::try_from(wanted).unwrap_or(usize::MAX)),
+        let cause = match (made_here, self.reserved == expected.reserved) {
+            (true, true) => return Ok(()),
+            (true, false) => "has values in its reserved fields",
+            (false, _) => "was not filled in by pong_default_config()",
         };
-        if contact_capacity.is_some_and(|wanted| wanted > MOST_CONTACTS) {
+        let message = format!(
+            "config: it {cause}; start from pong_default_config() and change only what is documented"
+        );
+        Err(Failure::new(pong_status::Config, message))
+    }
+
+    /// Checked whether there will be workers or not: a wrong value must not wait for the day that asks for one.
+    fn worker_settings(&self) -> Outcome<Option<WorkerSettings>> {
+        let most = pong_threads::MAX_WORKERS as u64;
+        let workers =
+            within("workers", self.workers.into(), 0, most, "0 for the calling thread alone")? as usize;
+        let spin = within("spin_us", self.spin_us.into(), 0, MOST_US, "50 by default")?;
+        let patience = within("patience_us", self.patience_us.into(), 1, MOST_US, "1000 by default")?;
+        let priority = within("fifo_priority", self.fifo_priority.into(), 0, 99, "0 for no SCHED_FIFO")?;
+        let pin = switch("pin_workers", self.pin_workers)?;
+        let oversubscribe = switch("oversubscribe", self.oversubscribe)?;
+        if self.worker_cores != 0 && !pin {
             let message = format!(
-                "config: contact_capacity is {}; give at most {MOST_CONTACTS}, or 0 for the default",
-                self.contact_capacity
+                "config: worker_cores is {:#x} but pin_workers is 0; set pin_workers to 1 or worker_cores to 0",
+                self.worker_cores
             );
             return Err(Failure::new(pong_status::BadValue, message));
         }
-        let ledger = match self.keep_ledger {
-            0 => false,
-            1 => true,
-            other => {
-                let message = format!("config: keep_ledger is {other}; give 0 or 1");
-                return Err(Failure::new(pong_status::BadValue, message));
-            }
+        let settings = WorkerSettings {
+            workers,
+            oversubscribe,
+            spin: Duration::from_micros(spin),
+            patience: Duration::from_micros(patience),
+            pin,
+            cores: (0..64).filter(|core| self.worker_cores >> core & 1 == 1).collect(),
+            fifo_priority: u8::try_from(priority).ok().filter(|priority| *priority > 0),
+            clock: None, // The world's own, see report_times.
         };
-        Ok(Config { contact_capacity, ledger, workers: None })
+        Ok((workers > 0).then_some(settings))
     }
 }
 
 /// Beyond this a slip of the pen is likelier than a scene, and the memory could not be had.
-const MOST_CONTACTS: usize = 1 << 24;
+const MOST_CONTACTS: u64 = 1 << 24;
+
+/// Longest time of a setting, us: more is likelier a slip of the unit.
+const MOST_US: u64 = 1_000_000;
+
+/// A number of the configuration between two that make sense.
+fn within(name: &str, value: u64, least: u64, most: u64, or: &str) -> Outcome<u64> {
+    if (least..=most).contains(&value) {
+        return Ok(value);
+    }
+    let message = format!("config: {name} is {value}; give {least} to {most} ({or})");
+    Err(Failure::new(pong_status::BadValue, message))
+}
+
+fn switch(name: &str, value: u32) -> Outcome<bool> {
+    match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(Failure::new(pong_status::BadValue, format!("config: {name} is {other}; give 0 or 1"))),
+    }
+}

@@ -45,9 +45,10 @@ pub unsafe extern "C" fn pong_commit_pairs(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
+            let pairs = array(pairs, n, "pairs")?;
             let mut ids = std::mem::take(&mut inner.pairs);
             ids.clear();
-            ids.extend(array(pairs, n, "pairs")?.iter().map(|id| id.id()));
+            ids.extend(pairs.iter().map(|id| id.id()));
             let outcome = inner.commit(|world| world.commit_pairs(&ids));
             inner.pairs = ids;
             outcome

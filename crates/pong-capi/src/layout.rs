@@ -9,6 +9,8 @@ use crate::seal::pong_seal_report;
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::surfaces::pong_surface_values;
+use crate::tally::pong_tally;
+use crate::workers::pong_worker;
 use crate::wrenches::pong_wrench;
 use std::mem::offset_of;
 
@@ -41,7 +43,10 @@ macro_rules! layouts {
 }
 
 layouts! {
-    pong_config { struct_size, abi_version, cookie, contact_capacity, keep_ledger, reserved_u32, reserved }
+    pong_config {
+        struct_size, abi_version, cookie, contact_capacity, keep_ledger, report_times, workers, oversubscribe, spin_us,
+        patience_us, pin_workers, fifo_priority, worker_cores, reserved,
+    }
     pong_model_id { bits }
     pong_object_id { bits }
     pong_pair_id { bits }
@@ -51,7 +56,7 @@ layouts! {
         normal_force, normal, slip, slip_velocity, share, stiffness, parameters, parameter_count, stuck, reserved,
     }
     pong_friction_output { force, stored, sticks, reserved }
-    pong_seal_report { group_pairs, contact_capacity, contact_state_size, warning_count }
+    pong_seal_report { group_pairs, contact_capacity, contact_state_size, warning_count, workers, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }
     pong_wrench { force, moment }
     pong_contact_side { object, interface, primitive, element, arm }
@@ -60,9 +65,12 @@ layouts! {
         friction_force, force, slip_velocity, stored,
     }
     pong_report {
-        flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, primitives_tested,
-        evaluations, commits, evaluate_ns, commit_ns, reserved,
+        flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, boxes_tested,
+        primitives_tested, evaluations, commits, evaluate_ns, commit_ns, stage_ns, advised_capacity, contacts_peak,
+        contacts_capacity, arena_peak, arena_capacity, scratch_peak, scratch_capacity, reserved,
     }
+    pong_tally { what, tested, met, reserved, kind_a, kind_b }
+    pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns }
     pong_ledger { stored, work, dissipated }
     pong_surface_values {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,

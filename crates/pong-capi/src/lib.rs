@@ -11,7 +11,8 @@
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
 //! | `seal.rs` | end of set-up |
-//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs` | frames |
+//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `tally.rs` | frames |
+//! | `workers.rs` | workers, around frames |
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //!
 //! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C. Pointers are
@@ -26,6 +27,7 @@
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
 
+mod clock;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;
@@ -49,7 +51,9 @@ pub mod seal;
 pub mod states;
 pub mod status;
 pub mod surfaces;
+pub mod tally;
 pub mod user_data;
 pub mod version;
+pub mod workers;
 pub mod world;
 pub mod wrenches;

@@ -1,35 +1,82 @@
 //! The last message of each thread.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
 
+/// Room for a message without asking for memory, the zero byte at its end included. What a frame can say fits.
+const SHORT: usize = 512;
+
+/// Which text is the last one.
+#[derive(Clone, Copy)]
+enum Last {
+    Nothing,
+    Short,
+    Long,
+}
+
 thread_local! {
-    /// Ends with a zero byte once anything was said. Its memory stays, so that a success allocates nothing.
-    static LAST: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
+    // These two need nothing at the end of a thread. That is why a thread's first call of the library, which looks at
+    // them alone if it succeeds, asks for no memory.
+    static LAST: Cell<Last> = const { Cell::new(Last::Nothing) };
+    static SHORT_TEXT: RefCell<[u8; SHORT]> = const { RefCell::new([0; SHORT]) };
+    static LONG_TEXT: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Forgets what was said.
 pub(crate) fn clear() {
-    // A thread that is ending has no message any more; that is no reason to fail.
-    let _ = LAST.try_with(|last| last.borrow_mut().clear());
+    LAST.set(Last::Nothing);
 }
 
 /// Says something.
 pub(crate) fn set(text: &str) {
-    let _ = LAST.try_with(|last| {
-        let mut last = last.borrow_mut();
-        last.clear();
-        // A zero byte would end the text early.
-        last.extend(text.bytes().map(|byte| if byte == 0 { b'?' } else { byte }));
-        last.push(0);
+    if text.len() < SHORT {
+        SHORT_TEXT.with_borrow_mut(|short| {
+            for (place, byte) in short.iter_mut().zip(as_c(text)) {
+                *place = byte;
+            }
+        });
+        LAST.set(Last::Short);
+        return;
+    }
+    // A thread that is ending has no long message any more; that is no reason to fail.
+    let kept = LONG_TEXT.try_with(|long| {
+        let mut long = long.borrow_mut();
+        long.clear();
+        long.extend(as_c(text));
     });
+    LAST.set(if kept.is_ok() { Last::Long } else { Last::Nothing });
+}
+
+/// The bytes with a zero at the end and none before it, which would end the text early.
+fn as_c(text: &str) -> impl Iterator<Item = u8> {
+    text.bytes().map(|byte| if byte == 0 { b'?' } else { byte }).chain([0])
 }
 
 /// What was said, as C reads it.
 pub(crate) fn pointer() -> *const c_char {
-    let said = LAST.try_with(|last| match last.borrow().as_slice() {
-        [] => c"".as_ptr(),
-        text => text.as_ptr().cast(),
-    });
-    said.unwrap_or(c"".as_ptr())
+    let nothing = c"".as_ptr();
+    match LAST.get() {
+        Last::Nothing => nothing,
+        Last::Short => SHORT_TEXT.with_borrow(|short| short.as_ptr().cast()),
+        Last::Long => LONG_TEXT.try_with(|long| long.borrow().as_ptr().cast()).unwrap_or(nothing),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::CStr;
+
+    #[test]
+    fn a_text_of_any_length_comes_back_whole() {
+        for len in [0, 1, SHORT - 2, SHORT - 1, SHORT, SHORT + 1, 10 * SHORT, 3] {
+            let text = "x".repeat(len);
+            set(&text);
+            // SAFETY: the text ends with a zero byte and lives until the next one is set.
+            assert_eq!(unsafe { CStr::from_ptr(pointer()) }.to_str(), Ok(text.as_str()), "{len} bytes");
+        }
+        clear();
+        // SAFETY: as above.
+        assert!(unsafe { CStr::from_ptr(pointer()) }.is_empty());
+    }
 }

@@ -67,6 +67,10 @@ impl Names {
         self.objects.get(&id.bits).ok_or_else(|| unknown("object"))
     }
 
+    pub fn interface_count(&self) -> usize {
+        self.interfaces.len()
+    }
+
     pub fn has_interface(&self, id: pong_interface_id) -> bool {
         self.interfaces.contains_key(&id.bits)
     }

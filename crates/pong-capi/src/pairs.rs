@@ -21,6 +21,7 @@ pub unsafe extern "C" fn pong_pair_objects(
         with_world(world, |inner| {
             let out = Out::optional(pair, "pair")?;
             let id = inner.world.pair(a.id(), b.id())?;
+            inner.pair_count += 1;
             if let Some(out) = out {
                 out.set(id.into());
             }
@@ -43,6 +44,7 @@ pub unsafe extern "C" fn pong_pair_by_name(
             let out = Out::optional(pair, "pair")?;
             let (a, b) = (inner.world.object(text(a, "a")?)?, inner.world.object(text(b, "b")?)?);
             let id = inner.world.pair(a, b)?;
+            inner.pair_count += 1;
             if let Some(out) = out {
                 out.set(id.into());
             }

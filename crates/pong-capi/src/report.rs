@@ -1,23 +1,43 @@
 //! Report and energies.
 
+use crate::frames::Counters;
 use crate::guard::with_world;
 use crate::pointers::Out;
 use crate::status::pong_status;
 use crate::world::pong_world;
+use pong_engine::{FrameReport, Stage, StageTimes, StatusBits};
+use std::ffi::{CStr, c_char};
 
-/// The frame had more contacts than the world's capacity: the deepest were kept. `contacts_wanted` advises a
-/// capacity.
+/// The frame had more contacts than the world's capacity: the deepest were kept.
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
+/// More contacts of one ball with one surface than could be shared exactly: the deepest were.
+pub const PONG_FLAG_SHARING_LIMIT: u32 = 2;
+
+/// `stage_ns` of states in and relative motion.
+pub const PONG_STAGE_RELATIVE: usize = 0;
+/// `stage_ns` of bounding volumes, testers, sharing and forces, on the calling thread and the workers.
+pub const PONG_STAGE_CONTACTS: usize = 1;
+/// `stage_ns` of putting contacts in order and keeping to the limits.
+pub const PONG_STAGE_ORDER: usize = 2;
+/// `stage_ns` of the energies, if they are kept.
+pub const PONG_STAGE_LEDGER: usize = 3;
+/// `stage_ns` of the wrenches.
+pub const PONG_STAGE_REDUCE: usize = 4;
+/// `stage_ns` of the contact state, if the frame was committed.
+pub const PONG_STAGE_COMMIT: usize = 5;
+
+/// Room for stages in pong_report.
+const STAGES: usize = 8;
 
 /// What the last frame did.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing.
+    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_limit_name().
     pub flags: u32,
     /// Contacts listed.
     pub contacts: u32,
-    /// Contacts there would have been without the limit.
+    /// Contacts there would have been without the limit: the capacity to ask for after PONG_FLAG_CONTACT_LIMIT.
     pub contacts_wanted: u32,
     /// Largest `contacts_wanted` of any frame of this world.
     pub peak_contacts_wanted: u32,
@@ -25,7 +45,9 @@ pub struct pong_report {
     pub volumes_tested: u64,
     /// Pairs of leaves whose contents were tested.
     pub leaf_pairs: u64,
-    /// Pairs of primitives tested.
+    /// Tests of a box with the eight boxes of a node below a leaf.
+    pub boxes_tested: u64,
+    /// Pairs of primitives tested. By kind: pong_get_tally().
     pub primitives_tested: u64,
     /// Evaluations since the world was made, those that a step or a commit asked for included.
     pub evaluations: u64,
@@ -35,35 +57,106 @@ pub struct pong_report {
     pub evaluate_ns: u64,
     /// Duration of the last commit without the evaluation it may have asked for, ns.
     pub commit_ns: u64,
+    /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
+    pub stage_ns: [u64; 8],
+    /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
+    /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
+    pub advised_capacity: u64,
+    /// Most contacts that a frame of this world had to hold, those included that are only remembered.
+    pub contacts_peak: u64,
+    /// How many there is room for: the contact capacity.
+    pub contacts_capacity: u64,
+    /// Most memory that the testers of one part of a frame needed on the calling thread, bytes.
+    pub arena_peak: u64,
+    /// What there is for them, bytes.
+    pub arena_capacity: u64,
+    /// Most memory that sharing among the contacts of one surface needed on the calling thread, bytes.
+    pub scratch_peak: u64,
+    /// What there is for it, bytes.
+    pub scratch_capacity: u64,
     /// Zero in this version.
     pub reserved: [u64; 8],
 }
 
-/// Counts, times and flags of the last frame; all zero before the first.
+/// Counts, times, memory and flags of the last frame; all zero before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let out = Out::new(report, "report")?;
-            let (frame, counts, counters) = (inner.world.report(), inner.world.counts(), inner.counters);
-            out.set(pong_report {
-                flags: frame.status.bits(),
-                contacts: frame.contacts,
-                contacts_wanted: frame.contacts_wanted,
-                peak_contacts_wanted: counters.peak_contacts_wanted,
-                volumes_tested: counts.volumes_tested(),
-                leaf_pairs: counts.leaf_pairs,
-                primitives_tested: counts.primitives_tested(),
-                evaluations: counters.evaluations,
-                commits: counters.commits,
-                evaluate_ns: counters.evaluate_ns,
-                commit_ns: counters.commit_ns,
-                reserved: [0; 8],
-            });
+            Out::new(report, "report")?.set(report_of(&inner.world, &inner.counters));
             Ok(())
         })
     }
+}
+
+fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
+    let (frame, counts, memory) = (world.report(), world.counts(), world.memory());
+    pong_report {
+        flags: frame.status.bits(),
+        contacts: frame.contacts,
+        contacts_wanted: frame.contacts_wanted,
+        peak_contacts_wanted: counters.peak_contacts_wanted,
+        volumes_tested: counts.volumes_tested(),
+        leaf_pairs: counts.leaf_pairs,
+        boxes_tested: counts.boxes_tested,
+        primitives_tested: counts.primitives_tested(),
+        evaluations: counters.evaluations,
+        commits: counters.commits,
+        evaluate_ns: counters.evaluate_ns,
+        commit_ns: counters.commit_ns,
+        stage_ns: by_stage(&world.stage_times()),
+        advised_capacity: advised_capacity(&frame, memory.contacts_capacity as u64),
+        contacts_peak: memory.contacts_peak as u64,
+        contacts_capacity: memory.contacts_capacity as u64,
+        arena_peak: memory.arena_peak as u64,
+        arena_capacity: memory.arena_capacity as u64,
+        scratch_peak: memory.scratch_peak as u64,
+        scratch_capacity: memory.scratch_capacity as u64,
+        reserved: [0; 8],
+    }
+}
+
+fn by_stage(times: &StageTimes) -> [u64; STAGES] {
+    let mut all = [0; STAGES];
+    for stage in Stage::ALL {
+        all[stage as usize] = times.of(stage);
+    }
+    all
+}
+
+fn advised_capacity(frame: &FrameReport, capacity: u64) -> u64 {
+    let twice = if frame.status.contains(StatusBits::SHARING_LIMIT) { 2 * capacity } else { 0 };
+    let wanted = if frame.status.contains(StatusBits::CONTACT_LIMIT) { frame.contacts_wanted } else { 0 };
+    twice.max(wanted.into())
+}
+
+/// What a flag of the report means, in words: "contact limit", "sharing limit"; "unknown limit" for a number that is
+/// no single flag. Lives as long as the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_limit_name(flag: u32) -> *const c_char {
+    let name: &CStr = match flag {
+        PONG_FLAG_CONTACT_LIMIT => c"contact limit",
+        PONG_FLAG_SHARING_LIMIT => c"sharing limit",
+        _ => c"unknown limit",
+    };
+    name.as_ptr()
+}
+
+/// Name of a stage, PONG_STAGE_...: "relative", "contacts", "order", "ledger", "reduce", "commit"; empty for a place
+/// of `stage_ns` that has no stage. Lives as long as the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_stage_name(stage: usize) -> *const c_char {
+    let name: &CStr = match stage {
+        PONG_STAGE_RELATIVE => c"relative",
+        PONG_STAGE_CONTACTS => c"contacts",
+        PONG_STAGE_ORDER => c"order",
+        PONG_STAGE_LEDGER => c"ledger",
+        PONG_STAGE_REDUCE => c"reduce",
+        PONG_STAGE_COMMIT => c"commit",
+        _ => c"",
+    };
+    name.as_ptr()
 }
 
 /// Energies of all contacts of a world, at the last commit.
@@ -98,10 +191,27 @@ pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pong_engine::StatusBits;
 
     #[test]
     fn flags_are_the_bits_of_the_engine() {
         assert_eq!(PONG_FLAG_CONTACT_LIMIT, StatusBits::CONTACT_LIMIT.bits());
+        assert_eq!(PONG_FLAG_SHARING_LIMIT, StatusBits::SHARING_LIMIT.bits());
+    }
+
+    #[test]
+    fn stages_are_those_of_the_engine() {
+        for stage in Stage::ALL {
+            // SAFETY: the name ends with a zero byte and lives as long as the library.
+            let name = unsafe { CStr::from_ptr(pong_stage_name(stage as usize)) };
+            assert_eq!(name.to_str(), Ok(stage.name()));
+        }
+    }
+
+    #[test]
+    fn a_limit_advises_a_capacity_that_is_larger() {
+        let frame = |status, contacts_wanted| FrameReport { status, contacts: 4, contacts_wanted };
+        assert_eq!(advised_capacity(&frame(StatusBits::default(), 4), 4), 0);
+        assert_eq!(advised_capacity(&frame(StatusBits::CONTACT_LIMIT, 9), 4), 9);
+        assert_eq!(advised_capacity(&frame(StatusBits::SHARING_LIMIT, 3), 4), 8);
     }
 }

@@ -19,10 +19,15 @@ pub struct pong_seal_report {
     pub contact_state_size: u64,
     /// How many warnings there are: see pong_seal_warning().
     pub warning_count: u64,
+    /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
+    pub workers: u64,
+    /// Zero in this version.
+    pub reserved: [u64; 4],
 }
 
-/// Ends set-up: checks that everything that may meet can be tested and combined, and sizes all memory. `report`
-/// may be NULL. After a failure the world is still in set-up, and the message lists every reason.
+/// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
+/// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
+/// message lists every reason.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_seal_report) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
@@ -32,12 +37,17 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
             let sealed = inner.world.seal()?;
             inner.seal_warnings =
                 sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
+            inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
+            inner.states.reserve(inner.names.interface_count());
+            inner.pairs.reserve(inner.pair_count);
             if let Some(out) = out {
                 out.set(pong_seal_report {
                     group_pairs: sealed.group_pairs as u64,
                     contact_capacity: sealed.contact_capacity as u64,
                     contact_state_size: sealed.state_size as u64,
                     warning_count: sealed.warnings.len() as u64,
+                    workers: sealed.workers.len() as u64,
+                    reserved: [0; 4],
                 });
             }
             Ok(())

@@ -1,5 +1,6 @@
 //! A world and what the C side remembers with it.
 
+use crate::clock;
 use crate::config::pong_config;
 use crate::frames::Counters;
 use crate::guard::guarded;
@@ -8,6 +9,7 @@ use crate::names::Names;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
 use crate::user_data::UserData;
+use crate::workers::Started;
 use pong_engine::{InterfaceId, PairId, State, World};
 use std::ffi::CString;
 use std::sync::Mutex;
@@ -26,6 +28,10 @@ pub(crate) struct Inner {
     pub names: Names,
     pub user_data: UserData,
     pub seal_warnings: Vec<CString>,
+    /// The workers, once the world is sealed.
+    pub workers: Option<Vec<Started>>,
+    /// How many pairs of Objects there are.
+    pub pair_count: usize,
     /// For `pong_set_states`: its memory stays.
     pub states: Vec<(InterfaceId, State)>,
     /// For `pong_commit_pairs`: its memory stays.
@@ -48,11 +54,18 @@ pub unsafe extern "C" fn pong_create_world(
         out.set(std::ptr::null_mut());
         // SAFETY: as above.
         let config = unsafe { one(config, "config")? };
+        let wanted = config.check()?;
+        let mut world = World::new(wanted.engine);
+        if wanted.times {
+            world.set_clock(clock::now_ns);
+        }
         let inner = Inner {
-            world: World::new(config.check()?),
+            world,
             names: Names::default(),
             user_data: UserData::default(),
             seal_warnings: Vec::new(),
+            workers: None,
+            pair_count: 0,
             states: Vec::new(),
             pairs: Vec::new(),
             counters: Counters::default(),

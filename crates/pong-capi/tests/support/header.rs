@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 20] = [
+const FILES: [&str; 22] = [
     "status",
     "version",
     "config",
@@ -24,6 +24,8 @@ const FILES: [&str; 20] = [
     "frames",
     "contacts",
     "report",
+    "tally",
+    "workers",
     "contact_state",
     "surfaces",
 ];

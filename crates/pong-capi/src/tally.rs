@@ -1,0 +1,103 @@
+//! How often what was tested in the last frame, and what that found.
+
+use crate::guard::with_world;
+use crate::names::no_such;
+use crate::pointers::Out;
+use crate::status::pong_status;
+use crate::world::pong_world;
+use pong_engine::{FrameCounts, Tally};
+use std::ffi::c_char;
+
+/// `what` of a tally of tests of the bounding volumes that models give.
+pub const PONG_TALLY_VOLUMES: u32 = 0;
+/// `what` of a tally of contact tests.
+pub const PONG_TALLY_PRIMITIVES: u32 = 1;
+
+/// Tests of one kind against another in the last frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct pong_tally {
+    /// What was tested: PONG_TALLY_...
+    pub what: u32,
+    /// Tests.
+    pub tested: u32,
+    /// Volumes: tests that did not find the two apart; the others were rejected. Primitives: contacts found, of which
+    /// one test may find several.
+    pub met: u32,
+    /// Zero.
+    pub reserved: u32,
+    /// Name of A's kind, as models write it.
+    pub kind_a: [c_char; 16],
+    /// Name of B's kind.
+    pub kind_b: [c_char; 16],
+}
+
+/// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
+/// frame; 0 before the first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut usize) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(count, "count")?.set(tallies(&inner.world.counts()).count());
+            Ok(())
+        })
+    }
+}
+
+/// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
+/// numbers are the same for any number of workers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_tally(
+    world: *const pong_world,
+    index: usize,
+    tally: *mut pong_tally,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(tally, "tally")?;
+            let counts = inner.world.counts();
+            let found = tallies(&counts).nth(index);
+            out.set(found.ok_or_else(|| no_such("tally", index, tallies(&counts).count()))?);
+            Ok(())
+        })
+    }
+}
+
+fn tallies(counts: &FrameCounts) -> impl Iterator<Item = pong_tally> + '_ {
+    let volumes = counts.volumes().map(|(a, b, tally)| in_c(PONG_TALLY_VOLUMES, a, b, tally));
+    let testers =
+        counts.testers().map(|(a, b, tally)| in_c(PONG_TALLY_PRIMITIVES, a.name(), b.name(), tally));
+    volumes.chain(testers)
+}
+
+fn in_c(what: u32, a: &str, b: &str, tally: Tally) -> pong_tally {
+    let Tally { tested, met } = tally;
+    pong_tally { what, tested, met, reserved: 0, kind_a: letters(a), kind_b: letters(b) }
+}
+
+/// A name as C reads it; the last byte stays zero.
+fn letters(name: &str) -> [c_char; 16] {
+    let mut all = [0; 16];
+    for (place, byte) in all[..15].iter_mut().zip(name.bytes()) {
+        *place = byte as c_char;
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_geometry::primitive::PrimitiveKind;
+
+    #[test]
+    fn no_name_is_cut() {
+        for kind in PrimitiveKind::ALL {
+            let letters = letters(kind.name());
+            let read: String =
+                letters.iter().take_while(|c| **c != 0).map(|c| char::from(*c as u8)).collect();
+            assert_eq!(read, kind.name());
+        }
+    }
+}

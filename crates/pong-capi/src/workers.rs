@@ -1,0 +1,166 @@
+//! Workers: waking them, letting them sleep, what became of them and what they did.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::names::c_text;
+use crate::pointers::Out;
+use crate::status::pong_status;
+use crate::world::{Inner, pong_world};
+use pong_engine::{EngineError, LaneWork, WorkerStart};
+use pong_threads::Grant;
+use std::ffi::{CString, c_char};
+use std::time::Duration;
+
+/// The configuration did not ask for it.
+pub const PONG_GRANT_NOT_ASKED: u32 = 0;
+/// It is so.
+pub const PONG_GRANT_GRANTED: u32 = 1;
+/// It was asked for and refused; pong_worker_text() tells why.
+pub const PONG_GRANT_REFUSED: u32 = 2;
+
+/// What became of a worker, and what it did last.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct pong_worker {
+    /// 0 is the calling thread, 1 the first worker.
+    pub lane: u32,
+    /// Whether it is bound to a core: PONG_GRANT_...
+    pub core_grant: u32,
+    /// The core that was asked for; 0 if none was.
+    pub core: u32,
+    /// Whether it runs under SCHED_FIFO as asked: PONG_GRANT_...
+    pub fifo_grant: u32,
+    /// The priority that was asked for; 0 if none was.
+    pub fifo_priority: u32,
+    /// Blocks of work that it did in the last round of work that was shared out. A frame with too little work to share
+    /// has none, and the number stays that of an earlier frame.
+    pub blocks: u32,
+    /// With report_times: time in them, ns; else 0.
+    pub busy_ns: u64,
+}
+
+/// Workers as they were started: what does not change.
+pub(crate) struct Started {
+    asked: pong_worker,
+    text: CString,
+}
+
+/// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
+/// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            inner.started("wake the workers")?;
+            inner.world.prewake(Duration::from_micros(at_most_us));
+            Ok(())
+        })
+    }
+}
+
+/// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            inner.started("let the workers sleep")?;
+            inner.world.quiesce();
+            Ok(())
+        })
+    }
+}
+
+/// Number of workers that were started, which may be fewer than the configuration asks for.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut usize) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(count, "count")?;
+            out.set(inner.started("count the workers")?.len());
+            Ok(())
+        })
+    }
+}
+
+/// What became of a worker and what it did last. `lane` is 1 to pong_worker_count(), or 0 for the calling thread.
+/// PONG_STATUS_WRONG_PHASE before the seal.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_worker(
+    world: *const pong_world,
+    lane: usize,
+    worker: *mut pong_worker,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(worker, "worker")?;
+            inner.started("ask for a worker")?;
+            let asked = if lane == 0 { pong_worker::default() } else { inner.worker(lane)?.asked };
+            let LaneWork { blocks, busy_ns } = inner.world.lane_work().nth(lane).unwrap_or_default();
+            out.set(pong_worker { blocks, busy_ns, ..asked });
+            Ok(())
+        })
+    }
+}
+
+/// What became of a worker, in words: its core and priority, or why it has not got them. `lane` is 1 to
+/// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_worker_text(
+    world: *const pong_world,
+    lane: usize,
+    text: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(text, "text")?;
+            out.set(inner.worker(lane)?.text.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+impl Inner {
+    fn started(&self, call: &'static str) -> Outcome<&[Started]> {
+        let cure = "seal the world first";
+        Ok(self.workers.as_deref().ok_or(EngineError::WrongPhase { call, cure })?)
+    }
+
+    fn worker(&self, lane: usize) -> Outcome<&Started> {
+        let workers = self.started("ask for a worker")?;
+        let found = lane.checked_sub(1).and_then(|index| workers.get(index));
+        found.ok_or_else(|| {
+            let message = format!(
+                "worker {lane}: there are {}, counted from 1; ask for the count first",
+                workers.len()
+            );
+            Failure::new(pong_status::UnknownId, message)
+        })
+    }
+}
+
+impl From<&WorkerStart> for Started {
+    fn from(start: &WorkerStart) -> Self {
+        let (core_grant, core) = grant(&start.core, |core| core as u32);
+        let (fifo_grant, fifo_priority) = grant(&start.fifo_priority, u32::from);
+        let lane = start.lane as u32;
+        let asked =
+            pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
+        Self { asked, text: c_text(&start.to_string()) }
+    }
+}
+
+/// The outcome as a number, and what was asked for.
+fn grant<T: Copy>(grant: &Grant<T>, number: impl FnOnce(T) -> u32) -> (u32, u32) {
+    match grant {
+        Grant::NotAsked => (PONG_GRANT_NOT_ASKED, 0),
+        Grant::Granted(asked) => (PONG_GRANT_GRANTED, number(*asked)),
+        Grant::Refused { asked, .. } => (PONG_GRANT_REFUSED, number(*asked)),
+    }
+}
