@@ -2,17 +2,15 @@
 
 use crate::dispatch::has_tester;
 use crate::error::EngineError;
-use crate::frame::{Carried, Found};
+use crate::frame::arena_bytes;
 use crate::law::{FrictionProps, NormalProps, PairProps, combine};
 use crate::scene::Scene;
-use crate::sharing::{Sharer, scratch_bytes};
+use crate::sharing::scratch_bytes;
 use crate::state::{ContactKey, fnv1a};
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{
-    Batch, Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, PrimitiveInfo, Surface, Tree,
-};
+use pong_model::{Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, PrimitiveInfo, Surface, Tree};
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
 
@@ -119,17 +117,12 @@ impl Limits {
             let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
             bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
         };
-        let lists = in_tree(|tree| tree.nodes.len()) * size_of::<u32>()
-            + in_tree(|tree| tree.batches.len()) * size_of::<&Batch>();
-        /// Every piece of an arena is rounded up to its grain.
-        const GRAINS: usize = 256;
-        let numbers = custom_stride * size_of::<f64>();
-        let arena_bytes = lists
-            + 8 * size_of::<Carried>()
-            + found * (size_of::<Found>() + size_of::<Sharer>())
-            + numbers
-            + GRAINS;
+        let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
+        let arena_bytes = arena_bytes(nodes, batches, found, custom_stride);
+        /// Every piece is rounded up to a grain.
+        const GRAINS: usize = 64;
         let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
+        let numbers = custom_stride * size_of::<f64>();
         let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
         Self { lane_contacts, found, arena_bytes, scratch_bytes }
     }

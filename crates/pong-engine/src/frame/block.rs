@@ -1,6 +1,7 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
 use super::bounding::batches_of_b;
+use super::buffers::Found;
 use super::carried::Carried;
 use super::chunk::{Chunk, LaneBoxes};
 use super::input::{Block, FrameInput, PairContext};
@@ -10,10 +11,25 @@ use super::{forces, sharing};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
+use crate::sharing::Sharer;
 use pong_arena::List;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::{Child, NarrowBoxes, lanes};
+
+/// Bytes of a lane's arena that a block asks for: against trees of so many nodes and batches, with room for so many
+/// interferences of one chunk, and laws of so many numbers per contact.
+pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_stride: usize) -> usize {
+    /// The arena rounds every piece up to its grain.
+    const PIECES: usize = 7;
+    const GRAIN: usize = 16;
+    batches * (size_of::<&Batch>() + size_of::<Reach<'_>>())
+        + nodes * size_of::<u32>()
+        + LANES * size_of::<Carried>()
+        + found * (size_of::<Found>() + size_of::<Sharer>())
+        + custom_stride * size_of::<f64>()
+        + PIECES * GRAIN
+}
 
 /// Works off one block; what it finds goes to the lane.
 pub(super) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
@@ -120,7 +136,7 @@ struct ChunkOfA<'a> {
 }
 
 /// Tests a chunk of A against all batches of B in reach. It is carried into B's frame when the first box of an element
-/// is met.
+/// is met; an element by itself at once, because its own box in B's frame is much tighter than its turned one.
 #[inline(always)]
 fn test_chunk<S: Simd>(
     simd: S,
@@ -131,22 +147,36 @@ fn test_chunk<S: Simd>(
     counts: &mut FrameCounts,
 ) {
     let context = of_a.context;
+    let from = (context.body_a, of_a.batch);
+    let x_ba = &context.motion.x_ba;
     let mut carry = Some(carried);
     let mut chunk = None;
+    let alone = of_a.first + 1 == of_a.batch.items.end - of_a.batch.items.start;
+    if alone {
+        chunk = carry.take().map(|carried| Chunk::new(simd, from, of_a.first, x_ba, carried));
+    }
     for Reach { batch, boxes, met } in reach {
         if met >> of_a.lane & 1 == 0 {
             continue;
         }
         let mut boxes_a = None;
-        let looked_at = batch.boxes.visit(simd, &boxes.lane(of_a.lane), |node, met| {
+        let mut around = boxes.lane(of_a.lane);
+        if let (true, Some(chunk)) = (alone, &chunk) {
+            around = boxes_a.insert(chunk.boxes.narrowed(&batch.boxes)).around();
+        }
+        let looked_at = batch.boxes.visit(simd, &around, |node, met| {
             let chunk = chunk.get_or_insert_with(|| {
                 let carried = carry.take().expect("a chunk is carried once");
-                let from = (context.body_a, of_a.batch);
-                Chunk::new(simd, from, of_a.first, &context.motion.x_ba, carried)
+                Chunk::new(simd, from, of_a.first, x_ba, carried)
             });
             let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
+            let met = if alone { met & chunk.first_reaches(simd, &batch.boxes, node) } else { met };
             for lane_b in lanes(met) {
-                let near = boxes_a.met_by(simd, &node.boxes.lane(lane_b)) & chunk.used();
+                let near = if alone {
+                    1
+                } else {
+                    chunk.reach(simd, boxes_a, &batch.boxes, &node.boxes.lane(lane_b))
+                };
                 let Child::Element(place) = node.child(lane_b) else { continue };
                 if near != 0 {
                     let item_b = context.body_b.tree.items[(batch.items.start + place) as usize];

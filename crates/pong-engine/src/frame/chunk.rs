@@ -7,7 +7,7 @@ use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_geometry::{Transform, Vec3};
-use pong_model::box_tree::{BoxTree, NarrowBoxes, round_down, round_up};
+use pong_model::box_tree::{BoxNode, BoxTree, NarrowBox, NarrowBoxes, round_down, round_up};
 use pong_model::{Batch, Body, ChunkBoxes, Item};
 
 /// The elements and where they are.
@@ -21,6 +21,15 @@ pub(super) struct Chunk<'a, 'l, 'm> {
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
     carried: &'l List<'m, Carried>,
     pub boxes: LaneBoxes,
+    /// Balls around the elements, for kinds of which a ball is a good bound.
+    balls: Option<LaneBalls>,
+}
+
+/// One ball per lane in B's frame: centres and radii, m.
+struct LaneBalls {
+    centers: [[f64; LANES]; 3],
+    /// Squares of the radii, with room for rounding.
+    squares: [f64; LANES],
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
@@ -60,7 +69,37 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
                 }
             }
         };
-        Self { kind: batch.kind, items, centers, radii, carried, boxes }
+        let balls = match batch.kind {
+            PrimitiveKind::Point | PrimitiveKind::Sphere => Some(LaneBalls::new(&centers, radii)),
+            PrimitiveKind::Ellipsoid => Some(LaneBalls::around(carried)),
+            _ => None,
+        };
+        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }
+    }
+
+    /// Which elements reach a box of a tree.
+    #[inline(always)]
+    pub fn reach<S: Simd>(
+        &self,
+        simd: S,
+        boxes: &NarrowBoxes,
+        tree: &BoxTree,
+        box_b: &NarrowBox,
+    ) -> LaneBits {
+        let near = boxes.met_by(simd, box_b) & self.used();
+        match &self.balls {
+            Some(balls) if near != 0 => near & balls.reach(simd, tree, box_b),
+            _ => near,
+        }
+    }
+
+    /// Which boxes of a node the first element reaches, as far as a ball around it tells.
+    #[inline(always)]
+    pub fn first_reaches<S: Simd>(&self, simd: S, tree: &BoxTree, node: &BoxNode) -> LaneBits {
+        match &self.balls {
+            Some(balls) => balls.first_reaches(simd, tree, &node.boxes),
+            None => LaneBits::MAX,
+        }
     }
 
     /// The lanes that hold elements.
@@ -155,6 +194,68 @@ impl LaneBoxes {
         }
         narrow
     }
+}
+
+impl LaneBalls {
+    #[inline(always)]
+    fn new(centers: &Lanes, radii: &[f64; LANES]) -> Self {
+        let mut balls = Self { centers: [centers.x, centers.y, centers.z], squares: [0.0; LANES] };
+        for (lane, square) in balls.squares.iter_mut().enumerate() {
+            let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
+            let radius = radii[lane] + margin(size + radii[lane]);
+            *square = radius * radius;
+        }
+        balls
+    }
+
+    fn around(carried: &[Carried]) -> Self {
+        let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
+        for (lane, one) in carried.iter().enumerate() {
+            if let Carried::Ellipsoid(ellipsoid) = one {
+                let c = &ellipsoid.center;
+                (centers.x[lane], centers.y[lane], centers.z[lane]) = (c.x, c.y, c.z);
+                radii[lane] = ellipsoid.semi_axes.max();
+            }
+        }
+        Self::new(&centers, &radii)
+    }
+
+    /// Which of the balls reach a box of a tree.
+    #[inline(always)]
+    fn reach<S: Simd>(&self, simd: S, tree: &BoxTree, one: &NarrowBox) -> LaneBits {
+        let mut distance = simd.splat(0.0);
+        for axis in 0..3 {
+            let center = simd.load(&self.centers[axis]);
+            let low = simd.splat(tree.origin[axis] + f64::from(one.low[axis]));
+            let high = simd.splat(tree.origin[axis] + f64::from(one.high[axis]));
+            distance = simd.add(distance, square_outside(simd, center, low, high));
+        }
+        simd.bits(simd.at_least(simd.load(&self.squares), distance))
+    }
+
+    /// Which boxes of a node of a tree the first ball reaches.
+    #[inline(always)]
+    fn first_reaches<S: Simd>(&self, simd: S, tree: &BoxTree, boxes: &NarrowBoxes) -> LaneBits {
+        let mut distance = simd.splat(0.0);
+        for axis in 0..3 {
+            let center = simd.splat(self.centers[axis][0]);
+            let origin = simd.splat(tree.origin[axis]);
+            let low = simd.add(origin, simd.load(&boxes.bounds[0][axis].map(f64::from)));
+            let high = simd.add(origin, simd.load(&boxes.bounds[1][axis].map(f64::from)));
+            distance = simd.add(distance, square_outside(simd, center, low, high));
+        }
+        simd.bits(simd.at_least(simd.splat(self.squares[0]), distance))
+    }
+}
+
+/// Square of how far `x` lies outside `low`…`high`.
+#[inline(always)]
+fn square_outside<S: Simd>(simd: S, x: S::Eight, low: S::Eight, high: S::Eight) -> S::Eight {
+    let zero = simd.splat(0.0);
+    let (below, above) = (simd.sub(low, x), simd.sub(x, high));
+    let outside = simd.select(simd.below(zero, below), below, zero);
+    let outside = simd.select(simd.below(outside, above), above, outside);
+    simd.mul(outside, outside)
 }
 
 /// Room for rounding in coordinates of this size, m.

@@ -4,6 +4,7 @@ use super::Frame;
 use super::buffers::{Found, FrameContact, Stance};
 use super::input::PairContext;
 use super::lane::{Lane, Output};
+use super::relative::SinceCommit;
 use crate::friction::{FrictionInput, FrictionOutput, friction};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
@@ -136,6 +137,15 @@ impl PairContext<'_> {
         friction(&props.friction, &input, custom)
     }
 
+    /// φ, worked out once for all contacts of the pair.
+    fn turn(&self, since: &SinceCommit) -> Vec3 {
+        self.turn.get().unwrap_or_else(|| {
+            let turn = since.turn();
+            self.turn.set(Some(turn));
+            turn
+        })
+    }
+
     /// u: tangential part of Δo + φ × (c₀ − o₀), the displacement of A since the last commit at the place where
     /// the contact was then.
     fn slip(&self, contact: &FrameContact, record: &ContactRecord) -> Vec3 {
@@ -143,7 +153,7 @@ impl PairContext<'_> {
         let reference = reference_point(self.body_a, &contact.found);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
-        let displacement = now - before + since.turn.cross(&(record.point - before));
+        let displacement = now - before + self.turn(since).cross(&(record.point - before));
         displacement - contact.found.normal * contact.found.normal.dot(&displacement)
     }
 }

@@ -4,9 +4,11 @@ use super::relative::Motion;
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
+use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Body;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// One frame's input.
@@ -66,6 +68,8 @@ pub(super) struct PairContext<'a> {
     pub volume_tests: &'a VolumeTests,
     /// Whether B's model remembers the side of entry.
     pub remembers_entry: bool,
+    /// φ of the motion since the last commit, once a contact has asked for it, rad.
+    pub turn: Cell<Option<Vec3>>,
 }
 
 impl<'a> PairContext<'a> {
@@ -94,6 +98,7 @@ impl<'a> PairContext<'a> {
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,
             remembers_entry: scene.model_of_body(b).entry_memory,
+            turn: Cell::new(None),
         }
     }
 

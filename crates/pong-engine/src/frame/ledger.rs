@@ -96,7 +96,7 @@ struct Displacement {
 
 impl Displacement {
     fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
-        Self { before: since.x_ba.point(reference), now: x_ba.point(reference), turn: since.turn }
+        Self { before: since.x_ba.point(reference), now: x_ba.point(reference), turn: since.turn() }
     }
 
     /// Half of the work that a force at `point` does over the displacement.

@@ -19,9 +19,9 @@ mod side_of_entry;
 mod state_in;
 mod testers;
 
+pub(crate) use block::arena_bytes;
 pub(crate) use bounding::ROUND;
-pub(crate) use buffers::{Found, Frame};
-pub(crate) use carried::Carried;
+pub(crate) use buffers::Frame;
 pub(crate) use crew::Crew;
 pub(crate) use input::FrameInput;
 pub(crate) use relative::Motion;

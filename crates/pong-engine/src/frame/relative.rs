@@ -7,7 +7,7 @@ use super::Frame;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, PairPose};
 use pong_geometry::pose::rotation_vector;
-use pong_geometry::{Pose, Transform, Twist, Vec3};
+use pong_geometry::{Pose, Quat, Transform, Twist, Vec3};
 
 /// Motion of A's movable group against B's, seen from and expressed in B's group frame.
 #[derive(Clone, Copy, Debug)]
@@ -42,8 +42,16 @@ impl Motion {
 pub(crate) struct SinceCommit {
     /// From A's group frame to B's at the last commit.
     pub x_ba: Transform,
-    /// φ: rotation vector of A's rotation since then, rad.
-    pub turn: Vec3,
+    /// A's rotation since then.
+    turn: Quat,
+}
+
+impl SinceCommit {
+    /// φ: rotation vector of A's rotation since the last commit, rad. Costs more than all else here, and only
+    /// friction of a contact that lasts and the ledger ask for it.
+    pub fn turn(&self) -> Vec3 {
+        rotation_vector(&self.turn)
+    }
 }
 
 impl Motion {
@@ -53,22 +61,26 @@ impl Motion {
     }
 }
 
-/// Fills in the motions, and the relative poses that a commit would remember.
+/// Fills in the motions of the directions in which something can be found, and the relative poses that a commit would
+/// remember.
 pub(super) fn relate(sealed: &Sealed, enabled: &[bool], memory: &ContactMemory, frame: &mut Frame) {
     for (index, pair) in sealed.group_pairs.iter().enumerate() {
-        let bodies = [pair.first, pair.second];
+        let (first, second) = (&frame.poses[pair.first], &frame.poses[pair.second]);
         let known = enabled[pair.pair];
-        let mut remembered = PairPose { known, ..PairPose::unknown() };
+        frame.remembered[index] = if known {
+            PairPose { known, relative: [Pose::relative(first, second), Pose::relative(second, first)] }
+        } else {
+            PairPose::unknown()
+        };
+    }
+    for plan in sealed.plans.iter().filter(|plan| enabled[sealed.group_pairs[plan.group_pair as usize].pair])
+    {
+        let (index, flipped) = (plan.group_pair as usize, plan.flipped as usize);
+        let pose = &frame.remembered[index].relative[flipped];
         let committed = &memory.poses[index];
-        let motions = [0, 1].map(|flipped| {
-            let (a, b) = (bodies[flipped], bodies[1 - flipped]);
-            let pose = Pose::relative(&frame.poses[a], &frame.poses[b]);
-            remembered.relative[flipped] = pose;
-            let earlier = committed.known.then(|| &committed.relative[flipped]);
-            motion(&pose, (&frame.twists[a], &frame.twists[b]), &frame.poses[b], earlier)
-        });
-        frame.input.motions[index] = motions;
-        frame.remembered[index] = if known { remembered } else { PairPose::unknown() };
+        let earlier = committed.known.then(|| &committed.relative[flipped]);
+        let twists = (&frame.twists[plan.body_a], &frame.twists[plan.body_b]);
+        frame.input.motions[index][flipped] = motion(pose, twists, &frame.poses[plan.body_b], earlier);
     }
 }
 
@@ -81,7 +93,7 @@ fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Op
         omega_b: b_from_w * v_b.angular,
         since_commit: earlier.map(|earlier| SinceCommit {
             x_ba: earlier.transform(),
-            turn: rotation_vector(&(pose_ba.orientation * earlier.orientation.inverse())),
+            turn: pose_ba.orientation * earlier.orientation.inverse(),
         }),
     }
 }
