@@ -1,4 +1,4 @@
-//! Everything that a world may have and that this one does not use: what that costs must not be measurable.
+//! A world that has what none of its models uses: what that costs must not be measurable.
 
 use crate::rig;
 use pong_engine::{Laws, NormalForce, NormalInput, World};
@@ -20,7 +20,7 @@ impl NormalForce for Unused {
 }
 
 /// A world with laws, tests of primitives and tests of volumes that belong to kinds no model has.
-pub fn world_with_everything_off() -> World {
+pub fn world_with_unused() -> World {
     let mut extensions = Extensions::new();
     extensions.add_contact_test("Gadget", "Gizmo", Arc::new(|_, _, _| None));
     extensions.add_volume_test("Gadget", "Gizmo", Arc::new(|_, _, _| true));

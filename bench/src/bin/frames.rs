@@ -12,7 +12,7 @@ use pong_geometry::simd::{Level, set_level};
 use std::error::Error;
 use std::sync::Arc;
 
-const SCENES: &str = "docking, docking_crowded, docking_switched_off, ring, wheels";
+const SCENES: &str = "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels";
 const FRAMES: usize = 64;
 /// Objects that meet nobody, in a crowded scene.
 const BYSTANDERS: usize = 1000;
@@ -54,7 +54,8 @@ fn scene(name: &str) -> Result<Scene, Box<dyn Error>> {
     Ok(match name {
         "docking" => docking_scene(World::new(rig::config(1)), 0)?,
         "docking_crowded" => docking_scene(World::new(rig::config(1)), BYSTANDERS)?,
-        "docking_switched_off" => switched_off_scene()?,
+        "docking_unused" => docking_scene(optional::world_with_unused(), 0)?,
+        "docking_pair_off" => pair_off_scene()?,
         "ring" => (scenes::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere, 1)?, scenes::ring_states()),
         "wheels" => {
             let [sphere, _] = Wheel::BOTH;
@@ -72,13 +73,12 @@ fn docking_scene(world: World, bystanders: usize) -> Result<Scene, Box<dyn Error
     Ok((Rig::in_world(world, &models, &[(0, 1)])?, states))
 }
 
-/// Docking in a world that has much and uses none of it: a third Object in the way of the first as well, its pair
-/// switched off.
-fn switched_off_scene() -> Result<Scene, Box<dyn Error>> {
+/// Docking with a third Object in the way of the first as well, their pair switched off.
+fn pair_off_scene() -> Result<Scene, Box<dyn Error>> {
     let [active, passive] = docking::models()?;
     let states = docking::states(&active);
     let models = [active, Arc::clone(&passive), passive];
-    let mut rig = Rig::in_world(optional::world_with_everything_off(), &models, &[(0, 1), (0, 2)])?;
+    let mut rig = Rig::in_world(World::new(rig::config(1)), &models, &[(0, 1), (0, 2)])?;
     rig.world.set_pair_enabled(rig.pairs[1], false)?;
     Ok((rig, states))
 }
