@@ -1,0 +1,210 @@
+//! One scene, one series of answers: whoever does the work, with whichever instructions, however often it is
+//! evaluated, from wherever it is resumed, whether or not workers stall; and from version to version.
+
+mod common;
+#[path = "common/own_kinds.rs"]
+mod own_kinds;
+#[path = "common/scenes.rs"]
+mod scenes;
+#[path = "common/stage.rs"]
+mod stage;
+
+use pong_engine::{StatusBits, WorkerSettings, has_tester};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::simd::{Level, set_level};
+use scenes::all;
+use stage::{FrameHash, Scene, Stage, sum_up};
+use std::collections::BTreeSet;
+use std::sync::OnceLock;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// The answers and the contact state of every scene, summed up. They may change only with a change of the physics
+/// that the CHANGELOG tells.
+const KNOWN: [(&str, u64, u64); 8] = [
+    ("stations", 0x3e8a57be4587bccf, 0x40f87c24f5f891c2),
+    ("arms", 0xdb4d388c23232c59, 0x1af2411c174b2afe),
+    ("sheets", 0xfa2604bcb7110e0b, 0x60b3b34bcc2a0e9e),
+    ("pieces", 0xcae5618e90c36363, 0xdb68573acb2f5013),
+    ("own_kinds", 0xb2b3b1f98e9a7abf, 0x75f3bd36782939f5),
+    ("crowd", 0x4048bd08079decf5, 0x3b530a10a26671fe),
+    ("bowl", 0x63c4b9621b82a681, 0x0e6ed79410e3bbe1),
+    ("swarm", 0x3bd5368c47241350, 0x62a1cd040e8e7689),
+];
+
+/// A scene run by the caller alone, with what is needed to go on from any frame.
+struct Alone {
+    scene: Scene,
+    series: Vec<FrameHash>,
+    /// The contact state after every `SAVED_EVERY`th frame.
+    saved: Vec<Vec<u8>>,
+}
+
+const SAVED_EVERY: usize = 6;
+
+/// Every scene, run once.
+fn alone() -> &'static [Alone] {
+    static ALONE: OnceLock<Vec<Alone>> = OnceLock::new();
+    ALONE.get_or_init(|| all().into_iter().map(run_alone).collect())
+}
+
+fn run_alone(scene: Scene) -> Alone {
+    let mut stage = scene.set_up(None);
+    let (mut series, mut saved) = (Vec::new(), Vec::new());
+    for frame in 0..scene.frames {
+        series.push(stage.step(frame));
+        if frame.is_multiple_of(SAVED_EVERY) {
+            saved.push(stage.saved());
+        }
+    }
+    drop(stage);
+    Alone { scene, series, saved }
+}
+
+fn workers(count: usize) -> Option<WorkerSettings> {
+    // Patience without end: on a busy machine no frame may be done alone for want of it.
+    let patience = Duration::from_secs(60);
+    Some(WorkerSettings { workers: count, oversubscribe: true, patience, ..WorkerSettings::default() })
+}
+
+/// Runs frames and compares each with the caller's own.
+fn must_repeat(case: &str, alone: &Alone, stage: &mut Stage<'_>, frames: std::ops::Range<usize>) {
+    for frame in frames {
+        let got = stage.step(frame);
+        assert_eq!(got, alone.series[frame], "{case}: {}, frame {frame}", alone.scene.name);
+    }
+}
+
+/// Prints the hashes, which `ci/series` compares between builds.
+#[test]
+fn the_answers_are_those_of_earlier_versions() {
+    let mut wrong = Vec::new();
+    for (Alone { scene, series, .. }, known) in alone().iter().zip(KNOWN) {
+        let sum = sum_up(series);
+        println!(
+            "series {} answers {:?} state {:?} counts {:?}",
+            scene.name, sum.answers, sum.state, sum.counts
+        );
+        if (scene.name, sum.answers.0, sum.state.0) != known {
+            wrong.push(format!("(\"{}\", 0x{:?}, 0x{:?}),", scene.name, sum.answers, sum.state));
+        }
+    }
+    assert!(wrong.is_empty(), "not what earlier versions answered:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn any_number_of_workers_gives_the_same_series() {
+    for count in [0, 1, 2, 3, 8, 16] {
+        for alone in alone() {
+            let mut stage = alone.scene.set_up(workers(count));
+            let mut shared = 0;
+            for frame in 0..alone.scene.frames {
+                must_repeat(&format!("{count} workers"), alone, &mut stage, frame..frame + 1);
+                shared += usize::from(stage.world.lane_work().any(|lane| lane.blocks > 0));
+            }
+            assert_eq!(
+                count > 0,
+                shared > 0,
+                "{count} workers: {}: {shared} frames shared",
+                alone.scene.name
+            );
+        }
+    }
+}
+
+#[test]
+fn any_instructions_give_the_same_series() {
+    for level in Level::available() {
+        assert_eq!(set_level(level), level);
+        for alone in alone() {
+            must_repeat(level.name(), alone, &mut alone.scene.set_up(None), 0..alone.scene.frames);
+        }
+    }
+    set_level(Level::Avx512);
+}
+
+#[test]
+fn resumed_from_any_frame_the_series_is_the_same() {
+    for alone in alone() {
+        let frames = alone.scene.frames;
+        let resume = |stage: &mut Stage<'_>, saved: usize, until: usize| {
+            let after = saved * SAVED_EVERY;
+            stage.switch(after);
+            stage.world.restore_state(&alone.saved[saved]).unwrap();
+            must_repeat(&format!("resumed after {after}"), alone, stage, after + 1..until.min(frames));
+        };
+        // In one world, back and forth; then in new ones, with workers and without.
+        let mut stage = alone.scene.set_up(workers(2));
+        let count = alone.saved.len();
+        for step in 0..count {
+            let saved = step * 7 % count;
+            resume(&mut stage, saved, saved * SAVED_EVERY + 4);
+        }
+        for (saved, crew) in [(0, None), (count / 3, workers(3)), (2 * count / 3, None)] {
+            resume(&mut alone.scene.set_up(crew), saved, frames);
+        }
+    }
+}
+
+/// Trial evaluations elsewhere, and again in the same place, change nothing that a commit accepts.
+#[test]
+fn evaluated_four_times_a_frame_the_series_is_the_same() {
+    for alone in alone() {
+        let mut stage = alone.scene.set_up(workers(1));
+        for frame in 0..alone.scene.frames.min(100) {
+            stage.prepare(frame);
+            for trial in [frame + 1, frame + 7, frame, frame] {
+                stage.place(trial);
+                stage.world.evaluate().unwrap();
+            }
+            assert_eq!(stage.finish(), alone.series[frame], "{}, frame {frame}", alone.scene.name);
+        }
+    }
+}
+
+#[test]
+fn workers_that_stall_do_not_change_the_series() {
+    let alone = alone().iter().find(|alone| alone.scene.own_kinds).unwrap();
+    let settings =
+        workers(3).map(|settings| WorkerSettings { patience: Duration::from_millis(1), ..settings });
+    let mut stage = alone.scene.set_up(settings);
+    let before = own_kinds::CALLS_ON_WORKERS.load(Ordering::Relaxed);
+    own_kinds::STALL_EVERY.store(301, Ordering::Relaxed);
+    must_repeat("stalls", alone, &mut stage, 0..alone.scene.frames);
+    own_kinds::STALL_EVERY.store(0, Ordering::Relaxed);
+    let calls = own_kinds::CALLS_ON_WORKERS.load(Ordering::Relaxed) - before;
+    println!("{calls} calls on workers, every 301st of which stalled");
+}
+
+/// The scenes are worth running: they use what the series is to guard.
+#[test]
+fn the_scenes_use_every_tester_and_every_limit() {
+    let mut met = BTreeSet::new();
+    let (mut limited, mut unshared, mut only_remembered, mut two_rounds) = (0, 0, 0, 0);
+    for scene in all() {
+        let mut stage = scene.set_up(None);
+        let mut most = 0;
+        for frame in 0..scene.frames {
+            stage.prepare(frame);
+            let report = stage.world.step().unwrap();
+            let counts = stage.world.counts();
+            let testers = counts.testers().filter(|(_, _, tally)| tally.met > 0);
+            met.extend(testers.map(|(a, b, _)| (a as usize, b as usize)));
+            limited += u32::from(report.status.contains(StatusBits::CONTACT_LIMIT));
+            unshared += u32::from(report.status.contains(StatusBits::SHARING_LIMIT));
+            two_rounds += u32::from(counts.leaf_pairs > 4096);
+            most = most.max(report.contacts as usize);
+        }
+        let peak = stage.world.memory().contacts_peak;
+        only_remembered += u32::from(peak > most);
+        println!("{}: at most {most} contacts, {peak} remembered", scene.name);
+    }
+    println!("{limited} frames limited, {unshared} not shared exactly, {two_rounds} in two rounds");
+    assert!(limited > 100 && unshared > 10 && two_rounds > 10);
+    assert!(only_remembered > 1, "contacts that are only remembered");
+    let kinds = PrimitiveKind::ALL;
+    for (a, b) in kinds.into_iter().flat_map(|a| kinds.map(|b| (a, b))).filter(|(a, b)| has_tester(*a, *b)) {
+        assert!(met.contains(&(a as usize, b as usize)), "{} never touches {}", a.name(), b.name());
+    }
+    assert!(met.contains(&(PrimitiveKind::Sphere as usize, PrimitiveKind::Custom as usize)));
+}
