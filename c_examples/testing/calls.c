@@ -1,6 +1,6 @@
 /* The calls that the other programs do not make: names, user data, contacts, contact state, surfaces, pairs, energies,
- * limits, threads. */
-#include "check.h"
+ * limits, report, workers, threads. */
+#include "crowd.h"
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -197,9 +197,129 @@ static void energies_and_limits(void)
     OK(pong_get_report(s.world, &report));
     TEST(report.flags == PONG_FLAG_CONTACT_LIMIT && report.contacts == 1 && report.contacts_wanted == 2);
     TEST(report.peak_contacts_wanted == 2 && report.evaluations == 1 && report.commits == 1);
+    TEST(report.advised_capacity == 2 && strcmp(pong_limit_name(report.flags), "contact limit") == 0);
+    TEST(report.contacts_peak >= 1 && report.contacts_peak <= report.contacts_capacity);
+    TEST(strcmp(pong_limit_name(PONG_FLAG_SHARING_LIMIT), "sharing limit") == 0);
+    TEST(strcmp(pong_limit_name(0), "unknown limit") == 0 && strcmp(pong_limit_name(3), "unknown limit") == 0);
     OK(pong_get_ledger(s.world, &ledger));
     TEST(fabs(ledger.stored - 0.5 * 1e4 * 0.005 * 0.005) < 1e-9);
     OK(pong_destroy_world(s.world));
+}
+
+static unsigned tested(const crowd *c, uint32_t what, const char *a, const char *b, unsigned *met)
+{
+    pong_tally tally;
+    size_t count = 0, i;
+    unsigned sum = 0;
+    *met = 0;
+    OK(pong_tally_count(c->world, &count));
+    for (i = 0; i < count; i += 1) {
+        OK(pong_get_tally(c->world, i, &tally));
+        TEST(tally.tested > 0);
+        if (tally.what == what && (a == NULL || (strcmp(tally.kind_a, a) == 0 && strcmp(tally.kind_b, b) == 0))) {
+            sum += tally.tested;
+            *met += tally.met;
+        }
+    }
+    return sum;
+}
+
+static void counts_and_times(const crowd *c, int timed)
+{
+    pong_report report;
+    unsigned met;
+    uint64_t sum = 0;
+    size_t i;
+    OK(pong_get_report(c->world, &report));
+    TEST(tested(c, PONG_TALLY_VOLUMES, NULL, NULL, &met) == report.volumes_tested && report.volumes_tested > 0);
+    TEST(met <= report.volumes_tested);
+    TEST(tested(c, PONG_TALLY_PRIMITIVES, NULL, NULL, &met) == report.primitives_tested);
+    TEST(tested(c, PONG_TALLY_PRIMITIVES, "Point", "Polyhedron", &met) >= 400 && met >= 400);
+    TEST(report.flags == 0 && report.advised_capacity == 0 && report.contacts > 400);
+    TEST(report.contacts_peak >= report.contacts && report.contacts_peak <= report.contacts_capacity);
+    TEST(report.contacts_capacity >= c->sealed.contact_capacity && report.boxes_tested > 0);
+    TEST((report.arena_peak > 0 || c->sealed.workers > 0) && report.arena_peak <= report.arena_capacity);
+    TEST(report.scratch_peak <= report.scratch_capacity);
+    for (i = 0; i < 8; i += 1) {
+        sum += report.stage_ns[i];
+        TEST(pong_stage_name(i)[0] != '\0' || report.stage_ns[i] == 0);
+    }
+    TEST((report.stage_ns[PONG_STAGE_CONTACTS] > 0) == timed && (sum > 0) == timed);
+    TEST(report.evaluate_ns > 0 && report.commit_ns > 0);
+    TEST(strcmp(pong_stage_name(PONG_STAGE_COMMIT), "commit") == 0 && pong_stage_name(99)[0] == '\0');
+}
+
+/* Four frames that touch, all hands; the wrench on the pad at the end. */
+static pong_wrench crowd_frames(crowd *c)
+{
+    pong_state states[CROWD_PARTS];
+    pong_wrench wrench;
+    long frame;
+    memset(&wrench, 0, sizeof wrench);
+    for (frame = 13; frame < 17; frame += 1) {
+        crowd_states(frame, states);
+        OK(pong_prewake(c->world, 200));
+        OK(pong_set_states(c->world, c->parts, states, CROWD_PARTS));
+        OK(pong_step(c->world));
+    }
+    OK(pong_get_wrench(c->world, c->parts[0], PONG_FRAME_COMMON, &wrench));
+    OK(pong_quiesce(c->world));
+    return wrench;
+}
+
+/* The highest core of the mask is one that most machines do not have: either answer must be told. */
+static void workers(void)
+{
+    crowd alone, crew, far_away;
+    pong_config config = pong_default_config();
+    pong_wrench a, b;
+    pong_worker worker;
+    unsigned blocks;
+    size_t count = 9;
+    const char *text = "";
+    open_crowd(&alone, &config);
+    a = crowd_frames(&alone);
+    counts_and_times(&alone, 0);
+    OK(pong_worker_count(alone.world, &count));
+    OK(pong_get_worker(alone.world, 0, &worker));
+    TEST(count == 0 && alone.sealed.workers == 0 && worker.blocks == 0 && worker.busy_ns == 0);
+
+    config.workers = 2;
+    config.oversubscribe = 1;
+    config.report_times = 1;
+    open_crowd(&crew, &config);
+    b = crowd_frames(&crew);
+    counts_and_times(&crew, 1);
+    TEST(memcmp(&a, &b, sizeof a) == 0 && a.force[2] > 100.0);
+    OK(pong_worker_count(crew.world, &count));
+    TEST(count == 2 && crew.sealed.workers == 2);
+    OK(pong_get_worker(crew.world, 0, &worker));
+    TEST(worker.lane == 0 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.blocks > 0 && worker.busy_ns > 0);
+    blocks = worker.blocks;
+    OK(pong_get_worker(crew.world, 2, &worker));
+    TEST(worker.lane == 2 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.fifo_grant == PONG_GRANT_NOT_ASKED);
+    blocks += worker.blocks;
+    OK(pong_get_worker(crew.world, 1, &worker));
+    TEST(blocks + worker.blocks > 1);
+    REFUSED(pong_get_worker(crew.world, 3, &worker), UNKNOWN_ID, "worker 3: there are 2");
+    OK(pong_worker_text(crew.world, 1, &text));
+    TEST(strstr(text, "worker 1") != NULL && strstr(text, "not asked for") != NULL);
+
+    config.workers = 1;
+    config.pin_workers = 1;
+    config.worker_cores = (uint64_t)1 << 63;
+    config.fifo_priority = 1;
+    open_crowd(&far_away, &config);
+    b = crowd_frames(&far_away);
+    TEST(memcmp(&a, &b, sizeof a) == 0);
+    OK(pong_get_worker(far_away.world, 1, &worker));
+    OK(pong_worker_text(far_away.world, 1, &text));
+    TEST(worker.core == 63 && worker.core_grant != PONG_GRANT_NOT_ASKED && worker.fifo_priority == 1);
+    TEST(worker.fifo_grant != PONG_GRANT_NOT_ASKED);
+    TEST((strstr(text, "63 refused") != NULL) == (worker.core_grant == PONG_GRANT_REFUSED));
+    OK(pong_destroy_world(alone.world));
+    OK(pong_destroy_world(crew.world));
+    OK(pong_destroy_world(far_away.world));
 }
 
 static void *another_thread(void *world)
@@ -235,5 +355,6 @@ int main(void)
     threads(&s);
     OK(pong_destroy_world(s.world));
     energies_and_limits();
+    workers();
     return report_failures("calls");
 }

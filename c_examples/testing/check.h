@@ -4,9 +4,20 @@
 
 #include <pong.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static int failures = 0;
+
+/* One cause may show in every frame; twenty lines of it are enough. */
+static void fail(void)
+{
+    failures += 1;
+    if (failures == 20) {
+        fprintf(stderr, "and so on\n");
+        exit(1);
+    }
+}
 
 #define TEST(condition) test((condition) ? 1 : 0, #condition, __FILE__, __LINE__)
 #define OK(call) expect((call), PONG_STATUS_OK, "", #call, __FILE__, __LINE__)
@@ -17,7 +28,7 @@ static void test(int holds, const char *what, const char *file, int line)
 {
     if (!holds) {
         fprintf(stderr, "%s:%d: not so: %s\n", file, line, what);
-        failures += 1;
+        fail();
     }
 }
 
@@ -28,7 +39,7 @@ static void expect(pong_status got, pong_status wanted, const char *text, const 
     if (got != wanted || !said) {
         fprintf(stderr, "%s:%d: %s\n  got %s, wanted %s with \"%s\"\n  message: %s\n", file, line, what,
                 pong_status_name(got), pong_status_name(wanted), text, message);
-        failures += 1;
+        fail();
     }
 }
 

@@ -10,6 +10,8 @@ use std::time::Instant;
 /// What the C side counts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counters {
+    /// Most contacts of a frame, fixed when the world is sealed.
+    pub contact_capacity: u64,
     pub evaluations: u64,
     pub commits: u64,
     pub peak_contacts_wanted: u32,

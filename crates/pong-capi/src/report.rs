@@ -62,15 +62,17 @@ pub struct pong_report {
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     pub advised_capacity: u64,
-    /// Most contacts that a frame of this world had to hold, those included that are only remembered.
+    /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
+    /// remembered.
     pub contacts_peak: u64,
-    /// How many there is room for: the contact capacity.
+    /// How many there is room for: more than the contact capacity.
     pub contacts_capacity: u64,
-    /// Most memory that the testers of one part of a frame needed on the calling thread, bytes.
+    /// Most memory that the testers of one part of a frame needed, bytes; of frames that the calling thread did alone.
     pub arena_peak: u64,
     /// What there is for them, bytes.
     pub arena_capacity: u64,
-    /// Most memory that sharing among the contacts of one surface needed on the calling thread, bytes.
+    /// Most memory that sharing among the contacts of one surface needed, bytes; of frames that the calling thread did
+    /// alone.
     pub scratch_peak: u64,
     /// What there is for it, bytes.
     pub scratch_capacity: u64,
@@ -106,7 +108,7 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         evaluate_ns: counters.evaluate_ns,
         commit_ns: counters.commit_ns,
         stage_ns: by_stage(&world.stage_times()),
-        advised_capacity: advised_capacity(&frame, memory.contacts_capacity as u64),
+        advised_capacity: advised_capacity(&frame, counters.contact_capacity),
         contacts_peak: memory.contacts_peak as u64,
         contacts_capacity: memory.contacts_capacity as u64,
         arena_peak: memory.arena_peak as u64,

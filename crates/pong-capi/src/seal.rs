@@ -38,6 +38,7 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
             inner.seal_warnings =
                 sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
             inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
+            inner.counters.contact_capacity = sealed.contact_capacity as u64;
             inner.states.reserve(inner.names.interface_count());
             inner.pairs.reserve(inner.pair_count);
             if let Some(out) = out {
