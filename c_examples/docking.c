@@ -52,7 +52,7 @@ static void watch_latch(history *h, const docking *d, int i, double time, const 
     motion port = target_port(d), latch = latch_motion(d, i);
     vec3 tip = rotate_back(port.orientation, sub(latch.position, port.position));
     double radius = sqrt(tip.x * tip.x + tip.y * tip.y), travel = d->latches[i].travel;
-    char text[32];
+    char text[48];
     if (h->latch_holds[i]) {
         if (tip.z > -STRIKER_BACK + 0.010 || radius < STRIKER_EDGE) {
             h->latch_holds[i] = 0;

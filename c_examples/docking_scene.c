@@ -59,7 +59,7 @@ void open_scene(contact_scene *scene, const pong_config *config, const char *mod
     CHECK(pong_find_interface(scene->world, scene->chaser, "", &scene->parts[VEHICLE]));
     CHECK(pong_find_interface(scene->world, scene->chaser, "ring", &scene->parts[RING]));
     for (i = 0; i < LATCHES; i++) {
-        char name[16];
+        char name[24];
         sprintf(name, "latch_%d", i);
         CHECK(pong_find_interface(scene->world, scene->chaser, name, &scene->parts[FIRST_LATCH + i]));
     }
