@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release -p pong-threads --example round_trip
 //!
-//! All contenders take turns in one run. Shown are wall-clock nanoseconds, the clock itself subtracted from the
-//! middle ones only where a ratio is formed.
+//! All contenders take turns in one run. Shown are wall-clock nanoseconds with the clock in them; from the ratios it is
+//! subtracted.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -46,13 +46,14 @@ fn pinned(there: usize) -> Settings {
 
 fn hot(here: usize, there: usize) {
     let mut times = [const { Vec::new() }; 5];
+    let mut ratios = Vec::new();
     let mut ball = PingPong::start(there);
     let meet = Arc::new(Meet::default());
     let mut meet_pool = Pool::start(meet.clone(), &pinned(there)).unwrap();
     let mut empty_pool = Pool::start(Arc::new(Empty), &pinned(there)).unwrap();
     println!("\ncaller on core {here}, {}", meet_pool.start_report()[0]);
 
-    for _ in 0..TURNS {
+    for turn in 0..TURNS {
         sample(&mut times[0], || {});
         ball.play(|ball| sample(&mut times[1], || ball.round_trip()));
         awake(&mut meet_pool, |pool| sample(&mut times[2], || complete(pool, 2)));
@@ -60,6 +61,8 @@ fn hot(here: usize, there: usize) {
             sample(&mut times[3], || complete(pool, 2));
             sample(&mut times[4], || complete(pool, 16));
         });
+        let of_turn = |of: usize| Percentiles::new(times[of][turn * SAMPLES..].to_vec()).p50;
+        ratios.push((of_turn(2) - of_turn(0)) / (of_turn(1) - of_turn(0)));
     }
     assert_eq!(meet.met.load(Ordering::Relaxed), meet.waited.load(Ordering::Relaxed), "one block each");
     println!("{}", Percentiles::HEAD);
@@ -74,10 +77,16 @@ fn hot(here: usize, there: usize) {
     for (name, row) in names.iter().zip(&rows) {
         row.print(name);
     }
-    let net = |row: &Percentiles| row.p50 - rows[0].p50;
+    print_ratios(&mut ratios);
+}
+
+fn print_ratios(ratios: &mut [f64]) {
+    ratios.sort_by(f64::total_cmp);
+    let (least, middle, most) = (ratios[0], ratios[ratios.len() / 2], ratios[ratios.len() - 1]);
     println!(
-        "phase with one block each over ping-pong, medians without the clock: {:.2}",
-        net(&rows[2]) / net(&rows[1])
+        "phase with one block each over ping-pong, medians of a turn without the clock, {} turns: {middle:.2} \
+         [{least:.2}..{most:.2}]",
+        ratios.len()
     );
 }
 

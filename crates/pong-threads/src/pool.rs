@@ -1,8 +1,9 @@
 //! The pool: starts the workers, holds the caller's side, ends them.
 
 use std::fmt;
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::thread::JoinHandle;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, OnceLock};
+use std::thread::{self, JoinHandle, Thread};
 use std::time::{Duration, Instant};
 
 use crate::board::Board;
@@ -20,6 +21,8 @@ pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,
     start_report: Vec<WorkerStart>,
+    /// Held to the end: the worker that let go of it last would free it, and in the first phases.
+    muster: Arc<Muster>,
     patience: Duration,
     /// Of the process that has the workers. A fork of it has none.
     process: u32,
@@ -64,16 +67,16 @@ impl Pool {
             caller: Caller::new(shared.clone()),
             threads: Vec::with_capacity(cores.len()),
             start_report: Vec::new(),
+            muster: Arc::new(Muster::new(cores.len())),
             patience: settings.patience,
             process: std::process::id(),
         };
-        let muster = Arc::new(Muster::new(cores.len()));
         for (worker, core) in cores.iter().enumerate() {
-            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &muster);
+            let thread = start_worker(&shared, worker + 1, *core, settings.fifo_priority, &pool.muster);
             // On an error the pool is dropped, which ends the workers that run already.
             pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
         }
-        pool.start_report = muster.wait_for_all();
+        pool.start_report = pool.muster.wait_for_all();
         Ok(pool)
     }
 
@@ -125,7 +128,7 @@ impl Pool {
     fn wait_for_stuck_workers(&self) {
         let started = Instant::now();
         while !self.threads.iter().all(JoinHandle::is_finished) && started.elapsed() < self.patience {
-            std::thread::sleep(Duration::from_micros(50));
+            thread::sleep(Duration::from_micros(50));
         }
     }
 }
@@ -163,7 +166,7 @@ fn start_worker(
     muster: &Arc<Muster>,
 ) -> std::io::Result<JoinHandle<()>> {
     let (shared, muster) = (shared.clone(), muster.clone());
-    std::thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(move || {
+    thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(move || {
         let report = settle(lane, core, fifo_priority);
         let mut worker = Worker::new(shared, lane);
         muster.report(report);
@@ -171,29 +174,31 @@ fn start_worker(
     })
 }
 
-/// Where the workers report and the caller sleeps until all have. Each worker holds it to its end: what it freed
-/// after its report would fall into the first phases.
+/// Where the workers report, and the caller sleeps until all have.
 struct Muster {
-    reports: Mutex<Vec<WorkerStart>>,
-    one_more: Condvar,
-    workers: usize,
+    reports: Box<[OnceLock<WorkerStart>]>,
+    missing: AtomicUsize,
+    caller: Thread,
 }
 
 impl Muster {
     fn new(workers: usize) -> Muster {
-        Muster { reports: Mutex::new(Vec::with_capacity(workers)), one_more: Condvar::new(), workers }
+        let reports = (0..workers).map(|_| OnceLock::new()).collect();
+        Muster { reports, missing: AtomicUsize::new(workers), caller: thread::current() }
     }
 
     fn report(&self, report: WorkerStart) {
-        self.reports.lock().unwrap_or_else(PoisonError::into_inner).push(report);
-        self.one_more.notify_one();
+        let slot = &self.reports[report.lane - 1];
+        slot.set(report).expect("one worker per lane");
+        if self.missing.fetch_sub(1, Ordering::AcqRel) == 1 {
+            self.caller.unpark();
+        }
     }
 
     fn wait_for_all(&self) -> Vec<WorkerStart> {
-        let reports = self.reports.lock().unwrap_or_else(PoisonError::into_inner);
-        let all = self.one_more.wait_while(reports, |reports| reports.len() < self.workers);
-        let mut all = std::mem::take(&mut *all.unwrap_or_else(PoisonError::into_inner));
-        all.sort_by_key(|report| report.lane);
-        all
+        while self.missing.load(Ordering::Acquire) > 0 {
+            thread::park();
+        }
+        self.reports.iter().filter_map(|report| report.get().cloned()).collect()
     }
 }
