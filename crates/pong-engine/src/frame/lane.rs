@@ -30,6 +30,8 @@ pub(crate) struct Output {
     ranked: Table<u32>,
     /// Contacts that push, those that found no room included.
     pub pushing: u64,
+    /// Contacts that are only remembered, those that found no room included.
+    pub remembered: u64,
     /// Whether something found no room.
     pub overflowed: bool,
     /// Whether contacts of one ball with one surface were too many to be shared exactly.
@@ -41,6 +43,7 @@ pub(crate) struct Output {
 pub(crate) struct Mark {
     contacts: usize,
     pushing: u64,
+    remembered: u64,
     overflowed: bool,
     unshared: bool,
     counts: FrameCounts,
@@ -66,6 +69,7 @@ impl Output {
             custom_stride,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
             pushing: 0,
+            remembered: 0,
             overflowed: false,
             unshared: false,
             counts: FrameCounts::default(),
@@ -78,6 +82,7 @@ impl Output {
         self.contacts.clear();
         self.custom.clear();
         self.pushing = 0;
+        self.remembered = 0;
         self.overflowed = false;
         self.unshared = false;
         self.counts = FrameCounts::default();
@@ -93,6 +98,7 @@ impl Output {
         Mark {
             contacts: self.contacts.len(),
             pushing: self.pushing,
+            remembered: self.remembered,
             overflowed: self.overflowed,
             unshared: self.unshared,
             counts: self.counts,
@@ -104,6 +110,7 @@ impl Output {
         self.contacts.truncate(mark.contacts);
         self.custom.truncate(mark.contacts * self.custom_stride);
         self.pushing = mark.pushing;
+        self.remembered = mark.remembered;
         self.overflowed = mark.overflowed;
         self.unshared = mark.unshared;
         self.counts = mark.counts;
@@ -114,6 +121,7 @@ impl Output {
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.custom.extend_from_slice(&other.custom).is_ok();
         self.pushing += other.pushing;
+        self.remembered += other.remembered;
         self.unshared |= other.unshared;
         self.counts.add(&other.counts);
         room && !other.overflowed
@@ -123,7 +131,9 @@ impl Output {
     /// lane can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
     #[inline]
     pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
-        self.pushing += u64::from(contact.found.role == Role::Pushes);
+        let pushes = contact.found.role == Role::Pushes;
+        self.pushing += u64::from(pushes);
+        self.remembered += u64::from(!pushes);
         if self.contacts.len() == self.contacts.capacity() {
             self.overflowed = true;
             if self.ranked.capacity() == 0 {

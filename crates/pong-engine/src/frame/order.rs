@@ -16,10 +16,14 @@ pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     }
     let pushing = frame.pushing().count();
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-    let overflowed = frame.lane.out.overflowed;
-    frame.report.contacts_wanted = if overflowed { frame.lane.out.pushing as u32 } else { pushing as u32 };
-    if overflowed || pushing > capacity || frame.order.len() - pushing > spare {
+    let out = &frame.lane.out;
+    let found = (pushing as u64, (frame.order.len() - pushing) as u64);
+    let (pushing, remembered) = if out.overflowed { (out.pushing, out.remembered) } else { found };
+    frame.report.contacts_wanted = pushing as u32;
+    if out.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
+        // There is room to remember as many as there is for those that push.
+        frame.report.contacts_wanted = pushing.max(remembered) as u32;
         frame.lane.out.keep_deepest(capacity, spare);
         list(frame);
         forces::press_again(scene, sealed, frame);
