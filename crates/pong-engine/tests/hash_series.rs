@@ -146,6 +146,27 @@ fn resumed_from_any_frame_the_series_is_the_same() {
     }
 }
 
+/// A block restored while a pair is off: what the world did before has no part in the frame, nor has who runs it.
+#[test]
+#[ignore = "the energy of contacts that end while their pair is off uses a motion of an earlier frame (relative.rs)"]
+fn what_a_world_did_before_a_restore_does_not_count() {
+    let alone = alone().iter().find(|alone| alone.scene.name == "arms").unwrap();
+    let saved = 100 / SAVED_EVERY;
+    let resumed = |stage: &mut Stage<'_>| {
+        for pair in stage.pairs.clone() {
+            stage.world.set_pair_enabled(pair, false).unwrap();
+        }
+        stage.world.restore_state(&alone.saved[saved]).unwrap();
+        stage.place(saved * SAVED_EVERY + 1);
+        stage.world.evaluate().unwrap();
+        stage.finish()
+    };
+    let mut fresh = alone.scene.set_up(None);
+    let mut used = alone.scene.set_up(None);
+    (0..40).for_each(|frame| assert_eq!(used.step(frame), alone.series[frame]));
+    assert_eq!(resumed(&mut fresh), resumed(&mut used));
+}
+
 /// Trial evaluations elsewhere, and again in the same place, change nothing that a commit accepts.
 #[test]
 fn evaluated_four_times_a_frame_the_series_is_the_same() {
