@@ -106,7 +106,7 @@ static void print_run(budget *b, uint32_t workers, int paced)
 {
     const char *text;
     pong_worker worker;
-    printf("%u workers, %s: %u frames, %u longer than 1 ms, at most %u contacts, %lu calls for memory\n",
+    printf("%u workers, %s: %u frames, %u past their deadline, at most %u contacts, %lu calls for memory\n",
            (unsigned)workers, paced ? "paced at 1 kHz" : "as fast as it goes", (unsigned)b->frame.count,
            (unsigned)b->misses, (unsigned)b->most_contacts, b->memory_calls);
     if (workers > 0) {
