@@ -18,7 +18,7 @@ use pong_geometry::primitive::{
 };
 use pong_geometry::simd::{self, Kernel, Simd};
 use pong_geometry::{Mat3, Transform, Vec3};
-use pong_model::Model;
+use pong_model::{Body, Model};
 
 /// The testers on one pair.
 pub struct Ours {
@@ -68,28 +68,44 @@ impl Ours {
     }
 
     fn test_all(&self, transforms: &[Transform], answers: &mut [Answer]) {
-        let body = &self.model.bodies[0];
+        simd::run(Pass { mover: self.mover, body: &self.model.bodies[0], transforms, answers });
+    }
+}
+
+/// All queries in one kernel, as the engine has all elements of a block in one.
+struct Pass<'a> {
+    mover: Mover,
+    body: &'a Body,
+    transforms: &'a [Transform],
+    answers: &'a mut [Answer],
+}
+
+impl Kernel for Pass<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { mover, body, transforms, answers } = self;
         let triangles = &body.triangles;
-        match (self.mover, body.polyhedra.first()) {
-            (Mover::Point, Some(b)) => simd::run(Points { transforms, b, answers }),
+        match (mover, body.polyhedra.first()) {
+            (Mover::Point, Some(b)) => each(transforms, answers, |x| {
+                point_polyhedron_in(simd, &POINT.carried(x).position, b).map(Answer::from)
+            }),
             (Mover::Segment, Some(b)) => each(transforms, answers, |x| segment(&SEGMENT.carried(x), b)),
             (Mover::Sphere, Some(b)) => each(transforms, answers, |x| sphere(&SPHERE.carried(x), b)),
             (Mover::Ellipsoid, Some(b)) => {
                 let a = ellipsoid();
                 each(transforms, answers, |x| ellipsoid_polyhedron(&a.carried(x), b).map(Answer::from));
             }
-            (Mover::Ray, Some(b)) => {
+            (Mover::Ray, b) => {
                 let a = ray();
                 each(transforms, answers, |x| {
                     let a = a.carried(x);
-                    ray_polyhedron(&a, b).map(|hit| along(&a, &hit))
-                });
-            }
-            (Mover::Ray, None) => {
-                let a = ray();
-                each(transforms, answers, |x| {
-                    let a = a.carried(x);
-                    ray_triangle(&a, triangles, 0, 0.0).map(|hit| along(&a, &hit))
+                    let hit = match b {
+                        Some(b) => ray_polyhedron(&a, b),
+                        None => ray_triangle(&a, triangles, 0, 0.0),
+                    };
+                    hit.map(|hit| along(&a, &hit))
                 });
             }
             (_, None) => each(transforms, answers, |x| on_triangle(&SPHERE.carried(x), triangles)),
@@ -107,25 +123,6 @@ impl PairPeer for Ours {
 fn each(transforms: &[Transform], answers: &mut [Answer], test: impl Fn(&Transform) -> Option<Answer>) {
     for (transform, answer) in transforms.iter().zip(answers) {
         *answer = test(transform).unwrap_or_default();
-    }
-}
-
-/// All points in one kernel, as the engine has all points of a block in one.
-struct Points<'a> {
-    transforms: &'a [Transform],
-    b: &'a Polyhedron,
-    answers: &'a mut [Answer],
-}
-
-impl Kernel for Points<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        let Self { transforms, b, answers } = self;
-        each(transforms, answers, |x| {
-            point_polyhedron_in(simd, &POINT.carried(x).position, b).map(Answer::from)
-        });
     }
 }
 
