@@ -153,9 +153,9 @@ impl Brush {
 
     /// Steps frames until a worker takes part, comparing each; the number of the next.
     fn until_a_worker_takes_part(&mut self, expected: &[Hash], from: usize) -> usize {
-        for frame in from..expected.len() {
+        for (frame, expected) in expected.iter().enumerate().skip(from) {
             self.trap.wait_for_a_worker();
-            assert_eq!(self.step(frame as u32), expected[frame], "frame {frame}");
+            assert_eq!(self.step(frame as u32), *expected, "frame {frame}");
             if self.blocks_of_workers() > 0 {
                 return frame + 1;
             }
