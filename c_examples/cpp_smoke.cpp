@@ -4,6 +4,7 @@
 
 #include <pong.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -28,7 +29,10 @@ void require(bool holds, const char* what) {
 }
 
 pong::World build() {
-    pong::World world;
+    pong_config config = pong_default_config();
+    config.workers = 1;
+    config.oversubscribe = 1;
+    pong::World world(config);
     world.create_object(world.load_model_text(ball_model, "ball"), "ball");
     world.create_object(world.load_model_text(ground_model, "ground"), "ground");
     world.pair("ball", "ground");
@@ -83,6 +87,21 @@ void list_and_restore(pong::World& world) {
     require(world.save_contact_state() == saved, "the contact state survives a round trip");
 }
 
+void look(pong::World& world) {
+    world.prewake(std::chrono::microseconds(100));
+    world.step();
+    world.quiesce();
+    const pong::Report report = world.report();
+    require(report.flags == 0 && report.primitives_tested > 0, "the report is of the last frame");
+    unsigned tested = 0;
+    for (const pong::Tally& tally : world.tallies()) {
+        tested += tally.what == PONG_TALLY_PRIMITIVES && std::string(tally.kind_a) == "Sphere" ? tally.tested : 0;
+    }
+    require(tested == report.primitives_tested, "the tallies tell the kinds");
+    require(world.worker_count() == 1 && world.worker(1).lane == 1, "one worker was started");
+    require(std::string(world.worker_text(1)).find("worker 1") == 0, "it tells how it started");
+}
+
 } // namespace
 
 int main() {
@@ -92,6 +111,7 @@ int main() {
         drop(world);
         refuse(world);
         list_and_restore(world);
+        look(world);
     } catch (const pong::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

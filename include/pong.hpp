@@ -6,6 +6,7 @@
 #include "pong.h"
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -45,6 +46,8 @@ using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
 using SurfaceValues = pong_surface_values;
+using Tally = pong_tally;
+using Worker = pong_worker;
 using Vec3 = std::array<double, 3>;
 
 /// State of a movable group; see pong_state for frames and units. Begins at rest at the common origin.
@@ -195,6 +198,30 @@ public:
     }
     Ledger ledger() const {
         return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
+    }
+    std::vector<Tally> tallies() const {
+        std::vector<Tally> all(result<std::size_t>([&](std::size_t* out) { return pong_tally_count(get(), out); }));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            check(pong_get_tally(get(), i, &all[i]));
+        }
+        return all;
+    }
+
+    // Workers.
+
+    void prewake(std::chrono::microseconds at_most) {
+        check(pong_prewake(get(), at_most.count() < 0 ? 0 : static_cast<std::uint64_t>(at_most.count())));
+    }
+    void quiesce() { check(pong_quiesce(get())); }
+    std::size_t worker_count() const {
+        return result<std::size_t>([&](std::size_t* out) { return pong_worker_count(get(), out); });
+    }
+    /// Lane 0 is the calling thread, 1 to worker_count() are the workers.
+    Worker worker(std::size_t lane) const {
+        return result<Worker>([&](Worker* out) { return pong_get_worker(get(), lane, out); });
+    }
+    const char* worker_text(std::size_t lane) const {
+        return result<const char*>([&](const char** out) { return pong_worker_text(get(), lane, out); });
     }
 
     // Between frames.
