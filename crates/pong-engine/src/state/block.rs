@@ -165,7 +165,7 @@ fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize
         record.is_some_and(|record| {
             let in_order = last <= record.key;
             last = record.key;
-            in_order && (record.key.group_pair as usize) < like.poses.len()
+            in_order && (record.key.group_pair as usize) < like.poses.len() && record.key.flipped < 2
         })
     })
 }

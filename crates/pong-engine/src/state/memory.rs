@@ -24,13 +24,14 @@ pub(crate) struct ContactKey {
 impl ContactKey {
     /// The fields one after another, as two numbers: they compare faster than five.
     #[inline]
-    fn rank(&self) -> (u128, u32) {
-        let wide = |x: u32, place: u32| u128::from(x) << (32 * place);
-        let first = wide(self.group_pair, 3)
-            | wide(self.flipped, 2)
-            | wide(self.primitive_a, 1)
-            | wide(self.shell_b, 0);
-        (first, self.end)
+    fn rank(&self) -> (u64, u64) {
+        (self.head(), u64::from(self.shell_b) << 32 | u64::from(self.end))
+    }
+
+    /// The first number: few contacts have it in common.
+    #[inline]
+    fn head(&self) -> u64 {
+        u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
     }
 }
 
@@ -204,7 +205,11 @@ impl ContactMemory {
 
     /// The records under one key, with the index of the first.
     pub fn under(&self, key: &ContactKey) -> (usize, &[ContactRecord]) {
-        let first = self.records.partition_point(|record| record.key < *key);
+        let head = key.head();
+        let mut first = self.records.partition_point(|record| record.key.head() < head);
+        while self.records.get(first).is_some_and(|record| record.key < *key) {
+            first += 1;
+        }
         let count = self.records[first..].iter().take_while(|record| record.key == *key).count();
         (first, &self.records[first..first + count])
     }

@@ -97,11 +97,11 @@ impl NarrowBox {
 
 /// A finite number of single precision that is not greater. What lies below them all becomes the least: every upper
 /// bound is at least as great, so two boxes are not taken for apart.
-#[inline]
+#[inline(always)]
 pub fn round_down(x: f64) -> f32 {
-    let nearest = (x as f32).min(f32::MAX);
-    // At least one unit in the last place below, also where the product underflows.
-    (nearest - nearest.abs() * (1.01 * f32::EPSILON) - f32::MIN_POSITIVE).max(-f32::MAX)
+    // In double precision: more than a unit in the last place below, also where the product underflows.
+    let below = x - (x.abs() * (1.01 * f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE));
+    (below as f32).max(-f32::MAX).min(f32::MAX)
 }
 
 /// A finite number of single precision that is not smaller, likewise.
