@@ -2,7 +2,7 @@
 
 use crate::Vec3;
 use crate::primitive::{FacePlanes, PlaneBlock};
-use crate::simd::{First, LANES, LaneBits, Simd, Splat};
+use crate::simd::{Finder, First, Found, LANES, LaneBits, Simd, Splat};
 
 /// Blocks whose heights are kept in registers at a time, if there are that many.
 const MANY: usize = 4;
@@ -54,11 +54,11 @@ pub(super) fn highest_of_many<S: Simd>(
     if planes.blocks.len() <= MANY {
         return search.highest_of_group::<MANY>(0);
     }
-    let mut first = First::above(simd, f64::NEG_INFINITY);
+    let mut first = First::<S>::above(simd, f64::NEG_INFINITY);
     for start in (0..planes.blocks.len()).step_by(MANY) {
         first.offer(start, search.top(&search.heights::<MANY>(start)?));
     }
-    let (start, height) = first.place()?;
+    let Found { block: start, number: height, .. } = first.found()?;
     search.first_at(&search.heights::<MANY>(start)?, start, height)
 }
 

@@ -17,9 +17,11 @@
 //! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes meet nowhere and that
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
-use super::{Feature, Interference};
-use crate::Vec3;
-use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace};
+use super::Interference;
+use super::segment_bounds::{Bounds, IN_REGISTERS, SegmentPlanes};
+use super::segment_ends::{AtEnd, InsideEnd, Measured};
+use crate::primitive::{LineSegment, Polyhedron};
+use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
 
 /// The contact at each end: 0 towards the segment's first end, 1 towards its second.
 pub type EndContacts = [Option<Interference>; 2];
@@ -29,128 +31,177 @@ pub type EndContacts = [Option<Interference>; 2];
 const TIE: f64 = 1.0 - 1e-12;
 
 /// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
+#[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
-    let Some(inside) = inside_part(segment, polyhedron) else { return [None, None] };
-    let mut best = (f64::INFINITY, [None, None]);
-    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
-        let end = |end| measure(segment, polyhedron, index, face, &inside[end], end);
-        let Some(measured) = end(0).zip(end(1)) else { continue };
-        // An end at an inner wall counts here, though the piece behind the wall carries it: without it the face
-        // would not be found where its other end does not touch.
-        let energy =
-            [measured.0, measured.1].iter().flatten().map(|contact| contact.depth * contact.depth).sum();
-        if energy > 0.0 && energy < best.0 * TIE {
-            let carried = |m: Measured, end: &InsideEnd| m.filter(|m| carries(polyhedron, end, m));
-            best = (energy, [carried(measured.0, &inside[0]), carried(measured.1, &inside[1])]);
+    match polyhedron.planes().blocks.len() {
+        0 => [None, None],
+        1..=FEW => run_at_level!(test_few(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts),
+        _ => run_at_level!(test_many(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts),
+    }
+}
+
+/// [`line_segment_polyhedron`] within a kernel.
+#[inline(always)]
+pub fn line_segment_polyhedron_in<S: Simd>(
+    simd: S,
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+) -> EndContacts {
+    match polyhedron.planes().blocks.len() {
+        0 => [None, None],
+        1..=FEW => test_few(simd, segment, polyhedron),
+        _ => test_many(simd, segment, polyhedron),
+    }
+}
+
+/// For how many blocks of faces bounds of the energy are kept.
+const FEW: usize = 2;
+const SOME: usize = 4;
+const MANY: usize = 16;
+
+#[inline(always)]
+fn test_few<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+    test::<S, FirstOf<S, FEW>, FEW>(simd, segment, polyhedron)
+}
+
+#[inline(always)]
+fn test_many<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+    if polyhedron.planes().blocks.len() <= SOME {
+        test::<S, FirstOf<S, SOME>, SOME>(simd, segment, polyhedron)
+    } else {
+        test::<S, First<S>, MANY>(simd, segment, polyhedron)
+    }
+}
+
+#[inline(always)]
+fn test<S: Simd, F: Finder<S>, const N: usize>(
+    simd: S,
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+) -> EndContacts {
+    let planes = SegmentPlanes::new(simd, segment, polyhedron);
+    let Some(inside) = planes.inside_part::<F, N>() else { return [None, None] };
+    let mut search = Search { segment, polyhedron, inside: inside.ends, best: None };
+    let moderate =
+        polyhedron.planes().moderate && is_moderate(&segment.ends[0]) && is_moderate(&segment.ends[1]);
+    if polyhedron.planes().blocks.len() > N || !moderate {
+        search.visit_all();
+        return search.contacts();
+    }
+    let likely = if N > IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
+    let limit = match likely {
+        Some(face) => limit_of(search.stored(face).as_ref()),
+        None => f64::INFINITY,
+    };
+    search.visit_likely(&planes.bounds::<N>(&inside, limit), limit);
+    search.contacts()
+}
+
+/// A face whose bound is so many times what another stores never decides. Far beyond rounding of the bounds, and beyond
+/// any number of ties, each the next one's.
+const BEYOND_ROUNDING: f64 = 1.0 + 1e-6;
+
+/// The search for the face that stores the least energy.
+struct Search<'a> {
+    segment: &'a LineSegment,
+    polyhedron: &'a Polyhedron,
+    inside: [InsideEnd; 2],
+    best: Option<Stored>,
+}
+
+/// What a face stores.
+#[derive(Clone, Copy)]
+struct Stored {
+    face: usize,
+    /// The sum of the squares of what its ends measure, m².
+    energy: f64,
+    ends: [Measured; 2],
+}
+
+impl Search<'_> {
+    #[cold]
+    fn visit_all(&mut self) {
+        let polyhedron = self.polyhedron;
+        for face in (0..polyhedron.faces.len()).filter(|&face| polyhedron.faces[face].active) {
+            self.visit(self.stored(face));
         }
     }
-    best.1
+
+    /// Visits the faces, in their order, whose bounds let them store as little as the likeliest one.
+    #[inline(always)]
+    fn visit_likely<S: Simd, const N: usize>(&mut self, bounds: &Bounds<S, N>, limit: f64) {
+        let likeliest = bounds.least();
+        let at_likeliest = match likeliest {
+            Some(face) => self.stored(face),
+            None => None,
+        };
+        let mut limit = limit.min(limit_of(at_likeliest.as_ref()));
+        for block in 0..self.polyhedron.planes().blocks.len() {
+            let mut faces = bounds.up_to(limit, block);
+            while faces != 0 {
+                let face = block * LANES + faces.trailing_zeros() as usize;
+                let is_likeliest = likeliest == Some(face);
+                self.visit(if is_likeliest { at_likeliest } else { self.stored(face) });
+                limit = self.best.map_or(limit, |best| limit.min(best.energy * BEYOND_ROUNDING));
+                faces &= faces - 1;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, stored: Option<Stored>) {
+        let Some(stored) = stored else { return };
+        let least = self.best.map_or(f64::INFINITY, |best| best.energy);
+        if stored.energy > 0.0 && stored.energy < least * TIE {
+            self.best = Some(stored);
+        }
+    }
+
+    /// What a face stores; `None` if it takes no part.
+    ///
+    /// An end at an inner wall counts, though the piece behind the wall carries it: without it the face would not be
+    /// found where its other end does not touch.
+    fn stored(&self, face: usize) -> Option<Stored> {
+        let ends = [self.at_end(face, 0).measured()?, self.at_end(face, 1).measured()?];
+        let square = |end: usize| ends[end].depth() * ends[end].depth();
+        Some(Stored { face, energy: square(0) + square(1), ends })
+    }
+
+    #[inline(always)]
+    fn at_end(&self, face: usize, end: usize) -> AtEnd<'_> {
+        let tip = &self.segment.ends[end];
+        AtEnd { segment: self.segment, polyhedron: self.polyhedron, face, inside: &self.inside[end], tip }
+    }
+
+    /// What the best face carries.
+    fn contacts(&self) -> EndContacts {
+        match &self.best {
+            Some(best) => [self.carried(best, 0), self.carried(best, 1)],
+            None => [None, None],
+        }
+    }
+
+    #[inline(always)]
+    fn carried(&self, best: &Stored, end: usize) -> Option<Interference> {
+        let contact = self.at_end(best.face, end).contact(&best.ends[end])?;
+        carries(self.polyhedron, &self.inside[end], &contact).then_some(contact)
+    }
+}
+
+/// Above this no face decides, when one stores so much.
+#[inline(always)]
+fn limit_of(stored: Option<&Stored>) -> f64 {
+    match stored {
+        Some(stored) if stored.energy > 0.0 => stored.energy * BEYOND_ROUNDING,
+        _ => f64::INFINITY,
+    }
 }
 
 /// Whether an end carries what it measures. One at an inner wall does not, the piece behind the wall does; but where
 /// the wall ends in a convex edge of the body, that edge pushes (2.1), once for all pieces that have it.
+#[inline]
 fn carries(polyhedron: &Polyhedron, end: &InsideEnd, measured: &Interference) -> bool {
     let at_wall = end.leaves_by.is_some_and(|h| !polyhedron.faces[h].active);
     let feature = measured.feature;
     !at_wall || (!feature.is_face() && polyhedron.edges[feature.index()].push.is_some())
-}
-
-/// One end of the part of the segment inside the solid.
-#[derive(Clone, Copy)]
-struct InsideEnd {
-    /// Parameter along the segment, 0…1.
-    at: f64,
-    /// The face through which the segment leaves; `None` if its tip is inside.
-    leaves_by: Option<usize>,
-}
-
-/// Clips the segment to the solid; `None` if no point of it lies inside.
-fn inside_part(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
-    let mut ends = [0.0, 1.0].map(|at| InsideEnd { at, leaves_by: None });
-    for (index, face) in polyhedron.faces.iter().enumerate() {
-        let heights = segment.ends.map(|end| face.height(&end));
-        if heights[0] == heights[1] {
-            if heights[0] < 0.0 || (face.closed && heights[0] == 0.0) {
-                continue;
-            }
-            return None;
-        }
-        let at = heights[0] / (heights[0] - heights[1]);
-        let leaving = InsideEnd { at, leaves_by: Some(index) };
-        if heights[1] < heights[0] && at > ends[0].at {
-            ends[0] = leaving;
-        } else if heights[1] > heights[0] && at < ends[1].at {
-            ends[1] = leaving;
-        }
-        if heights[0] >= 0.0 && heights[1] >= 0.0 {
-            return None;
-        }
-    }
-    (ends[0].at < ends[1].at).then_some(ends)
-}
-
-/// What an end measures below a face: `None` if it does not touch.
-type Measured = Option<Interference>;
-
-fn if_touching(contact: Interference) -> Measured {
-    (contact.depth > 0.0).then_some(contact)
-}
-
-/// Measures one end below one face; `None` if the face takes no part.
-fn measure(
-    segment: &LineSegment,
-    polyhedron: &Polyhedron,
-    index: usize,
-    face: &PolyhedronFace,
-    inside: &InsideEnd,
-    end: usize,
-) -> Option<Measured> {
-    let tip = &segment.ends[end];
-    match inside.leaves_by {
-        Some(leaves_by) if leaves_by == index => Some(None),
-        Some(leaves_by) if !is_over_face(tip, polyhedron, index) => {
-            crossing(segment, polyhedron, index, leaves_by, inside.at).map(if_touching)
-        }
-        _ => Some(if_touching(Interference {
-            depth: -face.height(tip),
-            normal: face.normal,
-            point_a: *tip,
-            feature: Feature::face(index),
-        })),
-    }
-}
-
-/// Whether a point lies over (or under) a face's polygon, seen along the face's normal.
-fn is_over_face(p: &Vec3, polyhedron: &Polyhedron, index: usize) -> bool {
-    polyhedron.rim(index).iter().all(|rim| rim.outward.dot(&(p - rim.anchor)) <= 0.0)
-}
-
-/// Distance of the segment's line below the line in which two faces' planes meet, with the segment leaving through
-/// the second face at parameter `at`; `None` if the planes do not meet.
-///
-/// With s along the segment and q where it leaves, the common normal of the two lines is u ∝ n_f·(n_h·s) − n_h·(n_f·s);
-/// a point of the edge less q has no part along n_h, so the distance is the depth of q below f times (n_h·s)/|…|.
-fn crossing(
-    segment: &LineSegment,
-    polyhedron: &Polyhedron,
-    index: usize,
-    leaves_by: usize,
-    at: f64,
-) -> Option<Interference> {
-    let (face, exit) = (&polyhedron.faces[index], &polyhedron.faces[leaves_by]);
-    let along = segment.ends[1] - segment.ends[0];
-    let (slope, exit_slope) = (face.normal.dot(&along), exit.normal.dot(&along));
-    let across = (face.normal * exit_slope - exit.normal * slope) * exit_slope.signum();
-    let length = across.norm();
-    let leaving = segment.ends[0] + along * at;
-    let depth = -face.height(&leaving) * exit_slope.abs() / length;
-    if !depth.is_finite() {
-        return None;
-    }
-    let normal = (across / length).normalize();
-    // The nearest point lies where the edge's line, δ·u above it, is in the plane of the exit face.
-    let nearest = leaving - along * (depth * exit.normal.dot(&normal) / exit_slope);
-    let shared = polyhedron.rim(index).iter().find(|rim| rim.neighbor as usize == leaves_by);
-    let feature = shared.map_or(Feature::face(index), |rim| Feature::edge(rim.edge as usize));
-    Some(Interference { depth, normal, point_a: nearest, feature })
 }

@@ -18,6 +18,8 @@ pub mod point_sphere;
 pub mod ray_plane;
 pub mod ray_polyhedron;
 pub mod ray_triangle;
+mod segment_bounds;
+mod segment_ends;
 pub mod sphere_plane;
 pub mod sphere_polyhedron;
 pub mod sphere_sphere;

@@ -23,6 +23,8 @@ pub struct PlaneBlock {
     pub normal: [[f64; LANES]; 3],
     /// Distances from the frame's origin along the normals, m.
     pub offset: [f64; LANES],
+    /// Which lanes are no repetition.
+    pub own: LaneBits,
     /// Which lanes hold an active face.
     pub active: LaneBits,
     /// Which lanes hold a closed face.
@@ -65,6 +67,7 @@ fn block(faces: &[PolyhedronFace]) -> PlaneBlock {
     PlaneBlock {
         normal: std::array::from_fn(|axis| std::array::from_fn(|lane| face(lane).normal[axis])),
         offset: std::array::from_fn(|lane| face(lane).offset),
+        own: LaneBits::MAX >> (LANES - faces.len()),
         active: bits(&|face| face.active),
         closed: bits(&|face| face.closed),
     }

@@ -130,6 +130,19 @@ impl Polyhedron {
         &self.planes
     }
 
+    /// How high a point must be above the plane of a face, at least, to be over the face's outline: the face then holds
+    /// the point of the solid that is nearest, and no plane is farther below the point than that. `top` is its greatest
+    /// height above a plane, m.
+    ///
+    /// The slack is far beyond what a loaded polyhedron may lack in convexity, and what rounding makes of the outline of
+    /// the narrowest face.
+    #[inline]
+    pub(crate) fn least_height_over_face(&self, p: &Vec3, top: f64) -> f64 {
+        const SLACK: f64 = 1e-4;
+        let place = self.parts.vertices.first().map_or(0.0, |vertex| vertex.position.amax());
+        top - SLACK * (self.parts.diameter + p.amax() + place)
+    }
+
     /// Whether a point lies inside this piece (the tie rule of inner walls included).
     #[inline]
     pub fn contains(&self, p: &Vec3) -> bool {

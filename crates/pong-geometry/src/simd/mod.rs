@@ -13,7 +13,7 @@ mod splat;
 mod x86;
 
 pub use boxes::{BoxSimd, EightBoxes};
-pub use first::First;
+pub use first::{Finder, First, FirstOf, Found};
 pub use portable::Portable;
 pub use splat::{MODERATE, Splat, is_moderate};
 

@@ -28,10 +28,10 @@ impl<S: Simd> Splat<S> {
     }
 }
 
-/// Numbers up to this size have products and sums that are finite.
-pub const MODERATE: f64 = 1e150;
+/// Numbers up to this size have squares of products of two, and sums of these, that are finite.
+pub const MODERATE: f64 = 1e60;
 
-/// Whether sums of products of a vector with another such one are finite numbers.
+/// Whether squares of products of the components with other such numbers are finite.
 #[inline(always)]
 pub fn is_moderate(v: &Vec3) -> bool {
     (v.x.abs() < MODERATE) & (v.y.abs() < MODERATE) & (v.z.abs() < MODERATE)

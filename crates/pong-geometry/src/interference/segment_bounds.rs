@@ -1,0 +1,343 @@
+//! For a line segment that is partly inside a polyhedron: from where to where, and how little energy each face can
+//! store, eight faces at a time.
+
+use super::segment_ends::InsideEnd;
+use crate::Vec3;
+use crate::primitive::{LineSegment, PlaneBlock, Polyhedron};
+use crate::simd::{Finder, Found, LANES, LaneBits, Simd, Splat};
+
+/// Most blocks whose numbers are kept in registers.
+pub(super) const IN_REGISTERS: usize = 4;
+
+/// A segment against the planes of a polyhedron.
+#[derive(Clone, Copy)]
+pub(super) struct SegmentPlanes<'a, S: Simd> {
+    simd: S,
+    polyhedron: &'a Polyhedron,
+    segment: &'a LineSegment,
+    ends: [Splat<S>; 2],
+}
+
+/// The part of a segment inside a polyhedron.
+#[derive(Clone, Copy)]
+pub(super) struct InsidePart {
+    pub ends: [InsideEnd; 2],
+    /// How high above the highest plane each end of the segment is, m.
+    tops: [f64; 2],
+}
+
+impl<'a, S: Simd> SegmentPlanes<'a, S> {
+    #[inline(always)]
+    pub fn new(simd: S, segment: &'a LineSegment, polyhedron: &'a Polyhedron) -> Self {
+        let ends = [Splat::new(simd, &segment.ends[0]), Splat::new(simd, &segment.ends[1])];
+        Self { simd, polyhedron, segment, ends }
+    }
+
+    /// Clips the segment to the solid; `None` if no point of it lies inside.
+    #[inline(always)]
+    pub fn inside_part<F: Finder<S>, const N: usize>(&self) -> Option<InsidePart> {
+        let simd = self.simd;
+        let mut crossed = 0;
+        let mut tops = [simd.splat(f64::NEG_INFINITY); 2];
+        let mut ends = InsideEnds::<S, F>::new(simd);
+        for index in 0..self.count::<N>() {
+            let block = self.block(index);
+            let heights = [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])];
+            if self.is_outside(block, heights) {
+                return None;
+            }
+            tops = [simd.larger(heights[0], tops[0]), simd.larger(heights[1], tops[1])];
+            if N <= IN_REGISTERS {
+                ends.clip(index, heights);
+            } else if index < u64::BITS as usize {
+                crossed |= u64::from(self.is_crossed(heights)) << index;
+            }
+        }
+        // Blocks that the segment is wholly below need no division.
+        while crossed != 0 {
+            let index = crossed.trailing_zeros() as usize;
+            let block = self.block(index);
+            ends.clip(index, [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])]);
+            crossed &= crossed - 1;
+        }
+        for index in u64::BITS as usize..self.count::<N>() {
+            let block = self.block(index);
+            ends.clip(index, [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])]);
+        }
+        let ends = ends.found();
+        if ends[0].at < ends[1].at {
+            Some(InsidePart { ends, tops: [simd.largest(tops[0]), simd.largest(tops[1])] })
+        } else {
+            None
+        }
+    }
+
+    /// The active face below which the tip at an end that is inside lies least deep, if no inner wall is nearer.
+    #[inline(always)]
+    pub fn nearest_face<const N: usize>(&self, inside: &InsidePart) -> Option<usize> {
+        let end = if inside.ends[0].leaves_by.is_none() { 0 } else { 1 };
+        if inside.ends[end].leaves_by.is_some() {
+            return None;
+        }
+        let (simd, top) = (self.simd, self.simd.splat(inside.tops[end]));
+        for index in 0..self.count::<N>() {
+            let block = self.block(index);
+            let faces = simd.bits(simd.equal(block.heights(simd, &self.ends[end]), top)) & block.active;
+            if faces != 0 {
+                return Some(index * LANES + faces.trailing_zeros() as usize);
+            }
+        }
+        None
+    }
+
+    /// How many blocks are looked at: where they fit into registers always the same number.
+    #[inline(always)]
+    fn count<const N: usize>(&self) -> usize {
+        if N <= IN_REGISTERS { N } else { self.polyhedron.planes().blocks.len() }
+    }
+
+    /// A block; beyond the last the last once more.
+    #[inline(always)]
+    fn block(&self, index: usize) -> &'a PlaneBlock {
+        let blocks = &self.polyhedron.planes().blocks;
+        &blocks[index.min(blocks.len() - 1)]
+    }
+
+    /// Whether an end is above one of the planes.
+    #[inline(always)]
+    fn is_crossed(&self, [first, second]: [S::Eight; 2]) -> bool {
+        let simd = self.simd;
+        simd.bits(simd.below(simd.splat(0.0), simd.larger(first, second))) != 0
+    }
+
+    /// Whether both ends are above one of the planes, or run along it where it is not closed.
+    #[inline(always)]
+    fn is_outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> bool {
+        let (simd, zero) = (self.simd, self.simd.splat(0.0));
+        let outside = simd.bits(simd.and(simd.at_least(first, zero), simd.at_least(second, zero)));
+        let along_closed = match block.closed {
+            0 => 0,
+            closed => closed & simd.bits(simd.and(simd.equal(first, zero), simd.equal(second, zero))),
+        };
+        outside & !along_closed != 0
+    }
+
+    /// Bounds for all faces of a polyhedron of no more than `N` blocks. Those above `limit` need not be exact.
+    #[inline(always)]
+    pub fn bounds<const N: usize>(&self, inside: &InsidePart, limit: f64) -> Bounds<S, N> {
+        let simd = self.simd;
+        let ends = [self.end(inside, 0), self.end(inside, 1)];
+        let none = simd.splat(f64::NAN);
+        let mut bounds = Bounds { simd, of_block: [none; N], top: simd.splat(f64::NEG_INFINITY) };
+        let mut likely = self.likely_blocks::<N>(limit, &ends);
+        for step in 0..N {
+            let index = if N <= IN_REGISTERS { step } else { likely.trailing_zeros() as usize };
+            if N > IN_REGISTERS && likely == 0 {
+                break;
+            }
+            likely &= likely.wrapping_sub(1);
+            let block = self.block(index);
+            let own = simd.mask(block.active & block.own);
+            let [first, second] = [ends[0].least_square(index, block), ends[1].least_square(index, block)];
+            bounds.set(index, simd.select(own, simd.add(first, second), none));
+        }
+        bounds
+    }
+
+    /// The blocks with a face for which what the tip inside measures is not above a limit alone.
+    #[inline(always)]
+    fn likely_blocks<const N: usize>(&self, limit: f64, ends: &[End<S>; 2]) -> u64 {
+        let count = self.count::<N>();
+        let all = u64::MAX >> (u64::BITS as usize - count);
+        let end = match (&ends[0].leaves, &ends[1].leaves) {
+            (None, Some(_)) => &ends[0],
+            (Some(_), None) => &ends[1],
+            _ => return all,
+        };
+        if N <= IN_REGISTERS {
+            return all;
+        }
+        let (simd, limit) = (self.simd, self.simd.splat(limit));
+        let mut likely = 0;
+        for index in 0..count {
+            let square = end.tip_square(self.block(index));
+            likely |= u64::from(simd.bits(simd.at_least(limit, square)) != 0) << index;
+        }
+        likely
+    }
+
+    #[inline(always)]
+    fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
+        let leaves = match inside.ends[end].leaves_by {
+            Some(face) => Some(self.leaving(face, inside.ends[end].at, inside.tops[end], end)),
+            None => None,
+        };
+        End { simd: self.simd, tip: self.ends[end], leaves }
+    }
+
+    #[inline(always)]
+    fn leaving(&self, face: usize, at: f64, top: f64, end: usize) -> Leaving<S> {
+        let simd = self.simd;
+        let along = self.segment.ends[1] - self.segment.ends[0];
+        let exit = &self.polyhedron.faces[face];
+        Leaving {
+            face,
+            place: Splat::new(simd, &(self.segment.ends[0] + along * at)),
+            along: Splat::new(simd, &along),
+            normal: exit.normal,
+            slope: exit.normal.dot(&along),
+            lowest: simd.splat(self.polyhedron.least_height_over_face(&self.segment.ends[end], top)),
+        }
+    }
+}
+
+/// From where to where the segment is inside.
+struct InsideEnds<S: Simd, F: Finder<S>> {
+    simd: S,
+    entering: F,
+    /// Of minus the parameter, so that the smallest is found.
+    leaving: F,
+}
+
+impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        Self { simd, entering: F::above(simd, 0.0), leaving: F::above(simd, -1.0) }
+    }
+
+    /// Clips to the planes of a block that the two ends are so high above.
+    #[inline(always)]
+    fn clip(&mut self, index: usize, [first, second]: [S::Eight; 2]) {
+        let simd = self.simd;
+        let (zero, nowhere) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
+        let at = simd.div(first, simd.sub(first, second));
+        self.entering.offer(index, simd.select(simd.below(second, first), at, nowhere));
+        self.leaving.offer(index, simd.select(simd.below(first, second), simd.sub(zero, at), nowhere));
+    }
+
+    #[inline(always)]
+    fn found(self) -> [InsideEnd; 2] {
+        let first = match self.entering.found() {
+            Some(found) => InsideEnd { at: found.number, leaves_by: Some(found.place()) },
+            None => InsideEnd { at: 0.0, leaves_by: None },
+        };
+        let second = match self.leaving.found() {
+            Some(found) => InsideEnd { at: -found.number, leaves_by: Some(found.place()) },
+            None => InsideEnd { at: 1.0, leaves_by: None },
+        };
+        [first, second]
+    }
+}
+
+/// Lower bounds of what faces store, as the sum of the squares of what the two ends measure, m². Not a number for a
+/// face that takes no part, or stores more than the limit.
+pub(super) struct Bounds<S: Simd, const N: usize> {
+    simd: S,
+    of_block: [S::Eight; N],
+    /// Minus the least of each lane.
+    top: S::Eight,
+}
+
+impl<S: Simd, const N: usize> Bounds<S, N> {
+    #[inline(always)]
+    fn set(&mut self, block: usize, bounds: S::Eight) {
+        self.of_block[block] = bounds;
+        // No number is put before a NaN.
+        self.top = self.simd.larger(self.simd.sub(self.simd.splat(0.0), bounds), self.top);
+    }
+
+    /// The first face of the least bound.
+    #[inline(always)]
+    pub fn least(&self) -> Option<usize> {
+        let least = -self.simd.largest(self.top);
+        for block in 0..N {
+            let faces = self.up_to(least, block);
+            if faces != 0 {
+                return Some(block * LANES + faces.trailing_zeros() as usize);
+            }
+        }
+        None
+    }
+
+    /// Which faces of a block may store no more than that.
+    #[inline(always)]
+    pub fn up_to(&self, energy: f64, block: usize) -> LaneBits {
+        let simd = self.simd;
+        simd.bits(simd.at_least(simd.splat(energy), self.of_block[block]))
+    }
+}
+
+/// One end of the part inside.
+#[derive(Clone, Copy)]
+struct End<S: Simd> {
+    simd: S,
+    tip: Splat<S>,
+    leaves: Option<Leaving<S>>,
+}
+
+/// Where the segment leaves through a face.
+#[derive(Clone, Copy)]
+struct Leaving<S: Simd> {
+    face: usize,
+    place: Splat<S>,
+    along: Splat<S>,
+    normal: Vec3,
+    slope: f64,
+    /// The tip is over no face that it is less high above, m.
+    lowest: S::Eight,
+}
+
+impl<S: Simd> End<S> {
+    /// The least that the square of what the end measures below each face can be, m²; not a number where the face
+    /// takes no part.
+    #[inline(always)]
+    fn least_square(&self, index: usize, block: &PlaneBlock) -> S::Eight {
+        let (simd, zero) = (self.simd, self.simd.splat(0.0));
+        let height = block.heights(simd, &self.tip);
+        let Some(leaving) = &self.leaves else { return self.square_below(height) };
+        let crossing = leaving.crossing_square(simd, block);
+        // Over the face the depth of the tip counts: that is nothing if the tip is above it.
+        let over = self.square_below(height);
+        let least = simd.select(simd.below(crossing, over), crossing, over);
+        let is_beside = simd.and(simd.at_least(height, zero), simd.below(height, leaving.lowest));
+        let least = simd.select(is_beside, crossing, least);
+        if leaving.face / LANES != index {
+            return least;
+        }
+        simd.select(simd.mask(1 << (leaving.face % LANES)), zero, least)
+    }
+
+    /// The square of the depth of the tip, nothing above the plane.
+    #[inline(always)]
+    fn tip_square(&self, block: &PlaneBlock) -> S::Eight {
+        self.square_below(block.heights(self.simd, &self.tip))
+    }
+
+    /// The square of a depth, nothing above the plane.
+    #[inline(always)]
+    fn square_below(&self, height: S::Eight) -> S::Eight {
+        let (simd, zero) = (self.simd, self.simd.splat(0.0));
+        simd.select(simd.below(height, zero), simd.mul(height, height), zero)
+    }
+}
+
+impl<S: Simd> Leaving<S> {
+    /// The square of the crossing with each face, m²; nothing if the place is above it, no number or infinite where
+    /// the two planes do not meet.
+    #[inline(always)]
+    fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
+        let zero = simd.splat(0.0);
+        let height = block.heights(simd, &self.place);
+        let slope = self.along.dot(&block.normal);
+        let exit_slope = simd.splat(self.slope);
+        let mut length_square = zero;
+        for axis in 0..3 {
+            let own = simd.mul(simd.load(&block.normal[axis]), exit_slope);
+            let across = simd.sub(own, simd.mul(simd.splat(self.normal[axis]), slope));
+            length_square = simd.add(length_square, simd.mul(across, across));
+        }
+        let numerator = simd.mul(height, exit_slope);
+        let square = simd.div(simd.mul(numerator, numerator), length_square);
+        simd.select(simd.below(zero, height), zero, square)
+    }
+}

@@ -1,0 +1,141 @@
+//! What one end of a line segment that is partly inside a polyhedron measures below one face
+//! (see [`line_segment_polyhedron`](super::line_segment_polyhedron)).
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace};
+
+/// One end of the part of the segment inside the solid.
+#[derive(Clone, Copy)]
+pub(super) struct InsideEnd {
+    /// Parameter along the segment, 0…1.
+    pub at: f64,
+    /// The face through which the segment leaves; `None` if its tip is inside.
+    pub leaves_by: Option<usize>,
+}
+
+/// One end as one face sees it.
+pub(super) struct AtEnd<'a> {
+    pub segment: &'a LineSegment,
+    pub polyhedron: &'a Polyhedron,
+    pub face: usize,
+    pub inside: &'a InsideEnd,
+    pub tip: &'a Vec3,
+}
+
+/// What an end measures.
+#[derive(Clone, Copy)]
+pub(super) enum Measured {
+    /// The segment leaves through the face itself: nothing.
+    Leaves,
+    /// The depth of the tip, inside or straight below the face (negative above it), m.
+    Tip(f64),
+    /// Where the segment leaves through another face.
+    Crossing(Crossing),
+}
+
+/// The segment's line and the line in which two faces' planes meet, with the segment leaving through the second face.
+///
+/// With s along the segment and q where it leaves, the common normal of the two lines is u ∝ n_f·(n_h·s) − n_h·(n_f·s);
+/// a point of the edge less q has no part along n_h, so the distance is the depth of q below f times (n_h·s)/|…|.
+#[derive(Clone, Copy)]
+pub(super) struct Crossing {
+    leaves_by: usize,
+    /// Distance of the segment's line below the other, m.
+    depth: f64,
+    /// The common normal, not of unit length, and its length.
+    across: Vec3,
+    length: f64,
+}
+
+impl Measured {
+    /// The depth, 0 if the end does not touch, m.
+    #[inline(always)]
+    pub fn depth(&self) -> f64 {
+        let depth = match self {
+            Self::Leaves => 0.0,
+            Self::Tip(depth) => *depth,
+            Self::Crossing(crossing) => crossing.depth,
+        };
+        if depth > 0.0 { depth } else { 0.0 }
+    }
+}
+
+impl AtEnd<'_> {
+    #[inline(always)]
+    fn face(&self) -> &PolyhedronFace {
+        &self.polyhedron.faces[self.face]
+    }
+
+    /// What the end measures; `None` if the face takes no part.
+    #[inline(always)]
+    pub fn measured(&self) -> Option<Measured> {
+        match self.inside.leaves_by {
+            Some(leaves_by) if leaves_by == self.face => Some(Measured::Leaves),
+            Some(leaves_by) if !is_over_face(self.tip, self.polyhedron, self.face) => {
+                self.crossing(leaves_by).map(Measured::Crossing)
+            }
+            _ => Some(Measured::Tip(-self.face().height(self.tip))),
+        }
+    }
+
+    /// The contact, if the end touches.
+    #[inline(always)]
+    pub fn contact(&self, measured: &Measured) -> Option<Interference> {
+        match measured {
+            _ if measured.depth() <= 0.0 => None,
+            Measured::Leaves => None,
+            Measured::Tip(depth) => Some(Interference {
+                depth: *depth,
+                normal: self.face().normal,
+                point_a: *self.tip,
+                feature: Feature::face(self.face),
+            }),
+            Measured::Crossing(crossing) => Some(self.contact_at(crossing)),
+        }
+    }
+
+    #[inline(always)]
+    fn along(&self) -> Vec3 {
+        self.segment.ends[1] - self.segment.ends[0]
+    }
+
+    #[inline(always)]
+    fn leaving(&self) -> Vec3 {
+        self.segment.ends[0] + self.along() * self.inside.at
+    }
+
+    /// `None` if the planes do not meet.
+    #[inline(always)]
+    fn crossing(&self, leaves_by: usize) -> Option<Crossing> {
+        let (face, exit, along) = (self.face(), &self.polyhedron.faces[leaves_by], self.along());
+        let (slope, exit_slope) = (face.normal.dot(&along), exit.normal.dot(&along));
+        let across = (face.normal * exit_slope - exit.normal * slope) * exit_slope.signum();
+        let length = across.norm();
+        let depth = -face.height(&self.leaving()) * exit_slope.abs() / length;
+        depth.is_finite().then_some(Crossing { leaves_by, depth, across, length })
+    }
+
+    #[inline(always)]
+    fn contact_at(&self, crossing: &Crossing) -> Interference {
+        let (exit, along) = (&self.polyhedron.faces[crossing.leaves_by], self.along());
+        let normal = (crossing.across / crossing.length).normalize();
+        // The nearest point lies where the edge's line, δ·u above it, is in the plane of the exit face.
+        let back = crossing.depth * exit.normal.dot(&normal) / exit.normal.dot(&along);
+        let nearest = self.leaving() - along * back;
+        let shared =
+            self.polyhedron.rim(self.face).iter().find(|rim| rim.neighbor as usize == crossing.leaves_by);
+        let feature = shared.map_or(Feature::face(self.face), |rim| Feature::edge(rim.edge as usize));
+        Interference { depth: crossing.depth, normal, point_a: nearest, feature }
+    }
+}
+
+/// Whether a point lies over (or under) a face's polygon, seen along the face's normal.
+#[inline(always)]
+fn is_over_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
+    // Most outlines are decided at once, without a guess of where.
+    polyhedron
+        .rim(face)
+        .chunks(4)
+        .all(|rims| rims.iter().fold(true, |over, rim| over & (rim.outward.dot(&(p - rim.anchor)) <= 0.0)))
+}
