@@ -403,15 +403,17 @@ typedef struct pong_report {
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     uint64_t advised_capacity;
-    /// Most contacts that a frame of this world had to hold, those included that are only remembered.
+    /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
+    /// remembered.
     uint64_t contacts_peak;
-    /// How many there is room for: the contact capacity.
+    /// How many there is room for: more than the contact capacity.
     uint64_t contacts_capacity;
-    /// Most memory that the testers of one part of a frame needed on the calling thread, bytes.
+    /// Most memory that the testers of one part of a frame needed, bytes; of frames that the calling thread did alone.
     uint64_t arena_peak;
     /// What there is for them, bytes.
     uint64_t arena_capacity;
-    /// Most memory that sharing among the contacts of one surface needed on the calling thread, bytes.
+    /// Most memory that sharing among the contacts of one surface needed, bytes; of frames that the calling thread did
+    /// alone.
     uint64_t scratch_peak;
     /// What there is for it, bytes.
     uint64_t scratch_capacity;
