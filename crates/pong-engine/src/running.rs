@@ -2,7 +2,7 @@
 
 use crate::error::EngineError;
 use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
-use crate::report::{Clock, FrameReport, MemoryReport, Stage};
+use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits};
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{ContactMemory, Remembered, StateError, block_len, read_block, write_block};
@@ -109,14 +109,19 @@ impl Running {
         self.evaluated = false;
     }
 
-    /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state.
+    /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state. Both
+    /// together may be more than there is room for: then the strongest stay, and the status says so.
     pub fn commit_pairs(&mut self, accepts: impl Fn(usize) -> bool) {
         let mut watch = self.clock.start();
         let Self { sealed, memory, spares, frame, .. } = self;
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
+        let mut left_out = 0;
         take_turns(memory, spares, |old, next| {
-            old.accept_into(fresh(frame), &frame.remembered, accepted, next);
+            left_out = old.accept_into(fresh(frame), &frame.remembered, accepted, next);
         });
+        if left_out > 0 {
+            frame.report.status.set(StatusBits::CONTACT_LIMIT);
+        }
         watch.lap(Stage::Commit, &mut frame.times);
         self.evaluated = false;
     }

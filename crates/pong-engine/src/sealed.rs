@@ -144,6 +144,8 @@ pub(crate) struct Plan {
     pub body_b: usize,
     /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
     element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
+    /// By the kind of A: a bit for every kind of B that it may touch.
+    touched: [u16; PrimitiveKind::ALL.len()],
 }
 
 impl Plan {
@@ -157,16 +159,24 @@ impl Plan {
             if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
         let (a, b) = (scene.body(body_a), scene.body(body_b));
         let in_order = (flipped == 0) == pair.first_named_first;
-        let mut element_ns = [None; PrimitiveKind::ALL.len()];
+        let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
         for info_a in representatives(a) {
             let met = representatives(b)
                 .filter(|info_b| info_a.kind != info_b.kind || in_order)
-                .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)))
-                .map(|info_b| rough_cost_ns(info_a.kind, info_b.kind));
-            let slot = &mut element_ns[info_a.kind as usize];
-            *slot = met.max().max(*slot);
+                .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)));
+            for info_b in met {
+                let slot = &mut element_ns[info_a.kind as usize];
+                *slot = Some(rough_cost_ns(info_a.kind, info_b.kind)).max(*slot);
+                touched[info_a.kind as usize] |= 1 << info_b.kind as u16;
+            }
         }
-        Self { group_pair: group_pair as u32, flipped, body_a, body_b, element_ns }
+        Self { group_pair: group_pair as u32, flipped, body_a, body_b, element_ns, touched }
+    }
+
+    /// Whether anything of these two kinds in A and B is tested: by the table of testers, of two primitives of one
+    /// kind only with A in the Object that was named first; or by a registered test.
+    pub fn tests(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+        self.touched[kind_a as usize] >> kind_b as u16 & 1 == 1
     }
 
     fn finds_something(&self) -> bool {

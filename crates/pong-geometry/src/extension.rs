@@ -42,7 +42,8 @@ pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
     volumes: BTreeMap<String, VolumeFitter>,
     volume_tests: BTreeMap<(String, String), VolumeTest>,
-    contact_tests: BTreeMap<(String, String), ContactTest>,
+    /// By the kind of A, then of B: frames look them up by borrowed names.
+    contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
 }
 
 impl Extensions {
@@ -69,7 +70,7 @@ impl Extensions {
     /// Adds the contact test of two kinds of primitives; the first is A (built-in names as in
     /// [`PrimitiveKind::name`]).
     pub fn add_contact_test(&mut self, kind_a: &str, kind_b: &str, test: ContactTest) {
-        self.contact_tests.insert((kind_a.to_owned(), kind_b.to_owned()), test);
+        self.contact_tests.entry(kind_a.to_owned()).or_default().insert(kind_b.to_owned(), test);
     }
 
     /// The factory of a kind of primitive.
@@ -94,7 +95,7 @@ impl Extensions {
 
     /// The contact test of an ordered pair of primitive kinds.
     pub fn contact_test(&self, kind_a: &str, kind_b: &str) -> Option<&ContactTest> {
-        self.contact_tests.get(&(kind_a.to_owned(), kind_b.to_owned()))
+        self.contact_tests.get(kind_a)?.get(kind_b)
     }
 
     /// Whether there are no contact tests to look up.

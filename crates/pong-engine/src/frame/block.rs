@@ -13,6 +13,7 @@ use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::sharing::Sharer;
 use pong_arena::List;
+use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::{Child, NarrowBoxes, lanes};
@@ -51,14 +52,15 @@ impl Kernel for BlockWork<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { scene, sealed, input, block, lane } = self;
-        let context = PairContext::new(scene, sealed, input, &sealed.plans[block.plan as usize]);
+        let plan = &sealed.plans[block.plan as usize];
+        let context = PairContext::new(scene, sealed, input, plan);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
         let Lane { arena, scratch, out } = lane;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
         let mut stack = arena.list(tree_b.nodes.len()).expect(room);
-        batches_of_b(&context, &block, &mut batches_b, &mut stack, &mut out.counts);
+        batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut carried = arena.list(LANES).expect(room);
         let mut found = Findings::new(arena.list(sealed.limits.found).expect(room));
@@ -149,11 +151,13 @@ fn test_chunk<S: Simd>(
     let context = of_a.context;
     let from = (context.body_a, of_a.batch);
     let x_ba = &context.motion.x_ba;
+    let meets_triangles = reach.iter().any(|reach| reach.batch.kind == PrimitiveKind::Triangle);
     let mut carry = Some(carried);
     let mut chunk = None;
     let alone = of_a.first + 1 == of_a.batch.items.end - of_a.batch.items.start;
     if alone {
-        chunk = carry.take().map(|carried| Chunk::new(simd, from, of_a.first, x_ba, carried));
+        chunk =
+            carry.take().map(|carried| Chunk::new(simd, from, of_a.first, x_ba, meets_triangles, carried));
     }
     for Reach { batch, boxes, met } in reach {
         if met >> of_a.lane & 1 == 0 {
@@ -167,7 +171,7 @@ fn test_chunk<S: Simd>(
         let looked_at = batch.boxes.visit(simd, &around, |node, met| {
             let chunk = chunk.get_or_insert_with(|| {
                 let carried = carry.take().expect("a chunk is carried once");
-                Chunk::new(simd, from, of_a.first, x_ba, carried)
+                Chunk::new(simd, from, of_a.first, x_ba, meets_triangles, carried)
             });
             let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
             let met = if alone { met & chunk.first_reaches(simd, &batch.boxes, node) } else { met };

@@ -121,7 +121,7 @@ fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
 
 /// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch.
 pub(super) fn batches_of_b<'a>(
-    context: &PairContext<'a>,
+    (context, plan): (&PairContext<'a>, &Plan),
     block: &Block,
     out: &mut List<'_, &'a Batch>,
     stack: &mut List<'_, u32>,
@@ -140,7 +140,7 @@ pub(super) fn batches_of_b<'a>(
         counts.leaf_pairs += u64::from(block.first == 0 && node.children.is_empty());
         for batch in node.batches.clone() {
             let batch = &tree_b.batches[batch as usize];
-            if context.may_touch(kind_a, batch.kind) {
+            if plan.tests(kind_a, batch.kind) {
                 out.push(batch).expect(room);
             }
         }

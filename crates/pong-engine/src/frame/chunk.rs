@@ -21,7 +21,7 @@ pub(super) struct Chunk<'a, 'l, 'm> {
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
     carried: &'l List<'m, Carried>,
     pub boxes: LaneBoxes,
-    /// Balls around the elements, for kinds of which a ball is a good bound.
+    /// Balls around spheres and ellipsoids that may meet triangles.
     balls: Option<LaneBalls>,
 }
 
@@ -39,13 +39,15 @@ pub(super) struct LaneBoxes {
 }
 
 impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
-    /// The chunk of a batch that begins with its element `first`, a multiple of eight.
+    /// The chunk of a batch that begins with its element `first`, a multiple of eight. Against triangles, many of
+    /// which lie in the corners of a ball's box, balls are kept as well.
     #[inline(always)]
     pub fn new<S: Simd>(
         simd: S,
         (body, batch): (&'a Body, &'a Batch),
         first: u32,
         x_ba: &Transform,
+        meets_triangles: bool,
         carried: &'l mut List<'m, Carried>,
     ) -> Self {
         let start = batch.items.start + first;
@@ -70,8 +72,8 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
             }
         };
         let balls = match batch.kind {
-            PrimitiveKind::Point | PrimitiveKind::Sphere => Some(LaneBalls::new(&centers, radii)),
-            PrimitiveKind::Ellipsoid => Some(LaneBalls::around(carried)),
+            PrimitiveKind::Sphere if meets_triangles => Some(LaneBalls::new(&centers, radii)),
+            PrimitiveKind::Ellipsoid if meets_triangles => Some(LaneBalls::around(carried)),
             _ => None,
         };
         Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }

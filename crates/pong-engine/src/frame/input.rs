@@ -6,7 +6,6 @@ use crate::sealed::{GroupPair, Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
-use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Body;
 use std::cell::Cell;
 use std::sync::Arc;
@@ -100,13 +99,5 @@ impl<'a> PairContext<'a> {
             remembers_entry: scene.model_of_body(b).entry_memory,
             turn: Cell::new(None),
         }
-    }
-
-    /// Whether a kind of A and a kind of B may touch: by the table of testers, of two primitives of one kind only
-    /// with A in the Object that was named first; or, for all that is known here, by a registered test.
-    pub fn may_touch(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
-        let in_order = kind_a != kind_b || (self.flipped == 0) == self.pair.first_named_first;
-        in_order
-            && (crate::dispatch::has_tester(kind_a, kind_b) || !self.scene.extensions.has_no_contact_tests())
     }
 }

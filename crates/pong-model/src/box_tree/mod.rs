@@ -98,6 +98,7 @@ impl NarrowBox {
 /// A finite number of single precision that is not greater. What lies below them all becomes the least: every upper
 /// bound is at least as great, so two boxes are not taken for apart.
 #[inline(always)]
+#[allow(clippy::manual_clamp, reason = "of infinity less infinity, which is no number, this makes the least")]
 pub fn round_down(x: f64) -> f32 {
     // In double precision: more than a unit in the last place below, also where the product underflows.
     let below = x - (x.abs() * (1.01 * f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE));
