@@ -52,8 +52,10 @@ impl Caller {
     /// The caller's first block is taken before the phase opens, and costs no claim.
     fn run_shared(&mut self, blocks: u32) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
+        // Before the phase opens: a worker may finish a block of it at once, which is not yet booked as handed out.
+        let stuck = self.stuck();
         self.shared.board.open(self.epoch, blocks - 1);
-        self.call_workers(blocks - 1);
+        self.call_workers(blocks - 1, stuck);
         let own_panic = self.drain(blocks - 1).err();
         let unclaimed = if own_panic.is_some() { self.shared.board.close(self.epoch) } else { 0 };
 
@@ -67,13 +69,13 @@ impl Caller {
     }
 
     /// Tells the open phase to those who sleep, if those who are awake are too few. One is woken, who wakes others.
-    fn call_workers(&mut self, blocks: u32) {
+    fn call_workers(&mut self, blocks: u32, stuck: u64) {
         self.end_alert();
         let asleep = u64::from(self.shared.board.asleep());
         if asleep == 0 {
             return;
         }
-        let awake = (self.shared.board.workers() as u64 - asleep).saturating_sub(self.stuck());
+        let awake = (self.shared.board.workers() as u64 - asleep).saturating_sub(stuck);
         if u64::from(blocks) > awake {
             self.shared.board.wake(1);
         }
