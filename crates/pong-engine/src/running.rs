@@ -182,12 +182,13 @@ impl Running {
 
     pub fn memory_report(&self) -> MemoryReport {
         let lane = &self.frame.lane;
+        let (arena, scratch) = self.crew.as_ref().map_or((0, 0), Crew::peaks);
         MemoryReport {
             contacts_peak: self.contacts_peak,
             contacts_capacity: self.sealed.record_capacity,
-            arena_peak: lane.arena.peak(),
+            arena_peak: lane.arena.peak().max(arena),
             arena_capacity: lane.arena.capacity(),
-            scratch_peak: lane.scratch.peak(),
+            scratch_peak: lane.scratch.peak().max(scratch),
             scratch_capacity: lane.scratch.capacity(),
         }
     }

@@ -94,6 +94,14 @@ impl Crew {
         }
     }
 
+    /// Most that the workers' arenas and scratch memories were asked for, as far as they are not in use, bytes.
+    pub fn peaks(&self) -> (usize, usize) {
+        let free = self.shared.lanes.iter().filter_map(|lane| lane.try_lock().ok());
+        free.fold((0, 0), |(arena, scratch), lane| {
+            (arena.max(lane.arena.peak()), scratch.max(lane.scratch.peak()))
+        })
+    }
+
     /// See [`Pool::prewake`].
     pub fn prewake(&mut self, at_most: Duration) {
         self.pool.prewake(at_most);

@@ -2,7 +2,7 @@
 
 use super::relative::Motion;
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, Plan, Sealed, SurfaceTable};
+use crate::sealed::{Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
@@ -55,7 +55,6 @@ impl FrameInput {
 pub(super) struct PairContext<'a> {
     pub scene: &'a Scene,
     pub group_pair: u32,
-    pub pair: &'a GroupPair,
     /// 0 if A is in the pair's first body, 1 if in the second.
     pub flipped: u32,
     pub body_a: &'a Body,
@@ -88,7 +87,6 @@ impl<'a> PairContext<'a> {
         Self {
             scene,
             group_pair,
-            pair,
             flipped,
             body_a: scene.body(a),
             body_b: scene.body(b),
