@@ -89,7 +89,8 @@ impl Running {
         Ok(self.frame.report)
     }
 
-    /// Once a frame is done only a worker that is stuck may still hold a contact state.
+    /// Once a frame is done, or a law of the host's has panicked in it, only a worker that is stuck may still hold a
+    /// contact state.
     fn let_go_of_memory(&mut self) {
         self.frame.input.memory = Arc::clone(&self.nothing);
         if let Some(crew) = &self.crew {
@@ -112,6 +113,7 @@ impl Running {
     /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state. Both
     /// together may be more than there is room for: then the strongest stay, and the status says so.
     pub fn commit_pairs(&mut self, accepts: impl Fn(usize) -> bool) {
+        self.let_go_of_memory();
         let mut watch = self.clock.start();
         let Self { sealed, memory, spares, frame, .. } = self;
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
@@ -128,6 +130,7 @@ impl Running {
 
     /// Drops what is remembered of some pairs of movable groups.
     pub fn forget(&mut self, forgotten: impl Fn(&GroupPair) -> bool) {
+        self.let_go_of_memory();
         let pairs = &self.sealed.group_pairs;
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
@@ -146,6 +149,7 @@ impl Running {
     }
 
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), StateError> {
+        self.let_go_of_memory();
         let hash = self.sealed.hash;
         let mut outcome = Ok(());
         take_turns(&mut self.memory, &mut self.spares, |old, next| {

@@ -298,7 +298,6 @@ fn what_is_only_remembered_is_wanted_too() {
 
 /// More interferences of one chunk than there is room for, of which few push.
 #[test]
-#[ignore = "room for the interferences of a chunk follows the capacity, but `contacts_wanted` does not ask for it"]
 fn what_one_ball_wants_is_enough() {
     let scene = |capacity| with_capacity(balls_in(shell(34, 0.05, 0.7, true), 1), capacity);
     check_what_is_wanted(&scene, 40, 4000, 3);

@@ -143,7 +143,6 @@ fn without_the_ledger_only_the_energies_are_missing() {
 
 /// Kinds and laws that are registered and that no model of the scene names.
 #[test]
-#[ignore = "one registered contact test makes every two kinds worth comparing (may_touch in frame/input.rs)"]
 fn registered_kinds_that_no_model_names_add_nothing() {
     for name in ["stations", "sheets", "arms"] {
         let (without, mut with) = (scene(name), scene(name));

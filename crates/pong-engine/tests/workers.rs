@@ -328,7 +328,6 @@ fn a_panic_on_a_worker_is_the_callers_panic() {
 
 /// A panic in the law leaves the world as it was before the frame, with workers and without.
 #[test]
-#[ignore = "after a panic the frame still holds the contact state: the second change of it panics (running.rs)"]
 fn a_panic_on_the_caller_leaves_the_world_usable() {
     within_a_minute(|| {
         let expected = alone(8);

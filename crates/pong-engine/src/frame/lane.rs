@@ -28,24 +28,45 @@ pub(crate) struct Output {
     pub custom_stride: usize,
     /// Room for ranking the contacts; none in a worker's lane.
     ranked: Table<u32>,
-    /// Contacts that push, those that found no room included.
+    pub wants: Wants,
+    pub counts: FrameCounts,
+}
+
+/// What a frame would need room for, found or not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Wants {
+    /// Contacts that push.
     pub pushing: u64,
-    /// Contacts that are only remembered, those that found no room included.
+    /// Contacts that are only remembered.
     pub remembered: u64,
-    /// Whether something found no room.
+    /// Interferences of one chunk of A, where they found no room: the most.
+    pub at_once: u64,
+    /// Whether anything found no room.
     pub overflowed: bool,
     /// Whether contacts of one ball with one surface were too many to be shared exactly.
     pub unshared: bool,
-    pub counts: FrameCounts,
+}
+
+impl Wants {
+    /// One contact more.
+    #[inline]
+    pub fn count(&mut self, role: Role) {
+        *(if role == Role::Pushes { &mut self.pushing } else { &mut self.remembered }) += 1;
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pushing += other.pushing;
+        self.remembered += other.remembered;
+        self.at_once = self.at_once.max(other.at_once);
+        self.overflowed |= other.overflowed;
+        self.unshared |= other.unshared;
+    }
 }
 
 /// How far a lane had got.
 pub(crate) struct Mark {
     contacts: usize,
-    pushing: u64,
-    remembered: u64,
-    overflowed: bool,
-    unshared: bool,
+    wants: Wants,
     counts: FrameCounts,
 }
 
@@ -68,10 +89,7 @@ impl Output {
             custom: Table::with_capacity(contacts * custom_stride, 0.0),
             custom_stride,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
-            pushing: 0,
-            remembered: 0,
-            overflowed: false,
-            unshared: false,
+            wants: Wants::default(),
             counts: FrameCounts::default(),
         }
     }
@@ -81,10 +99,7 @@ impl Output {
         self.phase = phase;
         self.contacts.clear();
         self.custom.clear();
-        self.pushing = 0;
-        self.remembered = 0;
-        self.overflowed = false;
-        self.unshared = false;
+        self.wants = Wants::default();
         self.counts = FrameCounts::default();
     }
 
@@ -95,24 +110,14 @@ impl Output {
 
     /// How far the lane has got.
     pub fn mark(&self) -> Mark {
-        Mark {
-            contacts: self.contacts.len(),
-            pushing: self.pushing,
-            remembered: self.remembered,
-            overflowed: self.overflowed,
-            unshared: self.unshared,
-            counts: self.counts,
-        }
+        Mark { contacts: self.contacts.len(), wants: self.wants, counts: self.counts }
     }
 
     /// Forgets all that came after a mark.
     pub fn return_to(&mut self, mark: &Mark) {
         self.contacts.truncate(mark.contacts);
         self.custom.truncate(mark.contacts * self.custom_stride);
-        self.pushing = mark.pushing;
-        self.remembered = mark.remembered;
-        self.overflowed = mark.overflowed;
-        self.unshared = mark.unshared;
+        self.wants = mark.wants;
         self.counts = mark.counts;
     }
 
@@ -120,22 +125,18 @@ impl Output {
     pub fn absorb(&mut self, other: &Self) -> bool {
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.custom.extend_from_slice(&other.custom).is_ok();
-        self.pushing += other.pushing;
-        self.remembered += other.remembered;
-        self.unshared |= other.unshared;
+        self.wants.add(&other.wants);
         self.counts.add(&other.counts);
-        room && !other.overflowed
+        room && !other.wants.overflowed
     }
 
     /// Adds a contact, whose custom numbers the caller adds. Where there is no room the deepest so far stay, if this
     /// lane can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
     #[inline]
     pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
-        let pushes = contact.found.role == Role::Pushes;
-        self.pushing += u64::from(pushes);
-        self.remembered += u64::from(!pushes);
+        self.wants.count(contact.found.role);
         if self.contacts.len() == self.contacts.capacity() {
-            self.overflowed = true;
+            self.wants.overflowed = true;
             if self.ranked.capacity() == 0 {
                 return None;
             }

@@ -16,19 +16,19 @@ pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     }
     let pushing = frame.pushing().count();
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-    let out = &frame.lane.out;
     let found = (pushing as u64, (frame.order.len() - pushing) as u64);
-    let (pushing, remembered) = if out.overflowed { (out.pushing, out.remembered) } else { found };
+    let wants = frame.lane.out.wants;
+    let (pushing, remembered) = if wants.overflowed { (wants.pushing, wants.remembered) } else { found };
     frame.report.contacts_wanted = pushing as u32;
-    if out.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
+    if wants.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
-        // There is room to remember as many as there is for those that push.
-        frame.report.contacts_wanted = pushing.max(remembered) as u32;
+        // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
+        frame.report.contacts_wanted = pushing.max(remembered).max(wants.at_once) as u32;
         frame.lane.out.keep_deepest(capacity, spare);
         list(frame);
         forces::press_again(scene, sealed, frame);
     }
-    if frame.lane.out.unshared {
+    if wants.unshared {
         frame.report.status.set(StatusBits::SHARING_LIMIT);
     }
     frame.report.contacts = frame.pushing().count() as u32;

@@ -66,15 +66,11 @@ impl Motion {
 pub(super) fn relate(sealed: &Sealed, enabled: &[bool], memory: &ContactMemory, frame: &mut Frame) {
     for (index, pair) in sealed.group_pairs.iter().enumerate() {
         let (first, second) = (&frame.poses[pair.first], &frame.poses[pair.second]);
-        let known = enabled[pair.pair];
-        frame.remembered[index] = if known {
-            PairPose { known, relative: [Pose::relative(first, second), Pose::relative(second, first)] }
-        } else {
-            PairPose::unknown()
-        };
+        let relative = [Pose::relative(first, second), Pose::relative(second, first)];
+        frame.remembered[index] = PairPose { known: true, relative };
     }
-    for plan in sealed.plans.iter().filter(|plan| enabled[sealed.group_pairs[plan.group_pair as usize].pair])
-    {
+    // Of pairs that are off too: the ledger asks for the motion of contacts that end.
+    for plan in &sealed.plans {
         let (index, flipped) = (plan.group_pair as usize, plan.flipped as usize);
         let pose = &frame.remembered[index].relative[flipped];
         let committed = &memory.poses[index];
@@ -82,6 +78,8 @@ pub(super) fn relate(sealed: &Sealed, enabled: &[bool], memory: &ContactMemory, 
         let twists = (&frame.twists[plan.body_a], &frame.twists[plan.body_b]);
         frame.input.motions[index][flipped] = motion(pose, twists, &frame.poses[plan.body_b], earlier);
     }
+    let off = sealed.group_pairs.iter().enumerate().filter(|(_, pair)| !enabled[pair.pair]);
+    off.for_each(|(index, _)| frame.remembered[index] = PairPose::unknown());
 }
 
 fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Option<&Pose>) -> Motion {
