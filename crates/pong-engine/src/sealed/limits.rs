@@ -1,0 +1,83 @@
+//! How much memory the frames of a scene get.
+
+use super::GroupPair;
+use crate::frame::arena_bytes;
+use crate::scene::Scene;
+use crate::sharing::scratch_bytes;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::Tree;
+
+/// The most contacts of a frame where the scene's worst case is larger and the host names no limit.
+const DEFAULT_CAPACITY_MAX: usize = 65_536;
+
+/// The least capacity where the host names no limit: a ball centred in a cone of many facets touches all of them,
+/// more than the worst case counts for it.
+const DEFAULT_CAPACITY_MIN: usize = 256;
+
+/// How much memory the frames get.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Limits {
+    /// Contacts that the calling thread can hold: all that a frame may keep, and room to find more before it has to
+    /// choose.
+    pub lane_contacts: usize,
+    /// Interferences of one chunk of A before any is left out.
+    pub found: usize,
+    /// For the testers of a block, bytes.
+    pub arena_bytes: usize,
+    /// For solutions among contacts, the ledger and rays, bytes.
+    pub scratch_bytes: usize,
+}
+
+impl Limits {
+    pub(super) fn new(
+        scene: &Scene,
+        group_pairs: &[GroupPair],
+        record_capacity: usize,
+        custom_stride: usize,
+    ) -> Self {
+        /// Interferences of one chunk at most, where the host has not chosen a capacity: what a ball finds on a fine
+        /// mesh before it is settled which of them push.
+        const FOUND_MAX: usize = 8192;
+        /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
+        const SHARED: usize = 128;
+        let most = if scene.config.contact_capacity.is_some() { usize::MAX } else { FOUND_MAX };
+        let found = record_capacity.clamp(1024, most);
+        let lane_contacts = record_capacity + (record_capacity / 8).max(64);
+        let in_tree = |count: fn(&Tree) -> usize| {
+            let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
+            bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
+        };
+        let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
+        let arena_bytes = arena_bytes(nodes, batches, found, custom_stride);
+        /// Every piece is rounded up to a grain.
+        const GRAINS: usize = 64;
+        let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
+        let numbers = custom_stride * size_of::<f64>();
+        let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
+        Self { lane_contacts, found, arena_bytes, scratch_bytes }
+    }
+
+    /// Contacts that one of several lanes can hold. A lane that finds more than this leaves the frame to the caller
+    /// alone: an uneven share of the work must be rare, not impossible.
+    pub fn worker_contacts(&self, lanes: usize) -> usize {
+        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(4096))
+    }
+}
+
+/// Contacts if everything that can touch did: points and rays 1 per opposing shell, segments 2, balls 4.
+pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
+    let contacts_of = |kind: PrimitiveKind| match kind {
+        PrimitiveKind::Point | PrimitiveKind::Ray | PrimitiveKind::Custom => 1,
+        PrimitiveKind::LineSegment => 2,
+        PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => 4,
+        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => 0,
+    };
+    let mut total = 0_usize;
+    for pair in group_pairs {
+        for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
+            let movers: usize = scene.body(a).primitives.iter().map(|info| contacts_of(info.kind)).sum();
+            total = total.saturating_add(movers.saturating_mul(scene.body(b).shell_count as usize));
+        }
+    }
+    total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)
+}

@@ -1,0 +1,233 @@
+//! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
+
+mod limits;
+mod plan;
+mod surfaces;
+mod warnings;
+
+pub(crate) use limits::Limits;
+pub(crate) use plan::Plan;
+pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
+pub use warnings::SetupWarning;
+
+use crate::dispatch::has_tester;
+use crate::error::EngineError;
+use crate::scene::Scene;
+use crate::state::{ContactKey, fnv1a};
+use limits::worst_case;
+use plan::plans;
+use pong_geometry::bounding::VolumeTests;
+use pong_geometry::extension::Extensions;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Body, PrimitiveInfo, Surface};
+use pong_threads::WorkerStart;
+use std::collections::BTreeSet;
+use surfaces::custom_stride;
+use warnings::warnings;
+
+/// A pair of movable groups that are tested against each other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupPair {
+    /// The pair of Objects.
+    pub pair: usize,
+    /// The lower of the two bodies, whatever the order of pairing.
+    pub first: usize,
+    /// The higher.
+    pub second: usize,
+    /// Whether the first body's Object was named first: it is A among primitives of one kind.
+    pub first_named_first: bool,
+    /// Surface tables: with A in the first body, with A in the second.
+    pub tables: [usize; 2],
+}
+
+/// What sealing makes of a scene.
+pub(crate) struct Sealed {
+    pub group_pairs: Vec<GroupPair>,
+    /// The directions of those pairs in which something can be found, in order.
+    pub plans: Vec<Plan>,
+    /// The movable groups of all pairs, each once.
+    pub paired_bodies: Vec<usize>,
+    /// Whether a ray may hit two movable groups of one Object.
+    pub rays_meet_groups: bool,
+    pub limits: Limits,
+    pub volume_tests: VolumeTests,
+    pub contact_capacity: usize,
+    /// Records: contacts, and as many that are only remembered.
+    pub record_capacity: usize,
+    pub custom_stride: usize,
+    pub hash: u64,
+}
+
+impl Sealed {
+    /// The bodies that hold A and B of a contact.
+    pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
+        let pair = &self.group_pairs[key.group_pair as usize];
+        if key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
+    }
+}
+
+/// What sealing tells the host.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SealReport {
+    /// Pairs of movable groups that will be tested.
+    pub group_pairs: usize,
+    /// Most contacts of a frame.
+    pub contact_capacity: usize,
+    /// Size of the contact state block, bytes.
+    pub state_size: usize,
+    /// How every worker started: its core and priority, or why it has none.
+    pub workers: Vec<WorkerStart>,
+    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
+    pub warnings: Vec<SetupWarning>,
+}
+
+/// Beyond this a slip of the pen is likelier than a scene.
+const CONTACTS_MAX: usize = 1 << 24;
+
+pub(crate) fn seal(
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
+) -> Result<(Sealed, Vec<SurfaceTable>, SealReport), EngineError> {
+    let mut group_pairs = group_pairs(scene);
+    let volume_tests = VolumeTests::new(&scene.extensions);
+    let mut problems = untestable_volumes(scene, &group_pairs, &volume_tests);
+    let mut tables = Vec::new();
+    match surface_tables(scene, surfaces, &group_pairs) {
+        Ok(made) => tables = made,
+        Err(more) => problems.extend(more),
+    }
+    if let Some(0) = scene.config.contact_capacity {
+        problems.push("contact capacity: 0 leaves no contact; give at least 1 or leave it out".to_owned());
+    }
+    if let Some(wanted) = scene.config.contact_capacity.filter(|wanted| *wanted > CONTACTS_MAX) {
+        problems.push(format!(
+            "contact capacity: {wanted} is more than memory could hold; give at most {CONTACTS_MAX} or leave it out"
+        ));
+    }
+    if !problems.is_empty() {
+        return Err(EngineError::Seal { problems });
+    }
+    for pair in &mut group_pairs {
+        let models = [pair.first, pair.second].map(|body| scene.objects[scene.bodies[body].object].model);
+        let find = |a, b| tables.iter().position(|table| (table.model_a, table.model_b) == (a, b));
+        pair.tables =
+            [find(models[0], models[1]), find(models[1], models[0])].map(|t| t.expect("made above"));
+    }
+    let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
+    let record_capacity = 2 * contact_capacity;
+    let custom_stride = custom_stride(&tables);
+    let hash = scene_hash(scene, contact_capacity, custom_stride);
+    let state_size = crate::state::block_len(group_pairs.len(), record_capacity, custom_stride);
+    let report = SealReport {
+        group_pairs: group_pairs.len(),
+        contact_capacity,
+        state_size,
+        workers: Vec::new(),
+        warnings: warnings(scene, &group_pairs),
+    };
+    let limits = Limits::new(scene, &group_pairs, record_capacity, custom_stride);
+    let sealed = Sealed {
+        plans: plans(scene, &group_pairs),
+        paired_bodies: paired_bodies(&group_pairs),
+        rays_meet_groups: rays_meet_groups(scene, &group_pairs),
+        group_pairs,
+        limits,
+        volume_tests,
+        contact_capacity,
+        record_capacity,
+        custom_stride,
+        hash,
+    };
+    Ok((sealed, tables, report))
+}
+
+/// Every pair of movable groups of paired Objects, in the order of their bodies.
+fn group_pairs(scene: &Scene) -> Vec<GroupPair> {
+    let bodies_of = |object: usize| {
+        let object = &scene.objects[object];
+        object.first_body..object.first_body + scene.models[object.model].bodies.len()
+    };
+    let mut found = Vec::new();
+    for (pair, objects) in scene.pairs.iter().enumerate() {
+        for a in bodies_of(objects.a) {
+            for b in bodies_of(objects.b).filter(|b| objects.a != objects.b || a < *b) {
+                found.push(GroupPair {
+                    pair,
+                    first: a.min(b),
+                    second: a.max(b),
+                    first_named_first: a < b,
+                    tables: [0, 0],
+                });
+            }
+        }
+    }
+    found.sort_by_key(|pair| (pair.first, pair.second));
+    found
+}
+
+fn paired_bodies(group_pairs: &[GroupPair]) -> Vec<usize> {
+    let bodies: BTreeSet<usize> = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]).collect();
+    bodies.into_iter().collect()
+}
+
+fn rays_meet_groups(scene: &Scene, group_pairs: &[GroupPair]) -> bool {
+    let has_rays = |body: usize| !scene.body(body).rays.is_empty();
+    let mut met = BTreeSet::new();
+    group_pairs.iter().any(|pair| {
+        [(pair.first, pair.second), (pair.second, pair.first)]
+            .into_iter()
+            .filter(|&(a, _)| has_rays(a))
+            .any(|(a, b)| !met.insert((a, scene.bodies[b].object)))
+    })
+}
+
+fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTests) -> Vec<String> {
+    let mut problems = BTreeSet::new();
+    let kinds = |body: usize| -> BTreeSet<String> {
+        scene.body(body).tree.nodes.iter().map(|node| node.volume.kind_name().to_owned()).collect()
+    };
+    for pair in group_pairs {
+        for a in kinds(pair.first) {
+            for b in kinds(pair.second).into_iter().filter(|b| !tests.supports(&a, b)) {
+                problems.insert(format!(
+                    "bounding volumes {a} and {b} of `{}` and `{}`: no test is registered; register one or use \
+                     another bound kind",
+                    scene.body_name(pair.first),
+                    scene.body_name(pair.second)
+                ));
+            }
+        }
+    }
+    problems.into_iter().collect()
+}
+
+/// The name of a primitive's kind, a custom kind's own name included.
+fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
+    match info.kind {
+        PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
+        kind => kind.name(),
+    }
+}
+
+fn can_be_tested(extensions: &Extensions, a: (&Body, &PrimitiveInfo), b: (&Body, &PrimitiveInfo)) -> bool {
+    has_tester(a.1.kind, b.1.kind)
+        || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()
+}
+
+/// Hash of everything that decides what a contact state block means.
+fn scene_hash(scene: &Scene, capacity: usize, custom_stride: usize) -> u64 {
+    let mut text = format!("capacity {capacity} stride {custom_stride} ledger {}\n", scene.config.ledger);
+    for model in &scene.models {
+        text += &format!("model {:016x}\n", model.hash);
+    }
+    for object in &scene.objects {
+        text += &format!("object {} {}\n", object.model, object.name);
+    }
+    for pair in &scene.pairs {
+        text += &format!("pair {} {}\n", pair.a, pair.b);
+    }
+    for law in scene.laws.names() {
+        text += &format!("law {law}\n");
+    }
+    fnv1a(text.as_bytes())
+}

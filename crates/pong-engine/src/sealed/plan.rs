@@ -1,0 +1,83 @@
+//! Which kinds of which movable groups are tested against which.
+
+use super::{GroupPair, can_be_tested, kind_name};
+use crate::scene::Scene;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Body, PrimitiveInfo};
+use std::collections::BTreeSet;
+
+/// One direction of a pair of movable groups in which something can be found.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    pub group_pair: u32,
+    /// 0 if A is in the pair's first body, 1 if in the second.
+    pub flipped: u32,
+    pub body_a: usize,
+    pub body_b: usize,
+    /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
+    element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
+    /// By the kind of A: a bit for every kind of B that it may touch.
+    touched: [u16; PrimitiveKind::ALL.len()],
+}
+
+impl Plan {
+    /// What an element of A may cost, ns; `None` if nothing of B can touch it.
+    pub fn element_ns(&self, kind: PrimitiveKind) -> Option<u32> {
+        self.element_ns[kind as usize]
+    }
+
+    fn new(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Self {
+        let (body_a, body_b) =
+            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (a, b) = (scene.body(body_a), scene.body(body_b));
+        let in_order = (flipped == 0) == pair.first_named_first;
+        let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
+        for info_a in representatives(a) {
+            let met = representatives(b)
+                .filter(|info_b| info_a.kind != info_b.kind || in_order)
+                .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)));
+            for info_b in met {
+                let slot = &mut element_ns[info_a.kind as usize];
+                *slot = Some(rough_cost_ns(info_a.kind, info_b.kind)).max(*slot);
+                touched[info_a.kind as usize] |= 1 << info_b.kind as u16;
+            }
+        }
+        Self { group_pair: group_pair as u32, flipped, body_a, body_b, element_ns, touched }
+    }
+
+    /// Whether anything of these two kinds in A and B is tested: by the table of testers, of two primitives of one
+    /// kind only with A in the Object that was named first; or by a registered test.
+    pub fn tests(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
+        self.touched[kind_a as usize] >> kind_b as u16 & 1 == 1
+    }
+
+    fn finds_something(&self) -> bool {
+        self.element_ns.iter().any(Option::is_some)
+    }
+}
+
+/// One primitive of every kind in a body.
+fn representatives(body: &Body) -> impl Iterator<Item = &PrimitiveInfo> {
+    let mut seen = BTreeSet::new();
+    body.primitives.iter().filter(move |info| seen.insert(kind_name(body, info).to_owned()))
+}
+
+/// Time that an element of A takes against a body with elements of B, for cutting the work into blocks and for the
+/// choice to do it alone. It decides nothing else.
+fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
+    match (a, b) {
+        (PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => 1000,
+        (PrimitiveKind::Point | PrimitiveKind::Sphere, _) => 15,
+        (PrimitiveKind::LineSegment | PrimitiveKind::Ray, _) => 50,
+        _ => 200,
+    }
+}
+
+/// All directions of all pairs in which something can be found.
+pub(super) fn plans(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<Plan> {
+    let directions = group_pairs
+        .iter()
+        .enumerate()
+        .flat_map(|(index, pair)| [0, 1].map(|flipped| Plan::new(scene, index, pair, flipped)));
+    directions.filter(Plan::finds_something).collect()
+}

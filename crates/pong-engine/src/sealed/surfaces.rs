@@ -1,0 +1,196 @@
+//! What pairs of surfaces make together: combined once, when a scene is sealed or a surface is changed.
+
+use super::{GroupPair, can_be_tested, kind_name};
+use crate::error::EngineError;
+use crate::law::{FrictionProps, NormalProps, PairProps, combine};
+use crate::scene::Scene;
+use pong_model::{Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, Surface};
+use std::collections::BTreeSet;
+
+/// Values of all pairs of surfaces of two models, A's model first.
+pub(crate) struct SurfaceTable {
+    pub model_a: usize,
+    pub model_b: usize,
+    columns: usize,
+    props: Vec<Option<PairProps>>,
+}
+
+impl SurfaceTable {
+    /// The values of a pair of surfaces that can meet.
+    pub fn props(&self, surface_a: u32, surface_b: u32) -> &PairProps {
+        let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
+        entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
+    }
+}
+
+impl SurfaceTable {
+    /// Stiffness and damping of the stiffest pair of surfaces whose force is linear in the depth.
+    pub fn stiffest(&self) -> Option<(f64, f64)> {
+        let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {
+            NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
+            NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
+            NormalProps::HuntCrossley { .. } | NormalProps::Custom { .. } => None,
+        });
+        linear.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+/// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
+pub(crate) fn surface_tables(
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
+    group_pairs: &[GroupPair],
+) -> Result<Vec<SurfaceTable>, Vec<String>> {
+    let mut tables: Vec<SurfaceTable> = Vec::new();
+    let mut problems = BTreeSet::new();
+    for pair in group_pairs {
+        for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
+            let model_of = |body: usize| scene.objects[scene.bodies[body].object].model;
+            let (model_a, model_b) = (model_of(a), model_of(b));
+            let index = match tables.iter().position(|t| (t.model_a, t.model_b) == (model_a, model_b)) {
+                Some(index) => index,
+                None => {
+                    tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
+                    tables.len() - 1
+                }
+            };
+            fill_table((scene, surfaces), &mut tables[index], scene.body(a), scene.body(b), &mut problems);
+        }
+    }
+    if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
+}
+
+impl SurfaceTable {
+    fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
+        let columns = surfaces[model_b].len();
+        Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
+    }
+}
+
+fn fill_table(
+    (scene, surfaces): (&Scene, &[Vec<Surface>]),
+    table: &mut SurfaceTable,
+    body_a: &Body,
+    body_b: &Body,
+    problems: &mut BTreeSet<String>,
+) {
+    // One representative per kind and surface: meshes of a thousand parts share a handful of them.
+    let distinct = |body: &Body| -> Vec<usize> {
+        let mut seen = BTreeSet::new();
+        (0..body.primitives.len())
+            .filter(|&i| {
+                let info = &body.primitives[i];
+                seen.insert((kind_name(body, info).to_owned(), info.surface))
+            })
+            .collect()
+    };
+    let (in_a, in_b) = (distinct(body_a), distinct(body_b));
+    for info_a in in_a.iter().map(|&i| &body_a.primitives[i]) {
+        for info_b in in_b.iter().map(|&i| &body_b.primitives[i]) {
+            let slot = info_a.surface as usize * table.columns + info_b.surface as usize;
+            let met = can_be_tested(&scene.extensions, (body_a, info_a), (body_b, info_b));
+            if !met || table.props[slot].is_some() {
+                continue;
+            }
+            let model_a = &scene.models[table.model_a];
+            let model_b = &scene.models[table.model_b];
+            let a = &surfaces[table.model_a][info_a.surface as usize];
+            let b = &surfaces[table.model_b][info_b.surface as usize];
+            let made = table_entry(model_a, model_b, a, b)
+                .and_then(|entry| combine(a, b, entry, &scene.laws).map_err(|e| (e.cause, e.cure)));
+            match made {
+                Ok(props) => table.props[slot] = Some(props),
+                Err((cause, cure)) => {
+                    let (a, b) = if a.name <= b.name { (a, b) } else { (b, a) };
+                    problems.insert(format!("surfaces `{}` and `{}`: {cause}; {cure}", a.name, b.name));
+                }
+            }
+        }
+    }
+}
+
+/// The entry that the two models' tables hold for a pair of surfaces; they must not contradict each other.
+fn table_entry<'a>(
+    model_a: &'a Model,
+    model_b: &'a Model,
+    a: &Surface,
+    b: &Surface,
+) -> Result<Option<&'a PairOverride>, (String, String)> {
+    let find = |model: &'a Model| {
+        model.pair_overrides.iter().find(|entry| {
+            let [x, y] = &entry.surfaces;
+            (*x == a.name && *y == b.name) || (*x == b.name && *y == a.name)
+        })
+    };
+    match (find(model_a), find(model_b)) {
+        (Some(x), Some(y))
+            if (x.stiffness, &x.normal, &x.friction) != (y.stiffness, &y.normal, &y.friction) =>
+        {
+            Err((
+                format!(
+                    "models `{}` and `{}` give different values for this pair",
+                    model_a.name, model_b.name
+                ),
+                "make the two `pairs` entries equal or drop one".to_owned(),
+            ))
+        }
+        (Some(entry), _) | (None, Some(entry)) => Ok(Some(entry)),
+        (None, None) => Ok(None),
+    }
+}
+
+pub(super) fn custom_stride(tables: &[SurfaceTable]) -> usize {
+    let lens = tables.iter().flat_map(|table| &table.props).flatten().map(|props| match &props.friction {
+        FrictionProps::Custom { law, .. } => law.state_len(),
+        _ => 0,
+    });
+    lens.max().unwrap_or(0)
+}
+
+/// Refuses a change of law, and values that no surface may have.
+pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
+    let bad = |cause: &str| {
+        Err(EngineError::BadValue { what: format!("surface `{}`", new.name), cause: cause.to_owned() })
+    };
+    let same_normal = match (&old.normal, &new.normal) {
+        (NormalLaw::Linear { .. }, NormalLaw::Linear { .. }) => true,
+        (NormalLaw::HuntCrossley { exponent: a, .. }, NormalLaw::HuntCrossley { exponent: b, .. }) => a == b,
+        (NormalLaw::Custom { name: a, .. }, NormalLaw::Custom { name: b, .. }) => a == b,
+        _ => false,
+    };
+    let same_friction = match (&old.friction, &new.friction) {
+        (FrictionLaw::None, FrictionLaw::None)
+        | (FrictionLaw::Bristle { .. }, FrictionLaw::Bristle { .. })
+        | (FrictionLaw::Coulomb { .. }, FrictionLaw::Coulomb { .. }) => true,
+        (FrictionLaw::Custom { name: a, .. }, FrictionLaw::Custom { name: b, .. }) => a == b,
+        _ => false,
+    };
+    if !same_normal || !same_friction {
+        return bad("values may change between frames, laws may not; keep the law and change its numbers");
+    }
+    if new.stiffness.is_nan() || new.stiffness <= 0.0 {
+        return bad("the stiffness must be positive (infinite means rigid)");
+    }
+    let numbers: &[f64] = match &new.normal {
+        NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
+        NormalLaw::HuntCrossley { dissipation, .. } => &[*dissipation],
+        NormalLaw::Custom { parameters, .. } => parameters,
+    };
+    let custom = matches!(new.normal, NormalLaw::Custom { .. });
+    if numbers.iter().any(|x| !x.is_finite() || (!custom && *x < 0.0)) {
+        return bad("damping values must be finite and not negative");
+    }
+    let rough: &[f64] = match &new.friction {
+        FrictionLaw::None => &[],
+        FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+            &[*mu, *static_excess, stiffness.unwrap_or(0.0), *damping]
+        }
+        FrictionLaw::Coulomb { mu, slip_speed } if *slip_speed > 0.0 => &[*mu],
+        FrictionLaw::Coulomb { .. } => return bad("the slip speed must be positive"),
+        FrictionLaw::Custom { .. } => &[],
+    };
+    if rough.iter().any(|x| !x.is_finite() || *x < 0.0) {
+        return bad("friction values must be finite and not negative");
+    }
+    Ok(())
+}

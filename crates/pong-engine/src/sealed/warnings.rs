@@ -1,0 +1,72 @@
+//! What sealing tells the author though the scene is valid.
+
+use super::{GroupPair, can_be_tested, kind_name};
+use crate::scene::Scene;
+use pong_model::Body;
+use std::collections::BTreeSet;
+
+/// Something the author may not have intended.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SetupWarning {
+    /// Primitives of two kinds without a tester meet in a pair of Objects and are ignored.
+    IgnoredPair {
+        /// Names of the two Objects.
+        objects: [String; 2],
+        /// Names of the two kinds.
+        kinds: [String; 2],
+    },
+    /// A pair of Objects in which nothing can touch.
+    NothingToTest {
+        /// Names of the two Objects.
+        objects: [String; 2],
+    },
+}
+
+impl std::fmt::Display for SetupWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::IgnoredPair { objects: [a, b], kinds: [kind_a, kind_b] } => {
+                write!(f, "`{a}` and `{b}`: {kind_a} and {kind_b} have no tester and ignore each other")
+            }
+            Self::NothingToTest { objects: [a, b] } => {
+                write!(f, "`{a}` and `{b}` are paired but nothing of one can touch anything of the other")
+            }
+        }
+    }
+}
+
+/// Everything about a scene that its author may not have intended.
+pub(super) fn warnings(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<SetupWarning> {
+    let mut found = BTreeSet::new();
+    for (index, pair) in scene.pairs.iter().enumerate() {
+        let objects = [pair.a, pair.b].map(|object| scene.objects[object].name.clone());
+        let mut anything = false;
+        for groups in group_pairs.iter().filter(|groups| groups.pair == index) {
+            let (first, second) = (scene.body(groups.first), scene.body(groups.second));
+            let kinds = |body: &Body| -> BTreeSet<(String, usize)> {
+                let mut by_name: std::collections::BTreeMap<String, usize> = Default::default();
+                for (i, info) in body.primitives.iter().enumerate() {
+                    by_name.entry(kind_name(body, info).to_owned()).or_insert(i);
+                }
+                by_name.into_iter().collect()
+            };
+            for (name_a, a) in kinds(first) {
+                for (name_b, b) in kinds(second) {
+                    let a = (first, &first.primitives[a]);
+                    let b = (second, &second.primitives[b]);
+                    if can_be_tested(&scene.extensions, a, b) || can_be_tested(&scene.extensions, b, a) {
+                        anything = true;
+                    } else {
+                        let mut kinds = [name_a.clone(), name_b.clone()];
+                        kinds.sort();
+                        found.insert(SetupWarning::IgnoredPair { objects: objects.clone(), kinds });
+                    }
+                }
+            }
+        }
+        if !anything {
+            found.insert(SetupWarning::NothingToTest { objects });
+        }
+    }
+    found.into_iter().collect()
+}
