@@ -18,9 +18,9 @@
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
 use super::Interference;
-use super::segment_bounds::{Bounds, IN_REGISTERS, SegmentPlanes};
+use super::segment_bounds::{Bounds, SegmentPlanes};
 use super::segment_ends::{AtEnd, InsideEnd, Measured};
-use crate::primitive::{LineSegment, Polyhedron};
+use crate::primitive::{FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
 
 /// The contact at each end: 0 towards the segment's first end, 1 towards its second.
@@ -56,7 +56,7 @@ pub fn line_segment_polyhedron_in<S: Simd>(
 
 /// For how many blocks of faces bounds of the energy are kept.
 const FEW: usize = 2;
-const SOME: usize = 4;
+const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
 
 #[inline(always)]
@@ -88,7 +88,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
         search.visit_all();
         return search.contacts();
     }
-    let likely = if N > IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
+    let likely = if N > FacePlanes::IN_REGISTERS { planes.nearest_face::<N>(&inside) } else { None };
     let limit = match likely {
         Some(face) => limit_of(search.stored(face).as_ref()),
         None => f64::INFINITY,

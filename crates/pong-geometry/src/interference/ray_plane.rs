@@ -23,6 +23,7 @@ pub fn ray_plane(ray: &Ray, plane: &Plane) -> Option<RayHit> {
 }
 
 /// The hit on a plane that lies `rise` (m) from the ray's origin along `normal`.
+#[inline]
 pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature: Feature) -> Option<RayHit> {
     let closing = ray.direction.dot(normal);
     if closing >= 0.0 {
@@ -33,6 +34,7 @@ pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature
 }
 
 /// The contact of a ray with the nearest surface it hits.
+#[inline]
 pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
     let shortening = ray.length - hit.distance;
     let (depth, normal) = match ray.response {

@@ -7,13 +7,163 @@
 
 use super::Feature;
 use super::ray_plane::RayHit;
-use crate::primitive::{Polyhedron, Ray};
+use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, PolyhedronFace, Ray};
+use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
+
+/// Rounding in a distance along the ray, relative to the polyhedron's diameter.
+const WALL_SLACK: f64 = 1e-12;
+
+/// For how many blocks of faces distances are kept in registers.
+const FEW: usize = 2;
+const SOME: usize = FacePlanes::IN_REGISTERS;
+const MANY: usize = usize::MAX;
 
 /// Where a ray enters a polyhedron through an active face. The origin may lie inside, up to the reach behind
 /// the face, but not beyond the far side.
+#[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
-    /// Rounding in a distance along the ray, relative to the polyhedron's diameter.
-    const WALL_SLACK: f64 = 1e-12;
+    match polyhedron.planes().blocks.len() {
+        0 => None,
+        1..=FEW => run_at_level!(hit_few(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>),
+        _ => run_at_level!(hit_many(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>),
+    }
+}
+
+/// [`ray_polyhedron`] within a kernel.
+#[inline(always)]
+pub fn ray_polyhedron_in<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
+    match polyhedron.planes().blocks.len() {
+        0 => None,
+        1..=FEW => hit_few(simd, ray, polyhedron),
+        _ => hit_many(simd, ray, polyhedron),
+    }
+}
+
+#[inline(always)]
+fn hit_few<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
+    hit::<S, FirstOf<S, FEW>, FEW>(simd, ray, polyhedron)
+}
+
+#[inline(always)]
+fn hit_many<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
+    match polyhedron.planes().blocks.len() {
+        0..=SOME => hit::<S, FirstOf<S, SOME>, SOME>(simd, ray, polyhedron),
+        _ => hit::<S, First<S>, MANY>(simd, ray, polyhedron),
+    }
+}
+
+#[inline(always)]
+fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
+    let (origin, direction) = (Splat::new(simd, &ray.origin), Splat::new(simd, &ray.direction));
+    let mut passage = Passage::<S, F>::new(simd, polyhedron.diameter);
+    for index in 0..polyhedron.planes().count::<N>() {
+        let block = polyhedron.planes().block(index);
+        if !passage.clip(index, block, block.heights(simd, &origin), direction.dot(&block.normal)) {
+            return None;
+        }
+    }
+    if simd.bits(passage.entered_at_numbers) != LaneBits::MAX {
+        return hit_one_by_one(ray, polyhedron);
+    }
+    let entry = passage.entry.found()?;
+    let distance = match entry.number {
+        // Of which sign the zero is, is told by one face alone.
+        0.0 => distance_to(ray, &polyhedron.faces[entry.place()]),
+        distance => distance,
+    };
+    hit_at(ray, polyhedron, distance, entry.place(), passage.leaves_after(distance))
+}
+
+/// Where a line is inside the solid, as distances from the ray's origin.
+struct Passage<S: Simd, F: Finder<S>> {
+    simd: S,
+    /// By which face it enters last.
+    entry: F,
+    /// Lane by lane, whether no distance at which it enters is a NaN.
+    entered_at_numbers: S::Mask,
+    /// Minus the distance at which it first leaves, lane by lane.
+    leave: S::Eight,
+    wall_slack: f64,
+}
+
+impl<S: Simd, F: Finder<S>> Passage<S, F> {
+    #[inline(always)]
+    fn new(simd: S, diameter: f64) -> Self {
+        let nowhere = f64::NEG_INFINITY;
+        Self {
+            simd,
+            entry: F::above(simd, nowhere),
+            entered_at_numbers: simd.mask(LaneBits::MAX),
+            leave: simd.splat(nowhere),
+            wall_slack: WALL_SLACK * diameter,
+        }
+    }
+
+    /// Whether the line leaves beyond a distance, and in front of the origin.
+    #[inline(always)]
+    fn leaves_after(&self, distance: f64) -> bool {
+        let simd = self.simd;
+        let beyond = simd.below(self.leave, simd.splat(-distance));
+        simd.bits(simd.and(beyond, simd.below(self.leave, simd.splat(0.0)))) == LaneBits::MAX
+    }
+
+    /// Clips to eight planes which the origin is so high above, and along which the line climbs so steeply; `false` if
+    /// it runs outside along one of them.
+    #[inline(always)]
+    fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
+        let simd = self.simd;
+        let (zero, nowhere) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
+        // Minus the distances.
+        let before = simd.div(heights, climbs);
+        let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
+        self.entered_at_numbers = simd.and(self.entered_at_numbers, simd.equal(entered, entered));
+        self.entry.offer(index, entered);
+        let leave = match block.active & block.own == block.own {
+            true => before,
+            false => {
+                simd.select(simd.mask(block.active), before, simd.sub(before, simd.splat(self.wall_slack)))
+            }
+        };
+        let rising = simd.below(zero, climbs);
+        self.leave = simd.larger(simd.select(rising, leave, nowhere), self.leave);
+        let along = simd.bits(simd.equal(climbs, zero));
+        along == 0 || !self.runs_outside(block, heights, along)
+    }
+
+    #[inline(always)]
+    fn runs_outside(&self, block: &PlaneBlock, heights: S::Eight, along: LaneBits) -> bool {
+        let (simd, zero) = (self.simd, self.simd.splat(0.0));
+        let above = simd.bits(simd.below(zero, heights));
+        let on = simd.bits(simd.equal(heights, zero)) & !block.closed;
+        along & (above | on) != 0
+    }
+}
+
+#[cold]
+fn distance_to(ray: &Ray, face: &PolyhedronFace) -> f64 {
+    -face.height(&ray.origin) / ray.direction.dot(&face.normal)
+}
+
+/// The hit on the face by which the line enters the solid, if it leaves after that and the ray ends there.
+#[inline(always)]
+fn hit_at(
+    ray: &Ray,
+    polyhedron: &Polyhedron,
+    distance: f64,
+    index: usize,
+    leaves_after: bool,
+) -> Option<RayHit> {
+    let face = &polyhedron.faces[index];
+    let within = -ray.reach.unwrap_or(0.0) < distance && distance < ray.length;
+    if !(face.active && leaves_after && within) {
+        return None;
+    }
+    Some(RayHit { distance, normal: face.normal, feature: Feature::face(index) })
+}
+
+/// Where a distance is no number: the first stands until one is greater.
+#[cold]
+fn hit_one_by_one(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     let mut entry: Option<(f64, usize)> = None;
     let mut leave = f64::INFINITY;
     for (index, face) in polyhedron.faces.iter().enumerate() {
@@ -34,12 +184,5 @@ pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
         }
     }
     let (distance, index) = entry?;
-    let face = &polyhedron.faces[index];
-    let before_far_side = distance < leave && leave > 0.0;
-    let within = -ray.reach.unwrap_or(0.0) < distance && distance < ray.length;
-    (face.active && before_far_side && within).then_some(RayHit {
-        distance,
-        normal: face.normal,
-        feature: Feature::face(index),
-    })
+    hit_at(ray, polyhedron, distance, index, distance < leave && leave > 0.0)
 }

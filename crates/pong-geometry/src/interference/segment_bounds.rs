@@ -3,11 +3,8 @@
 
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
-use crate::primitive::{LineSegment, PlaneBlock, Polyhedron};
+use crate::primitive::{FacePlanes, LineSegment, PlaneBlock, Polyhedron};
 use crate::simd::{Finder, Found, LANES, LaneBits, Simd, Splat};
-
-/// Most blocks whose numbers are kept in registers.
-pub(super) const IN_REGISTERS: usize = 4;
 
 /// A segment against the planes of a polyhedron.
 #[derive(Clone, Copy)]
@@ -40,14 +37,14 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         let mut crossed = 0;
         let mut tops = [simd.splat(f64::NEG_INFINITY); 2];
         let mut ends = InsideEnds::<S, F>::new(simd);
-        for index in 0..self.count::<N>() {
-            let block = self.block(index);
+        for index in 0..self.polyhedron.planes().count::<N>() {
+            let block = self.polyhedron.planes().block(index);
             let heights = [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])];
             if self.is_outside(block, heights) {
                 return None;
             }
             tops = [simd.larger(heights[0], tops[0]), simd.larger(heights[1], tops[1])];
-            if N <= IN_REGISTERS {
+            if N <= FacePlanes::IN_REGISTERS {
                 ends.clip(index, heights);
             } else if index < u64::BITS as usize {
                 crossed |= u64::from(self.is_crossed(heights)) << index;
@@ -56,12 +53,12 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         // Blocks that the segment is wholly below need no division.
         while crossed != 0 {
             let index = crossed.trailing_zeros() as usize;
-            let block = self.block(index);
+            let block = self.polyhedron.planes().block(index);
             ends.clip(index, [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])]);
             crossed &= crossed - 1;
         }
-        for index in u64::BITS as usize..self.count::<N>() {
-            let block = self.block(index);
+        for index in u64::BITS as usize..self.polyhedron.planes().count::<N>() {
+            let block = self.polyhedron.planes().block(index);
             ends.clip(index, [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])]);
         }
         let ends = ends.found();
@@ -80,27 +77,14 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
             return None;
         }
         let (simd, top) = (self.simd, self.simd.splat(inside.tops[end]));
-        for index in 0..self.count::<N>() {
-            let block = self.block(index);
+        for index in 0..self.polyhedron.planes().count::<N>() {
+            let block = self.polyhedron.planes().block(index);
             let faces = simd.bits(simd.equal(block.heights(simd, &self.ends[end]), top)) & block.active;
             if faces != 0 {
                 return Some(index * LANES + faces.trailing_zeros() as usize);
             }
         }
         None
-    }
-
-    /// How many blocks are looked at: where they fit into registers always the same number.
-    #[inline(always)]
-    fn count<const N: usize>(&self) -> usize {
-        if N <= IN_REGISTERS { N } else { self.polyhedron.planes().blocks.len() }
-    }
-
-    /// A block; beyond the last the last once more.
-    #[inline(always)]
-    fn block(&self, index: usize) -> &'a PlaneBlock {
-        let blocks = &self.polyhedron.planes().blocks;
-        &blocks[index.min(blocks.len() - 1)]
     }
 
     /// Whether an end is above one of the planes.
@@ -131,12 +115,12 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         let mut bounds = Bounds { simd, of_block: [none; N], top: simd.splat(f64::NEG_INFINITY) };
         let mut likely = self.likely_blocks::<N>(limit, &ends);
         for step in 0..N {
-            let index = if N <= IN_REGISTERS { step } else { likely.trailing_zeros() as usize };
-            if N > IN_REGISTERS && likely == 0 {
+            let index = if N <= FacePlanes::IN_REGISTERS { step } else { likely.trailing_zeros() as usize };
+            if N > FacePlanes::IN_REGISTERS && likely == 0 {
                 break;
             }
             likely &= likely.wrapping_sub(1);
-            let block = self.block(index);
+            let block = self.polyhedron.planes().block(index);
             let own = simd.mask(block.active & block.own);
             let [first, second] = [ends[0].least_square(index, block), ends[1].least_square(index, block)];
             bounds.set(index, simd.select(own, simd.add(first, second), none));
@@ -147,20 +131,20 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     /// The blocks with a face for which what the tip inside measures is not above a limit alone.
     #[inline(always)]
     fn likely_blocks<const N: usize>(&self, limit: f64, ends: &[End<S>; 2]) -> u64 {
-        let count = self.count::<N>();
+        let count = self.polyhedron.planes().count::<N>();
         let all = u64::MAX >> (u64::BITS as usize - count);
         let end = match (&ends[0].leaves, &ends[1].leaves) {
             (None, Some(_)) => &ends[0],
             (Some(_), None) => &ends[1],
             _ => return all,
         };
-        if N <= IN_REGISTERS {
+        if N <= FacePlanes::IN_REGISTERS {
             return all;
         }
         let (simd, limit) = (self.simd, self.simd.splat(limit));
         let mut likely = 0;
         for index in 0..count {
-            let square = end.tip_square(self.block(index));
+            let square = end.tip_square(self.polyhedron.planes().block(index));
             likely |= u64::from(simd.bits(simd.at_least(limit, square)) != 0) << index;
         }
         likely

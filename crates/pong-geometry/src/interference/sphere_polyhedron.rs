@@ -4,36 +4,64 @@
 //! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest active face there
 //! pushes. Straight above the line where two pieces abut both may push: their springs are shared.
 
-use super::point_polyhedron::point_below_face;
+use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
-use crate::primitive::{EdgePush, Polyhedron, PolyhedronEdge, Sphere};
+use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
+use crate::simd::{LANES, LaneBits, Simd, Splat, is_moderate, run_at_level};
+
+/// Where a sphere is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SpherePlace {
+    /// It does not touch, or what it touches may not push.
+    Apart,
+    /// The centre is outside, and the sphere touches.
+    Outside(Interference),
+    /// The centre is inside.
+    Inside,
+}
+
+/// Where a sphere is: [`Polyhedron::contains`] and [`sphere_outside_polyhedron`] in one pass over the faces.
+#[inline]
+pub fn place_of_sphere(sphere: &Sphere, polyhedron: &Polyhedron) -> SpherePlace {
+    run_at_level!(place_of_sphere_in(sphere: Sphere, polyhedron: Polyhedron) -> SpherePlace)
+}
+
+/// [`place_of_sphere`] within a kernel.
+#[inline(always)]
+pub fn place_of_sphere_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> SpherePlace {
+    let near = Near::new(simd, sphere, polyhedron);
+    match near.survey() {
+        None => SpherePlace::Apart,
+        Some(Survey { is_inside: true, .. }) => SpherePlace::Inside,
+        Some(survey) => near.contact(&survey).map_or(SpherePlace::Apart, SpherePlace::Outside),
+    }
+}
+
+/// The contact of a sphere that remembers no side: outside with the nearest feature, inside below the active face under
+/// which the centre lies least deep.
+#[inline]
+pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
+    match place_of_sphere(sphere, polyhedron) {
+        SpherePlace::Apart => None,
+        SpherePlace::Outside(contact) => Some(contact),
+        SpherePlace::Inside => {
+            let face = shallowest_face(&sphere.center, polyhedron)?;
+            Some(sphere_inside_polyhedron(sphere, polyhedron, face))
+        }
+    }
+}
 
 /// The contact of a sphere whose centre is outside: with the feature nearest to the centre, if that may push.
+#[inline]
 pub fn sphere_outside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
-    let mut over_face = None;
-    for (index, face) in polyhedron.faces.iter().enumerate() {
-        let height = face.height(&sphere.center);
-        if height >= sphere.radius {
-            return None;
-        }
-        // Beside an inner wall both the wall and the face may seem to hold the foot: the face counts.
-        let first =
-            over_face.is_none_or(|(best, _): (usize, f64)| face.active && !polyhedron.faces[best].active);
-        if height >= 0.0 && first && holds_foot(&sphere.center, polyhedron, index) {
-            over_face = Some((index, height));
-        }
-    }
-    if let Some((index, height)) = over_face {
-        let face = &polyhedron.faces[index];
-        return face.active.then(|| Interference {
-            depth: sphere.radius - height,
-            normal: face.normal,
-            point_a: sphere.center - face.normal * sphere.radius,
-            feature: Feature::face(index),
-        });
-    }
-    nearest_edge(sphere, polyhedron).or_else(|| nearest_vertex(sphere, polyhedron))
+    run_at_level!(outside_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
+}
+
+#[inline(always)]
+fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
+    let near = Near::new(simd, sphere, polyhedron);
+    near.contact(&near.survey()?)
 }
 
 /// The contact of a sphere whose centre is inside, under the face that pushes.
@@ -45,6 +73,152 @@ pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: 
         normal,
         point_a: sphere.center - normal * sphere.radius,
         feature: Feature::face(face),
+    }
+}
+
+/// A sphere near a polyhedron.
+struct Near<'a, S: Simd> {
+    simd: S,
+    sphere: &'a Sphere,
+    polyhedron: &'a Polyhedron,
+    center: Splat<S>,
+}
+
+/// What all planes say of a sphere that none of them separates.
+struct Survey {
+    is_inside: bool,
+    /// Height of the centre above the highest plane, m.
+    top: f64,
+}
+
+impl<'a, S: Simd> Near<'a, S> {
+    #[inline(always)]
+    fn new(simd: S, sphere: &'a Sphere, polyhedron: &'a Polyhedron) -> Self {
+        Self { simd, sphere, polyhedron, center: Splat::new(simd, &sphere.center) }
+    }
+
+    /// `None` if a plane separates the two.
+    #[inline(always)]
+    fn survey(&self) -> Option<Survey> {
+        let simd = self.simd;
+        let radius = simd.splat(self.sphere.radius);
+        let mut top = simd.splat(f64::NEG_INFINITY);
+        let mut held = LaneBits::MAX;
+        for block in &self.polyhedron.planes().blocks {
+            let heights = block.heights(simd, &self.center);
+            if simd.bits(simd.at_least(heights, radius)) != 0 {
+                return None;
+            }
+            top = simd.larger(heights, top);
+            held &= block.held(simd, heights);
+        }
+        Some(Survey { is_inside: held == LaneBits::MAX, top: simd.largest(top) })
+    }
+
+    /// The contact with the nearest feature.
+    #[inline(always)]
+    fn contact(&self, survey: &Survey) -> Option<Interference> {
+        if let Some(face) = self.face_below(survey) {
+            return self.on_face(face);
+        }
+        match self.nearest_edge() {
+            Some(contact) => Some(contact),
+            None => self.nearest_vertex(),
+        }
+    }
+
+    /// The face that holds the centre's foot.
+    #[inline(always)]
+    fn face_below(&self, survey: &Survey) -> Option<usize> {
+        let (simd, planes) = (self.simd, self.polyhedron.planes());
+        // Beside inner walls outlines are wider.
+        let lowest = match planes.simple && planes.moderate && is_moderate(&self.sphere.center) {
+            true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
+            false => 0.0,
+        };
+        let mut found: Option<usize> = None;
+        for (index, block) in planes.blocks.iter().enumerate() {
+            let heights = block.heights(simd, &self.center);
+            let mut faces = simd.bits(simd.at_least(heights, simd.splat(lowest))) & block.own;
+            while faces != 0 {
+                let face = index * LANES + faces.trailing_zeros() as usize;
+                // Beside an inner wall both the wall and the face may seem to hold the foot: the face counts.
+                let counts = match found {
+                    None => true,
+                    Some(best) => self.polyhedron.faces[face].active && !self.polyhedron.faces[best].active,
+                };
+                if counts && holds_foot(&self.sphere.center, self.polyhedron, face) {
+                    found = Some(face);
+                }
+                faces &= faces - 1;
+            }
+        }
+        found
+    }
+
+    #[inline(always)]
+    fn on_face(&self, index: usize) -> Option<Interference> {
+        let face = &self.polyhedron.faces[index];
+        if !face.active {
+            return None;
+        }
+        Some(Interference {
+            depth: self.sphere.radius - face.height(&self.sphere.center),
+            normal: face.normal,
+            point_a: self.sphere.center - face.normal * self.sphere.radius,
+            feature: Feature::face(index),
+        })
+    }
+
+    #[inline(always)]
+    fn nearest_edge(&self) -> Option<Interference> {
+        let edges = self.polyhedron.edge_blocks();
+        let reach = self.reach();
+        let mut best = None;
+        for (eight, boxes) in edges.boxes.iter().enumerate() {
+            let mut near = boxes.near(self.simd, &self.center, reach);
+            while near != 0 {
+                let index = eight * LANES + near.trailing_zeros() as usize;
+                if let Some(block) = edges.blocks.get(index) {
+                    best = self.nearest_edge_of(block, best);
+                }
+                near &= near - 1;
+            }
+        }
+        best
+    }
+
+    #[inline(always)]
+    fn nearest_edge_of(&self, block: &EdgeBlock, mut best: Option<Interference>) -> Option<Interference> {
+        let mut edges = block.between(self.simd, &self.center);
+        while edges != 0 {
+            let index = block.index[edges.trailing_zeros() as usize] as usize;
+            best = deeper(best, edge_contact(self.sphere, self.polyhedron, index));
+            edges &= edges - 1;
+        }
+        best
+    }
+
+    /// No feature farther than this can be reached, m.
+    #[inline(always)]
+    fn reach(&self) -> f64 {
+        /// Far beyond rounding of a distance.
+        const SLACK: f64 = 1e-9;
+        self.sphere.radius + SLACK * (self.sphere.radius + self.sphere.center.amax())
+    }
+
+    #[inline(always)]
+    fn nearest_vertex(&self) -> Option<Interference> {
+        let mut best = None;
+        for (index, block) in self.polyhedron.vertex_blocks().iter().enumerate() {
+            let mut vertices = block.within(self.simd, &self.center, self.sphere.radius);
+            while vertices != 0 {
+                let vertex = index * LANES + vertices.trailing_zeros() as usize;
+                best = deeper(best, vertex_contact(self.sphere, self.polyhedron, vertex));
+                vertices &= vertices - 1;
+            }
+        }
+        best
     }
 }
 
@@ -60,52 +234,35 @@ fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
     })
 }
 
-fn nearest_edge(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
-    let mut best: Option<Interference> = None;
-    for (index, edge) in polyhedron.edges.iter().enumerate() {
-        let Some(push) = &edge.push else { continue };
-        let Some(foot) = foot_on_edge(&sphere.center, polyhedron, edge, push) else { continue };
-        let mean = push.normals[0] + push.normals[1];
-        let contact = ball_over_point(sphere, &foot, &mean, Feature::edge(index));
-        best = deeper(best, contact);
-    }
-    best
-}
-
-/// The foot of a point on an edge, if the point lies strictly between the edge's two faces.
-fn foot_on_edge(p: &Vec3, polyhedron: &Polyhedron, edge: &PolyhedronEdge, push: &EdgePush) -> Option<Vec3> {
+/// The contact with an edge between whose faces and ends the centre lies.
+fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
+    let edge = &polyhedron.edges[index];
     let [first, second] = edge.vertices.map(|v| polyhedron.vertices[v as usize].position);
-    let (from_first, from_second) = (p - first, p - second);
-    let between = push.outwards.iter().all(|outward| outward.dot(&from_first) > 0.0);
     let along = second - first;
-    let within = from_first.dot(&along) >= 0.0 && from_second.dot(&along) <= 0.0;
-    (between && within).then(|| first + along * (from_first.dot(&along) / along.norm_squared()))
+    let foot = first + along * ((sphere.center - first).dot(&along) / along.norm_squared());
+    let normals = edge.push.as_ref()?.normals;
+    ball_over_point(sphere, &foot, &(normals[0] + normals[1]), Feature::edge(index))
 }
 
-fn nearest_vertex(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
+/// The contact with a vertex within the radius, if the centre lies in its cone.
+fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Option<Interference> {
     // Rounding in a product of a unit direction and a unit edge: a centre straight above a vertex in the middle
     // of a straight edge would otherwise fall between the two halves of that edge.
     const CONE_COSINE_SLACK: f64 = 1e-12;
-    let mut best: Option<Interference> = None;
-    for (index, vertex) in polyhedron.vertices.iter().enumerate().filter(|(_, vertex)| vertex.pushes) {
-        let direction = sphere.center - vertex.position;
-        if direction.norm_squared() >= sphere.radius * sphere.radius {
-            continue;
-        }
-        let slack = CONE_COSINE_SLACK * direction.norm();
-        let cone = polyhedron.cone(index);
-        if cone.iter().all(|edge| edge.dot(&direction) <= slack) {
-            let mean = -cone.iter().sum::<Vec3>();
-            best = deeper(best, ball_over_point(sphere, &vertex.position, &mean, Feature::vertex(index)));
-        }
+    let vertex = &polyhedron.vertices[index];
+    let direction = sphere.center - vertex.position;
+    let slack = CONE_COSINE_SLACK * direction.norm();
+    let cone = polyhedron.cone(index);
+    if cone.iter().any(|edge| !(edge.dot(&direction) <= slack)) {
+        return None;
     }
-    best
+    let mean = -cone.iter().sum::<Vec3>();
+    ball_over_point(sphere, &vertex.position, &mean, Feature::vertex(index))
 }
 
+/// The deeper of two; of equal ones the lower feature.
 fn deeper(best: Option<Interference>, candidate: Option<Interference>) -> Option<Interference> {
-    match (best, candidate) {
-        (Some(best), Some(candidate)) if candidate.depth > best.depth => Some(candidate),
-        (None, candidate) => candidate,
-        (best, _) => best,
-    }
+    let (Some(a), Some(b)) = (best, candidate) else { return best.or(candidate) };
+    let replaces = b.depth > a.depth || (b.depth == a.depth && b.feature < a.feature);
+    Some(if replaces { b } else { a })
 }

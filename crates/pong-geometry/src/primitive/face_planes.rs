@@ -51,6 +51,24 @@ impl PlaneBlock {
 }
 
 impl FacePlanes {
+    /// Most blocks that kernels keep in registers.
+    pub const IN_REGISTERS: usize = 4;
+
+    /// How many blocks a kernel for `N` blocks looks at: always `N` if it keeps them in registers, else all.
+    #[inline(always)]
+    pub(crate) fn count<const N: usize>(&self) -> usize {
+        if N <= Self::IN_REGISTERS { N } else { self.blocks.len() }
+    }
+
+    /// A block; beyond the last the last once more.
+    ///
+    /// # Panics
+    /// If there are no faces.
+    #[inline(always)]
+    pub(crate) fn block(&self, index: usize) -> &PlaneBlock {
+        &self.blocks[index.min(self.blocks.len() - 1)]
+    }
+
     /// The planes of the faces.
     pub fn new(faces: &[PolyhedronFace]) -> Self {
         let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);

@@ -3,12 +3,14 @@
 //! All geometry of one movable group is expressed in the frame of that group.
 
 mod curved;
+mod edge_blocks;
 mod face_planes;
 mod polyhedron;
 mod simple;
 mod triangles;
 
 pub use curved::{Ellipsoid, Sphere};
+pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
 pub use polyhedron::{
     EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,

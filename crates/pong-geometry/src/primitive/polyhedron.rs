@@ -4,6 +4,7 @@
 //! surface (physics contract, section 2.1); what an edge or a vertex may push is therefore a property of the
 //! whole surface and is worked out when the model is loaded.
 
+use super::edge_blocks::{EdgeBlocks, VertexBlock};
 use super::face_planes::FacePlanes;
 use crate::Vec3;
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
@@ -16,6 +17,8 @@ use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 pub struct Polyhedron {
     parts: PolyhedronParts,
     planes: FacePlanes,
+    edge_blocks: EdgeBlocks,
+    vertex_blocks: Vec<VertexBlock>,
 }
 
 /// All that a polyhedron consists of.
@@ -108,15 +111,21 @@ pub struct PolyhedronVertex {
 }
 
 impl Polyhedron {
-    /// The finished polyhedron: its planes are set out for the tests.
+    /// The finished polyhedron: planes, edges and vertices are set out for the tests.
     pub fn new(parts: PolyhedronParts) -> Self {
-        Self { planes: FacePlanes::new(&parts.faces), parts }
+        Self {
+            planes: FacePlanes::new(&parts.faces),
+            edge_blocks: EdgeBlocks::new(&parts),
+            vertex_blocks: VertexBlock::all(&parts),
+            parts,
+        }
     }
 
-    /// Changes the parts and sets out the planes anew.
+    /// Changes the parts and sets everything out anew.
     pub fn change(&mut self, change: impl FnOnce(&mut PolyhedronParts)) {
-        change(&mut self.parts);
-        self.planes = FacePlanes::new(&self.parts.faces);
+        let mut parts = self.parts.clone();
+        change(&mut parts);
+        *self = Self::new(parts);
     }
 
     /// The parts.
@@ -128,6 +137,18 @@ impl Polyhedron {
     #[inline]
     pub fn planes(&self) -> &FacePlanes {
         &self.planes
+    }
+
+    /// The edges that may push, eight at a time.
+    #[inline]
+    pub fn edge_blocks(&self) -> &EdgeBlocks {
+        &self.edge_blocks
+    }
+
+    /// The vertices, eight at a time.
+    #[inline]
+    pub fn vertex_blocks(&self) -> &[VertexBlock] {
+        &self.vertex_blocks
     }
 
     /// How high a point must be above the plane of a face, at least, to be over the face's outline: the face then holds

@@ -3,7 +3,7 @@
 use super::{LANES, Simd};
 use crate::Vec3;
 
-/// A vector, eight times.
+/// Eight vectors in registers; to begin with one, eight times.
 #[derive(Clone, Copy)]
 pub struct Splat<S: Simd> {
     simd: S,
@@ -25,6 +25,38 @@ impl<S: Simd> Splat<S> {
         let simd = self.simd;
         let sum = simd.add(simd.mul(simd.load(x), self.x), simd.mul(simd.load(y), self.y));
         simd.add(sum, simd.mul(simd.load(z), self.z))
+    }
+
+    /// The vector less eight others.
+    #[inline(always)]
+    pub fn less(&self, [x, y, z]: &[[f64; LANES]; 3]) -> Self {
+        let simd = self.simd;
+        Self {
+            simd,
+            x: simd.sub(self.x, simd.load(x)),
+            y: simd.sub(self.y, simd.load(y)),
+            z: simd.sub(self.z, simd.load(z)),
+        }
+    }
+
+    /// Squares of lengths, in the bits of `Vec3::norm_squared`.
+    #[inline(always)]
+    pub fn norm_squared(&self) -> S::Eight {
+        let simd = self.simd;
+        let sum = simd.add(simd.mul(self.x, self.x), simd.mul(self.y, self.y));
+        simd.add(sum, simd.mul(self.z, self.z))
+    }
+
+    /// Squares of the distances to eight boxes along the axes.
+    #[inline(always)]
+    pub fn distance_square_to_boxes(&self, low: &[[f64; LANES]; 3], high: &[[f64; LANES]; 3]) -> S::Eight {
+        let simd = self.simd;
+        let beside = |p: S::Eight, axis: usize| {
+            let before = simd.sub(simd.load(&low[axis]), p);
+            let after = simd.sub(p, simd.load(&high[axis]));
+            simd.larger(simd.larger(before, after), simd.splat(0.0))
+        };
+        Self { simd, x: beside(self.x, 0), y: beside(self.y, 1), z: beside(self.z, 2) }.norm_squared()
     }
 }
 
