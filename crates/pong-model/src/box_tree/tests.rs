@@ -23,7 +23,8 @@ fn boxes(count: usize, seed: &mut u64, around: &Vec3) -> Vec<Boxed<u32>> {
 fn single_precision_boxes_hold_their_numbers() {
     let mut seed = 1;
     for exponent in -330..330 {
-        let x = (scatter(&mut seed) - 0.5) * 10_f64.powi(exponent);
+        let size: f64 = format!("1e{exponent}").parse().unwrap();
+        let x = (scatter(&mut seed) - 0.5) * size;
         for x in [x, f64::from(x as f32), f64::from((x as f32).next_up()), -x] {
             let beyond = x.abs() >= f64::from(f32::MAX);
             assert!(beyond || (f64::from(round_down(x)) <= x && f64::from(round_up(x)) >= x), "{x:e}");
