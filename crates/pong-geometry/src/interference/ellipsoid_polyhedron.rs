@@ -43,9 +43,11 @@ use super::ellipsoid_math::{
     second_nearest_on_ellipsoid,
 };
 use super::ellipsoid_prepared::{PreparedEllipsoid, Shadow};
+use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{EdgePush, Ellipsoid, Polyhedron};
+use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
 /// How far outside its feature a foot may lie, as a share of the sizes involved.
 const FOOT_SLACK: f64 = 1e-12;
@@ -59,15 +61,33 @@ const HARDLY_INSIDE: f64 = 1e-6;
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Tests an ellipsoid (A) against one convex piece (B).
+#[inline]
 pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
+    run_at_level!(ellipsoid_polyhedron_in(e: Ellipsoid, p: Polyhedron) -> Option<Interference>)
+}
+
+/// [`ellipsoid_polyhedron`] within a kernel.
+#[inline(always)]
+pub fn ellipsoid_polyhedron_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
     let prepared = PreparedEllipsoid::new(e);
-    let (lead, suspects) = Lead::find(&prepared, p)?;
+    let (lead, suspects) = Lead::find(simd, &prepared, p)?;
+    settle(e, &prepared, p, lead, &suspects)
+}
+
+/// The contact, of the lead or of a feature of a suspect.
+fn settle(
+    e: &Ellipsoid,
+    prepared: &PreparedEllipsoid,
+    p: &Polyhedron,
+    lead: Lead,
+    suspects: &Suspects,
+) -> Option<Interference> {
     let face =
         Candidate { depth: lead.depth, normal: p.faces[lead.face].normal, feature: Feature::face(lead.face) };
     let found = if suspects.count == 0 {
         Some(face)
     } else {
-        Search::new(e, &prepared, p, lead, face, suspects.all_active).least(&suspects)
+        Search::new(e, prepared, p, lead, face, p.planes().all_active).least(suspects)
     };
     found.map(|least| Interference {
         depth: least.depth,
@@ -88,8 +108,8 @@ struct Lead {
 
 /// What faces say of a lead.
 enum Verdict {
-    /// None has less overlap.
-    Agreed,
+    /// None has less overlap; those that may have features of less.
+    Agreed(Suspects),
     /// A face's plane separates the two.
     Apart,
     /// A face of less overlap.
@@ -103,66 +123,86 @@ struct Suspects {
     count: usize,
     /// Whether the deepest point is inside the polyhedron, so that the two overlap.
     pierces: bool,
-    /// Whether the polyhedron has no inner wall.
-    all_active: bool,
 }
 
 impl Lead {
     /// `None` if a face's plane separates the two, or no face is active.
-    fn find(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
-        let (highest, all_active) = highest_active_face(e, p)?;
-        let mut lead = Self::at(e, p, highest);
+    #[inline(always)]
+    fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
+        let highest = highest_of_many(simd, &e.center, p.planes(), Whereabouts::Below(e.largest))?;
+        let mut lead = Self::at(e, p, highest.face);
         while let Some(better) = lead.better_neighbor(e, p) {
             lead = better;
         }
         if lead.depth <= 0.0 {
             return None;
         }
-        let mut suspects = Suspects::none(all_active);
         // Round and round until all faces have agreed; every change of the lead lowers its overlap.
         let mut start = 0;
         loop {
-            let verdict = match lead.ask(e, p, start..p.faces.len(), &mut suspects) {
-                Verdict::Agreed => lead.ask(e, p, 0..start, &mut suspects),
-                other => other,
-            };
-            match verdict {
-                Verdict::Agreed => return Some((lead, suspects)),
+            match lead.ask_all(simd, e, p, start) {
+                Verdict::Agreed(suspects) => return Some((lead, suspects)),
                 Verdict::Apart => return None,
                 Verdict::Less(other) => {
                     lead = other;
                     start = other.face;
-                    suspects = Suspects::none(all_active);
                 }
             }
         }
     }
 
-    /// Asks faces whether one of them has less overlap, and lists the suspects among them.
+    /// Asks all faces, from one on round to it again, whether one of them has less overlap.
+    #[inline(always)]
+    fn ask_all<S: Simd>(&self, simd: S, e: &PreparedEllipsoid, p: &Polyhedron, start: usize) -> Verdict {
+        let deepest = Splat::new(simd, &self.deepest);
+        let blocks = &p.planes().blocks;
+        let mut suspects = Suspects::NONE;
+        // The block of the start comes twice: its lanes from the start on, at the end the others.
+        for step in 0..=blocks.len() {
+            let index = (start / LANES + step) % blocks.len();
+            let heights = blocks[index].heights(simd, &deepest);
+            let under = simd.sub(simd.splat(0.0), heights);
+            let less_deep = !simd.bits(simd.at_least(under, simd.splat(self.depth)));
+            let lanes = match step {
+                0 => LaneBits::MAX << (start % LANES),
+                _ if step == blocks.len() => !(LaneBits::MAX << (start % LANES)),
+                _ => LaneBits::MAX,
+            };
+            let faces = less_deep & lanes & blocks[index].own;
+            if faces != 0
+                && let Some(verdict) = self.ask(e, p, index * LANES, faces, &mut suspects)
+            {
+                return verdict;
+            }
+        }
+        Verdict::Agreed(suspects)
+    }
+
+    /// Asks faces of one block below which the deepest point lies less deep, and lists those that agree as suspects.
     fn ask(
         &self,
         e: &PreparedEllipsoid,
         p: &Polyhedron,
-        range: std::ops::Range<usize>,
+        first: usize,
+        mut faces: LaneBits,
         suspects: &mut Suspects,
-    ) -> Verdict {
-        let first = range.start;
-        for (k, face) in p.faces[range].iter().enumerate() {
-            let under = -face.height(&self.deepest);
-            let index = first + k;
-            if under >= self.depth || index == self.face {
+    ) -> Option<Verdict> {
+        while faces != 0 {
+            let index = first + faces.trailing_zeros() as usize;
+            faces &= faces - 1;
+            if index == self.face {
                 continue;
             }
             let other = Self::at(e, p, index);
             if other.depth <= 0.0 {
-                return Verdict::Apart;
+                return Some(Verdict::Apart);
             }
-            if face.active && (other.depth, index) < (self.depth, self.face) {
-                return Verdict::Less(other);
+            if p.faces[index].active && (other.depth, index) < (self.depth, self.face) {
+                return Some(Verdict::Less(other));
             }
-            suspects.add(index, under);
+            suspects.add(index, -p.height(index, &self.deepest));
         }
-        Verdict::Agreed
+        None
     }
 
     fn better_neighbor(&self, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<Self> {
@@ -184,31 +224,10 @@ impl Lead {
     }
 }
 
-/// The active face that the centre is highest above, and whether all are active.
-fn highest_active_face(e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(usize, bool)> {
-    let mut highest = None;
-    let mut all_active = true;
-    let mut most = f64::NEG_INFINITY;
-    for (index, face) in p.faces.iter().enumerate() {
-        let height = face.height(&e.center);
-        if height >= e.largest {
-            return None;
-        }
-        all_active &= face.active;
-        if height > most && face.active {
-            most = height;
-            highest = Some(index);
-        }
-    }
-    highest.map(|index| (index, all_active))
-}
-
 impl Suspects {
     const CAPACITY: usize = 32;
 
-    fn none(all_active: bool) -> Self {
-        Self { faces: [0; Self::CAPACITY], count: 0, pierces: true, all_active }
-    }
+    const NONE: Self = Self { faces: [0; Self::CAPACITY], count: 0, pierces: true };
 
     fn add(&mut self, face: usize, under: f64) {
         if let Some(slot) = self.faces.get_mut(self.count) {

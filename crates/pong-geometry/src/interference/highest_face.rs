@@ -18,10 +18,13 @@ pub(super) struct Highest {
 }
 
 /// Which points are asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Whereabouts {
     Anywhere,
+    /// In the solid.
     Inside,
+    /// Less than so high above every plane, m.
+    Below(f64),
 }
 
 /// Whether [`highest_of_few`] does; else [`highest_of_many`].
@@ -76,19 +79,26 @@ impl<S: Simd> Search<'_, S> {
     fn heights<const N: usize>(&self, start: usize) -> Option<[S::Eight; N]> {
         let blocks = self.planes.blocks.as_slice();
         let mut heights = [self.simd.splat(f64::NEG_INFINITY); N];
-        let mut held = LaneBits::MAX;
+        let mut passes = LaneBits::MAX;
         for (k, heights) in heights.iter_mut().enumerate() {
             let block = blocks.get((start + k).min(blocks.len() - 1))?;
             let all = block.heights(self.simd, &self.at);
-            if self.planes.simple {
-                held &= self.simd.bits(self.simd.below(all, self.simd.splat(0.0)));
-                *heights = all;
-            } else {
-                held &= block.held(self.simd, all);
-                *heights = self.active(block, all);
-            }
+            passes &= self.passes(block, all);
+            *heights = if self.planes.simple { all } else { self.active(block, all) };
         }
-        if held == LaneBits::MAX || self.whereabouts == Whereabouts::Anywhere { Some(heights) } else { None }
+        if passes == LaneBits::MAX { Some(heights) } else { None }
+    }
+
+    /// For which planes the point is where it is asked for.
+    #[inline(always)]
+    fn passes(&self, block: &PlaneBlock, heights: S::Eight) -> LaneBits {
+        let simd = self.simd;
+        match self.whereabouts {
+            Whereabouts::Anywhere => LaneBits::MAX,
+            Whereabouts::Inside if self.planes.simple => simd.bits(simd.below(heights, simd.splat(0.0))),
+            Whereabouts::Inside => block.held(simd, heights),
+            Whereabouts::Below(reach) => !simd.bits(simd.at_least(heights, simd.splat(reach))),
+        }
     }
 
     #[inline(always)]

@@ -10,7 +10,9 @@ pub struct FacePlanes {
     pub blocks: Vec<PlaneBlock>,
     /// Whether all numbers are moderate ([`is_moderate`]), so that the height of such a point is finite.
     pub moderate: bool,
-    /// Whether all faces are active and none is closed.
+    /// Whether all faces are active.
+    pub all_active: bool,
+    /// Whether also none is closed.
     pub simple: bool,
 }
 
@@ -72,8 +74,9 @@ impl FacePlanes {
     /// The planes of the faces.
     pub fn new(faces: &[PolyhedronFace]) -> Self {
         let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);
-        let simple = faces.iter().all(|face| face.active && !face.closed);
-        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, simple }
+        let all_active = faces.iter().all(|face| face.active);
+        let simple = all_active && !faces.iter().any(|face| face.closed);
+        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, all_active, simple }
     }
 }
 
