@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x46cfeea82f961acdULL
+#define PONG_LAYOUT_HASH 0xa1c49d0b70144f1bULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -408,17 +408,19 @@ typedef struct pong_report {
     uint64_t contacts_peak;
     /// How many there is room for: more than the contact capacity.
     uint64_t contacts_capacity;
-    /// Most memory that the testers of one part of a frame needed, bytes; of frames that the calling thread did alone.
+    /// Most memory that the testers of one part of a frame needed, bytes.
     uint64_t arena_peak;
     /// What there is for them, bytes.
     uint64_t arena_capacity;
-    /// Most memory that sharing among the contacts of one surface needed, bytes; of frames that the calling thread did
-    /// alone.
+    /// Most memory that sharing among the contacts of one surface needed, bytes.
     uint64_t scratch_peak;
     /// What there is for it, bytes.
     uint64_t scratch_capacity;
+    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
+    /// in time. The results are the same; the time is not.
+    uint64_t rounds_done_alone;
     /// Zero in this version.
-    uint64_t reserved[8];
+    uint64_t reserved[7];
 } pong_report;
 
 /// Energies of all contacts of a world, at the last commit.

@@ -67,17 +67,19 @@ pub struct pong_report {
     pub contacts_peak: u64,
     /// How many there is room for: more than the contact capacity.
     pub contacts_capacity: u64,
-    /// Most memory that the testers of one part of a frame needed, bytes; of frames that the calling thread did alone.
+    /// Most memory that the testers of one part of a frame needed, bytes.
     pub arena_peak: u64,
     /// What there is for them, bytes.
     pub arena_capacity: u64,
-    /// Most memory that sharing among the contacts of one surface needed, bytes; of frames that the calling thread did
-    /// alone.
+    /// Most memory that sharing among the contacts of one surface needed, bytes.
     pub scratch_peak: u64,
     /// What there is for it, bytes.
     pub scratch_capacity: u64,
+    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
+    /// in time. The results are the same; the time is not.
+    pub rounds_done_alone: u64,
     /// Zero in this version.
-    pub reserved: [u64; 8],
+    pub reserved: [u64; 7],
 }
 
 /// Counts, times, memory and flags of the last frame; all zero before the first.
@@ -115,7 +117,8 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         arena_capacity: memory.arena_capacity as u64,
         scratch_peak: memory.scratch_peak as u64,
         scratch_capacity: memory.scratch_capacity as u64,
-        reserved: [0; 8],
+        rounds_done_alone: world.rounds_done_alone(),
+        reserved: [0; 7],
     }
 }
 

@@ -176,6 +176,10 @@ impl Running {
         self.crew.iter().flat_map(|crew| crew.pool().work())
     }
 
+    pub fn rounds_done_alone(&self) -> u64 {
+        self.crew.as_ref().map_or(0, |crew| crew.done_alone)
+    }
+
     pub fn prewake(&mut self, at_most: Duration) {
         self.crew.iter_mut().for_each(|crew| crew.prewake(at_most));
     }

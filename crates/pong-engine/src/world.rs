@@ -309,6 +309,12 @@ impl World {
         self.running.iter().flat_map(Running::lane_work)
     }
 
+    /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come
+    /// back in time, or had not come back from an earlier round. The results are the same; the time is not.
+    pub fn rounds_done_alone(&self) -> u64 {
+        self.running.as_ref().map_or(0, Running::rounds_done_alone)
+    }
+
     /// Memory that frames have needed against what there is.
     pub fn memory(&self) -> MemoryReport {
         self.running.as_ref().map_or_else(MemoryReport::default, Running::memory_report)

@@ -21,6 +21,8 @@ const WORTH_SHARING_NS: u64 = 5_000;
 pub(crate) struct Crew {
     pool: Pool,
     shared: Arc<Shared>,
+    /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
+    pub done_alone: u64,
 }
 
 struct Shared {
@@ -64,7 +66,7 @@ impl Crew {
             lanes: (0..lanes).map(|_| Mutex::new(Lane::new(sealed, contacts, false))).collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
-        Ok(Self { pool, shared })
+        Ok(Self { pool, shared, done_alone: 0 })
     }
 
     /// Works off the blocks of `input` with all hands and gathers in `lane` what was found; whether that is whole.
@@ -76,9 +78,13 @@ impl Crew {
         match self.shared.input.try_write() {
             Ok(mut shared) => shared.copy_from(input),
             Err(TryLockError::Poisoned(shared)) => shared.into_inner().copy_from(input),
-            Err(TryLockError::WouldBlock) => return false,
+            Err(TryLockError::WouldBlock) => {
+                self.done_alone += 1;
+                return false;
+            }
         }
         if self.pool.run(input.blocks.len() as u32) == Outcome::Abandoned {
+            self.done_alone += 1;
             return false;
         }
         self.shared.lanes.iter().all(|other| {
