@@ -146,6 +146,7 @@ impl Wrench {
 }
 
 impl std::ops::AddAssign for Wrench {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         self.force += other.force;
         self.moment += other.moment;

@@ -35,10 +35,10 @@ pub(crate) struct Frame {
     pub times: StageTimes,
 }
 
-/// Where a contact stands, with all that decides the order of sums.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// Where a contact stands, with the first of what decides the order of sums: few have it in common.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
-    pub order: ContactOrder,
+    pub head: u64,
     pub index: u32,
 }
 
@@ -96,6 +96,8 @@ pub(crate) struct FrameContact {
     pub friction_force: Vec3,
     pub slip_velocity: Vec3,
     pub bristle: Vec3,
+    /// On A about and along A's frame, on B about and along B's.
+    pub wrenches: [Wrench; 2],
     pub stored: f64,
     pub sticks: bool,
     /// The committed record that this contact continues.
@@ -150,6 +152,7 @@ impl FrameContact {
             friction_force: Vec3::zeros(),
             slip_velocity: Vec3::zeros(),
             bristle: Vec3::zeros(),
+            wrenches: [Wrench::zero(); 2],
             stored: 0.0,
             sticks: true,
             continues: None,
@@ -199,7 +202,7 @@ impl FrameContact {
 impl Frame {
     pub fn new(bodies: usize, sealed: &Sealed, input: FrameInput) -> Self {
         let pairs = sealed.group_pairs.len();
-        let nowhere = Place { order: FrameContact::blank().found.order(), index: 0 };
+        let nowhere = Place { head: 0, index: 0 };
         Self {
             computed: false,
             poses: vec![Pose::identity(); bodies],

@@ -1,7 +1,7 @@
 //! Normal and friction force of every contact.
 
 use super::Frame;
-use super::buffers::{Found, FrameContact, Stance};
+use super::buffers::{Found, FrameContact, Place, Stance};
 use super::input::PairContext;
 use super::lane::{Lane, Output};
 use super::relative::SinceCommit;
@@ -10,9 +10,9 @@ use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactRecord, Role};
-use pong_geometry::Vec3;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
+use pong_geometry::{Vec3, Wrench};
 use pong_model::Body;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
@@ -45,8 +45,12 @@ pub(super) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     let Lane { scratch, out, .. } = lane;
     let custom = scratch.slice(out.custom_stride, 0.0).expect("sealing has sized the scratch");
     let places = &*order;
-    for group in places.chunk_by(|a, b| a.order.0 == b.order.0) {
-        let key = &group[0].order.0;
+    let key_of = |out: &Output, place: &Place| out.contacts[place.index as usize].found.key;
+    let mut rest = places.as_slice();
+    while let Some(first) = rest.first() {
+        let key = key_of(out, first);
+        let group;
+        (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
         let context = PairContext::of_direction(scene, sealed, input, key.group_pair, key.flipped);
         for place in group {
             let index = place.index as usize;
@@ -103,6 +107,18 @@ impl PairContext<'_> {
         contact.bristle = output.bristle;
         contact.sticks = output.sticks;
         contact.stored += output.stored;
+        if found.role == Role::Pushes {
+            contact.wrenches = self.wrenches(contact);
+        }
+    }
+
+    /// What the force of a contact is to its movable groups.
+    fn wrenches(&self, contact: &FrameContact) -> [Wrench; 2] {
+        let x_ba = &self.motion.x_ba;
+        let force_b = contact.force();
+        let force_a = x_ba.rotation.tr_mul(&force_b);
+        let arm_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));
+        [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, &contact.point)]
     }
 
     fn rub(

@@ -37,10 +37,14 @@ pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
 fn list(frame: &mut Frame) {
     frame.order.clear();
     for (index, contact) in frame.lane.out.contacts.iter().enumerate() {
-        let place = Place { order: contact.found.order(), index: index as u32 };
+        let place = Place { head: contact.found.key.head(), index: index as u32 };
         frame.order.push(place).expect("as many places as contacts");
     }
-    frame.order.sort_unstable();
+    frame.order.sort_unstable_by_key(|place| place.head);
+    let contacts = &frame.lane.out.contacts;
+    for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
+        ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
+    }
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.

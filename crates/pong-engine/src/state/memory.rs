@@ -30,7 +30,7 @@ impl ContactKey {
 
     /// The first number: few contacts have it in common.
     #[inline]
-    fn head(&self) -> u64 {
+    pub fn head(&self) -> u64 {
         u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
     }
 }
