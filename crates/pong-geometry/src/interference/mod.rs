@@ -25,6 +25,7 @@ pub mod sphere_polyhedron;
 pub mod sphere_sphere;
 pub mod sphere_triangle;
 pub mod triangle_features;
+mod triangle_reach;
 
 use crate::Vec3;
 use crate::primitive::Sphere;

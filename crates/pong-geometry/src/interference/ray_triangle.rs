@@ -16,27 +16,40 @@ use crate::Vec3;
 use crate::primitive::{Ray, TriangleSet};
 
 /// Where a ray hits a triangle. `reach` (m) is how far behind the ray's origin the triangle may lie.
+#[inline(always)]
 pub fn ray_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
-    let across = set.corners(triangle).map(|corner| across_ray(ray, &corner));
-    let passes = |k: usize| {
-        let ([ax, ay], [bx, by]) = (across[k], across[(k + 1) % 3]);
-        ax * by <= ay * bx
-    };
-    if !(passes(0) && passes(1) && passes(2)) {
+    let corners = set.corners(triangle);
+    if !passes_inside(ray, &corners) {
         return None;
     }
-    let view = TriangleView::new(set, triangle);
+    let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+    let view = TriangleView { index: triangle, corners, normal };
     hit_plane(ray, &view.normal, -view.height(&ray.origin), reach, Feature::face(triangle as usize))
 }
 
-/// Where a point lies across the ray: its distances from two planes through the ray (not normalised).
-#[inline]
-fn across_ray(ray: &Ray, point: &Vec3) -> [f64; 2] {
-    let d = &ray.direction;
-    let main = d.iamax();
-    // Seen along the ray, first and second turn counter-clockwise.
-    let (first, second) = ((main + 1) % 3, (main + 2) % 3);
-    let (first, second) = if d[main] > 0.0 { (first, second) } else { (second, first) };
-    let arm = point - ray.origin;
-    [arm[first] * d[main] - d[first] * arm[main], arm[second] * d[main] - d[second] * arm[main]]
+/// Whether the corners turn about the ray counter-clockwise, seen along it.
+///
+/// Two coordinates across the ray, distances from two planes through it (not normalised), are the components of
+/// `arm × direction` beside the direction's main one.
+#[inline(always)]
+fn passes_inside(ray: &Ray, corners: &[Vec3; 3]) -> bool {
+    let direction = &ray.direction;
+    let size = direction.abs();
+    // Without branches, as directions follow no pattern. Of equal ones the first is the main one.
+    let y_before_x = size.y > size.x;
+    let is_z = size.z > if y_before_x { size.y } else { size.x };
+    let main = |x: f64, y: f64, z: f64| {
+        let of_two = if y_before_x { y } else { x };
+        if is_z { z } else { of_two }
+    };
+    let is_forward = main(direction.x, direction.y, direction.z) > 0.0;
+    let across = corners.map(|corner| {
+        let product = (corner - ray.origin).cross(direction);
+        [main(product.y, product.z, product.x), main(product.z, product.x, product.y)]
+    });
+    let passes = |k: usize| {
+        let ([ax, ay], [bx, by]) = (across[k], across[(k + 1) % 3]);
+        if is_forward { ax * by <= ay * bx } else { ax * by >= ay * bx }
+    };
+    passes(0) & passes(1) & passes(2)
 }

@@ -4,6 +4,7 @@
 //! mean of the normals that meet there.
 
 use super::triangle_features::{EdgeClass, Standing, TriangleContact, TriangleView, vertex_pushes, walk_fan};
+use super::triangle_reach::InReach;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
@@ -12,6 +13,7 @@ use crate::primitive::{Sphere, TriangleSet};
 ///
 /// `thickness` (m): how far behind the face the centre is still pushed to the front. Edges and vertices are
 /// emitted by their owner alone, so that over a whole surface each feature counts once.
+#[inline(always)]
 pub fn sphere_triangle(
     sphere: &Sphere,
     set: &TriangleSet,
@@ -19,19 +21,38 @@ pub fn sphere_triangle(
     thickness: f64,
     emit: &mut dyn FnMut(TriangleContact),
 ) {
-    let view = TriangleView::new(set, triangle);
+    if let Some(mut near) = InReach::of(sphere, set, triangle, thickness) {
+        emit_features(sphere, set, &mut near, thickness, emit);
+    }
+}
+
+fn emit_features(
+    sphere: &Sphere,
+    set: &TriangleSet,
+    near: &mut InReach,
+    thickness: f64,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    near.view.normal = near.view.normal.normalize();
+    let view = &near.view;
     let height = view.height(&sphere.center);
     if height >= sphere.radius || height <= -(thickness.max(sphere.radius)) {
         return;
     }
-    if view.holds_foot(set, &sphere.center) {
-        emit_face(sphere, &view, height, thickness, emit);
+    let beyond = [0, 1, 2].map(|k| {
+        let sure = near.beyond[k] | near.within[k];
+        if sure { near.beyond[k] } else { view.is_beyond_edge(k, &sphere.center) }
+    });
+    // In front nobody owns what is clearly beyond an edge.
+    let nobodys = near.in_front && near.beyond.contains(&true);
+    if !nobodys && (0..3).all(|k| !beyond[k] || view.has_beyond(set, k, &sphere.center)) {
+        emit_face(sphere, view, height, thickness, emit);
     }
-    for k in 0..3 {
-        emit_edge(sphere, set, &view, k, height, emit);
+    for k in (0..3).filter(|&k| beyond[k]) {
+        emit_edge(sphere, set, view, k, height, emit);
     }
     for corner in 0..3 {
-        emit_vertex(sphere, set, &view, corner, emit);
+        emit_vertex(sphere, set, view, corner, emit);
     }
 }
 
@@ -66,7 +87,7 @@ fn emit_edge(
     height: f64,
     emit: &mut dyn FnMut(TriangleContact),
 ) {
-    if !view.owns_edge(set, k) || view.beyond_edge(k, &sphere.center) <= 0.0 {
+    if !view.owns_edge(set, k) {
         return;
     }
     let [first, second] = view.edge_ends(k);
@@ -76,6 +97,10 @@ fn emit_edge(
     if from_first.dot(&along) < 0.0 || from_second.dot(&along) > 0.0 {
         return;
     }
+    let foot = first + along * (from_first.dot(&along) / along.norm_squared());
+    if is_out_of_reach(sphere, &foot) {
+        return;
+    }
     let other_normal = match view.classify_edge(set, k) {
         EdgeClass::Silent { .. } => return,
         EdgeClass::Free if height < 0.0 => return,
@@ -83,7 +108,6 @@ fn emit_edge(
         EdgeClass::Convex { outward, .. } if outward.dot(&from_first) <= 0.0 => return,
         EdgeClass::Convex { normal, .. } => normal,
     };
-    let foot = first + along * (from_first.dot(&along) / along.norm_squared());
     let feature = Feature::edge(3 * view.index as usize + k);
     push_from(sphere, &foot, &(view.normal + other_normal), feature, Standing::Front, emit);
 }
@@ -101,10 +125,8 @@ fn emit_vertex(
         return;
     }
     // Most vertices fail at the two edges of their own triangle: no need to walk around them.
-    let slack = 1e-9 * direction.norm();
     for other in [view.corners[(corner + 1) % 3], view.corners[(corner + 2) % 3]] {
-        let edge = other - apex;
-        if direction.dot(&edge) > slack * edge.norm() {
+        if points_along(&direction, &(other - apex)) {
             return;
         }
     }
@@ -115,6 +137,19 @@ fn emit_vertex(
     let vertex = set.triangles[view.index as usize].vertices[corner];
     let standing = if strictly { Standing::Front } else { Standing::Spare };
     push_from(sphere, &apex, &mean, Feature::vertex(vertex as usize), standing, emit);
+}
+
+/// Whether a point is certainly farther from the centre than the radius.
+fn is_out_of_reach(sphere: &Sphere, point: &Vec3) -> bool {
+    const SLACK: f64 = 1e-12;
+    (sphere.center - point).norm_squared() > sphere.radius * sphere.radius * (1.0 + SLACK)
+}
+
+/// Whether the cosine between two vectors exceeds a slack far beyond rounding.
+fn points_along(direction: &Vec3, edge: &Vec3) -> bool {
+    const SLACK: f64 = 1e-9;
+    let product = direction.dot(edge);
+    product > 0.0 && product > SLACK * direction.norm() * edge.norm()
 }
 
 fn push_from(

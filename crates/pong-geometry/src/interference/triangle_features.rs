@@ -108,6 +108,13 @@ impl TriangleView {
         self.outward(k).dot(&(p - self.edge_ends(k)[0]))
     }
 
+    /// Whether a point lies beyond edge `k`; a NaN does.
+    #[inline]
+    pub fn is_beyond_edge(&self, k: usize, p: &Vec3) -> bool {
+        let beyond = self.beyond_edge(k, p);
+        beyond > 0.0 || beyond.is_nan()
+    }
+
     /// What edge `k` may do.
     pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -128,19 +135,24 @@ impl TriangleView {
     /// which belongs to the lower of the two: in front that is the seam that rounding leaves, behind the wedge
     /// between the two prisms.
     pub fn holds_foot(&self, set: &TriangleSet, p: &Vec3) -> bool {
-        (0..3).all(|k| {
-            if self.beyond_edge(k, p) <= 0.0 {
-                return true;
+        (0..3).all(|k| !self.is_beyond_edge(k, p) || self.has_beyond(set, k, p))
+    }
+
+    /// Whether a point beyond edge `k` still belongs to this triangle ([`holds_foot`](Self::holds_foot)).
+    pub(super) fn has_beyond(&self, set: &TriangleSet, k: usize, p: &Vec3) -> bool {
+        // A free edge has no neighbour, and the largest number.
+        let neighbor = set.triangles[self.index as usize].neighbors[k];
+        if neighbor == NO_NEIGHBOR || self.index > neighbor {
+            return false;
+        }
+        match self.classify_edge(set, k) {
+            EdgeClass::Silent { neighbor, outward } => {
+                self.index < neighbor
+                    && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
+                    && self.is_seam_or_behind(set, neighbor, p)
             }
-            match self.classify_edge(set, k) {
-                EdgeClass::Silent { neighbor, outward } => {
-                    self.index < neighbor
-                        && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
-                        && self.is_seam_or_behind(set, neighbor, p)
-                }
-                EdgeClass::Free | EdgeClass::Convex { .. } => false,
-            }
-        })
+            EdgeClass::Free | EdgeClass::Convex { .. } => false,
+        }
     }
 
     /// For a point beyond both faces of a silent edge: two faces folded to less than a right angle have such
