@@ -4,7 +4,7 @@
 use super::segment_ends::InsideEnd;
 use crate::Vec3;
 use crate::primitive::{FacePlanes, LineSegment, PlaneBlock, Polyhedron};
-use crate::simd::{Finder, Found, LANES, LaneBits, Simd, Splat};
+use crate::simd::{Finder, LANES, LaneBits, Simd, Splat};
 
 /// A segment against the planes of a polyhedron.
 #[derive(Clone, Copy)]
@@ -150,6 +150,8 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         likely
     }
 
+    // A closure would not be compiled for the level.
+    #[allow(clippy::manual_map)]
     #[inline(always)]
     fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
         let leaves = match inside.ends[end].leaves_by {

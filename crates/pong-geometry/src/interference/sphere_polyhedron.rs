@@ -42,14 +42,23 @@ pub fn place_of_sphere_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhe
 /// which the centre lies least deep.
 #[inline]
 pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
-    match place_of_sphere(sphere, polyhedron) {
-        SpherePlace::Apart => None,
-        SpherePlace::Outside(contact) => Some(contact),
-        SpherePlace::Inside => {
-            let face = shallowest_face(&sphere.center, polyhedron)?;
-            Some(sphere_inside_polyhedron(sphere, polyhedron, face))
-        }
+    run_at_level!(sphere_polyhedron_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
+}
+
+/// [`sphere_polyhedron`] within a kernel.
+#[inline(always)]
+pub fn sphere_polyhedron_in<S: Simd>(
+    simd: S,
+    sphere: &Sphere,
+    polyhedron: &Polyhedron,
+) -> Option<Interference> {
+    let near = Near::new(simd, sphere, polyhedron);
+    let survey = near.survey()?;
+    if !survey.is_inside {
+        return near.contact(&survey);
     }
+    let face = shallowest_face(&sphere.center, polyhedron)?;
+    Some(sphere_inside_polyhedron(sphere, polyhedron, face))
 }
 
 /// The contact of a sphere whose centre is outside: with the feature nearest to the centre, if that may push.
@@ -224,7 +233,18 @@ impl<'a, S: Simd> Near<'a, S> {
 
 /// Whether the foot of `p` lies in a face. Where the face goes on in the next piece its outline is widened by
 /// rounding: the two pieces work it out from their own normals, and a centre straight above could miss both.
+#[inline(always)]
 fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
+    if !polyhedron.planes().all_active {
+        return holds_foot_beside_walls(p, polyhedron, face);
+    }
+    // Most outlines are decided at once, without a guess of where.
+    polyhedron.rim(face).chunks(4).all(|rims| {
+        rims.iter().fold(true, |held, rim| held & (rim.outward.dot(&(p - rim.anchor)) <= 0.0))
+    })
+}
+
+fn holds_foot_beside_walls(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
     const SEAM_SINE_SLACK: f64 = 1e-12;
     polyhedron.rim(face).iter().all(|rim| {
         let arm = p - rim.anchor;
@@ -253,7 +273,8 @@ fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Opt
     let direction = sphere.center - vertex.position;
     let slack = CONE_COSINE_SLACK * direction.norm();
     let cone = polyhedron.cone(index);
-    if cone.iter().any(|edge| !(edge.dot(&direction) <= slack)) {
+    let is_inside = cone.iter().all(|edge| edge.dot(&direction) <= slack);
+    if !is_inside {
         return None;
     }
     let mean = -cone.iter().sum::<Vec3>();

@@ -61,7 +61,8 @@ pub trait Simd: BoxSimd {
 }
 
 /// Work that can be done at any level. Mark `run` and all that it calls with a [`Simd`] `#[inline(always)]`:
-/// instructions of a level are used only in what is inlined.
+/// instructions of a level are used only in what is inlined. That goes for closures too, those handed to `map` among
+/// them: loops and `match` do better.
 pub trait Kernel {
     /// What it hands back.
     type Output;
