@@ -57,8 +57,8 @@ pub struct Tally {
 
 impl Tally {
     fn add(&mut self, other: Self) {
-        self.tested += other.tested;
-        self.met += other.met;
+        self.tested = self.tested.saturating_add(other.tested);
+        self.met = self.met.saturating_add(other.met);
     }
 }
 

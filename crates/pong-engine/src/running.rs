@@ -52,6 +52,12 @@ impl Running {
         let crew = match &scene.config.workers {
             None => None,
             Some(settings) => {
+                if settings.workers > pong_threads::MAX_WORKERS {
+                    let (asked, most) = (settings.workers, pong_threads::MAX_WORKERS);
+                    let cause =
+                        format!("{asked} are more than any machine has cores for; ask for at most {most}");
+                    return Err(EngineError::Workers { cause });
+                }
                 let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
                 let started = Crew::start(scene, &sealed, input(), &settings);
                 Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
@@ -81,11 +87,13 @@ impl Running {
     ) -> Result<FrameReport, EngineError> {
         frame::require_states(scene, &self.sealed, states)?;
         self.clock = clock;
+        // Should a law of the host's panic, there is no frame until the next one.
+        (self.evaluated, self.frame.computed) = (false, false);
         let given = Given { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
         frame::evaluate(&given, self.crew.as_mut(), &mut self.frame);
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
-        self.evaluated = true;
+        (self.evaluated, self.frame.computed) = (true, true);
         Ok(self.frame.report)
     }
 
@@ -123,6 +131,8 @@ impl Running {
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
+            let wanted = sealed.contact_capacity.saturating_add(left_out).try_into().unwrap_or(u32::MAX);
+            frame.report.contacts_wanted = frame.report.contacts_wanted.max(wanted);
         }
         watch.lap(Stage::Commit, &mut frame.times);
         self.evaluated = false;
@@ -165,6 +175,8 @@ impl Running {
     pub fn set_tables(&mut self, tables: Vec<SurfaceTable>) {
         self.tables = Arc::new(tables);
         self.frame.input.tables = Arc::clone(&self.tables);
+        // Not left to the next frame, which would give the old ones back.
+        self.crew.iter().for_each(|crew| crew.set_tables(&self.tables));
         self.evaluated = false;
     }
 

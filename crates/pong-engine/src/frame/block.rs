@@ -73,16 +73,15 @@ impl Kernel for BlockWork<'_> {
                 let first = group * GROUP + (lane * LANES) as u32;
                 let chunk = ChunkOfA { context: &context, batch: batch_a, first, lane };
                 test_chunk(simd, &chunk, &reach, &mut carried, &mut found, &mut out.counts);
-                if found.refused > 0 {
+                if found.overflowed {
                     out.wants.overflowed = true;
-                    out.wants.at_once = out.wants.at_once.max(found.list.len() as u64 + found.refused);
-                    found.refused = 0;
+                    out.wants.at_once = out.wants.at_once.max(found.seen);
                 }
                 if !found.list.is_empty() {
                     let shared = sharing::settle(&context, &mut found.list, &mut sharers, scratch);
                     out.wants.unshared |= shared.is_err();
                     forces::press_found(&context, sealed, &found.list, custom, out);
-                    found.list.clear();
+                    found.clear();
                 }
             }
         }

@@ -230,7 +230,6 @@ impl Frame {
         self.report = FrameReport::default();
         self.counts = FrameCounts::default();
         self.times = StageTimes::default();
-        self.computed = true;
     }
 
     /// Every contact that counts, in the order of every sum.

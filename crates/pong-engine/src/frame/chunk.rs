@@ -228,8 +228,8 @@ impl LaneBalls {
         let mut distance = simd.splat(0.0);
         for axis in 0..3 {
             let center = simd.load(&self.centers[axis]);
-            let low = simd.splat(tree.origin[axis] + f64::from(one.low[axis]));
-            let high = simd.splat(tree.origin[axis] + f64::from(one.high[axis]));
+            let low = simd.splat(tree.origin[axis] + widened(one.low[axis]));
+            let high = simd.splat(tree.origin[axis] + widened(one.high[axis]));
             distance = simd.add(distance, square_outside(simd, center, low, high));
         }
         simd.bits(simd.at_least(simd.load(&self.squares), distance))
@@ -242,12 +242,18 @@ impl LaneBalls {
         for axis in 0..3 {
             let center = simd.splat(self.centers[axis][0]);
             let origin = simd.splat(tree.origin[axis]);
-            let low = simd.add(origin, simd.load(&boxes.bounds[0][axis].map(f64::from)));
-            let high = simd.add(origin, simd.load(&boxes.bounds[1][axis].map(f64::from)));
+            let low = simd.add(origin, simd.load(&boxes.bounds[0][axis].map(widened)));
+            let high = simd.add(origin, simd.load(&boxes.bounds[1][axis].map(widened)));
             distance = simd.add(distance, square_outside(simd, center, low, high));
         }
         simd.bits(simd.at_least(simd.splat(self.squares[0]), distance))
     }
+}
+
+/// A bound of a box of a tree; the greatest there is stands for no bound.
+#[inline(always)]
+fn widened(bound: f32) -> f64 {
+    if bound.abs() < f32::MAX { f64::from(bound) } else { f64::from(bound) * f64::INFINITY }
 }
 
 /// Square of how far `x` lies outside `low`…`high`.

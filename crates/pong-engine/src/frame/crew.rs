@@ -8,7 +8,7 @@ use super::block;
 use super::input::FrameInput;
 use super::lane::Lane;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
@@ -57,7 +57,7 @@ impl Crew {
         input: FrameInput,
         settings: &Settings,
     ) -> Result<Self, StartError> {
-        let lanes = settings.workers + 1;
+        let lanes = settings.workers_granted() + 1;
         let contacts = sealed.limits.worker_contacts(lanes);
         let shared = Arc::new(Shared {
             scene: Arc::clone(scene),
@@ -97,6 +97,13 @@ impl Crew {
     pub fn release(&self, nothing: &Arc<ContactMemory>) {
         if let Ok(mut shared) = self.shared.input.try_write() {
             shared.memory = Arc::clone(nothing);
+        }
+    }
+
+    /// Replaces the values of surfaces that the workers were given, unless one still reads them.
+    pub fn set_tables(&self, tables: &Arc<Vec<SurfaceTable>>) {
+        if let Ok(mut shared) = self.shared.input.try_write() {
+            shared.tables = Arc::clone(tables);
         }
     }
 

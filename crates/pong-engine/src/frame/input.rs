@@ -64,6 +64,8 @@ pub(super) struct PairContext<'a> {
     pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
+    /// Whether A's Object was named first: of two primitives of one kind A is its.
+    pub in_order: bool,
     /// Whether B's model remembers the side of entry.
     pub remembers_entry: bool,
     /// φ of the motion since the last commit, once a contact has asked for it, rad.
@@ -94,6 +96,7 @@ impl<'a> PairContext<'a> {
             memory: &input.memory,
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,
+            in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
             turn: Cell::new(None),
         }

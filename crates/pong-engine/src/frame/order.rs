@@ -19,11 +19,11 @@ pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     let found = (pushing as u64, (frame.order.len() - pushing) as u64);
     let wants = frame.lane.out.wants;
     let (pushing, remembered) = if wants.overflowed { (wants.pushing, wants.remembered) } else { found };
-    frame.report.contacts_wanted = pushing as u32;
+    frame.report.contacts_wanted = saturated(pushing);
     if wants.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
-        frame.report.contacts_wanted = pushing.max(remembered).max(wants.at_once) as u32;
+        frame.report.contacts_wanted = saturated(pushing.max(remembered).max(wants.at_once));
         frame.lane.out.keep_deepest(capacity, spare);
         list(frame);
         forces::press_again(scene, sealed, frame);
@@ -32,6 +32,10 @@ pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
         frame.report.status.set(StatusBits::SHARING_LIMIT);
     }
     frame.report.contacts = frame.pushing().count() as u32;
+}
+
+fn saturated(count: u64) -> u32 {
+    count.try_into().unwrap_or(u32::MAX)
 }
 
 fn list(frame: &mut Frame) {

@@ -41,14 +41,19 @@ pub(super) fn settle(
 /// Object are settled when all are known.
 fn keep_first_ray_hits(found: &mut [Found]) {
     for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
-        if hits.len() == 1 || hits[0].ray_distance == f64::INFINITY {
-            continue;
-        }
-        let mut first = 0;
-        for other in 1..hits.len() {
-            let nearer = hits[other].ray_distance < hits[first].ray_distance;
-            hits[if nearer { first } else { other }].stance = Stance::Dropped;
-            first = if nearer { other } else { first };
+        let mut first: Option<usize> = None;
+        for other in 0..hits.len() {
+            // What a registered test finds for a ray has no distance and takes no part.
+            if hits[other].ray_distance == f64::INFINITY {
+                continue;
+            }
+            let Some(before) = first else {
+                first = Some(other);
+                continue;
+            };
+            let nearer = hits[other].ray_distance < hits[before].ray_distance;
+            hits[if nearer { before } else { other }].stance = Stance::Dropped;
+            first = Some(if nearer { other } else { before });
         }
     }
 }

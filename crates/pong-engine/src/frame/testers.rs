@@ -32,30 +32,34 @@ use pong_model::{Body, Item, PrimitiveInfo};
 /// What testers find for one chunk of A.
 pub(super) struct Findings<'m> {
     pub list: List<'m, Found>,
-    /// Contacts that found no room: of all found for the chunk the least deep.
-    pub refused: u64,
+    /// How many there were, those without room included.
+    pub seen: u64,
+    /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
+    /// less than a frame may keep.
+    pub overflowed: bool,
 }
 
 impl<'m> Findings<'m> {
     pub fn new(list: List<'m, Found>) -> Self {
-        Self { list, refused: 0 }
+        Self { list, seen: 0, overflowed: false }
+    }
+
+    pub fn clear(&mut self) {
+        self.list.clear();
+        (self.seen, self.overflowed) = (0, false);
     }
 
     fn add(&mut self, found: Found) {
-        if self.list.push(found).is_ok() {
-            return;
+        self.seen += 1;
+        if self.list.len() == self.list.capacity() {
+            self.overflowed = true;
+            let half = self.list.capacity() / 2;
+            let deeper_first =
+                |a: &Found, b: &Found| b.depth.total_cmp(&a.depth).then(a.order().cmp(&b.order()));
+            self.list.select_nth_unstable_by(half, deeper_first);
+            self.list.truncate(half);
         }
-        self.refused += 1;
-        let rank = |f: &Found| (f.depth, std::cmp::Reverse(f.order()));
-        let last = (0..self.list.len()).min_by(|&i, &j| {
-            let (a, b) = (rank(&self.list[i]), rank(&self.list[j]));
-            a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
-        });
-        let Some(last) = last else { return };
-        let deeper = found.depth.total_cmp(&self.list[last].depth);
-        if deeper.then(self.list[last].order().cmp(&found.order())).is_gt() {
-            self.list[last] = found;
-        }
+        self.list.push(found).expect("halving makes room");
     }
 }
 
@@ -79,11 +83,11 @@ impl<'a> Target<'a> {
     ) {
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
-        let before = found.list.len();
+        let before = found.seen;
         for lane in lanes(near) {
             self.test_one(chunk, lane, found);
         }
-        counts.note_testers(chunk.kind, self.kind_b, tested, (found.list.len() - before) as u32);
+        counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
 
     /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
@@ -247,7 +251,11 @@ impl<'a> Side<'a> {
         let a = element_ref(self.body_a(), self.item_a);
         let b = element_ref(self.body_b(), self.item_b);
         let extensions = &self.context.scene.extensions;
-        let Some(test) = extensions.contact_test(a.kind_name(), b.kind_name()) else { return };
+        let (kind_a, kind_b) = (a.kind_name(), b.kind_name());
+        if kind_a == kind_b && !self.context.in_order {
+            return;
+        }
+        let Some(test) = extensions.contact_test(kind_a, kind_b) else { return };
         self.whole(test(a, b, &self.motion().x_ba), found);
     }
 

@@ -35,13 +35,12 @@ impl Limits {
         record_capacity: usize,
         custom_stride: usize,
     ) -> Self {
-        /// Interferences of one chunk at most, where the host has not chosen a capacity: what a ball finds on a fine
-        /// mesh before it is settled which of them push.
-        const FOUND_MAX: usize = 8192;
+        /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
+        /// settled which of them push.
+        const FOUND_MIN: usize = 1024;
         /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
         const SHARED: usize = 128;
-        let most = if scene.config.contact_capacity.is_some() { usize::MAX } else { FOUND_MAX };
-        let found = record_capacity.clamp(1024, most);
+        let found = record_capacity.max(FOUND_MIN);
         let lane_contacts = record_capacity + (record_capacity / 8).max(64);
         let in_tree = |count: fn(&Tree) -> usize| {
             let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);

@@ -34,7 +34,7 @@ impl Plan {
         let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
         for info_a in representatives(a) {
             let met = representatives(b)
-                .filter(|info_b| info_a.kind != info_b.kind || in_order)
+                .filter(|info_b| in_order || kind_name(a, info_a) != kind_name(b, info_b))
                 .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)));
             for info_b in met {
                 let slot = &mut element_ns[info_a.kind as usize];

@@ -333,7 +333,7 @@ fn bowl() -> Scene {
     let bowl = plate_mesh("bowl", 18, 1.0, place);
     let models = vec![model("balls", &rough(1e5), &movers.joined()), model("bowl", &rough(1e5), &bowl)];
     let mut scene = Scene::new("bowl", 20, models);
-    scene.contact_capacity = Some(400);
+    scene.contact_capacity = Some(2000);
     scene.paths = vec![
         Path {
             center: [0.0, 0.0, 0.0005],

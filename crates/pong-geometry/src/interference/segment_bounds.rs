@@ -154,10 +154,9 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
     #[allow(clippy::manual_map)]
     #[inline(always)]
     fn end(&self, inside: &InsidePart, end: usize) -> End<S> {
-        let leaves = match inside.ends[end].leaves_by {
-            Some(face) => Some(self.leaving(face, inside.ends[end].at, inside.tops[end], end)),
-            None => None,
-        };
+        let leaves = inside.ends[end]
+            .leaves_by
+            .map(|face| self.leaving(face, inside.ends[end].at, inside.tops[end], end));
         End { simd: self.simd, tip: self.ends[end], leaves }
     }
 
