@@ -161,14 +161,14 @@ fn pairs_committed_at_different_times_that_are_too_many_ask_for_enough() {
             (0..3).map(|k| world.create_object(balls, &format!("balls {k}")).unwrap()).collect();
         let pairs: Vec<_> = above.iter().map(|&balls| world.pair(balls, floor).unwrap()).collect();
         world.seal().unwrap();
-        for now in 0..3 {
+        for (now, &pair) in pairs.iter().enumerate() {
             for (k, &balls) in above.iter().enumerate() {
                 let height = if k == now { 0.09 } else { 1.0 };
                 let root = world.interface(balls, "").unwrap();
                 world.set_state(root, &at(Vec3::new(0.0, 0.0, height), Quat::identity())).unwrap();
             }
             world.evaluate().unwrap();
-            world.commit_pairs(&[pairs[now]]).unwrap();
+            world.commit_pairs(&[pair]).unwrap();
         }
         world.report()
     };

@@ -49,7 +49,7 @@ pub(crate) fn evaluate(given: &Given<'_>, crew: Option<&mut Crew>, frame: &mut F
     frame.begin(sealed);
     let mut watch = clock.start();
     state_in::latch(sealed, states, frame);
-    relative::relate(sealed, &states.enabled, memory, frame);
+    relative::relate(given, frame);
     watch.lap(Stage::Relative, &mut frame.times);
     find_contacts(given, crew, frame);
     watch.lap(Stage::Contacts, &mut frame.times);

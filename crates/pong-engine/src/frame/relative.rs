@@ -3,9 +3,8 @@
 //! r = x_A − x_B and v = v_A − v_B are formed before anything is rotated, so that the results do not depend on
 //! where the common origin is or how fast it moves (physics contract, section 1).
 
-use super::Frame;
-use crate::sealed::Sealed;
-use crate::state::{ContactMemory, PairPose};
+use super::{Frame, Given};
+use crate::state::PairPose;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Quat, Transform, Twist, Vec3};
 
@@ -62,24 +61,32 @@ impl Motion {
 }
 
 /// Fills in the motions of the directions in which something can be found, and the relative poses that a commit would
-/// remember.
-pub(super) fn relate(sealed: &Sealed, enabled: &[bool], memory: &ContactMemory, frame: &mut Frame) {
+/// remember. Of pairs that are off only if the ledger is kept: it asks for the motion of contacts that end.
+pub(super) fn relate(given: &Given<'_>, frame: &mut Frame) {
+    let (sealed, memory, enabled) = (given.sealed, given.memory, &given.states.enabled);
+    let ledger = given.scene.config.ledger;
     for (index, pair) in sealed.group_pairs.iter().enumerate() {
-        let (first, second) = (&frame.poses[pair.first], &frame.poses[pair.second]);
-        let relative = [Pose::relative(first, second), Pose::relative(second, first)];
-        frame.remembered[index] = PairPose { known: true, relative };
+        frame.remembered[index] = PairPose::unknown();
+        if enabled[pair.pair] || ledger {
+            let (first, second) = (&frame.poses[pair.first], &frame.poses[pair.second]);
+            let relative = [Pose::relative(first, second), Pose::relative(second, first)];
+            frame.remembered[index] = PairPose { known: enabled[pair.pair], relative };
+        }
     }
-    // Of pairs that are off too: the ledger asks for the motion of contacts that end.
     for plan in &sealed.plans {
         let (index, flipped) = (plan.group_pair as usize, plan.flipped as usize);
-        let pose = &frame.remembered[index].relative[flipped];
-        let committed = &memory.poses[index];
-        let earlier = committed.known.then(|| &committed.relative[flipped]);
-        let twists = (&frame.twists[plan.body_a], &frame.twists[plan.body_b]);
-        frame.input.motions[index][flipped] = motion(pose, twists, &frame.poses[plan.body_b], earlier);
+        if enabled[sealed.group_pairs[index].pair] || ledger {
+            let pose = &frame.remembered[index].relative[flipped];
+            let committed = &memory.poses[index];
+            let earlier = committed.known.then(|| &committed.relative[flipped]);
+            let twists = (&frame.twists[plan.body_a], &frame.twists[plan.body_b]);
+            frame.input.motions[index][flipped] = motion(pose, twists, &frame.poses[plan.body_b], earlier);
+        }
     }
-    let off = sealed.group_pairs.iter().enumerate().filter(|(_, pair)| !enabled[pair.pair]);
-    off.for_each(|(index, _)| frame.remembered[index] = PairPose::unknown());
+    if ledger {
+        let off = sealed.group_pairs.iter().enumerate().filter(|(_, pair)| !enabled[pair.pair]);
+        off.for_each(|(index, _)| frame.remembered[index] = PairPose::unknown());
+    }
 }
 
 fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Option<&Pose>) -> Motion {
