@@ -239,9 +239,10 @@ fn holds_foot(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
         return holds_foot_beside_walls(p, polyhedron, face);
     }
     // Most outlines are decided at once, without a guess of where.
-    polyhedron.rim(face).chunks(4).all(|rims| {
-        rims.iter().fold(true, |held, rim| held & (rim.outward.dot(&(p - rim.anchor)) <= 0.0))
-    })
+    polyhedron
+        .rim(face)
+        .chunks(4)
+        .all(|rims| rims.iter().fold(true, |held, rim| held & (rim.outward.dot(&(p - rim.anchor)) <= 0.0)))
 }
 
 fn holds_foot_beside_walls(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> bool {
