@@ -19,10 +19,13 @@ use super::ellipsoid_math::{
     second_nearest_on_ellipsoid,
 };
 use super::ellipsoid_prepared::{PreparedEllipsoid, Shadow};
-use super::triangle_features::{EdgeClass, Standing, TriangleContact, TriangleView, vertex_pushes, walk_fan};
+use super::triangle_features::{
+    EdgeClass, Standing, TriangleContact, TriangleEdges, TriangleView, vertex_pushes, walk_fan,
+};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
+use std::cell::OnceCell;
 
 /// How far outside its feature a foot may lie, as a share of the sizes involved, and still be emitted as spare.
 const FOOT_SLACK: f64 = 1e-12;
@@ -30,6 +33,8 @@ const FOOT_SLACK: f64 = 1e-12;
 const CONE_SLACK: f64 = 1e-9;
 /// Two depths within this share count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
+/// By how large a share the depth of a second minimum may lie below what it is at least; far beyond rounding.
+const SECOND_SLACK: f64 = 1e-6;
 
 /// Tests an ellipsoid against one triangle and emits a contact for each of its features that pushes.
 ///
@@ -42,25 +47,104 @@ pub fn ellipsoid_triangle(
     thickness: f64,
     emit: &mut dyn FnMut(TriangleContact),
 ) {
-    let prepared = PreparedEllipsoid::new(ellipsoid);
-    let view = TriangleView::new(set, triangle);
-    let height = view.height(&ellipsoid.center);
-    let half_width = prepared.widened(&view.normal).norm();
-    if height >= half_width || height <= -thickness.max(half_width) {
-        return;
+    EllipsoidOnTriangles::new(ellipsoid).test(set, triangle, thickness, emit);
+}
+
+/// An ellipsoid made ready for many triangles.
+#[derive(Clone, Copy, Debug)]
+pub struct EllipsoidOnTriangles {
+    ellipsoid: Ellipsoid,
+    prepared: PreparedEllipsoid,
+}
+
+impl EllipsoidOnTriangles {
+    /// Makes an ellipsoid ready.
+    pub fn new(ellipsoid: &Ellipsoid) -> Self {
+        Self { ellipsoid: *ellipsoid, prepared: PreparedEllipsoid::new(ellipsoid) }
     }
-    if passes_beside(&prepared, &view) {
-        return;
+
+    /// As [`ellipsoid_triangle`].
+    pub fn test(
+        &self,
+        set: &TriangleSet,
+        triangle: u32,
+        thickness: f64,
+        emit: &mut dyn FnMut(TriangleContact),
+    ) {
+        let corners = set.corners(triangle);
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+        if !self.is_certainly_beside(&corners, &normal, thickness) {
+            let view = TriangleView { index: triangle, corners, normal: normal.normalize() };
+            self.test_near(set, &view, thickness, emit);
+        }
     }
-    let extent = view.corners.iter().map(|c| (c - ellipsoid.center).amax()).fold(0.0, f64::max);
-    let foot_slack = FOOT_SLACK * (extent + prepared.largest + ellipsoid.center.amax());
-    let tester = Tester { ellipsoid, prepared, set, view, height, half_width, thickness, foot_slack };
-    tester.emit_face(emit);
-    for k in 0..3 {
-        tester.emit_edge(k, emit);
+
+    /// Whether the first two tests of [`test_near`](Self::test_near) certainly say no, told without a root from a normal
+    /// of any length.
+    fn is_certainly_beside(&self, corners: &[Vec3; 3], normal: &Vec3, thickness: f64) -> bool {
+        let (e, from_first) = (&self.prepared, self.ellipsoid.center - corners[0]);
+        let (height, normal_square) = (normal.dot(&from_first), normal.norm_squared());
+        let behind = if height < 0.0 { thickness * thickness * normal_square } else { 0.0 };
+        let reach_square = e.widened(normal).norm_squared().max(behind);
+        let mut is_beside = self.exceeds(height, reach_square, normal, &from_first);
+        for k in 0..3 {
+            let outward = (corners[(k + 1) % 3] - corners[k]).cross(normal);
+            let arm = self.ellipsoid.center - corners[k];
+            let beyond = outward.dot(&arm);
+            let reach_square = e.widened(&outward).norm_squared();
+            is_beside |= beyond > 0.0 && self.exceeds(beyond, reach_square, &outward, &arm);
+        }
+        is_beside
     }
-    for corner in 0..3 {
-        tester.emit_vertex(corner, emit);
+
+    /// Whether the product of two vectors certainly exceeds a reach, whatever rounding does to either.
+    fn exceeds(&self, product: f64, reach_square: f64, a: &Vec3, b: &Vec3) -> bool {
+        /// Both far beyond rounding: for products and reaches that are as large as the vectors allow, and for the rest.
+        const SLACK: f64 = 1e-9;
+        const SMALL_SLACK: f64 = 1e-18;
+        let largest = self.prepared.largest;
+        let most = a.norm_squared() * (b.norm_squared() + largest * largest);
+        product * product > reach_square * (1.0 + SLACK) + SMALL_SLACK * most
+    }
+
+    fn test_near(
+        &self,
+        set: &TriangleSet,
+        view: &TriangleView,
+        thickness: f64,
+        emit: &mut dyn FnMut(TriangleContact),
+    ) {
+        let (ellipsoid, prepared) = (&self.ellipsoid, &self.prepared);
+        let height = view.height(&ellipsoid.center);
+        let half_width = prepared.widened(&view.normal).norm();
+        if height >= half_width || height <= -thickness.max(half_width) {
+            return;
+        }
+        if passes_beside(prepared, view) {
+            return;
+        }
+        let extent = view.corners.iter().map(|c| (c - ellipsoid.center).amax()).fold(0.0, f64::max);
+        let foot_slack = FOOT_SLACK * (extent + prepared.largest + ellipsoid.center.amax());
+        let (edges, minima) = (TriangleEdges::new(set, view), Default::default());
+        let tester = Tester {
+            ellipsoid,
+            prepared,
+            set,
+            view,
+            edges,
+            minima,
+            height,
+            half_width,
+            thickness,
+            foot_slack,
+        };
+        tester.emit_face(emit);
+        for k in 0..3 {
+            tester.emit_edge(k, emit);
+        }
+        for corner in 0..3 {
+            tester.emit_vertex(corner, emit);
+        }
     }
 }
 
@@ -76,9 +160,12 @@ fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
 
 struct Tester<'a> {
     ellipsoid: &'a Ellipsoid,
-    prepared: PreparedEllipsoid,
+    prepared: &'a PreparedEllipsoid,
     set: &'a TriangleSet,
-    view: TriangleView,
+    view: &'a TriangleView,
+    edges: TriangleEdges<'a>,
+    /// Of each edge, once asked for.
+    minima: [OnceCell<[Option<EdgeMinimum>; 2]>; 3],
     /// Of the centre above the face, m.
     height: f64,
     half_width: f64,
@@ -87,6 +174,7 @@ struct Tester<'a> {
 }
 
 /// A local minimum over the normals between those of an edge's faces.
+#[derive(Clone, Copy)]
 struct EdgeMinimum {
     depth: f64,
     normal: Vec3,
@@ -102,8 +190,8 @@ impl Tester<'_> {
             return;
         }
         let foot = self.foot_on(&self.view.normal, depth);
-        let holds = self.view.holds_foot(self.set, &foot);
-        if !holds && (0..3).any(|k| self.view.beyond_edge(k, &foot) > self.foot_slack) {
+        let holds = self.edges.hold_foot(&foot);
+        if !holds && (0..3).any(|k| self.edges.beyond(k, &foot) > self.foot_slack) {
             return;
         }
         if (0..3).any(|k| self.edge_is_less_deep(k, depth)) {
@@ -119,11 +207,11 @@ impl Tester<'_> {
 
     /// Whether edge `k`, or the face that meets this one convexly there, pushes instead of this face.
     fn edge_is_less_deep(&self, k: usize, depth: f64) -> bool {
-        match self.view.classify_edge(self.set, k) {
+        match self.edges.class(k) {
             EdgeClass::Silent { .. } => false,
             EdgeClass::Free => self.height >= 0.0 && self.minimum_less_deep_than(k, depth),
             EdgeClass::Convex { neighbor, normal, .. } => {
-                let other = TriangleView::new(self.set, neighbor);
+                let other = TriangleView { index: neighbor, corners: self.set.corners(neighbor), normal };
                 let height = other.height(&self.ellipsoid.center);
                 let other_depth = self.prepared.widened(&normal).norm() - height;
                 let less = other_depth < depth || (other_depth == depth && neighbor < self.view.index);
@@ -143,11 +231,9 @@ impl Tester<'_> {
     }
 
     fn minimum_less_deep_than(&self, k: usize, depth: f64) -> bool {
-        let mut found = false;
-        self.visit_edge_minima(k, &mut |minimum| {
-            found |= minimum.strictly && minimum.depth < depth * (1.0 - DEPTH_SLACK);
-        });
-        found
+        let less_deep =
+            |minimum: &EdgeMinimum| minimum.strictly && minimum.depth < depth * (1.0 - DEPTH_SLACK);
+        self.edge_minima(k).iter().flatten().any(less_deep)
     }
 
     fn emit_edge(&self, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
@@ -156,44 +242,79 @@ impl Tester<'_> {
         }
         let feature = Feature::edge(3 * self.view.index as usize + k);
         let first = self.view.edge_ends(k)[0];
-        self.visit_edge_minima(k, &mut |minimum| {
+        for minimum in self.edge_minima(k).iter().flatten() {
             if let Some(standing) = self.standing(&minimum.normal, &first, minimum.strictly) {
                 self.push(minimum.depth, &minimum.normal, feature, standing, emit);
             }
-        });
+        }
     }
 
     /// The minima over the normals that edge `k` may push along.
-    fn visit_edge_minima(&self, k: usize, visit: &mut dyn FnMut(EdgeMinimum)) {
-        let outward = self.view.outward(k);
+    fn edge_minima(&self, k: usize) -> &[Option<EdgeMinimum>; 2] {
+        self.minima[k].get_or_init(|| self.find_edge_minima(k))
+    }
+
+    fn find_edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
+        if self.misses_edge(k) {
+            return [None, None];
+        }
         let [first, _] = self.view.edge_ends(k);
         let from_edge = self.ellipsoid.center - first;
-        let neighbor = match self.view.classify_edge(self.set, k) {
-            EdgeClass::Silent { .. } => return,
-            EdgeClass::Free if self.height < 0.0 => return,
+        let neighbor = match self.edges.class(k) {
+            EdgeClass::Silent { .. } => return [None, None],
+            EdgeClass::Free if self.height < 0.0 => return [None, None],
             EdgeClass::Free => None,
             EdgeClass::Convex { normal, outward, .. } => Some((normal, outward)),
         };
-        let shadow = Shadow::new(&self.prepared, &self.view.normal, &outward);
+        let outward = self.edges.outward(k);
+        let shadow = Shadow::new(self.prepared, &self.view.normal, &outward);
         let y = shadow.components(&from_edge);
-        let mut try_foot = |foot: &NormalFoot<2>, limit: f64| {
-            if foot.depth > 0.0 && foot.depth <= limit {
-                let normal = shadow.vector(&foot.normal);
-                let least = neighbor.map_or(f64::INFINITY, |(_, o)| o.dot(&normal)).min(outward.dot(&normal));
-                if let Some(strictly) = self.on_edge(k, &normal).filter(|_| least > -CONE_SLACK) {
-                    visit(EdgeMinimum { depth: foot.depth, normal, strictly: strictly && least > 0.0 });
-                }
+        let at_foot = |foot: NormalFoot<2>, limit: f64| {
+            if foot.depth <= 0.0 || foot.depth > limit {
+                return None;
             }
+            let normal = shadow.vector(&foot.normal);
+            let least = neighbor.map_or(f64::INFINITY, |(_, o)| o.dot(&normal)).min(outward.dot(&normal));
+            let strictly = self.on_edge(k, &normal).filter(|_| least > -CONE_SLACK)?;
+            Some(EdgeMinimum { depth: foot.depth, normal, strictly: strictly && least > 0.0 })
         };
-        if shadow.may_hold(&y, f64::INFINITY) {
-            try_foot(&nearest_on_ellipse(shadow.semi_axes, y), f64::INFINITY);
+        let may_hold = shadow.may_hold(&y, f64::INFINITY);
+        let nearest = may_hold.then(|| nearest_on_ellipse(shadow.semi_axes, y));
+        let own = self.half_width - self.height;
+        let may_have_second = shadow.allows_second(own * (1.0 + SECOND_SLACK));
+        let second = may_have_second.then(|| second_nearest_on_ellipse(shadow.semi_axes, y)).flatten();
+        // The nearest point is never deeper than the faces; the second may be, and then they push.
+        let limit = || {
+            let other = |(n, _): (Vec3, Vec3)| self.prepared.widened(&n).norm() - n.dot(&from_edge);
+            own.min(neighbor.map_or(f64::INFINITY, other)) * (1.0 + DEPTH_SLACK)
+        };
+        [
+            nearest.and_then(|foot| at_foot(foot, f64::INFINITY)),
+            second.and_then(|foot| at_foot(foot, limit())),
+        ]
+    }
+
+    /// Whether edge `k` certainly has no minimum, because it does not reach into the ellipsoid.
+    ///
+    /// While the overlap is less than the smallest radius of curvature, what a minimum pushes out, the deepest point's
+    /// foot on the edge, lies inside: a ball of that radius, which touches from within at the deepest point, holds it.
+    fn misses_edge(&self, k: usize) -> bool {
+        /// Far beyond rounding, where the ellipsoid is the unit ball.
+        const SLACK: f64 = 1e-6;
+        if self.allows_second() {
+            return false;
         }
-        if let Some(foot) = second_nearest_on_ellipse(shadow.semi_axes, y) {
-            // The nearest point is never deeper than the faces; this one may be, and then they push.
-            let other =
-                neighbor.map_or(f64::INFINITY, |(n, _)| self.prepared.widened(&n).norm() - n.dot(&from_edge));
-            try_foot(&foot, (self.half_width - self.height).min(other) * (1.0 + DEPTH_SLACK));
-        }
+        let [from, to] = [self.view.corners[k], self.view.corners[(k + 1) % 3]];
+        let start = self.prepared.shrunk(&(from - self.ellipsoid.center));
+        let along = self.prepared.shrunk(&(to - from));
+        let share = (-start.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+        let ends_slack = self.foot_slack / self.prepared.smallest;
+        (start + along * share).norm_squared() > 1.0 + SLACK + 10.0 * ends_slack
+    }
+
+    /// Whether a second minimum, of an edge or a vertex, may be less deep than this face.
+    fn allows_second(&self) -> bool {
+        self.prepared.allows_second((self.half_width - self.height) * (1.0 + SECOND_SLACK))
     }
 
     /// Whether the deepest point's foot lies between the ends of edge `k`: `Some(strictly)` within rounding.
@@ -206,13 +327,17 @@ impl Tester<'_> {
     }
 
     fn emit_vertex(&self, corner: usize, emit: &mut dyn FnMut(TriangleContact)) {
+        if !self.view.may_own_vertex(self.set, corner) {
+            return;
+        }
         let apex = self.view.corners[corner];
         let y = self.ellipsoid.axes.tr_mul(&(self.ellipsoid.center - apex));
         let semi_axes = &self.ellipsoid.semi_axes;
         if y.component_div(semi_axes).norm_squared() < 1.0 {
             self.try_vertex(corner, &nearest_on_ellipsoid(semi_axes, &y), emit);
         }
-        let second = second_nearest_on_ellipsoid(semi_axes, &y);
+        // The fan's least depth is at most that of this face.
+        let second = self.allows_second().then(|| second_nearest_on_ellipsoid(semi_axes, &y)).flatten();
         if let Some(foot) = second.filter(|foot| self.no_deeper_than_the_fan(corner, foot.depth)) {
             self.try_vertex(corner, &foot, emit);
         }

@@ -82,11 +82,12 @@ impl Feature {
 /// Sphere pushed away from a point of B: an edge's or a vertex's foot, or the centre of another ball.
 ///
 /// `mean_normal` decides the direction when the sphere's centre coincides with the point; any length but zero.
+#[inline]
 pub(crate) fn ball_over_point(
     sphere: &Sphere,
     foot: &Vec3,
-    mean_normal: &Vec3,
     feature: Feature,
+    mean_normal: impl FnOnce() -> Vec3,
 ) -> Option<Interference> {
     let arm = sphere.center - foot;
     let distance = arm.norm();
@@ -94,6 +95,6 @@ pub(crate) fn ball_over_point(
     if depth <= 0.0 {
         return None;
     }
-    let normal = if distance > 0.0 { (arm / distance).normalize() } else { mean_normal.normalize() };
+    let normal = if distance > 0.0 { (arm / distance).normalize() } else { mean_normal().normalize() };
     Some(Interference { depth, normal, point_a: sphere.center - normal * sphere.radius, feature })
 }

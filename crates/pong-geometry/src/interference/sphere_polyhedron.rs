@@ -262,7 +262,7 @@ fn edge_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Optio
     let along = second - first;
     let foot = first + along * ((sphere.center - first).dot(&along) / along.norm_squared());
     let normals = edge.push.as_ref()?.normals;
-    ball_over_point(sphere, &foot, &(normals[0] + normals[1]), Feature::edge(index))
+    ball_over_point(sphere, &foot, Feature::edge(index), || normals[0] + normals[1])
 }
 
 /// The contact with a vertex within the radius, if the centre lies in its cone.
@@ -278,8 +278,7 @@ fn vertex_contact(sphere: &Sphere, polyhedron: &Polyhedron, index: usize) -> Opt
     if !is_inside {
         return None;
     }
-    let mean = -cone.iter().sum::<Vec3>();
-    ball_over_point(sphere, &vertex.position, &mean, Feature::vertex(index))
+    ball_over_point(sphere, &vertex.position, Feature::vertex(index), || -cone.iter().sum::<Vec3>())
 }
 
 /// The deeper of two; of equal ones the lower feature.

@@ -9,6 +9,6 @@ use crate::primitive::Sphere;
 /// Depth of the overlap of two spheres.
 pub fn sphere_sphere(a: &Sphere, b: &Sphere) -> Option<Interference> {
     let as_ball = Sphere { center: a.center, radius: a.radius + b.radius };
-    let contact = ball_over_point(&as_ball, &b.center, &Vec3::x(), Feature::WHOLE)?;
+    let contact = ball_over_point(&as_ball, &b.center, Feature::WHOLE, Vec3::x)?;
     Some(Interference { point_a: a.center - contact.normal * a.radius, ..contact })
 }

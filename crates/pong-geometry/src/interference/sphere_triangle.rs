@@ -3,9 +3,11 @@
 //! Degenerate cases: centre in the plane counts as in front; centre on a convex edge or vertex pushes along the
 //! mean of the normals that meet there.
 
-use super::triangle_features::{EdgeClass, Standing, TriangleContact, TriangleView, vertex_pushes, walk_fan};
+use super::triangle_features::{
+    EdgeClass, Standing, TriangleContact, TriangleEdges, TriangleView, vertex_pushes, walk_fan,
+};
 use super::triangle_reach::InReach;
-use super::{Feature, Interference};
+use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
 
@@ -39,17 +41,18 @@ fn emit_features(
     if height >= sphere.radius || height <= -(thickness.max(sphere.radius)) {
         return;
     }
+    let edges = TriangleEdges::new(set, view);
     let beyond = [0, 1, 2].map(|k| {
         let sure = near.beyond[k] | near.within[k];
-        if sure { near.beyond[k] } else { view.is_beyond_edge(k, &sphere.center) }
+        if sure { near.beyond[k] } else { edges.is_beyond(k, &sphere.center) }
     });
     // In front nobody owns what is clearly beyond an edge.
     let nobodys = near.in_front && near.beyond.contains(&true);
-    if !nobodys && (0..3).all(|k| !beyond[k] || view.has_beyond(set, k, &sphere.center)) {
+    if !nobodys && (0..3).all(|k| !beyond[k] || edges.has_beyond(k, &sphere.center)) {
         emit_face(sphere, view, height, thickness, emit);
     }
     for k in (0..3).filter(|&k| beyond[k]) {
-        emit_edge(sphere, set, view, k, height, emit);
+        emit_edge(sphere, &edges, k, height, emit);
     }
     for corner in 0..3 {
         emit_vertex(sphere, set, view, corner, emit);
@@ -81,13 +84,13 @@ fn emit_face(
 
 fn emit_edge(
     sphere: &Sphere,
-    set: &TriangleSet,
-    view: &TriangleView,
+    edges: &TriangleEdges,
     k: usize,
     height: f64,
     emit: &mut dyn FnMut(TriangleContact),
 ) {
-    if !view.owns_edge(set, k) {
+    let view = edges.view;
+    if !view.owns_edge(edges.set, k) {
         return;
     }
     let [first, second] = view.edge_ends(k);
@@ -101,15 +104,18 @@ fn emit_edge(
     if is_out_of_reach(sphere, &foot) {
         return;
     }
-    let other_normal = match view.classify_edge(set, k) {
+    let other_normal = match edges.class(k) {
         EdgeClass::Silent { .. } => return,
         EdgeClass::Free if height < 0.0 => return,
-        EdgeClass::Free => view.outward(k),
+        EdgeClass::Free => None,
         EdgeClass::Convex { outward, .. } if outward.dot(&from_first) <= 0.0 => return,
-        EdgeClass::Convex { normal, .. } => normal,
+        EdgeClass::Convex { normal, .. } => Some(normal),
     };
     let feature = Feature::edge(3 * view.index as usize + k);
-    push_from(sphere, &foot, &(view.normal + other_normal), feature, Standing::Front, emit);
+    let contact = ball_over_point(sphere, &foot, feature, || {
+        view.normal + other_normal.unwrap_or_else(|| edges.outward(k))
+    });
+    emit_at(contact, Standing::Front, emit);
 }
 
 fn emit_vertex(
@@ -121,7 +127,7 @@ fn emit_vertex(
 ) {
     let apex = view.corners[corner];
     let direction = sphere.center - apex;
-    if direction.norm_squared() >= sphere.radius * sphere.radius {
+    if direction.norm_squared() >= sphere.radius * sphere.radius || !view.may_own_vertex(set, corner) {
         return;
     }
     // Most vertices fail at the two edges of their own triangle: no need to walk around them.
@@ -132,11 +138,14 @@ fn emit_vertex(
     }
     let mut in_front = |t: &TriangleView| t.height(&sphere.center) >= 0.0;
     let Some(strictly) = vertex_pushes(set, view.index, corner, &direction, &mut in_front) else { return };
-    let mut mean = Vec3::zeros();
-    walk_fan(set, view.index, corner, &mut |t, _| mean += set.normal(t));
     let vertex = set.triangles[view.index as usize].vertices[corner];
     let standing = if strictly { Standing::Front } else { Standing::Spare };
-    push_from(sphere, &apex, &mean, Feature::vertex(vertex as usize), standing, emit);
+    let contact = ball_over_point(sphere, &apex, Feature::vertex(vertex as usize), || {
+        let mut mean = Vec3::zeros();
+        walk_fan(set, view.index, corner, &mut |t, _| mean += set.normal(t));
+        mean
+    });
+    emit_at(contact, standing, emit);
 }
 
 /// Whether a point is certainly farther from the centre than the radius.
@@ -152,15 +161,8 @@ fn points_along(direction: &Vec3, edge: &Vec3) -> bool {
     product > 0.0 && product > SLACK * direction.norm() * edge.norm()
 }
 
-fn push_from(
-    sphere: &Sphere,
-    foot: &Vec3,
-    mean_normal: &Vec3,
-    feature: Feature,
-    standing: Standing,
-    emit: &mut dyn FnMut(TriangleContact),
-) {
-    if let Some(interference) = super::ball_over_point(sphere, foot, mean_normal, feature) {
+fn emit_at(contact: Option<Interference>, standing: Standing, emit: &mut dyn FnMut(TriangleContact)) {
+    if let Some(interference) = contact {
         emit(TriangleContact { interference, standing });
     }
 }

@@ -15,6 +15,7 @@
 use super::Interference;
 use crate::Vec3;
 use crate::primitive::{NO_NEIGHBOR, TriangleSet};
+use std::cell::OnceCell;
 
 /// Two faces count as convex only if the sine of the angle between them exceeds this: rounding in a unit normal
 /// computed from f64 vertices stays below it for every triangle that the loader accepts as flat.
@@ -108,13 +109,6 @@ impl TriangleView {
         self.outward(k).dot(&(p - self.edge_ends(k)[0]))
     }
 
-    /// Whether a point lies beyond edge `k`; a NaN does.
-    #[inline]
-    pub fn is_beyond_edge(&self, k: usize, p: &Vec3) -> bool {
-        let beyond = self.beyond_edge(k, p);
-        beyond > 0.0 || beyond.is_nan()
-    }
-
     /// What edge `k` may do.
     pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -135,31 +129,13 @@ impl TriangleView {
     /// which belongs to the lower of the two: in front that is the seam that rounding leaves, behind the wedge
     /// between the two prisms.
     pub fn holds_foot(&self, set: &TriangleSet, p: &Vec3) -> bool {
-        (0..3).all(|k| !self.is_beyond_edge(k, p) || self.has_beyond(set, k, p))
+        TriangleEdges::new(set, self).hold_foot(p)
     }
 
-    /// Whether a point beyond edge `k` still belongs to this triangle ([`holds_foot`](Self::holds_foot)).
-    pub(super) fn has_beyond(&self, set: &TriangleSet, k: usize, p: &Vec3) -> bool {
-        // A free edge has no neighbour, and the largest number.
-        let neighbor = set.triangles[self.index as usize].neighbors[k];
-        if neighbor == NO_NEIGHBOR || self.index > neighbor {
-            return false;
-        }
-        match self.classify_edge(set, k) {
-            EdgeClass::Silent { neighbor, outward } => {
-                self.index < neighbor
-                    && outward.dot(&(p - self.edge_ends(k)[0])) > 0.0
-                    && self.is_seam_or_behind(set, neighbor, p)
-            }
-            EdgeClass::Free | EdgeClass::Convex { .. } => false,
-        }
-    }
-
-    /// For a point beyond both faces of a silent edge: two faces folded to less than a right angle have such
-    /// points in front of one of them, outside the fold, where neither pushes.
-    fn is_seam_or_behind(&self, set: &TriangleSet, neighbor: u32, p: &Vec3) -> bool {
-        let other = Self::new(set, neighbor);
-        self.normal.dot(&other.normal) > 0.0 || (self.height(p) <= 0.0 && other.height(p) <= 0.0)
+    /// Whether this triangle can be the lowest of the fan around a corner, by the two that it shares edges with there.
+    #[inline]
+    pub(super) fn may_own_vertex(&self, set: &TriangleSet, corner: usize) -> bool {
+        self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
     }
 
     /// Whether this triangle is the owner of edge `k`: the lower of the two that share it.
@@ -167,6 +143,72 @@ impl TriangleView {
     pub fn owns_edge(&self, set: &TriangleSet, k: usize) -> bool {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
         neighbor == NO_NEIGHBOR || self.index < neighbor
+    }
+}
+
+/// The edges of a triangle, each worked out when it is first asked for.
+pub(super) struct TriangleEdges<'a> {
+    pub set: &'a TriangleSet,
+    pub view: &'a TriangleView,
+    outwards: [OnceCell<Vec3>; 3],
+    classes: [OnceCell<EdgeClass>; 3],
+}
+
+impl<'a> TriangleEdges<'a> {
+    pub fn new(set: &'a TriangleSet, view: &'a TriangleView) -> Self {
+        Self { set, view, outwards: Default::default(), classes: Default::default() }
+    }
+
+    /// As [`TriangleView::outward`].
+    #[inline]
+    pub fn outward(&self, k: usize) -> Vec3 {
+        *self.outwards[k].get_or_init(|| self.view.outward(k))
+    }
+
+    /// As [`TriangleView::classify_edge`].
+    #[inline]
+    pub fn class(&self, k: usize) -> EdgeClass {
+        *self.classes[k].get_or_init(|| self.view.classify_edge(self.set, k))
+    }
+
+    /// As [`TriangleView::beyond_edge`].
+    #[inline]
+    pub fn beyond(&self, k: usize, p: &Vec3) -> f64 {
+        self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
+    }
+
+    /// Whether a point lies beyond edge `k`; a NaN does.
+    #[inline]
+    pub fn is_beyond(&self, k: usize, p: &Vec3) -> bool {
+        let beyond = self.beyond(k, p);
+        beyond > 0.0 || beyond.is_nan()
+    }
+
+    /// As [`TriangleView::holds_foot`].
+    pub fn hold_foot(&self, p: &Vec3) -> bool {
+        (0..3).all(|k| !self.is_beyond(k, p) || self.has_beyond(k, p))
+    }
+
+    /// Whether a point beyond edge `k` still belongs to this triangle ([`TriangleView::holds_foot`]).
+    pub fn has_beyond(&self, k: usize, p: &Vec3) -> bool {
+        // A free edge has no neighbour.
+        let neighbor = self.set.triangles[self.view.index as usize].neighbors[k];
+        if neighbor == NO_NEIGHBOR || self.view.index > neighbor {
+            return false;
+        }
+        match self.class(k) {
+            EdgeClass::Silent { neighbor, outward } => {
+                outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0 && self.is_seam_or_behind(neighbor, p)
+            }
+            EdgeClass::Free | EdgeClass::Convex { .. } => false,
+        }
+    }
+
+    /// For a point beyond both faces of a silent edge: two faces folded to less than a right angle have such
+    /// points in front of one of them, outside the fold, where neither pushes.
+    fn is_seam_or_behind(&self, neighbor: u32, p: &Vec3) -> bool {
+        let other = TriangleView::new(self.set, neighbor);
+        self.view.normal.dot(&other.normal) > 0.0 || (self.view.height(p) <= 0.0 && other.height(p) <= 0.0)
     }
 }
 
@@ -182,9 +224,26 @@ pub struct Fan {
 /// Walks the fan around corner `corner` of `triangle` and calls `visit` with every triangle of it and that
 /// triangle's index of the corner, each once.
 pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn FnMut(u32, usize)) -> Fan {
+    let all = walk_fan_while(set, triangle, corner, |t, at| {
+        visit(t, at);
+        true
+    });
+    all.expect("nothing ends the walk")
+}
+
+/// As [`walk_fan`], as long as `visit` says so; `None` if it ended the walk.
+#[inline]
+fn walk_fan_while(
+    set: &TriangleSet,
+    triangle: u32,
+    corner: usize,
+    mut visit: impl FnMut(u32, usize) -> bool,
+) -> Option<Fan> {
     let vertex = set.triangles[triangle as usize].vertices[corner];
     let mut fan = Fan { lowest: triangle, open: false };
-    visit(triangle, corner);
+    if !visit(triangle, corner) {
+        return None;
+    }
     // Across the edge that ends in the corner, then, if the fan is open, across the edge that starts there.
     for side in [2, 0] {
         let (mut current, mut at) = (triangle, corner);
@@ -195,15 +254,17 @@ pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn
                 break;
             }
             if next == triangle {
-                return fan;
+                return Some(fan);
             }
             at = corner_of(set, next, vertex);
             current = next;
             fan.lowest = fan.lowest.min(current);
-            visit(current, at);
+            if !visit(current, at) {
+                return None;
+            }
         }
     }
-    fan
+    Some(fan)
 }
 
 /// Whether a normal lies in the cone of a vertex, `Some(strictly)`; `None` if it is outside by more than
@@ -227,9 +288,10 @@ pub fn vertex_pushes(
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
-    let (mut strictly, mut nearly, mut in_front) = (true, true, false);
+    let (mut strictly, mut in_front) = (true, false);
     let mut turn = 0.0;
-    let fan = walk_fan(set, triangle, corner, &mut |t, at| {
+    // Most vertices fail at one of the first triangles.
+    let fan = walk_fan_while(set, triangle, corner, |t, at| {
         let corners = set.corners(t);
         let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
         let mut below = 1.0;
@@ -237,15 +299,18 @@ pub fn vertex_pushes(
             let product = direction.dot(edge);
             let edge_length = edge.norm();
             strictly &= product < 0.0;
-            nearly &= product <= CONE_COSINE_SLACK * length * edge_length;
+            let nearly = product <= CONE_COSINE_SLACK * length * edge_length;
+            if !nearly || t < triangle {
+                return false;
+            }
             below *= edge_length * (-product / (length * edge_length)).max(CONE_COSINE_SLACK);
         }
         turn += direction.dot(&edges[0].cross(&edges[1])) / (length * below);
         in_front |= center_in_front(&TriangleView::new(set, t));
-    });
+        true
+    })?;
     let seen_from_front = if fan.open { in_front } else { length == 0.0 || turn > 0.0 };
-    let allowed = nearly && fan.lowest == triangle && seen_from_front;
-    allowed.then_some(strictly)
+    seen_from_front.then_some(strictly)
 }
 
 fn corner_of(set: &TriangleSet, triangle: u32, vertex: u32) -> usize {
