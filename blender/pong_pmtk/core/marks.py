@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Marks: what an author says of an object beyond its geometry.
+
+Blender keeps them in a PropertyGroup, glTF files in `extras.pong`, snapshots as the classes here. The field names are
+the same in all three (`to_json`, `from_json`); fields at their defaults are left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+VERSION = 1
+
+ROLES = ("none", "root", "group", "primitive")
+
+KINDS = (
+    "Point",
+    "LineSegment",
+    "Ray",
+    "Sphere",
+    "Ellipsoid",
+    "Plane",
+    "Triangle",
+    "TriangleMesh",
+    "Polyhedron",
+)
+
+BOUNDS = ("Aabb", "Sphere", "Obb")
+
+
+@dataclass
+class Part:
+    """Some vertices, edges or faces of a mesh as primitives of one kind.
+
+    Their indices are those of the mesh as it is stored, before modifiers; a mesh with parts must have none that change
+    its topology.
+    """
+
+    name: str
+    kind: str
+    surface: str = ""  # "" for that of the object
+    vertices: list[int] = field(default_factory=list)
+    edges: list[int] = field(default_factory=list)
+    faces: list[int] = field(default_factory=list)
+
+
+@dataclass
+class Mark:
+    """What one object is to the engine.
+
+    What a kind takes from its object, in the object's own coordinates:
+
+    | kind | an empty | a mesh |
+    |---|---|---|
+    | Point | its origin | every vertex |
+    | LineSegment | – | every edge |
+    | Ray | from its origin along +z, `length` long | every edge, from its first vertex to its second |
+    | Sphere | centre at its origin, `radius` | the same: the mesh only shows it |
+    | Ellipsoid | centre at its origin, `semi_axes` along its axes | the same |
+    | Plane | through its origin, normal +z | the plane of its only face |
+    | Triangle | – | every face, which must be a triangle |
+    | TriangleMesh | – | all faces, cut into triangles |
+    | Polyhedron | – | all of it; each connected piece is a polyhedron of its own |
+    """
+
+    role: str = "none"
+    version: int = VERSION
+    name: str = ""  # in the model; "" for the object's own name
+    surface: str = ""  # "" for that of the group above
+    # groups
+    movable: bool = False
+    bound: str = "Aabb"
+    # primitives
+    kind: str = ""
+    radius: float = 0.0  # m, before the object's scale
+    semi_axes: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m, before the object's scale
+    length: float = 0.0  # m, before the object's scale
+    reach: float | None = None  # m
+    response: str = "Normal"  # or "Axial"
+    thickness: float | None = None  # m
+    two_sided: bool = False
+    inactive_faces: list[int] = field(default_factory=list)  # of a Polyhedron: faces of the stored mesh
+    file: str = ""  # TriangleMesh, Polyhedron: write the mesh to this OBJ or STL file beside the model
+    parts: list[Part] = field(default_factory=list)  # instead of `kind`
+
+
+@dataclass
+class ModelSettings:
+    """What belongs to a whole model; kept on its root."""
+
+    name: str = ""  # "" for the root's name
+    entry_memory: bool = True
+    surfaces: dict[str, dict] = field(default_factory=dict)  # name -> fields as in docs/model_format.md, see model.py
+    pairs: list[dict] = field(default_factory=list)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A model as a model file has it (docs/model_format.md): what `build` makes of a snapshot and `ron` reads and writes.
+
+Numbers are float64, metres and SI throughout; quaternions (w, x, y, z). `None` is a field that is left out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Primitive:
+    """`kind` and the fields of docs/model_format.md under the same names, in the order they are written."""
+
+    kind: str
+    name: str
+    fields: dict  # without name and surface
+    surface: str | None = None
+
+
+@dataclass
+class Group:
+    name: str
+    movable: bool = False
+    position: tuple[float, float, float] | None = None  # in the frame of the group above
+    orientation: tuple[float, float, float, float] | None = None
+    bound: str | None = None
+    surface: str | None = None
+    groups: list[Group] = field(default_factory=list)
+    primitives: list[Primitive] = field(default_factory=list)
+
+
+@dataclass
+class Tagged:
+    """A named value such as `Linear(damping: 250.0)`: laws of force and friction."""
+
+    name: str
+    fields: dict
+
+
+@dataclass
+class Model:
+    name: str
+    surfaces: dict[str, dict]  # name -> fields; `normal` and `friction` are Tagged or None
+    root: Group
+    pairs: list[dict] = field(default_factory=list)
+    entry_memory: bool = True
