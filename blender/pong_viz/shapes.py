@@ -1,0 +1,184 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Primitives as meshes to look at, in the frame of their movable group. Numpy only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .core.model import Group, Model, Primitive
+
+
+@dataclass
+class Shape:
+    """What one primitive looks like."""
+
+    path: str
+    kind: str
+    vertices: np.ndarray  # (n, 3), m
+    faces: list  # vertex indices of each face, or an (n, 3) array
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How large to draw what has no size of its own, m."""
+
+    point: float  # radius of a point
+    line: float  # radius of a segment or ray
+    plane: float  # half the side of a plane
+
+
+def sizes_for(extent: float, travel: float) -> Sizes:
+    """Sizes that show well for models of this extent, of which one travels so far (m)."""
+    return Sizes(point=0.006 * extent, line=0.003 * extent, plane=extent + travel)
+
+
+def bodies_of(model: Model) -> dict[str, list[tuple[str, Primitive, np.ndarray, np.ndarray]]]:
+    """Path of each movable group -> its primitives: path, primitive, rotation (3, 3), position (3,) in its frame."""
+    bodies: dict[str, list] = {}
+
+    def walk(group: Group, path: str, body: str, rotation: np.ndarray, position: np.ndarray) -> None:
+        if body == path:
+            bodies[body] = []
+        for primitive in group.primitives:
+            bodies[body].append((f"{path}/{primitive.name}", primitive, rotation, position))
+        for child in group.groups:
+            below = f"{path}/{child.name}"
+            if child.movable:
+                walk(child, below, below, np.eye(3), np.zeros(3))
+                continue
+            turn = rotation @ rotation_of(child.orientation or (1.0, 0.0, 0.0, 0.0))
+            place = position + rotation @ np.asarray(child.position or (0.0, 0.0, 0.0))
+            walk(child, below, body, turn, place)
+
+    walk(model.root, model.root.name, model.root.name, np.eye(3), np.zeros(3))
+    return bodies
+
+
+def rotation_of(q) -> np.ndarray:
+    """Matrix of a quaternion (w, x, y, z), normalised."""
+    w, x, y, z = np.asarray(q, dtype=float) / np.linalg.norm(q)
+    return np.array([
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ])
+
+
+def shape(path: str, primitive: Primitive, rotation: np.ndarray, position: np.ndarray, sizes: Sizes) -> Shape:
+    """The mesh of one primitive."""
+    vertices, faces = _DRAWN[primitive.kind](primitive.fields, sizes)
+    return Shape(path, primitive.kind, np.asarray(vertices) @ rotation.T + position, faces)
+
+
+def extent_of(model: Model) -> float:
+    """Roughly how large a model is, m, planes left aside; 0 if it holds nothing else."""
+    far = 0.0
+    for primitives in bodies_of(model).values():
+        for _, primitive, rotation, position in primitives:
+            if primitive.kind != "Plane":
+                vertices, _ = _DRAWN[primitive.kind](primitive.fields, Sizes(0.0, 0.0, 0.0))
+                far = max(far, float(np.abs(np.asarray(vertices) @ rotation.T + position).max(initial=0.0)))
+    return 2.0 * far
+
+
+# --- one function for each kind -----------------------------------------------------------------------------------
+
+
+def _point(fields, sizes):
+    vertices, faces = ball(8, 4)
+    return vertices * sizes.point + fields["position"], faces
+
+
+def _segment(fields, sizes):
+    return _rod(*fields["ends"], sizes.line)
+
+
+def _ray(fields, sizes):
+    direction = np.asarray(fields["direction"], dtype=float)
+    origin = np.asarray(fields["origin"], dtype=float)
+    return _rod(origin, origin + direction / np.linalg.norm(direction) * fields["length"], sizes.line)
+
+
+def _sphere(fields, _):
+    vertices, faces = ball(32, 16)
+    return vertices * fields["radius"] + fields["center"], faces
+
+
+def _ellipsoid(fields, _):
+    vertices, faces = ball(32, 16)
+    turn = rotation_of(fields.get("orientation") or (1.0, 0.0, 0.0, 0.0))
+    return (vertices * fields["semi_axes"]) @ turn.T + fields["center"], faces
+
+
+def _plane(fields, sizes):
+    normal = np.asarray(fields["normal"], dtype=float)
+    length = np.linalg.norm(normal)
+    normal = normal / length
+    across, along = frame_of(normal)
+    center = normal * fields["offset"] / length
+    corners = [center + sizes.plane * (a * across + b * along) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    return np.array(corners), [(0, 1, 2, 3)]
+
+
+def _triangle(fields, _):
+    return np.asarray(fields["vertices"], dtype=float), [(0, 1, 2)]
+
+
+def _mesh(faces_name):
+    def drawn(fields, _):
+        return np.asarray(fields["vertices"], dtype=float), fields[faces_name]
+
+    return drawn
+
+
+def _rod(start, end, radius):
+    """A closed cylinder with twelve sides."""
+    start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+    across, along = frame_of((end - start) / np.linalg.norm(end - start))
+    angles = np.linspace(0.0, 2.0 * np.pi, 12, endpoint=False)
+    ring = radius * (np.cos(angles)[:, None] * across + np.sin(angles)[:, None] * along)
+    sides = [(i, (i + 1) % 12, 12 + (i + 1) % 12, 12 + i) for i in range(12)]
+    return np.concatenate([start + ring, end + ring]), sides + [tuple(range(11, -1, -1)), tuple(range(12, 24))]
+
+
+def frame_of(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two unit vectors that make a right-handed frame with a unit direction as the third."""
+    helper = np.eye(3)[np.argmin(np.abs(direction))]
+    across = np.cross(helper, direction)
+    across /= np.linalg.norm(across)
+    return across, np.cross(direction, across)
+
+
+def ball(around: int, upwards: int) -> tuple[np.ndarray, list]:
+    """The unit ball in rings."""
+    theta = np.pi * np.arange(1, upwards) / upwards
+    phi = 2.0 * np.pi * np.arange(around) / around
+    rings = np.stack([
+        np.outer(np.sin(theta), np.cos(phi)),
+        np.outer(np.sin(theta), np.sin(phi)),
+        np.repeat(np.cos(theta)[:, None], around, axis=1),
+    ], axis=-1).reshape(-1, 3)
+    top, bottom = len(rings), len(rings) + 1
+    faces = []
+    for j in range(around):
+        k = (j + 1) % around
+        faces.append((top, j, k))
+        last = (upwards - 2) * around
+        faces.append((bottom, last + k, last + j))
+        faces += [(i * around + j, (i + 1) * around + j, (i + 1) * around + k, i * around + k) for i in range(upwards - 2)]
+    return np.concatenate([rings, [(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)]]), faces
+
+
+_DRAWN = {
+    "Point": _point,
+    "LineSegment": _segment,
+    "Ray": _ray,
+    "Sphere": _sphere,
+    "Ellipsoid": _ellipsoid,
+    "Plane": _plane,
+    "Triangle": _triangle,
+    "TriangleMesh": _mesh("triangles"),
+    "Polyhedron": _mesh("faces"),
+}
