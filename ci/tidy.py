@@ -15,9 +15,10 @@ ARROWS = {
     "pong-model": {"pong-geometry"},
     "pong-engine": {"pong-arena", "pong-geometry", "pong-model", "pong-threads"},
     "pong-executive": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-record": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-verify": {"pong-geometry", "pong-model", "pong-engine", "pong-executive"},
-    "pong-capi": {"pong-geometry", "pong-model", "pong-engine", "pong-threads"},
-    "pong-cli": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-verify"},
+    "pong-capi": {"pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
+    "pong-cli": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record", "pong-verify"},
 }
 MAY_BE_UNSAFE = {"pong-capi", "pong-threads"}
 LINES_MAX = 800

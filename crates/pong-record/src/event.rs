@@ -1,0 +1,216 @@
+//! events.jsonl: what the host changed between frames.
+
+use crate::error::LogError;
+use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// Name of the file.
+pub(crate) const FILE: &str = "events.jsonl";
+
+/// An event and the frame that it belongs to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LoggedEvent {
+    /// The frame before whose evaluation it came.
+    pub frame: u64,
+    /// What happened.
+    #[serde(flatten)]
+    pub event: Event,
+}
+
+/// What a host may do between frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub enum Event {
+    /// A pair was switched on or off.
+    Pair {
+        /// Index of the pair.
+        pair: u32,
+        /// Whether it is tested from now on.
+        enabled: bool,
+    },
+    /// The contact state of an Object was dropped.
+    Forget {
+        /// Index of the Object.
+        object: u32,
+    },
+    /// The values of a surface were replaced.
+    Surface {
+        /// Index of the model.
+        model: u32,
+        /// Name of the surface.
+        name: String,
+        /// Its values.
+        #[serde(flatten)]
+        values: SurfaceValues,
+    },
+    /// A contact state was restored.
+    Restore {
+        /// File of the block, in the folder of the log.
+        file: String,
+    },
+    /// The frame of this number was committed for these pairs only.
+    Commit {
+        /// Indices of the pairs.
+        pairs: Vec<u32>,
+    },
+    /// Events that were lost because they came faster than they could be written.
+    Lost {
+        /// How many.
+        count: u64,
+    },
+    /// An event that this program does not know.
+    #[serde(other)]
+    Unknown,
+}
+
+/// The values of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceValues {
+    /// N/m, or N/m^1.5; may be infinite.
+    #[serde(with = "number")]
+    stiffness: f64,
+    normal: Normal,
+    friction: Friction,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "law")]
+enum Normal {
+    Linear { damping: f64, ramp: f64 },
+    HuntCrossley { dissipation: f64, hertz: bool },
+    Custom { name: String, parameters: Vec<f64> },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "law")]
+enum Friction {
+    None,
+    Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: f64 },
+    Coulomb { mu: f64, slip_speed: f64 },
+    Custom { name: String, parameters: Vec<f64> },
+}
+
+impl From<&Surface> for SurfaceValues {
+    fn from(surface: &Surface) -> Self {
+        let normal = match &surface.normal {
+            NormalLaw::Linear { damping, ramp } => Normal::Linear { damping: *damping, ramp: *ramp },
+            NormalLaw::HuntCrossley { dissipation, exponent } => {
+                Normal::HuntCrossley { dissipation: *dissipation, hertz: *exponent == Exponent::ThreeHalves }
+            }
+            NormalLaw::Custom { name, parameters } => {
+                Normal::Custom { name: name.clone(), parameters: parameters.clone() }
+            }
+        };
+        let friction = match &surface.friction {
+            FrictionLaw::None => Friction::None,
+            &FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
+                Friction::Bristle { mu, static_excess, stiffness, damping }
+            }
+            &FrictionLaw::Coulomb { mu, slip_speed } => Friction::Coulomb { mu, slip_speed },
+            FrictionLaw::Custom { name, parameters } => {
+                Friction::Custom { name: name.clone(), parameters: parameters.clone() }
+            }
+        };
+        Self { stiffness: surface.stiffness, normal, friction }
+    }
+}
+
+impl SurfaceValues {
+    /// The surface with these values.
+    pub fn surface(&self, name: &str) -> Surface {
+        let normal = match self.normal.clone() {
+            Normal::Linear { damping, ramp } => NormalLaw::Linear { damping, ramp },
+            Normal::HuntCrossley { dissipation, hertz } => {
+                let exponent = if hertz { Exponent::ThreeHalves } else { Exponent::One };
+                NormalLaw::HuntCrossley { dissipation, exponent }
+            }
+            Normal::Custom { name, parameters } => NormalLaw::Custom { name, parameters },
+        };
+        let friction = match self.friction.clone() {
+            Friction::None => FrictionLaw::None,
+            Friction::Bristle { mu, static_excess, stiffness, damping } => {
+                FrictionLaw::Bristle { mu, static_excess, stiffness, damping }
+            }
+            Friction::Coulomb { mu, slip_speed } => FrictionLaw::Coulomb { mu, slip_speed },
+            Friction::Custom { name, parameters } => FrictionLaw::Custom { name, parameters },
+        };
+        Surface { name: name.to_owned(), stiffness: self.stiffness, normal, friction }
+    }
+}
+
+/// Numbers that may be infinite, which JSON cannot write.
+mod number {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Number(f64),
+        Text(String),
+    }
+
+    pub fn serialize<S: Serializer>(number: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+        if number.is_finite() { number.serialize(serializer) } else { serializer.serialize_str("inf") }
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+        match Written::deserialize(deserializer)? {
+            Written::Number(number) => Ok(number),
+            Written::Text(text) if text == "inf" => Ok(f64::INFINITY),
+            Written::Text(text) => Err(D::Error::custom(format!("{text:?} is neither a number nor \"inf\""))),
+        }
+    }
+}
+
+/// Reads the events of a log; a last line that was cut off is passed over.
+pub(crate) fn load(folder: &Path) -> Result<Vec<LoggedEvent>, LogError> {
+    let path = folder.join(FILE);
+    let text = match std::fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(reason) if reason.kind() == std::io::ErrorKind::NotFound => return Ok(Vec::new()),
+        Err(reason) => return Err(LogError::unreadable(&path, &reason)),
+    };
+    let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+    let lines = whole.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let read = |(number, line): (usize, &str)| {
+        let damaged =
+            |error: serde_json::Error| LogError::damaged(&path, format!("line {}: {error}", number + 1));
+        serde_json::from_str(line).map_err(damaged)
+    };
+    lines.map(read).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn surfaces_come_back_with_the_same_bits() {
+        let laws = [
+            (
+                NormalLaw::Linear { damping: 0.1 + 0.2, ramp: 1e-300 },
+                FrictionLaw::Bristle { mu: 1.0 / 3.0, static_excess: 0.1, stiffness: None, damping: 5e-324 },
+            ),
+            (
+                NormalLaw::HuntCrossley { dissipation: 2.0 / 3.0, exponent: Exponent::ThreeHalves },
+                FrictionLaw::Coulomb { mu: 0.7, slip_speed: 1e-3 },
+            ),
+            (NormalLaw::Custom { name: "mine".to_owned(), parameters: vec![0.3] }, FrictionLaw::None),
+        ];
+        for ((normal, friction), stiffness) in laws.into_iter().zip([f64::INFINITY, 1e5 / 3.0, 1.0]) {
+            let surface = Surface { name: "s".to_owned(), stiffness, normal, friction };
+            let event = Event::Surface { model: 0, name: "s".to_owned(), values: (&surface).into() };
+            let text = serde_json::to_string(&LoggedEvent { frame: 3, event }).unwrap();
+            let read: LoggedEvent = serde_json::from_str(&text).unwrap();
+            let Event::Surface { name, values, .. } = read.event else { panic!("{text}") };
+            assert_eq!(values.surface(&name), surface, "{text}");
+        }
+    }
+
+    #[test]
+    fn an_event_of_a_later_version_is_known_as_such() {
+        let read: LoggedEvent = serde_json::from_str(r#"{"frame": 1, "event": "shiver", "by": 2}"#).unwrap();
+        assert_eq!(read.event, Event::Unknown);
+    }
+}

@@ -1,0 +1,23 @@
+//! Response logs: what happened in a run, frame by frame, with all that is needed to look at it again.
+//!
+//! The format is described in `docs/response_logs.md`.
+//!
+//! | file | is |
+//! |---|---|
+//! | `run.rs`, `event.rs` | run.json and events.jsonl |
+//! | `table/` | the rows of the NumPy tables, and tables as they are read |
+//! | `read/` | [`Log`]: whole frames by number |
+
+#![forbid(unsafe_code)]
+
+mod error;
+mod event;
+mod read;
+mod run;
+pub mod table;
+
+pub use error::LogError;
+pub use event::{Event, LoggedEvent, SurfaceValues};
+pub use read::{Frame, Log};
+pub use run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
+pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
