@@ -67,7 +67,8 @@ impl LogError {
         Self::Unreadable { path: path.to_owned(), reason: reason.to_string() }
     }
 
-    pub(crate) fn unwritable(path: &Path, reason: &io::Error) -> Self {
+    /// That a file cannot be written, in the system's words.
+    pub fn unwritable(path: &Path, reason: &io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), reason: reason.to_string() }
     }
 
