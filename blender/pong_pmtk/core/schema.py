@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The fields of a model file: their order in our layout, their types and their defaults (docs/model_format.md)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+REQUIRED = object()
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field: `kind` names the reader of its value, a field at `default` is not written."""
+
+    name: str
+    kind: str
+    default: object = None
+
+
+def _fields(*fields: tuple) -> tuple[Field, ...]:
+    return tuple(Field(*field) for field in fields)
+
+
+PRIMITIVES: dict[str, tuple[Field, ...]] = {
+    "Point": _fields(("position", "vector", REQUIRED)),
+    "LineSegment": _fields(("ends", "vectors2", REQUIRED)),
+    "Ray": _fields(
+        ("origin", "vector", REQUIRED),
+        ("direction", "direction", REQUIRED),
+        ("length", "positive", REQUIRED),
+        ("reach", "not_negative"),
+        ("response", "response", "Normal"),
+    ),
+    "Sphere": _fields(("center", "vector", REQUIRED), ("radius", "positive", REQUIRED)),
+    "Ellipsoid": _fields(
+        ("center", "vector", REQUIRED),
+        ("semi_axes", "semi_axes", REQUIRED),
+        ("orientation", "rotation", (1.0, 0.0, 0.0, 0.0)),
+    ),
+    "Plane": _fields(("normal", "direction", REQUIRED), ("offset", "number", REQUIRED)),
+    "Triangle": _fields(
+        ("thickness", "positive"), ("two_sided", "boolean", False), ("vertices", "vectors3", REQUIRED)
+    ),
+    # Of these two either `file` or the lists must be there: see read_primitive.py.
+    "TriangleMesh": _fields(
+        ("file", "text_value"),
+        ("scale", "positive", 1.0),
+        ("thickness", "positive"),
+        ("two_sided", "boolean", False),
+        ("vertices", "vertices"),
+        ("triangles", "triangles"),
+    ),
+    "Polyhedron": _fields(
+        ("file", "text_value"),
+        ("scale", "positive", 1.0),
+        ("inactive_faces", "indices", ()),
+        ("vertices", "vertices"),
+        ("faces", "faces"),
+    ),
+    "Custom": _fields(("kind", "text_value", REQUIRED), ("parameters", "numbers", ())),
+}
+
+NORMAL_LAWS: dict[str, tuple[Field, ...]] = {
+    "Linear": _fields(
+        ("damping", "not_negative"), ("ramp", "not_negative"), ("restitution", "restitution_mass")
+    ),
+    "HuntCrossley": _fields(
+        ("dissipation", "not_negative"),
+        ("exponent", "exponent", REQUIRED),
+        ("restitution", "restitution_speed"),
+    ),
+    "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
+}
+
+FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
+    "Bristle": _fields(
+        ("mu", "not_negative", REQUIRED),
+        ("static_excess", "not_negative"),
+        ("stiffness", "positive"),
+        ("damping", "not_negative"),
+    ),
+    "Coulomb": _fields(("mu", "not_negative", REQUIRED), ("slip_speed", "positive", REQUIRED)),
+    "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
+}
+
+RESTITUTIONS: dict[str, tuple[Field, ...]] = {
+    "restitution_mass": _fields(("e", "restitution_e", REQUIRED), ("mass", "positive", REQUIRED)),
+    "restitution_speed": _fields(("e", "restitution_e", REQUIRED), ("speed", "positive", REQUIRED)),
+}
+
+RESPONSES = ("Normal", "Axial")
+
+
+def names(fields: tuple[Field, ...]) -> list[str]:
+    return [field.name for field in fields]
