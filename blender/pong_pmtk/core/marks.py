@@ -23,6 +23,7 @@ KINDS = (
     "Triangle",
     "TriangleMesh",
     "Polyhedron",
+    "Custom",
 )
 
 BOUNDS = ("Aabb", "Sphere", "Obb")
@@ -61,26 +62,35 @@ class Mark:
     | Triangle | – | every face, which must be a triangle |
     | TriangleMesh | – | all faces, cut into triangles |
     | Polyhedron | – | all of it; each connected piece is a polyhedron of its own |
+    | Custom | `custom_kind` and `parameters` alone | the same |
+
+    An object that yields several primitives numbers them: `foot_0`, `foot_1`, …. All lengths are in units of the scene,
+    as Blender stores them: metres, unless its unit scale says otherwise.
     """
 
     role: str = "none"
     version: int = VERSION
     name: str = ""  # in the model; "" for the object's own name
     surface: str = ""  # "" for that of the group above
+    order: int = 0  # place among siblings, from 1; those with 0 come last, in the natural order of their names
     # groups
     movable: bool = False
     bound: str = "Aabb"
+    custom_bound: str = ""  # name of a registered kind of volume, instead of `bound`
     # primitives
     kind: str = ""
-    radius: float = 0.0  # m, before the object's scale
-    semi_axes: tuple[float, float, float] = (0.0, 0.0, 0.0)  # m, before the object's scale
-    length: float = 0.0  # m, before the object's scale
-    reach: float | None = None  # m
+    radius: float = 0.0  # before the object's scale
+    semi_axes: tuple[float, float, float] = (0.0, 0.0, 0.0)  # before the object's scale
+    length: float = 0.0  # before the object's scale
+    reach: float | None = None
     response: str = "Normal"  # or "Axial"
-    thickness: float | None = None  # m
+    thickness: float | None = None
     two_sided: bool = False
     inactive_faces: list[int] = field(default_factory=list)  # of a Polyhedron: faces of the stored mesh
     file: str = ""  # TriangleMesh, Polyhedron: write the mesh to this OBJ or STL file beside the model
+    file_scale: float = 1.0  # metres in one unit of that file
+    custom_kind: str = ""  # of a Custom primitive: the name it is registered by
+    parameters: list[float] = field(default_factory=list)
     parts: list[Part] = field(default_factory=list)  # instead of `kind`
 
 
@@ -90,5 +100,7 @@ class ModelSettings:
 
     name: str = ""  # "" for the root's name
     entry_memory: bool = True
-    surfaces: dict[str, dict] = field(default_factory=dict)  # name -> fields as in docs/model_format.md, see model.py
+    surfaces: dict[str, dict] = field(default_factory=dict)
+    """Name -> fields as in docs/model_format.md; laws are `Tagged` or, in JSON, {"Linear": {"damping": 250.0}}. Numbers
+    are taken as they are: keep them in full precision (as text, or as ID properties)."""
     pairs: list[dict] = field(default_factory=list)

@@ -61,9 +61,12 @@ class SnapshotObject:
     excluded: bool = False  # its collections are left out of the view layer
     instance_of: str = ""  # an empty that shows a collection: the collection's name
     linked_from: str = ""  # a library file
+    collections: list[str] = field(default_factory=list)  # those it is in, directly or through their parents
     exact: dict[str, np.ndarray] = field(default_factory=dict)
-    """Numbers in full precision for what Blender rounds to single: "location", "rotation", "scale", "vertices", ....
-    They count as long as rounding them gives what Blender has now; see exact.py."""
+    """Numbers in full precision for what Blender rounds to single. They count as long as rounding them gives what
+    Blender has now; see exact.py. "location", "rotation", "scale"; "vertices" (of the stored mesh); "radius",
+    "semi_axes", "length", "reach", "thickness", "file_scale" (of the mark); and what a place only stands for, which
+    counts while location and rotation do: "direction" of a Ray, "normal" and "offset" of a Plane."""
 
 
 @dataclass
@@ -75,3 +78,6 @@ class Snapshot:
     frame: int = 1
     source: str = ""  # the .blend file, for messages
     edit_mode: str = ""  # name of the object that is being edited
+    instance_offsets: dict[str, tuple[float, float, float]] = field(default_factory=dict)
+    """Of every collection that is instanced: the point of it that the instancing empty's origin shows. The objects of
+    such a collection belong to the snapshot even if it is excluded."""

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Full precision beside Blender's single precision.
+
+Blender rounds coordinates to 32 bits. Three rules give the number that was meant, in this order:
+a stored number that is no 32-bit number is meant as it is; one that is the rounding of an exact number kept beside it
+means that one; else it means the shortest decimal that rounds to it: 0.30000001192092896 is 0.3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def is_single(x) -> np.ndarray:
+    """Which numbers are 32-bit numbers."""
+    x = np.asarray(x, dtype=np.float64)
+    return (rounded(x) == x) | np.isnan(x)
+
+
+def rounded(x) -> np.ndarray:
+    """What Blender keeps of numbers."""
+    with np.errstate(over="ignore"):
+        return np.asarray(x, dtype=np.float64).astype(np.float32).astype(np.float64)
+
+
+def typed(x) -> np.ndarray:
+    """The shortest decimals that round to 32-bit numbers, like float(str(np.float32(x))) for each."""
+    x = np.asarray(x, dtype=np.float64)
+    flat = x.ravel()
+    result = flat.copy()
+    open_ = np.flatnonzero(np.isfinite(flat) & (flat != 0.0))
+    with np.errstate(all="ignore"):
+        exponent = np.floor(np.log10(np.abs(flat[open_])))
+    for digits in range(1, 10):
+        # A whole number below 2^53 over (or times) a power of ten up to 1e22 is rounded once: the decimal itself.
+        places = digits - 1 - exponent
+        scale = 10.0 ** np.clip(np.abs(places), 0, 22)
+        value = flat[open_]
+        whole = np.rint(np.where(places >= 0, value * scale, value / scale))
+        decimal = np.where(places >= 0, whole / scale, whole * scale)
+        found = (rounded(decimal) == value) & (np.abs(places) <= 22)
+        result[open_[found]] = decimal[found]
+        open_, exponent = open_[~found], exponent[~found]
+        if not len(open_):
+            break
+    for index in open_:
+        result[index] = float(str(np.float32(flat[index])))
+    return result.reshape(x.shape)
+
+
+def meant(stored, exact=None) -> np.ndarray:
+    """The numbers that stored ones stand for, element by element; `exact` counts where it has the same shape."""
+    stored = np.asarray(stored, dtype=np.float64)
+    single = is_single(stored)
+    result = np.where(single, typed(np.where(single, stored, 0.0)), stored)
+    if exact is not None and np.shape(exact) == stored.shape:
+        exact = np.asarray(exact, dtype=np.float64)
+        fresh = single & (rounded(exact) == stored)
+        result = np.where(fresh, exact, result)
+    return result
+
+
+def meant_rows(stored: np.ndarray, exact: np.ndarray | None) -> np.ndarray:
+    """Vertices: exact ones are found by index and, where vertices were added, deleted or moved about, by value."""
+    stored = np.asarray(stored, dtype=np.float64).reshape(-1, 3)
+    if exact is None or not len(exact):
+        return meant(stored)
+    exact = np.asarray(exact, dtype=np.float64).reshape(-1, 3)
+    singles = rounded(exact)
+    result = meant(stored)
+    count = min(len(stored), len(exact))
+    same = np.zeros(len(stored), dtype=bool)
+    same[:count] = (singles[:count] == stored[:count]).all(axis=1)
+    result[same] = exact[: len(stored)][same[:count]] if count < len(stored) else exact[:count][same]
+    left = np.flatnonzero(~same)
+    if len(left) and len(stored) != len(exact):
+        places = {key: row for row, key in reversed(list(enumerate(map(bytes, singles + 0.0))))}
+        for index in left:
+            row = places.get(bytes(stored[index] + 0.0))
+            if row is not None:
+                result[index] = exact[row]
+    elif len(left):
+        result[left] = meant(stored[left], exact[left])
+    return result
+
+
+def is_fresh(stored, exact) -> bool:
+    """Whether all exact numbers still stand for the stored ones."""
+    if exact is None or np.shape(exact) != np.shape(stored):
+        return False
+    return bool((rounded(exact) == np.asarray(stored, dtype=np.float64)).all() or np.array_equal(exact, stored))
+
+
+def needed(values) -> bool:
+    """Whether numbers must be kept beside Blender's: the shortest decimals of their rounding are not they."""
+    values = np.asarray(values, dtype=np.float64)
+    return not np.array_equal(typed(rounded(values)), values)
+
+
+def typed_angle(stored: float) -> float:
+    """The angle that was meant, rad: people type degrees, so the shorter of the decimals in rad and in degrees counts."""
+    if not bool(is_single(stored)) or stored == 0.0:
+        return float(stored)
+    radians = float(typed(stored))
+    for digits in range(1, 8):
+        degrees = float(f"{np.degrees(stored):.{digits - 1}e}")
+        if rounded(np.radians(degrees)) == stored:
+            return float(np.radians(degrees)) if digits < _digits(radians) else radians
+    return radians
+
+
+def _digits(x: float) -> int:
+    return len(f"{x!r}".split("e")[0].replace("-", "").replace(".", "").strip("0"))

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Findings: what is wrong or odd about a scene, where, and what to do about it. The rules: docs/modelling_rules.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+SEVERITIES = ("error", "warning", "hint")
+
+# Errors refuse the export; warnings and hints do not. Names never change their meaning.
+LISTED_ELEMENTS = 1000
+
+
+@dataclass
+class Finding:
+    """One finding. `elements` hold indices of the stored mesh (of the evaluated one where `evaluated`)."""
+
+    severity: str
+    rule: str
+    object: str  # name of the object; "" for the scene
+    path: str  # names of the objects from the root down
+    cause: str
+    cure: str
+    vertices: list[int] = field(default_factory=list)
+    edges: list[int] = field(default_factory=list)
+    faces: list[int] = field(default_factory=list)
+    evaluated: bool = False  # the indices are those after modifiers: they cannot be selected in edit mode
+    fix: str = ""  # name of a repair that the interface offers: see FIXES
+
+    def __str__(self) -> str:
+        return f"{self.path or 'scene'}: {self.severity} [{self.rule}] {self.cause}; {self.cure}"
+
+
+FIXES = {
+    "apply-scale": "apply the object's scale to its mesh",
+    "apply-transform": "apply rotation and scale to the mesh",
+    "clear-parent-inverse": "keep the place, clear the parent's inverse matrix",
+    "convert-to-mesh": "convert the object to a mesh",
+    "delete-loose": "delete vertices and edges without faces",
+    "dissolve-degenerate": "dissolve edges and faces without extent",
+    "fit-ellipsoid": "fit the semi-axes to the mesh",
+    "fit-sphere": "fit the radius to the mesh",
+    "leave-edit-mode": "leave edit mode",
+    "make-instances-real": "make the instances real",
+    "merge-by-distance": "merge vertices that are the same place",
+    "recalculate-normals": "turn all normals outward",
+    "rename": "give it a name of its own",
+    "separate-loose": "separate the pieces into objects",
+    "set-origin": "move the object's origin into its geometry",
+    "triangulate": "cut the faces into triangles",
+    "unhide": "show the object",
+}
+
+
+class Findings(list):
+    """The findings of one build, in the order they were made."""
+
+    def add(self, severity: str, rule: str, where: tuple[str, str], cause: str, cure: str, **more) -> None:
+        """`where` is (object name, path); `more` are further fields of the finding."""
+        for key in ("vertices", "edges", "faces"):
+            more[key] = [int(i) for i in list(more.get(key, ()))[:LISTED_ELEMENTS]]
+        self.append(Finding(severity, rule, where[0], where[1], cause, cure, **more))
+
+    def error(self, rule: str, where: tuple[str, str], cause: str, cure: str, **more) -> None:
+        self.add("error", rule, where, cause, cure, **more)
+
+    def warn(self, rule: str, where: tuple[str, str], cause: str, cure: str, **more) -> None:
+        self.add("warning", rule, where, cause, cure, **more)
+
+    def hint(self, rule: str, where: tuple[str, str], cause: str, cure: str, **more) -> None:
+        self.add("hint", rule, where, cause, cure, **more)
+
+    @property
+    def errors(self) -> list[Finding]:
+        return [finding for finding in self if finding.severity == "error"]
