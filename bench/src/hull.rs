@@ -6,7 +6,8 @@ use parry3d_f64::transformation::convex_hull;
 use pong_geometry::Vec3;
 use std::f64::consts::PI;
 
-const SEMI_AXES: [f64; 3] = [0.5, 0.4, 0.3];
+/// Of the ellipsoid on which the vertices lie, m.
+pub const SEMI_AXES: [f64; 3] = [0.5, 0.4, 0.3];
 
 /// A convex polyhedron with triangular faces.
 pub struct Hull {

@@ -3,6 +3,7 @@
 pub mod difference;
 pub mod docking;
 pub mod floor;
+pub mod folder;
 pub mod heap;
 pub mod hull;
 pub mod motion;
@@ -21,3 +22,4 @@ pub mod scenes;
 pub mod table;
 pub mod terrain;
 pub mod timing;
+pub mod volumes;

@@ -1,21 +1,21 @@
-//! W1 by the testers of pong-geometry, as the engine uses them: A is carried into B's frame and tested there.
+//! One pair per query by the testers of pong-geometry, as the engine uses them: A is carried into B's frame and tested
+//! there.
 
-use crate::hull::triangle_model;
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
 use crate::peer::PairPeer;
 use pong_geometry::extension::Extensions;
-use pong_geometry::interference::Interference;
-use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
-use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
-use pong_geometry::interference::point_polyhedron::{point_polyhedron_in, shallowest_face};
-use pong_geometry::interference::ray_plane::RayHit;
-use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
-use pong_geometry::interference::ray_triangle::ray_triangle;
-use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
-use pong_geometry::interference::sphere_triangle::sphere_triangle;
-use pong_geometry::primitive::{
-    Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere, TriangleSet,
+use pong_geometry::interference::{
+    Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
+    ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
+    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
+    point_plane::point_plane, point_polyhedron::point_polyhedron_in, point_polyhedron::shallowest_face,
+    point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
+    ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
+    sphere_triangle::sphere_triangle, triangle_features::TriangleContact,
 };
+use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, Triangle};
+use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
 use pong_geometry::simd::{self, Kernel, Simd};
 use pong_geometry::{Mat3, Transform, Vec3};
 use pong_model::{Body, Model};
@@ -23,6 +23,7 @@ use pong_model::{Body, Model};
 /// The testers on one pair.
 pub struct Ours {
     mover: Mover,
+    kind: PrimitiveKind,
     model: Model,
 }
 
@@ -52,12 +53,14 @@ impl Ours {
     /// # Panics
     /// If the model of the target is refused.
     pub fn new(mover: Mover, target: &Target) -> Self {
-        let text = match target {
-            Target::Hull(hull) => hull.model(),
-            Target::Triangle => triangle_model(),
-        };
+        let text = target.model();
         let model = pong_model::parse(&text, "target.ron", None, &Extensions::new()).expect("a valid model");
-        Self { mover, model }
+        Self { mover, kind: target.kind(), model }
+    }
+
+    /// The movable group that holds the target.
+    pub fn body(&self) -> &Body {
+        &self.model.bodies[0]
     }
 
     /// Whether the two touch.
@@ -68,13 +71,15 @@ impl Ours {
     }
 
     fn test_all(&self, transforms: &[Transform], answers: &mut [Answer]) {
-        simd::run(Pass { mover: self.mover, body: &self.model.bodies[0], transforms, answers });
+        let Self { mover, kind, .. } = *self;
+        simd::run(Pass { mover, kind, body: self.body(), transforms, answers });
     }
 }
 
 /// All queries in one kernel, as the engine has all elements of a block in one.
 struct Pass<'a> {
     mover: Mover,
+    kind: PrimitiveKind,
     body: &'a Body,
     transforms: &'a [Transform],
     answers: &'a mut [Answer],
@@ -85,31 +90,90 @@ impl Kernel for Pass<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { mover, body, transforms, answers } = self;
-        let triangles = &body.triangles;
-        match (mover, body.polyhedra.first()) {
-            (Mover::Point, Some(b)) => each(transforms, answers, |x| {
-                point_polyhedron_in(simd, &POINT.carried(x).position, b).map(Answer::from)
-            }),
-            (Mover::Segment, Some(b)) => each(transforms, answers, |x| segment(&SEGMENT.carried(x), b)),
-            (Mover::Sphere, Some(b)) => each(transforms, answers, |x| sphere(&SPHERE.carried(x), b)),
-            (Mover::Ellipsoid, Some(b)) => {
-                let a = ellipsoid();
-                each(transforms, answers, |x| ellipsoid_polyhedron(&a.carried(x), b).map(Answer::from));
-            }
-            (Mover::Ray, b) => {
-                let a = ray();
-                each(transforms, answers, |x| {
-                    let a = a.carried(x);
-                    let hit = match b {
-                        Some(b) => ray_polyhedron(&a, b),
-                        None => ray_triangle(&a, triangles, 0, 0.0),
-                    };
-                    hit.map(|hit| along(&a, &hit))
-                });
-            }
-            (_, None) => each(transforms, answers, |x| on_triangle(&SPHERE.carried(x), triangles)),
+        match self.mover {
+            Mover::Point => self.points(simd),
+            Mover::Segment => self.segments(),
+            Mover::Ray => self.rays(),
+            Mover::Sphere => self.spheres(),
+            Mover::Ellipsoid => self.ellipsoids(),
         }
+    }
+}
+
+impl Pass<'_> {
+    #[inline(always)]
+    fn points<S: Simd>(self, simd: S) {
+        let (a, b) = (POINT, self.body);
+        match self.kind {
+            Hull => self.each(|x| point_polyhedron_in(simd, &a.carried(x).position, &b.polyhedra[0])),
+            Plane => self.each(|x| point_plane(&a.carried(x), &b.planes[0])),
+            PrimitiveKind::Sphere => self.each(|x| point_sphere(&a.carried(x), &b.spheres[0])),
+            PrimitiveKind::Ellipsoid => {
+                self.each(|x| point_ellipsoid(&a.carried(x).position, &b.ellipsoids[0]));
+            }
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn segments(self) {
+        let (a, b) = (SEGMENT, self.body);
+        match self.kind {
+            Hull => self.each(|x| deepest(line_segment_polyhedron(&a.carried(x), &b.polyhedra[0]))),
+            Plane => self.each(|x| deepest(line_segment_plane(&a.carried(x), &b.planes[0]))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn rays(self) {
+        let b = self.body;
+        match self.kind {
+            Hull => self.each(|x| along(ray().carried(x), |a| ray_polyhedron(a, &b.polyhedra[0]))),
+            Triangle => self.each(|x| along(ray().carried(x), |a| ray_triangle(a, &b.triangles, 0, 0.0))),
+            Plane => self.each(|x| along(ray().carried(x), |a| ray_plane(a, &b.planes[0]))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn spheres(self) {
+        let (a, b) = (SPHERE, self.body);
+        match self.kind {
+            Hull => self.each(|x| sphere(&a.carried(x), &b.polyhedra[0])),
+            Plane => self.each(|x| sphere_plane(&a.carried(x), &b.planes[0])),
+            PrimitiveKind::Sphere => self.each(|x| sphere_sphere(&a.carried(x), &b.spheres[0])),
+            Triangle => {
+                self.each(|x| last(|emit| sphere_triangle(&a.carried(x), &b.triangles, 0, a.radius, emit)))
+            }
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn ellipsoids(self) {
+        let (a, b) = (ellipsoid(), self.body);
+        let thickness = a.smallest_semi_axis();
+        match self.kind {
+            Hull => self.each(|x| ellipsoid_polyhedron(&a.carried(x), &b.polyhedra[0])),
+            Plane => self.each(|x| ellipsoid_plane(&a.carried(x), &b.planes[0])),
+            Triangle => self
+                .each(|x| last(|emit| ellipsoid_triangle(&a.carried(x), &b.triangles, 0, thickness, emit))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn each<T: Into<Answer>>(self, test: impl Fn(&Transform) -> Option<T>) {
+        for (transform, answer) in self.transforms.iter().zip(self.answers) {
+            *answer = test(transform).map(T::into).unwrap_or_default();
+        }
+    }
+
+    #[cold]
+    fn no_tester(&self) -> ! {
+        let names = [self.mover.kind(), self.kind].map(PrimitiveKind::name).join("–");
+        panic!("{names}: the engine has a tester that bench/src/ours.rs does not call");
     }
 }
 
@@ -119,41 +183,61 @@ impl PairPeer for Ours {
     }
 }
 
-#[inline(always)]
-fn each(transforms: &[Transform], answers: &mut [Answer], test: impl Fn(&Transform) -> Option<Answer>) {
-    for (transform, answer) in transforms.iter().zip(answers) {
-        *answer = test(transform).unwrap_or_default();
-    }
-}
-
-fn sphere(a: &Sphere, b: &Polyhedron) -> Option<Answer> {
+fn sphere(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
     // Most pairs end here: apart by the plane of one face.
     if b.faces.iter().any(|face| face.height(&a.center) >= a.radius) {
         return None;
     }
     if !b.contains(&a.center) {
-        return sphere_outside_polyhedron(a, b).map(Answer::from);
+        return sphere_outside_polyhedron(a, b);
     }
-    Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?).into())
+    Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?))
 }
 
-fn segment(a: &LineSegment, b: &Polyhedron) -> Option<Answer> {
-    let ends = line_segment_polyhedron(a, b);
-    ends.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth)).map(Answer::from)
+fn deepest(ends: [Option<Interference>; 2]) -> Option<Interference> {
+    ends.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
 }
 
-fn on_triangle(a: &Sphere, b: &TriangleSet) -> Option<Answer> {
-    let mut answer = None;
-    sphere_triangle(a, b, 0, a.radius, &mut |contact| answer = Some(contact.interference.into()));
-    answer
+/// What a test that may emit several contacts emits last.
+#[inline(always)]
+fn last(test: impl FnOnce(&mut dyn FnMut(TriangleContact))) -> Option<Interference> {
+    let mut found = None;
+    test(&mut |contact| found = Some(contact.interference));
+    found
 }
 
-fn along(a: &Ray, hit: &RayHit) -> Answer {
-    Answer::new(hit.distance, hit.normal, a.origin + a.direction * hit.distance)
+#[inline(always)]
+fn along(a: Ray, test: impl FnOnce(&Ray) -> Option<RayHit>) -> Option<Answer> {
+    let hit = test(&a)?;
+    Some(Answer::new(hit.distance, hit.normal, a.origin + a.direction * hit.distance))
 }
 
 impl From<Interference> for Answer {
     fn from(found: Interference) -> Self {
         Self::new(found.depth, found.normal, found.point_a)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pairs;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn every_tester_of_the_engine_finds_the_hits_and_misses_that_were_made() {
+        let mut kinds = BTreeSet::new();
+        for (mover, target) in pairs::all() {
+            let mut ours = Ours::new(mover, &target);
+            let queries = Queries::new(256, mover, &target, |x| ours.touches(x));
+            let mut answers = vec![Answer::default(); queries.hits.len()];
+            ours.pass(&queries, &mut answers);
+            let found: Vec<bool> = answers.iter().map(Answer::hit).collect();
+            assert_eq!(found, queries.hits, "{mover:?}–{:?}", target.kind());
+            kinds.insert((mover.kind(), target.kind()));
+        }
+        let all = PrimitiveKind::ALL.into_iter().flat_map(|a| PrimitiveKind::ALL.map(|b| (a, b)));
+        let tested = all.filter(|&(a, b)| pong_engine::has_tester(a, b)).collect();
+        assert_eq!(kinds, tested);
     }
 }

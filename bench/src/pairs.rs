@@ -1,7 +1,11 @@
-//! W1, one pair of primitives per query: which pairs, at which poses, and what an answer is.
+//! One pair of primitives per query: which pairs, at which poses, and what an answer is. W1 takes some of them, the
+//! benchmark of testers all.
 
-use crate::hull::{Hull, TRIANGLE};
+use crate::hull::{self, Hull, TRIANGLE};
 use crate::random::Random;
+use crate::ron;
+use pong_engine::has_tester;
+use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Pose, Quat, Transform, Vec3};
 
 /// Radius of the sphere, m.
@@ -12,6 +16,12 @@ pub const SEMI_AXES: [f64; 3] = [0.2, 0.12, 0.08];
 pub const HALF_LENGTH: f64 = 0.25;
 /// The ray: origin, direction and length, m. Long enough to begin and end outside everything.
 pub const RAY: ([f64; 3], [f64; 3], f64) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 2.0);
+/// Vertices of the hulls: 12, 32 and 128 faces.
+pub const HULLS: [usize; 3] = [8, 18, 66];
+/// Radius of the sphere that is a target, m.
+const TARGET_RADIUS: f64 = 0.3;
+/// How far below a plane the movers start from, m: less than a ray reaches above its middle.
+const BELOW_PLANE: f64 = 0.2;
 /// Depths of the hits and gaps of the misses, m.
 const DEPTHS: (f64, f64) = (0.005, 0.1);
 const GAPS: (f64, f64) = (0.005, 0.3);
@@ -37,6 +47,109 @@ pub enum Target {
     Hull(Hull),
     /// [`TRIANGLE`], from its front.
     Triangle,
+    /// A sphere.
+    Sphere,
+    /// An ellipsoid as large as the hulls.
+    Ellipsoid,
+    /// The half space below z = 0.
+    Plane,
+}
+
+impl Mover {
+    /// The mover of a kind, if there is one.
+    pub fn of(kind: PrimitiveKind) -> Option<Self> {
+        Some(match kind {
+            PrimitiveKind::Point => Self::Point,
+            PrimitiveKind::LineSegment => Self::Segment,
+            PrimitiveKind::Ray => Self::Ray,
+            PrimitiveKind::Sphere => Self::Sphere,
+            PrimitiveKind::Ellipsoid => Self::Ellipsoid,
+            _ => return None,
+        })
+    }
+
+    /// The kind in the engine's table.
+    pub fn kind(self) -> PrimitiveKind {
+        match self {
+            Self::Point => PrimitiveKind::Point,
+            Self::Segment => PrimitiveKind::LineSegment,
+            Self::Ray => PrimitiveKind::Ray,
+            Self::Sphere => PrimitiveKind::Sphere,
+            Self::Ellipsoid => PrimitiveKind::Ellipsoid,
+        }
+    }
+}
+
+impl Target {
+    /// The targets of a kind: hulls in three sizes, one of each other kind, none of those that are never B.
+    pub fn of(kind: PrimitiveKind) -> Vec<Self> {
+        match kind {
+            PrimitiveKind::Polyhedron => {
+                HULLS.into_iter().map(|vertices| Self::Hull(Hull::fibonacci(vertices))).collect()
+            }
+            PrimitiveKind::Triangle => vec![Self::Triangle],
+            PrimitiveKind::Sphere => vec![Self::Sphere],
+            PrimitiveKind::Ellipsoid => vec![Self::Ellipsoid],
+            PrimitiveKind::Plane => vec![Self::Plane],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The kind in the engine's table.
+    pub fn kind(&self) -> PrimitiveKind {
+        match self {
+            Self::Hull(_) => PrimitiveKind::Polyhedron,
+            Self::Triangle => PrimitiveKind::Triangle,
+            Self::Sphere => PrimitiveKind::Sphere,
+            Self::Ellipsoid => PrimitiveKind::Ellipsoid,
+            Self::Plane => PrimitiveKind::Plane,
+        }
+    }
+
+    /// Number of faces, of a hull.
+    pub fn faces(&self) -> Option<usize> {
+        match self {
+            Self::Hull(hull) => Some(hull.faces.len()),
+            _ => None,
+        }
+    }
+
+    /// Model file.
+    pub fn model(&self) -> String {
+        let at_origin = "center: (0, 0, 0)";
+        let primitive = match self {
+            Self::Hull(hull) => return hull.model(),
+            Self::Triangle => return hull::triangle_model(),
+            Self::Sphere => format!("Sphere(name: \"b\", {at_origin}, radius: {TARGET_RADIUS:?})"),
+            Self::Ellipsoid => {
+                let semi_axes = ron::vector(&hull::SEMI_AXES.into());
+                format!("Ellipsoid(name: \"b\", {at_origin}, semi_axes: {semi_axes})")
+            }
+            Self::Plane => "Plane(name: \"b\", normal: (0, 0, 1), offset: 0)".to_owned(),
+        };
+        ron::model("target", &primitive)
+    }
+}
+
+/// Every pair of kinds that the engine has a tester for, hulls in three sizes.
+///
+/// # Panics
+/// If there is no mover or no target of a kind that the engine tests: then there is no benchmark of its tester.
+pub fn all() -> Vec<(Mover, Target)> {
+    let kinds = PrimitiveKind::ALL;
+    let tested = kinds.into_iter().flat_map(|a| kinds.map(|b| (a, b))).filter(|&(a, b)| has_tester(a, b));
+    tested.flat_map(|(a, b)| of_kinds(a, b)).collect()
+}
+
+fn of_kinds(a: PrimitiveKind, b: PrimitiveKind) -> impl Iterator<Item = (Mover, Target)> {
+    let (mover, targets) = (Mover::of(a), Target::of(b));
+    assert!(
+        mover.is_some() && !targets.is_empty(),
+        "the tester {}–{} has no benchmark: name its kinds in bench/src/pairs.rs",
+        a.name(),
+        b.name()
+    );
+    mover.into_iter().cycle().zip(targets)
 }
 
 /// Poses of the mover in the target's frame, in the two forms that engines take.
@@ -105,13 +218,24 @@ fn pose(
     touches: &impl Fn(&Transform) -> bool,
 ) -> Pose {
     let (orientation, line) = loop {
-        let (orientation, line) = (rotation(random), unit(random));
+        let (orientation, line) = (random.rotation(), random.direction());
         if let Some(line) = usable_line(mover, target, &orientation, line) {
             break (orientation, line);
         }
     };
     let middle = middle(random, target);
     let at = |along: f64| Pose { position: middle + line * along, orientation };
+    place(random, hit, at, touches)
+}
+
+/// A pose along a line on which two convex bodies, overlapping where it begins, part within 4 m: 5 to 100 mm before
+/// they part, or 5 to 300 mm after.
+pub fn place(
+    random: &mut Random,
+    hit: bool,
+    at: impl Fn(f64) -> Pose,
+    touches: impl Fn(&Transform) -> bool,
+) -> Pose {
     // Convex bodies overlap along one stretch of a line: from the middle out to where they just touch.
     let (mut inside, mut outside) = (0.0, 4.0);
     for _ in 0..60 {
@@ -126,39 +250,27 @@ fn pose(
 
 /// The line along which the mover comes, made to suit the pair; `None` if it cannot be.
 ///
-/// A ray is moved across itself, so that its line hits or misses, wherever it ends. Triangles are met from the
-/// front, rays within 60° of their normal.
+/// A ray is moved across itself, so that its line hits or misses, wherever it ends; over a plane it is lifted. Planes
+/// and triangles are met from the front, by rays within 60° of their normal.
 fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) -> Option<Vec3> {
-    let one_sided = matches!(target, Target::Triangle);
-    if mover != Mover::Ray {
-        return Some(if one_sided { Vec3::new(line.x, line.y, line.z.abs()) } else { line });
-    }
+    let one_sided = matches!(target, Target::Triangle | Target::Plane);
+    let upward = Vec3::new(line.x, line.y, line.z.abs());
     let direction = orientation * Vec3::from(RAY.1);
-    let across = (line - direction * line.dot(&direction)).normalize();
-    (!one_sided || direction.z < -0.5).then_some(across)
+    if mover == Mover::Ray && one_sided && direction.z >= -0.5 {
+        return None;
+    }
+    match (mover, target) {
+        (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
+        (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
+        (_, Target::Triangle) => Some(upward),
+        _ => Some(line),
+    }
 }
 
 fn middle(random: &mut Random, target: &Target) -> Vec3 {
     match target {
-        Target::Hull(_) => unit(random) * 0.05,
+        Target::Hull(_) | Target::Sphere | Target::Ellipsoid => random.direction() * 0.05,
         Target::Triangle => TRIANGLE.map(Vec3::from).iter().sum::<Vec3>() / 3.0,
-    }
-}
-
-fn unit(random: &mut Random) -> Vec3 {
-    loop {
-        let v = Vec3::from_fn(|_, _| random.between(-1.0, 1.0));
-        if (0.01..1.0).contains(&v.norm()) {
-            return v.normalize();
-        }
-    }
-}
-
-fn rotation(random: &mut Random) -> Quat {
-    loop {
-        let wxyz: [f64; 4] = std::array::from_fn(|_| random.between(-1.0, 1.0));
-        if (0.01..1.0).contains(&wxyz.iter().map(|x| x * x).sum::<f64>()) {
-            return Pose::new(Vec3::zeros(), wxyz).orientation;
-        }
+        Target::Plane => -BELOW_PLANE * Vec3::z(),
     }
 }

@@ -18,6 +18,13 @@ pub struct Rig {
     wrenches: Vec<f64>,
 }
 
+/// Objects, paired and not yet sealed.
+pub struct Unsealed {
+    world: World,
+    pairs: Vec<PairId>,
+    states: Vec<(InterfaceId, State)>,
+}
+
 impl Rig {
     /// A world of one Object per model, with some of them paired.
     ///
@@ -32,6 +39,58 @@ impl Rig {
     /// # Errors
     /// Whatever the engine refuses.
     pub fn in_world(
+        world: World,
+        models: &[Arc<Model>],
+        pairs: &[(usize, usize)],
+    ) -> Result<Self, EngineError> {
+        Unsealed::new(world, models, pairs)?.seal()
+    }
+
+    /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
+    /// friction, contact state kept, wrenches out, those of the movable groups whose states came in.
+    ///
+    /// # Panics
+    /// If the engine refuses the states.
+    #[inline]
+    pub fn step(&mut self, states: &[State]) -> &[f64] {
+        self.set(states);
+        self.world.step().expect("a sealed world steps");
+        self.read(states.len())
+    }
+
+    /// States in.
+    ///
+    /// # Panics
+    /// If the engine refuses them.
+    #[inline]
+    pub fn set(&mut self, states: &[State]) {
+        let known = &mut self.states[..states.len()];
+        known.iter_mut().zip(states).for_each(|((_, known), state)| *known = *state);
+        self.world.set_states(known).expect("finite states");
+    }
+
+    /// Wrenches out, of the first so many movable groups.
+    ///
+    /// # Panics
+    /// If no frame has run.
+    #[inline]
+    pub fn read(&mut self, groups: usize) -> &[f64] {
+        let wrenches = &mut self.wrenches[..6 * groups];
+        for (out, (interface, _)) in wrenches.chunks_exact_mut(6).zip(&self.states) {
+            let found = self.world.wrench(*interface).expect("a frame has run");
+            out[..3].copy_from_slice(found.force.as_slice());
+            out[3..].copy_from_slice(found.moment.as_slice());
+        }
+        wrenches
+    }
+}
+
+impl Unsealed {
+    /// Objects in a world, one per model, with some of them paired.
+    ///
+    /// # Errors
+    /// Whatever the engine refuses.
+    pub fn new(
         mut world: World,
         models: &[Arc<Model>],
         pairs: &[(usize, usize)],
@@ -54,28 +113,18 @@ impl Rig {
                 states.push((interface, State::identity()));
             }
         }
-        let report = world.seal()?;
-        let wrenches = vec![0.0; 6 * states.len()];
-        Ok(Self { world, report, pairs, states, wrenches })
+        Ok(Self { world, pairs, states })
     }
 
-    /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
-    /// friction, contact state kept, wrenches out, those of the movable groups whose states came in.
+    /// Ends set-up.
     ///
-    /// # Panics
-    /// If the engine refuses the states.
-    pub fn step(&mut self, states: &[State]) -> &[f64] {
-        let known = &mut self.states[..states.len()];
-        known.iter_mut().zip(states).for_each(|((_, known), state)| *known = *state);
-        self.world.set_states(known).expect("finite states");
-        self.world.step().expect("a sealed world steps");
-        let wrenches = &mut self.wrenches[..6 * states.len()];
-        for (out, (interface, _)) in wrenches.chunks_exact_mut(6).zip(&*known) {
-            let found = self.world.wrench(*interface).expect("a frame has run");
-            out[..3].copy_from_slice(found.force.as_slice());
-            out[3..].copy_from_slice(found.moment.as_slice());
-        }
-        wrenches
+    /// # Errors
+    /// Whatever the engine refuses.
+    pub fn seal(self) -> Result<Rig, EngineError> {
+        let Self { mut world, pairs, states } = self;
+        let report = world.seal()?;
+        let wrenches = vec![0.0; 6 * states.len()];
+        Ok(Rig { world, report, pairs, states, wrenches })
     }
 }
 

@@ -1,13 +1,87 @@
 //! The engine on the scenes of the workloads.
 
+use crate::docking;
 use crate::rig::Rig;
 use crate::ring::{self, Ring, Tip};
-use crate::terrain::{Source, Terrain, WHEELS, Wheel};
-use pong_engine::State;
+use crate::terrain::{self, Source, Terrain, WHEELS, Wheel};
+use pong_engine::{EngineError, State, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::error::Error;
 use std::sync::Arc;
+
+/// Frames of a pass over a fixed scene.
+pub const FRAMES: usize = 64;
+/// Names of the fixed scenes.
+pub const FIXED: [&str; 3] = ["docking", "ring", "wheels"];
+
+/// States of all movable groups, frame by frame.
+pub type Frames = Vec<Vec<State>>;
+
+/// A scene before there is a world: one Object per model, some of them paired, and a path that closes.
+pub struct Scene {
+    /// One per Object.
+    pub models: Vec<Arc<Model>>,
+    /// Objects that may touch.
+    pub pairs: Vec<(usize, usize)>,
+    /// A pass.
+    pub states: Frames,
+}
+
+impl Scene {
+    /// One of [`FIXED`]: the docking model, 48 wedges against 1,000 spheres, six spheres on 10,000 triangles.
+    ///
+    /// # Errors
+    /// A name that is none of them, or what a model breaks.
+    pub fn fixed(name: &str) -> Result<Self, Box<dyn Error>> {
+        match name {
+            "docking" => Self::docking(),
+            "ring" => Self::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere),
+            "wheels" => Self::wheels(&Terrain::SIZES[1], Wheel::BOTH[0]),
+            other => Err(format!("{other}: use one of {}", FIXED.join(", ")).into()),
+        }
+    }
+
+    /// The docking model.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn docking() -> Result<Self, Box<dyn Error>> {
+        let models = docking::models()?;
+        let states = docking::states(&models[0]);
+        Ok(Self { models: models.into(), pairs: vec![(0, 1)], states })
+    }
+
+    /// W2.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn ring(ring: &Ring, tip: Tip) -> Result<Self, Box<dyn Error>> {
+        Ok(Self { models: ring_models(ring, tip)?.into(), pairs: vec![(0, 1)], states: ring_states() })
+    }
+
+    /// W3: the terrain, and six wheels of which each is paired with it.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn wheels(terrain: &Terrain, wheel: Wheel) -> Result<Self, Box<dyn Error>> {
+        let ground = parse(&terrain.files(Source::Inline).0)?;
+        let rolling = parse(&wheel.model())?;
+        Ok(Self {
+            models: std::iter::once(ground).chain(vec![rolling; WHEELS]).collect(),
+            pairs: (1..=WHEELS).map(|wheel| (0, wheel)).collect(),
+            states: terrain::states(FRAMES, wheel),
+        })
+    }
+
+    /// The scene in a world that was made for it.
+    ///
+    /// # Errors
+    /// Whatever the engine refuses.
+    pub fn rig(&self, world: World) -> Result<Rig, EngineError> {
+        Rig::in_world(world, &self.models, &self.pairs)
+    }
+}
 
 /// A model from the text of its file.
 ///
@@ -34,18 +108,14 @@ pub fn ring_models(ring: &Ring, tip: Tip) -> Result<[Arc<Model>; 2], Box<dyn Err
 }
 
 /// The frames of W2.
-pub fn ring_states() -> Vec<Vec<State>> {
+pub fn ring_states() -> Frames {
     ring::states().iter().map(|states| states.to_vec()).collect()
 }
 
-/// W3: the terrain, and six wheels of which each is paired with it.
+/// W3 on one thread.
 ///
 /// # Errors
 /// Whatever the engine refuses.
 pub fn wheels(terrain: &Terrain, wheel: Wheel) -> Result<Rig, Box<dyn Error>> {
-    let ground = parse(&terrain.files(Source::Inline).0)?;
-    let wheel = parse(&wheel.model())?;
-    let models: Vec<_> = std::iter::once(ground).chain(vec![wheel; WHEELS]).collect();
-    let pairs: Vec<_> = (1..=WHEELS).map(|wheel| (0, wheel)).collect();
-    Ok(Rig::new(&models, &pairs, 1)?)
+    Ok(Scene::wheels(terrain, wheel)?.rig(World::new(crate::rig::config(1)))?)
 }

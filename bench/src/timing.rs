@@ -1,6 +1,7 @@
 //! Times of passes, and what is told of them.
 
 use cpu_time::ThreadTime;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Which clock.
@@ -11,6 +12,12 @@ pub enum Clock {
     Thread,
     /// Wall-clock time: for passes on more than one thread.
     Wall,
+}
+
+/// A clock on the wall for the engine, ns since it was first asked.
+pub fn now_ns() -> u64 {
+    static START: OnceLock<Instant> = OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_nanos() as u64
 }
 
 /// Times of equal passes, in seconds per item by both clocks.
@@ -88,7 +95,8 @@ pub fn digits(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+/// The middle one of numbers; none of none.
+pub fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

@@ -3,17 +3,16 @@
 //! All that happens in the function `pong_bench_frames` is frames: `ci/instructions` counts in there alone. The
 //! level of instructions is fixed, so that a counter that knows fewer than the machine counts the same.
 
-use pong_bench::rig::{self, Rig};
-use pong_bench::ring::{self, Ring, Tip};
-use pong_bench::terrain::{self, Terrain, Wheel};
-use pong_bench::{docking, optional, scenes};
+use pong_bench::rig::Rig;
+use pong_bench::scenes::{self, FRAMES, Frames, Scene};
+use pong_bench::terrain::Wheel;
+use pong_bench::{optional, rig};
 use pong_engine::{State, World};
 use pong_geometry::simd::{Level, set_level};
 use std::error::Error;
 use std::sync::Arc;
 
 const SCENES: &str = "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels";
-const FRAMES: usize = 64;
 /// Objects that meet nobody, in a crowded scene.
 const BYSTANDERS: usize = 1000;
 
@@ -48,37 +47,28 @@ fn pong_bench_frames(rig: &mut Rig, states: &[Vec<State>], frames: usize) {
     }
 }
 
-type Scene = (Rig, Vec<Vec<State>>);
-
-fn scene(name: &str) -> Result<Scene, Box<dyn Error>> {
-    Ok(match name {
-        "docking" => docking_scene(World::new(rig::config(1)), 0)?,
-        "docking_crowded" => docking_scene(World::new(rig::config(1)), BYSTANDERS)?,
-        "docking_unused" => docking_scene(optional::world_with_unused(), 0)?,
-        "docking_pair_off" => pair_off_scene()?,
-        "ring" => (scenes::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere, 1)?, scenes::ring_states()),
-        "wheels" => {
-            let [sphere, _] = Wheel::BOTH;
-            (scenes::wheels(&Terrain::SIZES[1], sphere)?, terrain::states(FRAMES, sphere))
+fn scene(name: &str) -> Result<(Rig, Frames), Box<dyn Error>> {
+    if !SCENES.split(", ").any(|known| known == name) {
+        return Err(format!("{name}: use one of {SCENES}").into());
+    }
+    let mut scene = Scene::fixed(name.split('_').next().unwrap_or(name))?;
+    let mut world = World::new(rig::config(1));
+    match name {
+        "docking_crowded" => {
+            let bystander = scenes::parse(&Wheel::BOTH[0].model())?;
+            scene.models.extend(vec![bystander; BYSTANDERS]);
         }
-        other => return Err(format!("{other}: use one of {SCENES}").into()),
-    })
-}
-
-fn docking_scene(world: World, bystanders: usize) -> Result<Scene, Box<dyn Error>> {
-    let mut models = docking::models()?.to_vec();
-    let states = docking::states(&models[0]);
-    let bystander = scenes::parse(&Wheel::BOTH[0].model())?;
-    models.extend(vec![bystander; bystanders]);
-    Ok((Rig::in_world(world, &models, &[(0, 1)])?, states))
-}
-
-/// Docking with a third Object in the way of the first as well, their pair switched off.
-fn pair_off_scene() -> Result<Scene, Box<dyn Error>> {
-    let [active, passive] = docking::models()?;
-    let states = docking::states(&active);
-    let models = [active, Arc::clone(&passive), passive];
-    let mut rig = Rig::in_world(World::new(rig::config(1)), &models, &[(0, 1), (0, 2)])?;
-    rig.world.set_pair_enabled(rig.pairs[1], false)?;
-    Ok((rig, states))
+        "docking_unused" => world = optional::world_with_unused(),
+        // A third Object in the way of the first as well, their pair switched off.
+        "docking_pair_off" => {
+            scene.models.push(Arc::clone(&scene.models[1]));
+            scene.pairs.push((0, 2));
+        }
+        _ => {}
+    }
+    let mut rig = scene.rig(world)?;
+    if name == "docking_pair_off" {
+        rig.world.set_pair_enabled(rig.pairs[1], false)?;
+    }
+    Ok((rig, scene.states))
 }

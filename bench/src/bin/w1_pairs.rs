@@ -102,9 +102,10 @@ fn main() -> Result<(), Box<dyn Error>> {
 type Named = (&'static str, Box<dyn PairPeer>);
 
 fn peers(case: &Case, target: &Target) -> Vec<Named> {
-    // Without the features there is only one.
-    #[allow(unused_mut)]
-    let mut peers: Vec<Named> = vec![("parry", Box::new(Parry::new(case.mover, target)))];
+    let mut peers: Vec<Named> = Vec::new();
+    if let Some(pair) = Parry::new(case.mover, target) {
+        peers.push(("parry", Box::new(pair)));
+    }
     #[cfg(feature = "mujoco")]
     if let Some(pair) = pong_bench::peer::mujoco::MujocoPair::new(case.mover, target) {
         peers.push(("MuJoCo", Box::new(pair)));
@@ -156,9 +157,9 @@ fn run(
 impl Case {
     fn name(&self, target: &Target) -> String {
         let mover = format!("{:?}", self.mover).to_lowercase();
-        match target {
-            Target::Hull(hull) => format!("{mover}–hull {}", hull.faces.len()),
-            Target::Triangle => format!("{mover}–triangle"),
+        match target.faces() {
+            Some(faces) => format!("{mover}–hull {faces}"),
+            None => format!("{mover}–{}", target.kind().name().to_lowercase()),
         }
     }
 

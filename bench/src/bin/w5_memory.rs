@@ -1,6 +1,7 @@
 //! W5: what a terrain of a million triangles occupies, bytes per contact, calls for memory per frame.
 
 use parry3d_f64::query::{ContactManifold, TrackedContact};
+use pong_bench::folder::Folder;
 use pong_bench::heap;
 use pong_bench::options::Options;
 use pong_bench::peer::Peer;
@@ -14,7 +15,6 @@ use pong_engine::{Config, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Body;
 use std::error::Error;
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[global_allocator]
@@ -46,14 +46,14 @@ fn triangles(large: Terrain) -> Result<Table, Box<dyn Error>> {
         "without the tree",
         "wanted",
     ]);
-    let folder = Folder::new()?;
+    let folder = Folder::new("w5_memory")?;
     for (terrain, source) in [
         (large, Source::Stl),
         (large, Source::Obj),
         (large, Source::Inline),
         (Terrain::SIZES[0], Source::Inline),
     ] {
-        table.row(load(&folder.0, terrain, source)?);
+        table.row(load(&folder, terrain, source)?);
     }
     for (engine, held, bare) in peers(&large) {
         let per_triangle = |bytes: usize| format!("{:.1}", bytes as f64 / large.count() as f64);
@@ -72,33 +72,8 @@ fn triangles(large: Terrain) -> Result<Table, Box<dyn Error>> {
     Ok(table)
 }
 
-/// A folder of one's own that goes when it is dropped.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new() -> std::io::Result<Self> {
-        let path = std::env::temp_dir().join(format!("pong_w5_memory_{}", std::process::id()));
-        std::fs::create_dir(&path)?;
-        Ok(Self(path))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // Nothing to be done about a folder that will not go.
-        _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-fn load(folder: &Path, terrain: Terrain, source: Source) -> Result<[String; 7], Box<dyn Error>> {
-    let (text, mesh) = terrain.files(source);
-    let path = folder.join("terrain.ron");
-    let mut bytes = text.len();
-    std::fs::write(&path, text)?;
-    if let Some((name, content)) = mesh {
-        bytes += content.len();
-        std::fs::write(folder.join(name), content)?;
-    }
+fn load(folder: &Folder, terrain: Terrain, source: Source) -> Result<[String; 7], Box<dyn Error>> {
+    let (path, bytes) = folder.write(terrain, source)?;
     let before = heap::held();
     heap::reset_peak();
     let start = Instant::now();

@@ -225,6 +225,7 @@ impl OdePair {
         match target {
             Target::Hull(hull) => scene.target_convex(hull),
             Target::Triangle => scene.target_mesh(TRIANGLE.to_vec(), vec![[0, 1, 2]]),
+            _ => return None,
         }
         match mover {
             Mover::Sphere => scene.mover(SPHERE, RADIUS, 0.0),

@@ -32,19 +32,20 @@ impl SupportMap for Ellipsoid {
 }
 
 impl Parry {
-    /// For one pair.
+    /// For one pair, if the target is one of W1's.
     ///
     /// # Panics
     /// If parry refuses the hull.
-    pub fn new(mover: Mover, target: &Target) -> Self {
+    pub fn new(mover: Mover, target: &Target) -> Option<Self> {
         let target = match target {
             Target::Hull(hull) => Shapes::Hull(convex(hull)),
             Target::Triangle => {
                 let [a, b, c] = TRIANGLE.map(Vector::from);
                 Shapes::Triangle(Triangle::new(a, b, c))
             }
+            _ => return None,
         };
-        Self { mover, target }
+        Some(Self { mover, target })
     }
 }
 
