@@ -221,7 +221,7 @@ impl From<Interference> for Answer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pairs;
+    use crate::pairs::{self, TARGET_RADIUS};
     use std::collections::BTreeSet;
 
     #[test]
@@ -239,5 +239,24 @@ mod tests {
         let all = PrimitiveKind::ALL.into_iter().flat_map(|a| PrimitiveKind::ALL.map(|b| (a, b)));
         let tested = all.filter(|&(a, b)| pong_engine::has_tester(a, b)).collect();
         assert_eq!(kinds, tested);
+    }
+
+    #[test]
+    fn depths_of_points_and_spheres_below_a_plane_and_in_a_sphere_are_the_closed_forms() {
+        type Height = fn(&Vec3) -> f64;
+        let heights: [(Target, Height); 2] =
+            [(Target::Plane, |p| p.z), (Target::Sphere, |p| p.norm() - TARGET_RADIUS)];
+        for (target, height) in heights {
+            for (mover, radius) in [(Mover::Point, 0.0), (Mover::Sphere, RADIUS)] {
+                let mut ours = Ours::new(mover, &target);
+                let queries = Queries::new(64, mover, &target, |x| ours.touches(x));
+                let mut answers = vec![Answer::default(); 64];
+                ours.pass(&queries, &mut answers);
+                for (x, answer) in queries.transforms.iter().zip(answers) {
+                    let expected = (radius - height(&x.translation)).max(0.0);
+                    assert!((answer.depth - expected).abs() < 1e-12, "{mover:?}–{:?}", target.kind());
+                }
+            }
+        }
     }
 }

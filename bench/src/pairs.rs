@@ -19,7 +19,7 @@ pub const RAY: ([f64; 3], [f64; 3], f64) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 2
 /// Vertices of the hulls: 12, 32 and 128 faces.
 pub const HULLS: [usize; 3] = [8, 18, 66];
 /// Radius of the sphere that is a target, m.
-const TARGET_RADIUS: f64 = 0.3;
+pub const TARGET_RADIUS: f64 = 0.3;
 /// How far below a plane the movers start from, m: less than a ray reaches above its middle.
 const BELOW_PLANE: f64 = 0.2;
 /// Depths of the hits and gaps of the misses, m.
