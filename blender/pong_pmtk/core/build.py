@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Snapshot -> Model. Whatever cannot be exported faithfully is a finding of severity error, and then there is no model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .build_groups import build_root
+from .build_primitives import Origin
+from .finding import Findings
+from .model import Model, Primitive
+from .scene import Scene, check_scene, find_root
+from .snapshot import Snapshot, SnapshotObject
+from .surfaces import checked
+from .triangle_check import check_triangles
+
+
+@dataclass
+class Built:
+    """What became of a snapshot: a model (`None` if there are errors), the mesh files it names, and all findings."""
+
+    model: Model | None
+    findings: Findings
+    files: dict[str, bytes] = field(default_factory=dict)
+    origins: dict[int, Origin] = field(default_factory=dict)
+    """By id() of each `Primitive` of the model: the object it comes from."""
+
+    def object_of(self, primitive: Primitive) -> str:
+        return self.origins[id(primitive)].object
+
+
+def build(snapshot: Snapshot, root: str = "") -> Built:
+    """Builds the model below the root of that name, or below the only root."""
+    findings = Findings()
+    scene = Scene(snapshot, findings)
+    top = find_root(scene, root)
+    if top is None:
+        return Built(None, findings)
+    check_scene(scene, top)
+    surfaces, pairs = _tables(scene, top)
+    group, origins, files = build_root(scene, top, surfaces)
+    check_triangles(scene, group, origins)
+    settings = top.settings
+    name = (settings.name if settings else "") or group.name
+    model = Model(name, surfaces, group, pairs, settings.entry_memory if settings else True)
+    _unused_surfaces(scene, top, model)
+    good = not findings.errors
+    return Built(model if good else None, findings, files if good else {}, origins)
+
+
+def _tables(scene: Scene, root: SnapshotObject) -> tuple[dict, list]:
+    if root.settings is None:
+        return {}, []
+    surfaces, pairs, faults = checked(root.settings.surfaces, root.settings.pairs)
+    for fault in faults:
+        scene.findings.error(fault.rule, (root.name, fault.path), fault.cause, fault.cure)
+    return surfaces, pairs
+
+
+def _unused_surfaces(scene: Scene, root: SnapshotObject, model: Model) -> None:
+    used: set[str | None] = set()
+    open_ = [model.root]
+    while open_:
+        group = open_.pop()
+        used |= {group.surface, *(primitive.surface for primitive in group.primitives)}
+        open_ += group.groups
+    for name in model.surfaces:
+        if name not in used:
+            cause = f'nothing is made of the surface "{name}"'
+            scene.findings.hint("unused-surface", (root.name, f"surfaces/{name}"), cause, "assign it, or remove it")

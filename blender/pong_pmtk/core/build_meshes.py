@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Marked meshes -> triangles and polyhedra."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from . import mesh_file
+from .build_primitives import Origin, Shape
+from .exact import meant, rounded
+from .model import Primitive
+from .pieces import pieces_of
+from .polygon import off_plane, triangulated
+from .polyhedron_check import PLANE_TOLERANCE, check, diameter_of
+
+Made = list[tuple[Primitive, Origin]]
+
+
+def build_mesh_kind(shape: Shape, files: dict[str, bytes]) -> Made:
+    """Triangle, TriangleMesh or Polyhedron."""
+    faces = _faces(shape)
+    if not len(faces):
+        shape.error("no-faces", f"a {shape.kind} without faces", "fill it with faces, or choose another kind")
+        return []
+    _tell_loose(shape)
+    if shape.kind == "Triangle":
+        return _triangles(shape, faces)
+    return _triangle_mesh(shape, faces, files) if shape.kind == "TriangleMesh" else _polyhedra(shape, faces, files)
+
+
+def _faces(shape: Shape) -> np.ndarray:
+    """Indices of the faces that count."""
+    if shape.part:
+        return np.array(sorted(shape.part.faces), dtype=np.int64)
+    return np.arange(len(shape.mesh.face_starts) - 1)
+
+
+def _loops_of(shape: Shape, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Loops and starts of some faces, wound so that fronts stay fronts under a mirroring transform."""
+    starts, loops = np.asarray(shape.mesh.face_starts), np.asarray(shape.mesh.loops, dtype=np.int64)
+    widths = np.diff(starts)[faces]
+    new_starts = np.concatenate([[0], np.cumsum(widths)])
+    inside = np.arange(new_starts[-1]) - np.repeat(new_starts[:-1], widths)
+    if shape.place.mirrored:
+        # The first corner stays the first.
+        inside = np.where(inside == 0, 0, np.repeat(widths, widths) - inside)
+    return loops[np.repeat(starts[faces], widths) + inside], new_starts
+
+
+def _tell_loose(shape: Shape) -> None:
+    if shape.part:
+        return
+    loose = np.setdiff1d(np.arange(len(shape.vertices)), shape.mesh.loops)
+    if len(loose):
+        cause = f"{len(loose)} vertices belong to no face and are not exported"
+        shape.warn("loose-geometry", cause, "delete them, or mark them as Points", vertices=loose, fix="delete-loose")
+
+
+def _thickness(shape: Shape) -> dict:
+    options = {}
+    thickness = shape.place.number("thickness")
+    if thickness is not None:
+        options["thickness"] = float(thickness)
+        if not (np.isfinite(options["thickness"]) and options["thickness"] > 0.0):
+            cause = f"its thickness is {options['thickness']}"
+            shape.error("thickness", cause, "it is above zero; leave it out for the default")
+    options["two_sided"] = bool(shape.mark.two_sided)
+    return options
+
+
+def _triangles(shape: Shape, faces: np.ndarray) -> Made:
+    loops, starts = _loops_of(shape, faces)
+    wide = faces[np.diff(starts) != 3]
+    if len(wide):
+        cause = f"{len(wide)} faces are no triangles"
+        cure = "cut them into triangles, or mark it as a TriangleMesh"
+        shape.error("not-a-triangle", cause, cure, faces=wide, fix="triangulate")
+        return []
+    options = _thickness(shape)
+    corners = shape.vertices[loops.reshape(-1, 3)].tolist()
+    each = [{"vertices": tuple(map(tuple, triangle)), **options} for triangle in corners]
+    return shape.numbered("Triangle", each, [[face] for face in faces])
+
+
+def _triangle_mesh(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> Made:
+    loops, starts = _loops_of(shape, faces)
+    _tell_bent(shape, faces, loops, starts)
+    triangles, source, crossed = triangulated(shape.vertices, loops, starts)
+    if crossed:
+        cause = f"the outlines of {len(crossed)} faces cross themselves or have no area"
+        cure = "cut them into triangles by hand, or remove them"
+        shape.error("self-crossing-face", cause, cure, faces=faces[crossed], fix="triangulate")
+        return []
+    used, triangles = np.unique(triangles, return_inverse=True)
+    fields = {"vertices": shape.vertices[used], "triangles": triangles.reshape(-1, 3), **_thickness(shape)}
+    made = shape.numbered("TriangleMesh", [fields], [faces[source]])
+    return _to_file(shape, made, "triangles", files)
+
+
+def _tell_bent(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
+    """Faces of more than three corners that do not lie in a plane: where they are cut changes the surface."""
+    bent = []
+    for face in np.flatnonzero(np.diff(starts) > 3):
+        corners = shape.vertices[loops[starts[face] : starts[face + 1]]]
+        allowed = max(shape.noise, PLANE_TOLERANCE * float(np.ptp(corners, axis=0).max()))
+        if off_plane(corners) > allowed:
+            bent.append(int(faces[face]))
+    if bent:
+        cause = f"{len(bent)} faces are not planar; they are cut into triangles along their shorter diagonals"
+        shape.warn("bent-face", cause, "cut them by hand to choose", faces=bent, fix="triangulate")
+
+
+def _polyhedra(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> Made:
+    inactive = _inactive(shape)
+    loops, starts = _loops_of(shape, faces)
+    corners = np.split(loops, starts[1:-1])
+    pieces = pieces_of(shape.vertices, corners)
+    each, sources = [], []
+    for piece in pieces:
+        own = [corners[i] for i in piece]
+        used, flat = np.unique(np.concatenate(own), return_inverse=True)
+        widths = [len(face) for face in own]
+        local = np.split(flat, np.cumsum(widths)[:-1])
+        walls = tuple(i for i, face in enumerate(faces[piece].tolist()) if face in inactive)
+        _check_piece(shape, shape.vertices[used], local, walls, faces[piece], used)
+        each.append({"inactive_faces": walls, "vertices": shape.vertices[used], "faces": local})
+        sources.append(faces[piece])
+    made = shape.numbered("Polyhedron", each, sources)
+    if shape.mark.file and len(made) > 1:
+        cause = f"{len(made)} pieces cannot be in one mesh file"
+        shape.error("file-pieces", cause, "separate them, or keep the mesh in the model file", fix="separate-loose")
+        return made
+    return _to_file(shape, made, "faces", files)
+
+
+def _inactive(shape: Shape) -> set[int]:
+    inactive = set(shape.mark.inactive_faces)
+    if inactive and shape.evaluated:
+        cause = "its inactive faces name faces that its modifiers change"
+        shape.error("inactive-and-modifiers", cause, "apply the modifiers, then mark the inactive faces anew")
+        return set()
+    count = len(shape.mesh.face_starts) - 1
+    if any(not 0 <= face < count for face in inactive):
+        cause = f"it has inactive faces that the mesh no longer has: there are {count}"
+        shape.error("inactive-out-of-range", cause, "mark its inactive faces anew")
+    return inactive
+
+
+FIXES = {
+    "inside-out": "recalculate-normals",
+    "open-polyhedron": "merge-by-distance",
+    "zero-length-edge": "merge-by-distance",
+    "sliver-face": "dissolve-degenerate",
+}
+
+
+def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: np.ndarray) -> None:
+    """The loader's checks, told by the faces of the mesh. What 32-bit rounding has done has a rule of its own."""
+    problems = check(vertices, local, walls)
+    for rule in dict.fromkeys(problem.rule for problem in problems):
+        same = [problem for problem in problems if problem.rule == rule]
+        worst = max(same, key=lambda problem: problem.off)
+        at = {
+            "faces": faces[np.unique([f for p in same for f in p.faces]).astype(np.int64)],
+            "vertices": used[np.unique([v for p in same for v in p.vertices]).astype(np.int64)],
+        }
+        if 0.0 < worst.off <= shape.noise:
+            size, away = diameter_of(vertices), float(np.abs(vertices).max())
+            cause = f"32-bit rounding bends it: it is {size:.3g} m large and {away:.3g} m from the origin ({worst.cause})"
+            cure = "move the origins of its object and its group into it"
+            shape.error("rounded-away", cause, cure, fix="set-origin", **at)
+            continue
+        cause = worst.cause if len(same) == 1 else f"{worst.cause} (and {len(same) - 1} more)"
+        shape.error(rule, cause, worst.cure, fix=FIXES.get(rule, ""), **at)
+
+
+# --- mesh files ----------------------------------------------------------------------------------------------------
+
+
+def _to_file(shape: Shape, made: Made, faces: str, files: dict[str, bytes]) -> Made:
+    """Moves the lists of the only primitive into a mesh file, if the author wants one."""
+    name = shape.mark.file
+    if not name or not made:
+        return made
+    primitive, origin = made[0]
+    vertices, lists = primitive.fields["vertices"], primitive.fields[faces]
+    scale = float(meant(shape.mark.file_scale, shape.place.thing.exact.get("file_scale")))
+    if not _file_allowed(shape, name, scale, lists, files):
+        return made
+    files[name] = mesh_file.write(name, vertices, lists, scale)
+    if mesh_file.kind_of(name) == "stl" and (rounded(mesh_file.before_scale(vertices, scale)) * scale != vertices).any():
+        cause = "an STL file holds 32-bit numbers: its vertices are rounded to them"
+        shape.warn("stl-rounds", cause, "use an OBJ file to keep them")
+    rest = {key: value for key, value in primitive.fields.items() if key not in ("vertices", faces)}
+    return [(Primitive(primitive.kind, primitive.name, {"file": name, "scale": scale, **rest}, primitive.surface), origin)]
+
+
+def _file_allowed(shape: Shape, name: str, scale: float, faces, files: dict[str, bytes]) -> bool:
+    known = len(shape.findings.errors)
+    try:
+        mesh_file.check_path(name)
+        stl = mesh_file.kind_of(name) == "stl"
+    except mesh_file.MeshFileError as fault:
+        cure = "name an .obj or .stl file in the model's folder or below it, with `/` alone"
+        shape.error(fault.rule, str(fault), cure)
+        return False
+    if stl and not (isinstance(faces, np.ndarray) and faces.shape[1] == 3 or all(len(f) == 3 for f in faces)):
+        shape.error("file-holds-triangles", "an STL file holds triangles alone", "use an OBJ file", fix="triangulate")
+    if name in files:
+        shape.error("file-twice", f'another object is written to "{name}" as well', "give it a file of its own")
+    if not (np.isfinite(scale) and scale > 0.0):
+        shape.error("file-scale", f"the scale of its file is {scale}", "it is above zero; 0.001 for millimetres")
+    return len(shape.findings.errors) == known

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The connected pieces of a mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .polyhedron_check import weld
+from .polyhedron_merge import edges
+
+
+def pieces_of(vertices: np.ndarray, faces: list[np.ndarray]) -> list[list[int]]:
+    """Faces by piece, each in rising order, pieces in the order of their first face.
+
+    Faces that share a vertex belong together. Where that leaves open pieces (every face of some files has vertices of
+    its own), vertices at the same place count as one for these; closed pieces may touch each other and stay apart.
+    """
+    pieces = connected(faces)
+    open_ = [piece for piece in pieces if not is_closed([faces[i] for i in piece])]
+    if len(open_) > 1:
+        welded = weld(vertices)
+        loose = sorted(i for piece in open_ for i in piece)
+        joined = [[loose[k] for k in piece] for piece in connected([welded[faces[i]] for i in loose])]
+        pieces = [piece for piece in pieces if piece not in open_] + joined
+    return sorted(pieces)
+
+
+def is_closed(faces: list[np.ndarray]) -> bool:
+    seen: set[tuple[int, int]] = set()
+    for face in faces:
+        seen.update(edges(face.tolist()))
+    return all((b, a) in seen for a, b in seen)
+
+
+def connected(faces: list[np.ndarray]) -> list[list[int]]:
+    leader: dict[int, int] = {}
+
+    def find(vertex: int) -> int:
+        while leader.setdefault(vertex, vertex) != vertex:
+            leader[vertex] = leader[leader[vertex]]
+            vertex = leader[vertex]
+        return vertex
+
+    for face in faces:
+        first = find(int(face[0]))
+        for vertex in face[1:].tolist():
+            leader[find(vertex)] = first
+    pieces: dict[int, list[int]] = {}
+    for index, face in enumerate(faces):
+        pieces.setdefault(find(int(face[0])), []).append(index)
+    return list(pieces.values())
