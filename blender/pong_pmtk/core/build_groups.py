@@ -56,7 +56,7 @@ class GroupBuilder:
         if below and primitives:
             cause = f'a group holds groups or primitives, never both: "{below[0].thing.name}" and "{primitives[0].thing.name}"'
             self.findings.error("groups-and-primitives", where, cause, "put the primitives into a group of their own")
-        if not items:
+        if not items and not any(child.name in self.scene.carrying for child in self.scene.children[thing.name]):
             self.findings.error("empty-group", where, "a group without contents", "hang something below it, or unmark it")
         for item in below:
             built = self.posed_group(item, surface)
@@ -133,11 +133,12 @@ class GroupBuilder:
                 continue
             here = affine @ local.matrix
             plain = local if direct and not local.has_parent_inverse else None
-            if thing.mark.role in ("group", "primitive"):
-                found.append(Item(thing, here, plain))
             if thing.mark.role == "group" and in_primitive:
                 cause = f'a group below the primitive "{above.name}"'
                 self.findings.error("group-below-primitive", where, cause, "parent it to the group above")
+                continue
+            if thing.mark.role in ("group", "primitive"):
+                found.append(Item(thing, here, plain))
             if thing.mark.role != "group":
                 found += self.gather(thing, here, False, in_primitive or thing.mark.role == "primitive")
         return found

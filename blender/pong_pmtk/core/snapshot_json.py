@@ -73,6 +73,8 @@ def _is_default(owner, name: str, value) -> bool:
         default = field.default_factory()
     else:
         return False
+    if dataclasses.is_dataclass(value):
+        return type(value) is type(default) and encoded(value) == {}
     return not isinstance(value, np.ndarray) and type(value) is type(default) and value == default
 
 
@@ -108,8 +110,10 @@ def _value(kind, name: str, value, path: str):
     if "ndarray" in text:
         array = np.asarray(value, dtype=np.int64 if name in _INDICES else np.float64)
         return array.reshape(-1, 2 if name == "edges" else 3) if name in ("edges", "vertices") else array
-    if name in ("surfaces", "pairs"):
-        return _with_laws(value)
+    if name == "surfaces":
+        return {surface: _with_laws(fields) for surface, fields in value.items()}
+    if name == "pairs":
+        return [_with_laws(fields) for fields in value]
     if text.startswith("tuple"):
         return tuple(map(float, value))
     return {key: tuple(item) for key, item in value.items()} if name == "instance_offsets" else value

@@ -67,4 +67,4 @@ def to_json(value):
         return {name: to_json(inner) for name, inner in value.items()}
     if isinstance(value, (list, tuple)):
         return [to_json(item) for item in value]
-    return "inf" if value == float("inf") else value
+    return "inf" if isinstance(value, float) and value == float("inf") else value

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faulty scenes give named errors, one each, and nothing is written."""
+
+import pathlib
+import re
+import unittest
+
+from support import ROOT, build, rules
+from faulty_scenes import FAULTY, good
+from core.finding import FIXES
+
+RULES = ROOT / "docs" / "modelling_rules.md"
+
+
+class FaultyScenes(unittest.TestCase):
+    def test_the_scene_they_are_made_from_is_right(self):
+        made = build(good().snapshot())
+        self.assertEqual(list(made.findings), [])
+        self.assertIsNotNone(made.model)
+
+    def test_each_gives_its_own_error_alone(self):
+        for rule, snapshot in FAULTY.items():
+            with self.subTest(rule):
+                made = build(snapshot)
+                self.assertEqual(set(rules(made, "error")), {rule}, "\n".join(map(str, made.findings)))
+
+    def test_nothing_is_built(self):
+        for rule, snapshot in FAULTY.items():
+            with self.subTest(rule):
+                made = build(snapshot)
+                self.assertIsNone(made.model)
+                self.assertEqual(made.files, {})
+
+    def test_there_are_more_than_fifty(self):
+        self.assertGreaterEqual(len(FAULTY), 50)
+
+    def test_every_error_says_where_why_and_what_to_do(self):
+        for rule, snapshot in FAULTY.items():
+            for finding in build(snapshot).findings.errors:
+                with self.subTest(rule):
+                    self.assertTrue(finding.cause and finding.cure)
+                    names = {thing.name for thing in snapshot.objects}
+                    self.assertIn(finding.object, names | {""})
+                    self.assertTrue(finding.path or rule in ("no-root", "several-roots", "unit-scale"))
+                    self.assertIn(finding.fix, {"", *FIXES})
+
+
+class Rules(unittest.TestCase):
+    """The list in docs/modelling_rules.md is whole, and so are the scenes."""
+
+    def listed(self):
+        rows = re.findall(r"^\| `([a-z-]+)` \| (error|warning|hint)", RULES.read_text(), re.MULTILINE)
+        self.assertEqual(len(rows), len({rule for rule, _ in rows}))
+        return dict(rows)
+
+    def in_the_code(self):
+        text = "".join(path.read_text() for path in pathlib.Path(ROOT / "blender/pong_pmtk/core").glob("*.py"))
+        calls = re.findall(r"\.(error|warn|hint)\(\s*\"([a-z-]+)\"", text)
+        return {rule for _, rule in calls}
+
+    def test_every_rule_of_the_code_is_listed(self):
+        self.assertEqual(self.in_the_code() - set(self.listed()), set())
+
+    def test_every_listed_error_has_a_faulty_scene(self):
+        errors = {rule for rule, severity in self.listed().items() if severity == "error"}
+        self.assertEqual(errors - set(FAULTY), set())
+        self.assertEqual(set(FAULTY) - errors, set())
+
+
+if __name__ == "__main__":
+    unittest.main()
