@@ -359,9 +359,9 @@ class _Parser:
         if self.take("\\"):
             character = self.escape()
         else:
-            character = self.peek()
+            character = self.peek().replace("'", "")
             self.position += 1
-        if len(character) != 1 or character == "'" or not self.take("'"):
+        if len(character) != 1 or not self.take("'"):
             raise RonError(start, "this is not one character between quotes")
         return character
 

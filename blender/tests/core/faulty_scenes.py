@@ -383,6 +383,11 @@ def index_out_of_range():
 
 
 @faulty
+def too_few_vertices():
+    return one("TriangleMesh", mesh(SQUARE, [[0, 1, 2], [2, 3]], edges=[]))
+
+
+@faulty
 def repeated_index():
     return one("TriangleMesh", mesh(SQUARE, [[0, 1, 2, 1]], edges=[]))
 

@@ -1,0 +1,280 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Model files: read as the engine reads them, written the same whatever way they were written before."""
+
+import math
+import pathlib
+import random
+import re
+import tempfile
+import unittest
+
+from support import PONG, ROOT, check, models, np
+from core import mesh_file
+from core.model import Group, Model, Primitive, Tagged
+from core.read import read_file, read_text
+from core.read_values import ModelFaults
+from core.ron_tree import List, Map, Name, RonError, Struct, Tuple, parse
+from core.write import write_files, write_text
+
+
+def plain(node):
+    """A node without positions."""
+    value = node.value
+    if isinstance(value, Struct):
+        return (value.name, {name: plain(inner) for name, _, inner in value.fields})
+    if isinstance(value, Tuple):
+        return (value.name, [plain(inner) for inner in value.items])
+    if isinstance(value, List):
+        return [plain(inner) for inner in value.items]
+    if isinstance(value, Map):
+        return {plain(key): plain(inner) for key, inner in value.entries}
+    if isinstance(value, Name):
+        return ("name", value.text)
+    return value if isinstance(value, (bool, float, str)) else [value.row(i).tolist() for i in range(len(value))]
+
+
+class Notation(unittest.TestCase):
+    def test_values(self):
+        for text, value in {
+            "true": True, "inf": math.inf, "-inf": -math.inf, "1": 1.0, "+1.5": 1.5, ".5": 0.5, "5.": 5.0,
+            "1e3": 1000.0, "1E-3": 0.001, "1_000": 1000.0, "1__0.2_5": 10.25, "0xff": 255.0, "-0x10": -16.0,
+            "0b101": 5.0, "0o17": 15.0, "1.5f64": 1.5, "12u8": 12.0, "0xFFu8": 255.0, "0x1f32": 7986.0, "1e+2": 100.0,
+            '"a\\n\\"\\u{3bc}\\x41"': 'a\n"\u03bcA', 'r#"a"b"#': 'a"b', "'x'": "x", "'\\''": "'", '"a\\\n   b"': "ab",
+            "Sphere": ("name", "Sphere"), "(a: 1, b: (2, 3),)": (None, {"a": 1.0, "b": (None, [2.0, 3.0])}),
+            "Some(1)": ("Some", [1.0]), "P ( x : 1 )": ("P", {"x": 1.0}), "[1, 2,]": [1.0, 2.0], "()": (None, []),
+            '{"a": 1}': {"a": 1.0}, "[]": [], "#![enable(implicit_some)] 1": 1.0, "/* a /* b */ c */ 1 // d": 1.0,
+            "[(1, 2), (3, 4)]": [[1.0, 2.0], [3.0, 4.0]], "[[1], [2, 3,],]": [[1.0], [2.0, 3.0]],
+            "[(1, /* x */ 2) // y\n, (3, 4)]": [[1.0, 2.0], [3.0, 4.0]], "[(1, a)]": [(None, [1.0, ("name", "a")])],
+            '"//" ': "//", "r#type": ("name", "type"), '["/*", "*/"]': ["/*", "*/"], "[(0xff, 1_0)]": [(None, [255.0, 10.0])],
+        }.items():  # fmt: skip
+            with self.subTest(text):
+                self.assertEqual(plain(parse(text)), value)
+        self.assertTrue(math.isnan(plain(parse("NaN"))))
+
+    def test_faults_tell_the_place(self):
+        for text, at in {
+            "": 0, "(a: )": 4, "(a: 1": 5, "[1, 2": 5, "[": 0, "(a: 1,": 0, '"abc': 0, "1 2": 2, "(a 1)": 3, "(1 2)": 3, "1.2.3": 0, "0xg": 0,
+            "/* x": 0, "{1 2}": 3, "'ab'": 0, '"\\q"': 1, "#![enable(magic)] 1": 10, "b\"x\"": 0,
+            "[(1, 2), (3, 4": 14, "1e": 0, "[(1, 2) (3, 4)]": 8, "/x": 0,
+        }.items():  # fmt: skip
+            with self.subTest(text):
+                with self.assertRaises(RonError) as caught:
+                    parse(text)
+                self.assertEqual(caught.exception.at, at)
+
+    def test_values_may_not_nest_without_end(self):
+        parse("[" * 128 + "]" * 128)
+        with self.assertRaises(RonError) as caught:
+            parse("[" * 129 + "]" * 129)
+        self.assertEqual(caught.exception.rule, "too-deep")
+
+    def test_rows_are_what_their_items_are(self):
+        """The quick way of reading long lists against the slow one, which a comment or a name in the list forces."""
+        random.seed(5)
+        for _ in range(200):
+            rows = [[random.choice([random.gauss(0, 1), random.randint(-5, 5), 1e300]) for _ in range(random.randint(1, 4))]
+                    for _ in range(random.randint(1, 6))]  # fmt: skip
+            opening, closing = random.choice(["()", "[]"])
+            body = [opening + random.choice([", ", ",", " ,\n"]).join(map(repr, row)) + closing for row in rows]
+            text = "[" + ", ".join(body) + random.choice(["]", ",]", " , ]"])
+            quick, slow = parse(text).value, parse("[" + opening + "0x0, " + text[2:]).value
+            self.assertIsInstance(slow, List)
+            self.assertEqual([quick.row(i).tolist() for i in range(len(quick))], rows)
+            self.assertEqual([inner.value for inner in slow.items[0].value.items][1:], rows[0])
+
+
+SURFACE = 'surfaces: {"s": (stiffness: 1.0)}'
+HEAD = f'(format: "pong-model", version: 1, name: "m", {SURFACE}, root: (name: "r", surface: "s", primitives: ['
+TAIL = "]))"
+
+
+class Faults(unittest.TestCase):
+    def faults(self, text):
+        with self.assertRaises(ModelFaults) as caught:
+            read_text(text, "m.ron")
+        return caught.exception.faults
+
+    def test_line_and_column(self):
+        fault, = self.faults(HEAD + '\n  Sphere(name: "a", center: (0, 0, 0), radius: -1),' + TAIL)
+        self.assertEqual((fault.line, fault.column, fault.path, fault.rule), (2, 48, "r/a", "not-positive"))
+        self.assertEqual(str(fault), "m.ron:2:48: r/a: [not-positive] the radius is -1.0; the radius must be above zero")
+
+    def test_rules(self):
+        for body, rule in {
+            "Sphere(name: \"a\", center: (0, 0, 0))": "missing-field",
+            "Sphere(name: \"a\", center: (0, 0), radius: 1)": "wrong-type",
+            "Cone(name: \"a\")": "unknown-kind",
+            "Point(name: \"a\", position: (0, 0, 0), color: 1)": "unknown-field",
+            "Point(name: \"a\", name: \"b\", position: (0, 0, 0))": "repeated-field",
+            "Point(name: \"a\", position: (0, 0, inf))": "not-finite",
+            "Point(name: \"\", position: (0, 0, 0))": "empty-name",
+            "Point(name: \"a/b\", position: (0, 0, 0))": "slash-in-name",
+            "Point(name: \"a\", position: (0, 0, 0)), Point(name: \"a\", position: (0, 0, 0))": "repeated-name",
+            "Point(name: \"a\", position: (0, 0, 0), surface: \"t\")": "unknown-surface",
+            "Ellipsoid(name: \"a\", center: (0, 0, 0), semi_axes: (1, 1, 1), orientation: (1, 1, 0, 0))": "quaternion-norm",
+            "Plane(name: \"a\", normal: (0, 0, 0), offset: 0)": "zero-direction",
+            "Polyhedron(name: \"a\", vertices: [(0, 0, 0)], faces: [[0, -1]])": "not-an-index",
+            "TriangleMesh(name: \"a\", file: \"a.stl\", vertices: [(0, 0, 0)])": "either-or",
+            "": "empty-group",
+        }.items():
+            with self.subTest(rule):
+                self.assertEqual([fault.rule for fault in self.faults(HEAD + body + TAIL)], [rule])
+
+    def test_all_are_told_at_once(self):
+        body = 'Sphere(name: "a", center: 1, radius: 0), Point(name: "b", position: (0, 0, 0), color: 1)'
+        self.assertEqual(len(self.faults(HEAD + body + TAIL)), 3)
+
+
+class OfTheDocument(unittest.TestCase):
+    def test_every_example_is_read(self):
+        text = (ROOT / "docs" / "model_format.md").read_text()
+        blocks = re.findall(r"```ron([^\n]*)\n(.*?)```", text, re.DOTALL)
+        self.assertGreater(len(blocks), 10)
+        surfaces = '"steel": (stiffness: 1e6), "rubber": (stiffness: 1e5)'
+        for kind, body in blocks:
+            where = kind.strip()
+            point = 'Point(name: "p", position: (0, 0, 0))'
+            fields = {
+                "surfaces": surfaces if where != "surfaces" else body,
+                "pairs": body if where == "pairs" else "",
+                "root": f'(name: "r", surface: "steel", primitives: [{body if where == "primitives" else point}])',
+            }
+            if where == "surfaces":
+                fields["root"] = f'(name: "r", surface: "{re.search(chr(34) + "(.*?)" + chr(34), body).group(1)}", primitives: [{point}])'
+            if where == "groups":
+                fields["root"] = f'(name: "r", surface: "steel", groups: [{body}])'
+            whole = (
+                f'(format: "pong-model", version: 1, name: "m", surfaces: {{{fields["surfaces"]}}}, '
+                f'pairs: [{fields["pairs"]}], root: {fields["root"]})'
+            )
+            with self.subTest(where, body=body[:40]):
+                model = read_text(body if not where else whole)
+                self.assertEqual(write_text(read_text(write_text(model))), write_text(model))
+
+
+class Layout(unittest.TestCase):
+    def test_writing_settles_at_once(self):
+        for path in models():
+            with self.subTest(path.name):
+                text = write_text(read_file(path))
+                self.assertEqual(write_text(read_text(text)), text)
+                self.assertLessEqual(max(map(len, text.splitlines())), 120)
+
+    def test_numbers_keep_every_bit(self):
+        random.seed(1)
+        numbers = [random.uniform(-1, 1) * 10.0 ** random.randint(-300, 300) for _ in range(300)]
+        numbers += [0.1, 1e22, 1e-7, 5e-324, 1.7976931348623157e308, -0.0, 123456789.123456789]
+        vertices = np.array(numbers[: len(numbers) // 3 * 3]).reshape(-1, 3)
+        triangles = np.arange(len(vertices) // 3 * 3).reshape(-1, 3)
+        vertices = vertices[: len(triangles) * 3]
+        mesh = Primitive("TriangleMesh", "t", {"vertices": vertices, "triangles": triangles})
+        points = [Primitive("Point", f"p{i}", {"position": tuple(v)}) for i, v in enumerate(vertices.tolist())]
+        model = Model("m", {"s": {"stiffness": math.inf}}, Group("r", surface="s", primitives=[mesh, *points]))
+        read = read_text(write_text(model))
+        self.assertEqual(read.root.primitives[0].fields["vertices"].tobytes(), vertices.tobytes())
+        for before, after in zip(points, read.root.primitives[1:]):
+            self.assertEqual(np.array(after.fields["position"]).tobytes(), np.array(before.fields["position"]).tobytes())
+        self.assertEqual(read.surfaces, model.surfaces)
+
+    def test_names_keep_every_character(self):
+        for name in ('a"b', "back\\slash", "line\nbreak", "µ-Größe", "tab\t", "\u200b", "// no comment", "'"):
+            point = name.replace("/", "|")
+            group = Group("r", surface=name, primitives=[Primitive("Point", point, {"position": (0.0, 0.0, 0.0)})])
+            read = read_text(write_text(Model(name, {name: {"stiffness": 1.0}}, group)))
+            self.assertEqual((read.name, read.root.surface, read.root.primitives[0].name), (name, name, point))
+
+    def test_defaults_are_not_written(self):
+        text = HEAD.replace("version: 1,", "version: 1, entry_memory: true,") + (
+            'Ray(name: "a", origin: (0, 0, 0), direction: (0, 0, 1), length: Some(1), reach: None, response: Normal),'
+            'Ellipsoid(name: "b", center: (0, 0, 0), semi_axes: (1, 2, 3), orientation: (1, 0, 0, 0), surface: None)'
+        ) + TAIL
+        written = write_text(read_text(text))
+        for name in ("entry_memory", "reach", "response", "orientation", "None", "bound"):
+            self.assertNotIn(name, written)
+
+    def test_unused_vertices_of_a_mesh_are_not_written(self):
+        body = 'TriangleMesh(name: "t", vertices: [(9, 9, 9), (0, 0, 0), (1, 0, 0), (0, 1, 0)], triangles: [(1, 2, 3)])'
+        fields = read_text(write_text(read_text(HEAD + body + TAIL))).root.primitives[0].fields
+        self.assertEqual(fields["vertices"].tolist(), [[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+        self.assertEqual(fields["triangles"].tolist(), [[0, 1, 2]])
+
+    def test_laws(self):
+        laws = {
+            "a": {"stiffness": 1.0, "normal": Tagged("Linear", {"restitution": {"e": 0.5, "mass": 2.0}, "ramp": 0.1})},
+            "b": {"stiffness": 1.0, "normal": Tagged("Custom", {"name": "cubic", "parameters": (1.0, 2.0)})},
+            "c": {"stiffness": 1.0, "friction": Tagged("Coulomb", {"mu": 0.1, "slip_speed": 0.001})},
+        }
+        pairs = [{"surfaces": ("a", "b"), "friction": None}, {"surfaces": ("a", "x"), "stiffness": 3.0}]
+        group = Group("r", surface="a", bound="Custom:torus", primitives=[Primitive("Point", "p", {"position": (0, 0, 0)})])
+        read = read_text(write_text(Model("m", laws, group, pairs, False)))
+        self.assertEqual((read.surfaces, read.pairs, read.entry_memory), (laws, pairs, False))
+        self.assertEqual(read.root.bound, "Custom:torus")
+
+
+class MeshFiles(unittest.TestCase):
+    SQUARE = np.array([(0.0, 0.0, 0.1), (1.0, 0.0, 0.2), (1.0, 1.0, 0.3), (0.0, 1.0, 1 / 3)])
+
+    def test_obj_keeps_every_bit_and_face(self):
+        faces = [np.array([0, 1, 2, 3]), np.array([2, 1, 0])]
+        vertices, read = mesh_file.read_obj(mesh_file.write_obj(self.SQUARE, faces))
+        self.assertEqual(vertices.tobytes(), self.SQUARE.tobytes())
+        self.assertEqual([face.tolist() for face in read], [face.tolist() for face in faces])
+
+    def test_obj_as_others_write_it(self):
+        text = b"# x\nmtllib a.mtl\nv 0 0 0 1.0\nv 1 0 0 0.5 0.5 0.5\nv 1 1 0\nvn 0 0 1\no thing\nf 1//1 2//1 3//1\nf -3 -2 -1\nf 1 2\n"
+        vertices, faces = mesh_file.read_obj(text)
+        self.assertEqual(len(vertices), 3)
+        self.assertEqual(faces.tolist(), [[0, 1, 2], [0, 1, 2]])
+
+    def test_stl_binary_and_text(self):
+        data = mesh_file.write_stl(self.SQUARE, np.array([[0, 1, 2], [0, 2, 3]]))
+        vertices, faces = mesh_file.read_stl(b"solid" + data[5:])
+        self.assertEqual(vertices[faces].tolist(), np.float32(self.SQUARE)[[[0, 1, 2], [0, 2, 3]]].tolist())
+        text = b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0.1\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
+        self.assertEqual(mesh_file.read_stl(text)[0].tolist(), [[0, 0, float(np.float32(0.1))], [1, 0, 0], [0, 1, 0]])
+
+    def test_damaged_ones_are_refused(self):
+        for name, data in (("a.stl", b"\0" * 80 + b"\5\0\0\0"), ("a.obj", b"v 1 2\nf 1 1 1\n"), ("a.obj", b"v 1 2 3\nf 1 2 3\n")):
+            with self.assertRaises(mesh_file.MeshFileError):
+                (mesh_file.read_obj if name.endswith("obj") else mesh_file.read_stl)(data)
+
+    def test_scale_is_taken_out_to_the_last_bit(self):
+        random.seed(2)
+        for scale in (0.001, 25.4, 0.3048):
+            values = np.array([random.uniform(-1e4, 1e4) for _ in range(2000)]) * scale
+            self.assertEqual((mesh_file.before_scale(values, scale) * scale).tobytes(), values.tobytes())
+
+    def test_paths_stay_in_the_folder(self):
+        for name in ("/a.obj", "../a.obj", "a/../../b.obj", "a\\b.obj", "c:a.obj", ""):
+            with self.assertRaises(mesh_file.MeshFileError):
+                mesh_file.check_path(name)
+        mesh_file.check_path("meshes/a.obj")
+
+
+class Writing(unittest.TestCase):
+    def test_a_fault_leaves_what_was_there(self):
+        model = read_file(models()[0])
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "m.ron"
+            path.write_text("before")
+            (pathlib.Path(folder) / "taken").write_text("a file where a folder should be")
+            with self.assertRaises(OSError):
+                write_files(path, model, {"taken/a.obj": b""})
+            self.assertEqual(path.read_text(), "before")
+            self.assertEqual(sorted(p.name for p in pathlib.Path(folder).iterdir()), ["m.ron", "taken"])
+
+
+@unittest.skipUnless(PONG, "PONG does not name the program")
+class TheEngine(unittest.TestCase):
+    def test_the_hash_of_a_rewritten_model_is_that_of_the_model(self):
+        for path in models():
+            with self.subTest(path.name), tempfile.TemporaryDirectory() as folder:
+                other = pathlib.Path(folder) / "m.ron"
+                write_files(other, read_file(path))
+                hash_before, _ = check(path)
+                self.assertIsNotNone(hash_before)
+                self.assertEqual(check(other)[0], hash_before)
+
+
+if __name__ == "__main__":
+    unittest.main()
