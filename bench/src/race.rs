@@ -19,12 +19,14 @@ impl<'a> Race<'a> {
         self.contenders.push((name.to_owned(), Box::new(pass)));
     }
 
-    /// Runs `rounds` rounds after one that does not count. `items` is what a pass is shared among: frames, queries.
+    /// Runs `rounds` rounds. In each, every contender runs its pass twice, of which the second counts: the first brings
+    /// its data back into the caches that the contender before it has filled, so that all are measured alike. `items` is
+    /// what a pass is shared among: frames, queries.
     pub fn run(mut self, rounds: usize, items: usize) -> Outcome {
         let mut times: Vec<Times> = self.contenders.iter().map(|_| Times::new(items)).collect();
-        self.contenders.iter_mut().for_each(|(_, pass)| pass());
         for _ in 0..rounds {
             for ((_, pass), times) in self.contenders.iter_mut().zip(&mut times) {
+                pass();
                 times.run(pass);
             }
         }

@@ -75,7 +75,12 @@ impl std::error::Error for StateError {}
 
 /// Size of the block of a sealed world, bytes.
 pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize) -> usize {
-    HEADER_LEN + group_pairs * POSE_LEN + capacity * (RECORD_LEN + 8 * custom_stride) + CHECKSUM_LEN
+    used_len(group_pairs, capacity, custom_stride) + CHECKSUM_LEN
+}
+
+/// What is written for a number of records, without the checksum, bytes.
+fn used_len(group_pairs: usize, records: usize, custom_stride: usize) -> usize {
+    HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * custom_stride)
 }
 
 /// Writes the block. `out` must have the length that [`block_len`] gives.
@@ -97,7 +102,8 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
         writer.record(record);
         custom.iter().for_each(|x| writer.f64(*x));
     }
-    let checksum = fnv1a(&out[..expected - CHECKSUM_LEN]);
+    let used = writer.at;
+    let checksum = fnv1a_with_zeros(&out[..used], expected - CHECKSUM_LEN - used);
     out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
     Ok(())
 }
@@ -145,8 +151,13 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, S
     if block.len() != expected {
         return Err(StateError::Length { expected, got: block.len() });
     }
+    if count > like.records.capacity() {
+        return Err(StateError::Damaged);
+    }
     let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
-    if fnv1a(body).to_le_bytes() != checksum || count > like.records.capacity() {
+    let (used, unused) = body.split_at(used_len(like.poses.len(), count, like.custom_stride));
+    if unused.iter().any(|byte| *byte != 0) || fnv1a_with_zeros(used, unused.len()).to_le_bytes() != checksum
+    {
         return Err(StateError::Damaged);
     }
     reader.at = HEADER_LEN + like.poses.len() * POSE_LEN;
@@ -170,11 +181,25 @@ fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize
     })
 }
 
+const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
+
 /// FNV-1a, 64 bit.
 pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(FNV_PRIME))
+}
+
+/// [`fnv1a`] of bytes with `zeros` zero bytes after them. A zero byte only multiplies by the prime, so the room for contacts
+/// that there are not costs no pass over it.
+fn fnv1a_with_zeros(bytes: &[u8], zeros: usize) -> u64 {
+    let (mut hash, mut factor, mut left) = (fnv1a(bytes), FNV_PRIME, zeros);
+    while left > 0 {
+        if left % 2 == 1 {
+            hash = hash.wrapping_mul(factor);
+        }
+        factor = factor.wrapping_mul(factor);
+        left /= 2;
+    }
+    hash
 }
 
 struct Writer<'a> {
@@ -294,5 +319,20 @@ impl Reader<'_> {
             work: self.f64(),
             dissipated: self.f64(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fnv1a, fnv1a_with_zeros};
+
+    #[test]
+    fn zeros_that_are_only_counted_hash_as_if_they_were_read() {
+        for zeros in [0, 1, 2, 3, 7, 8, 1000, 65_537] {
+            let mut bytes = b"contact state".to_vec();
+            let counted = fnv1a_with_zeros(&bytes, zeros);
+            bytes.resize(bytes.len() + zeros, 0);
+            assert_eq!(counted, fnv1a(&bytes), "{zeros} zeros");
+        }
     }
 }
