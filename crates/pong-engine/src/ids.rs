@@ -30,6 +30,11 @@ macro_rules! id_type {
                 (self.0 >> 32 == u64::from(world.0) && index1 > 0).then(|| index1 as usize - 1)
             }
 
+            /// Its place among the ids of its kind in its world, counted from 0 in the order in which they were made.
+            pub fn index(self) -> usize {
+                (self.0 & 0xffff_ffff).saturating_sub(1) as usize
+            }
+
             /// The id as a number, for foreign interfaces; never zero for an id that a world gave out.
             pub fn to_bits(self) -> u64 {
                 self.0

@@ -25,6 +25,8 @@ pub(crate) struct Running {
     crew: Option<Crew>,
     /// Whether `frame` belongs to the states presently set.
     pub evaluated: bool,
+    /// Whether `frame` belongs to the states, pairs and surfaces as they are set now, committed or not.
+    pub current: bool,
     clock: Clock,
     contacts_peak: usize,
 }
@@ -70,12 +72,18 @@ impl Running {
             frame: Frame::new(scene.bodies.len(), &sealed, input()),
             crew,
             evaluated: false,
+            current: false,
             clock,
             contacts_peak: 0,
             nothing: Arc::clone(&nothing),
             sealed,
             tables,
         })
+    }
+
+    /// What is set now is no longer what the last frame was computed from.
+    pub fn changed(&mut self) {
+        (self.evaluated, self.current) = (false, false);
     }
 
     /// Computes a frame.
@@ -88,12 +96,12 @@ impl Running {
         frame::require_states(scene, &self.sealed, states)?;
         self.clock = clock;
         // Should a law of the host's panic, there is no frame until the next one.
-        (self.evaluated, self.frame.computed) = (false, false);
+        (self.evaluated, self.current, self.frame.computed) = (false, false, false);
         let given = Given { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
         frame::evaluate(&given, self.crew.as_mut(), &mut self.frame);
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
-        (self.evaluated, self.frame.computed) = (true, true);
+        (self.evaluated, self.current, self.frame.computed) = (true, true, true);
         Ok(self.frame.report)
     }
 
@@ -146,7 +154,7 @@ impl Running {
             next.copy_from(old);
             next.forget(|index| forgotten(&pairs[index as usize]));
         });
-        self.evaluated = false;
+        self.changed();
     }
 
     pub fn state_size(&self) -> usize {
@@ -167,7 +175,7 @@ impl Running {
             outcome = read_block(next, hash, block);
         });
         outcome?;
-        self.evaluated = false;
+        self.changed();
         Ok(())
     }
 
@@ -177,7 +185,7 @@ impl Running {
         self.frame.input.tables = Arc::clone(&self.tables);
         // Not left to the next frame, which would give the old ones back.
         self.crew.iter().for_each(|crew| crew.set_tables(&self.tables));
-        self.evaluated = false;
+        self.changed();
     }
 
     pub fn worker_starts(&self) -> &[WorkerStart] {

@@ -232,6 +232,12 @@ impl World {
         self.running.as_ref().is_some_and(|running| running.evaluated)
     }
 
+    /// Whether wrenches and contacts are those of the states, pairs and surfaces as they are set now. A commit does not
+    /// change that.
+    pub fn frame_is_current(&self) -> bool {
+        self.running.as_ref().is_some_and(|running| running.current)
+    }
+
     /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated.
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.must_be_evaluated()?;
@@ -344,6 +350,16 @@ impl World {
         Ok(self.running_mut("restore the contact state")?.restore_state(block)?)
     }
 
+    /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.
+    pub fn has_contact_state(&self) -> bool {
+        let memory = self.running.as_ref().map(|running| &running.memory);
+        memory.is_some_and(|memory| {
+            memory.poses.iter().any(|pair| pair.known)
+                || memory.records.iter().len() > 0
+                || (memory.work, memory.dissipated) != (0.0, 0.0)
+        })
+    }
+
     /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
     pub fn forget(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.object_index(object)?;
@@ -399,6 +415,53 @@ impl World {
         })
     }
 
+    /// All models in the order in which they were added.
+    pub fn models(&self) -> impl ExactSizeIterator<Item = (ModelId, &Arc<Model>)> {
+        self.scene.models.iter().enumerate().map(|(index, model)| (ModelId::new(self.stamp, index), model))
+    }
+
+    /// All surfaces of a model as they are now.
+    pub fn surfaces(&self, model: ModelId) -> Result<&[Surface], EngineError> {
+        Ok(&self.surfaces[self.model_index(model)?])
+    }
+
+    /// All Objects in the order in which they were created. Their Interfaces follow each other in that order too.
+    pub fn objects(&self) -> impl ExactSizeIterator<Item = ObjectId> + '_ {
+        (0..self.scene.objects.len()).map(|index| ObjectId::new(self.stamp, index))
+    }
+
+    /// The id of the model an Object was made from.
+    pub fn model_id_of(&self, object: ObjectId) -> Result<ModelId, EngineError> {
+        Ok(ModelId::new(self.stamp, self.scene.objects[self.object_index(object)?].model))
+    }
+
+    /// All pairs with their Objects in the order in which they were declared.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = (PairId, [ObjectId; 2])> + '_ {
+        let object = |index| ObjectId::new(self.stamp, index);
+        let pairs = self.scene.pairs.iter().enumerate();
+        pairs.map(move |(index, pair)| (PairId::new(self.stamp, index), [object(pair.a), object(pair.b)]))
+    }
+
+    /// Whether a pair is tested.
+    pub fn pair_enabled(&self, pair: PairId) -> Result<bool, EngineError> {
+        Ok(self.states.enabled[self.pair_index(pair)?])
+    }
+
+    /// Names of the registered force laws.
+    pub fn law_names(&self) -> impl Iterator<Item = &str> {
+        self.scene.laws.names()
+    }
+
+    /// Most contacts of a frame.
+    pub fn contact_capacity(&self) -> Result<usize, EngineError> {
+        Ok(self.running("ask for the contact capacity")?.sealed.contact_capacity)
+    }
+
+    /// Whether energies are kept.
+    pub fn keeps_ledger(&self) -> bool {
+        self.scene.config.ledger
+    }
+
     /// The model an Object was made from.
     pub fn model_of(&self, object: ObjectId) -> Result<&Arc<Model>, EngineError> {
         Ok(&self.scene.models[self.scene.objects[self.object_index(object)?].model])
@@ -433,6 +496,12 @@ impl World {
         Ok(state.as_ref().map(|state| (state.pose(), state.twist())))
     }
 
+    /// The state last set for a movable group, as it was set; `None` if never. [`state`](Self::state) has the
+    /// quaternion normalised.
+    pub fn state_as_set(&self, interface: InterfaceId) -> Result<Option<&State>, EngineError> {
+        Ok(self.states.bodies[self.interface_index(interface)?].as_ref())
+    }
+
     /// The stiffest single contact that each pair of movable groups can have, as far as it does not depend on the
     /// depth (Hertz contacts and registered laws do): what a step must be short enough for.
     pub fn stiffest_contacts(&self) -> Result<Vec<StiffestContact>, EngineError> {
@@ -461,7 +530,7 @@ impl World {
 
     /// The last frame does not belong to what is set now.
     fn changed(&mut self) {
-        self.running.iter_mut().for_each(|running| running.evaluated = false);
+        self.running.iter_mut().for_each(Running::changed);
     }
 
     fn must_not_be_sealed(&self, call: &'static str) -> Result<(), EngineError> {

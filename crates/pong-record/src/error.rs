@@ -51,6 +51,11 @@ pub enum LogError {
         /// What to do.
         cure: String,
     },
+    /// The files could not be written to the end.
+    Ended {
+        /// Why, and how far the log goes.
+        text: String,
+    },
     /// A call at the wrong time, or with a value that cannot be.
     Refused {
         /// What and why.
@@ -107,6 +112,7 @@ impl std::fmt::Display for LogError {
             Self::Model { name, cause, cure } => {
                 write!(f, "model `{name}`: cannot be kept with the log: {cause}; {cure}")
             }
+            Self::Ended { text } => f.write_str(text),
             Self::Refused { cause, cure } => write!(f, "log: {cause}; {cure}"),
             Self::Engine(error) => error.fmt(f),
         }

@@ -6,18 +6,24 @@
 //! |---|---|
 //! | `run.rs`, `event.rs` | run.json and events.jsonl |
 //! | `table/` | the rows of the NumPy tables, and tables as they are read |
+//! | `write/` | [`Recorder`] on the frame's path, and the thread that writes the files |
 //! | `read/` | [`Log`]: whole frames by number |
+//! | `replay/` | a log goes through the engine again |
 
 #![forbid(unsafe_code)]
 
 mod error;
 mod event;
 mod read;
+mod replay;
 mod run;
 pub mod table;
+mod write;
 
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};
+pub use replay::{Difference, Obstacle, ReplayOptions, ReplayReport, replay};
 pub use run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
+pub use write::{ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

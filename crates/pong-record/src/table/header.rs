@@ -1,38 +1,49 @@
 //! The header of a NumPy file of a structured type (format 1.0), with room for any number of rows.
 
 use super::Field;
-use std::fmt::Write as _;
+use std::io::Write as _;
 
 /// Room for the count: as many digits as a number of 64 bits has.
 const DIGITS: usize = 20;
+/// Bytes before the text: magic, version and the length of the text.
+const HEAD: usize = 10;
 /// NumPy aligns the data to this.
 const GRAIN: usize = 64;
 
 /// The header of a table with so many rows. Its length does not depend on the number. `columns` is the second axis.
 pub fn header(fields: &[Field], rows: u64, columns: Option<usize>) -> Vec<u8> {
-    let mut text = String::from("{'descr': [");
+    let mut out = Vec::new();
+    write_header(fields, rows, columns, &mut out);
+    out
+}
+
+/// As [`header`], into memory that is used again. Writing to memory cannot fail.
+pub(crate) fn write_header(fields: &[Field], rows: u64, columns: Option<usize>, out: &mut Vec<u8>) {
+    out.clear();
+    out.extend_from_slice(b"\x93NUMPY\x01\x00\x00\x00");
+    out.extend_from_slice(b"{'descr': [");
     for (index, field) in fields.iter().enumerate() {
         let comma = if index > 0 { ", " } else { "" };
-        let _ = write!(text, "{comma}('{}', '{}'", field.name, field.kind);
+        let _ = write!(out, "{comma}('{}', '{}'", field.name, field.kind);
         if field.count > 0 {
-            let _ = write!(text, ", ({},)", field.count);
+            let _ = write!(out, ", ({},)", field.count);
         }
-        text.push(')');
+        out.push(b')');
     }
-    let _ = write!(text, "], 'fortran_order': False, 'shape': ({rows},");
+    let _ = write!(out, "], 'fortran_order': False, 'shape': (");
+    let before = out.len();
+    let _ = write!(out, "{rows}");
+    let spare = DIGITS - (out.len() - before);
+    out.push(b',');
     if let Some(columns) = columns {
-        let _ = write!(text, " {columns}");
+        let _ = write!(out, " {columns}");
     }
-    text.push_str("), }");
-    let spare = DIGITS - rows.to_string().len();
-    let unpadded = 10 + text.len() + spare + 1;
-    let padding = unpadded.next_multiple_of(GRAIN) - unpadded + spare;
-    text.extend(std::iter::repeat_n(' ', padding));
-    text.push('\n');
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend_from_slice(&u16::try_from(text.len()).expect("a table has few fields").to_le_bytes());
-    bytes.extend_from_slice(text.as_bytes());
-    bytes
+    out.extend_from_slice(b"), }");
+    let length = (out.len() + spare + 1).next_multiple_of(GRAIN);
+    out.resize(length - 1, b' ');
+    out.push(b'\n');
+    let text = u16::try_from(length - HEAD).expect("a table has few fields");
+    out[HEAD - 2..HEAD].copy_from_slice(&text.to_le_bytes());
 }
 
 #[cfg(test)]

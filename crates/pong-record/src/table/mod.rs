@@ -7,6 +7,7 @@ mod value;
 
 pub use file::TableFile;
 pub use header::header;
+pub(crate) use header::write_header;
 pub use rows::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 pub use value::Value;
 

@@ -1,0 +1,120 @@
+//! A frame of the world as bytes.
+
+use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
+use pong_engine::{Contact, ContactSide, EngineError, InterfaceId, State, World};
+
+/// What is written of a world, and room for one frame of it.
+#[derive(Debug)]
+pub(crate) struct Capture {
+    bodies: Vec<InterfaceId>,
+    /// Where the primitives of each body begin in the list of all.
+    first_primitive: Vec<u32>,
+    energies: bool,
+    bytes: Vec<u8>,
+}
+
+/// Bits of a contact's feature below its kind.
+const FEATURE_INDEX_BITS: u32 = 30;
+
+impl Capture {
+    pub fn new(world: &World, energies: bool) -> Result<Self, EngineError> {
+        let mut bodies = Vec::new();
+        let mut first_primitive = Vec::new();
+        let mut primitives = 0;
+        for object in world.objects() {
+            bodies.extend(world.interfaces(object)?);
+            for body in &world.model_of(object)?.bodies {
+                first_primitive.push(primitives);
+                primitives += body.primitives.len() as u32;
+            }
+        }
+        let mut capture = Self { bodies, first_primitive, energies, bytes: Vec::new() };
+        let largest = capture.size(world.contact_capacity()?);
+        // Touched now, so that no page of it is new to the first large frame.
+        capture.bytes.resize(largest, 1);
+        capture.bytes.clear();
+        Ok(capture)
+    }
+
+    /// Bytes of a frame with so many contacts.
+    pub fn size(&self, contacts: usize) -> usize {
+        let energies = if self.energies { EnergyRow::SIZE } else { 0 };
+        FrameRow::SIZE
+            + self.bodies.len() * (StateRow::SIZE + WrenchRow::SIZE)
+            + energies
+            + contacts * ContactRow::SIZE
+    }
+
+    /// The last frame of the world. Takes no memory: there is room for the most contacts that a frame can have.
+    pub fn frame(
+        &mut self,
+        world: &World,
+        row: &FrameRow,
+        energies: Option<&EnergyRow>,
+    ) -> Result<&[u8], EngineError> {
+        self.bytes.clear();
+        row.put(&mut self.bytes);
+        for body in &self.bodies {
+            state_row(world.state_as_set(*body)?).put(&mut self.bytes);
+        }
+        for body in &self.bodies {
+            let wrench = world.wrench_common(*body)?;
+            WrenchRow { force: wrench.force.into(), moment: wrench.moment.into() }.put(&mut self.bytes);
+        }
+        if self.energies {
+            energies.copied().unwrap_or(NO_ENERGIES).put(&mut self.bytes);
+        }
+        for contact in world.contacts_iter() {
+            self.contact_row(row.frame, &contact).put(&mut self.bytes);
+        }
+        Ok(&self.bytes)
+    }
+
+    pub fn contact_row(&self, frame: u64, contact: &Contact) -> ContactRow {
+        let primitive = |side: &ContactSide| self.first_primitive[side.interface.index()] + side.primitive;
+        ContactRow {
+            frame,
+            pair: contact.pair.index() as u32,
+            primitive_a: primitive(&contact.a),
+            primitive_b: primitive(&contact.b),
+            element_a: contact.a.element,
+            element_b: contact.b.element,
+            feature_kind: contact.feature >> FEATURE_INDEX_BITS,
+            feature_index: contact.feature & ((1 << FEATURE_INDEX_BITS) - 1),
+            end: contact.end,
+            sticks: u32::from(contact.sticks),
+            point: contact.point.into(),
+            normal: contact.normal.into(),
+            depth: contact.depth,
+            rate: contact.rate,
+            weight: contact.weight,
+            normal_force: contact.normal_force,
+            friction_force: contact.friction_force.into(),
+            slip_velocity: contact.slip_velocity.into(),
+            stored: contact.stored,
+        }
+    }
+}
+
+/// What stands for energies that were not handed in.
+const NO_ENERGIES: EnergyRow = EnergyRow {
+    kinetic: f64::NAN,
+    potential: f64::NAN,
+    springs: f64::NAN,
+    contacts: f64::NAN,
+    contact_loss: f64::NAN,
+    spring_loss: f64::NAN,
+    work_in: f64::NAN,
+    balance: f64::NAN,
+};
+
+fn state_row(state: Option<&State>) -> StateRow {
+    let unset = State {
+        position: [f64::NAN; 3],
+        orientation: [f64::NAN; 4],
+        linear_velocity: [f64::NAN; 3],
+        angular_velocity: [f64::NAN; 3],
+    };
+    let State { position, orientation, linear_velocity, angular_velocity } = *state.unwrap_or(&unset);
+    StateRow { position, orientation, linear_velocity, angular_velocity }
+}

@@ -1,0 +1,99 @@
+//! Which commits belong to which frame of the log.
+
+use crate::table::FrameRow;
+use pong_engine::PairId;
+
+/// What became of the evaluation last made, and of those before it since the last frame of the log.
+#[derive(Debug)]
+pub(super) struct Commits {
+    committed: u32,
+    missed: u32,
+    /// The pairs of a commit of some, in order. Its memory stays.
+    pairs: Vec<u32>,
+}
+
+impl Commits {
+    pub fn new(pairs: usize) -> Self {
+        Self { committed: FrameRow::EVALUATED, missed: 0, pairs: Vec::with_capacity(pairs) }
+    }
+
+    /// Another evaluation: a commit of the one before belongs to no frame any more.
+    pub fn evaluated(&mut self) {
+        self.missed = self.missed.saturating_add(u32::from(self.committed != FrameRow::EVALUATED));
+        self.committed = FrameRow::EVALUATED;
+    }
+
+    pub fn committed(&mut self) {
+        self.committed = FrameRow::COMMITTED;
+    }
+
+    pub fn committed_some(&mut self, pairs: &[PairId]) {
+        self.committed = FrameRow::COMMITTED_SOME;
+        self.pairs.clear();
+        for pair in pairs.iter().map(|pair| pair.index() as u32) {
+            // As many as there are pairs is all there is room for: a pair named twice is one.
+            if !self.pairs.contains(&pair) {
+                self.pairs.push(pair);
+            }
+        }
+        self.pairs.sort_unstable();
+    }
+
+    /// Fills in what a frame tells, and begins the next.
+    pub fn tell(&mut self, row: &mut FrameRow) {
+        (row.committed, row.commits_missed) = (self.committed, self.missed);
+        (self.committed, self.missed) = (FrameRow::EVALUATED, 0);
+    }
+
+    /// A frame that was told is not in the log after all.
+    pub fn lost(&mut self, row: &FrameRow) {
+        let own = u32::from(row.committed != FrameRow::EVALUATED);
+        self.missed = self.missed.saturating_add(row.commits_missed).saturating_add(own);
+    }
+
+    /// The pairs of the commit of some that was told last.
+    pub fn pairs(&self) -> &[u32] {
+        &self.pairs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(commits: &mut Commits) -> (u32, u32) {
+        let mut row = crate::Frame::default().row;
+        commits.tell(&mut row);
+        (row.committed, row.commits_missed)
+    }
+
+    #[test]
+    fn a_frame_tells_its_own_commit_and_those_that_were_missed() {
+        let mut commits = Commits::new(2);
+        let step = |commits: &mut Commits| {
+            commits.evaluated();
+            commits.committed();
+        };
+        step(&mut commits);
+        assert_eq!(told(&mut commits), (1, 0));
+        (0..10).for_each(|_| step(&mut commits));
+        assert_eq!(told(&mut commits), (1, 9));
+        // Stages of an integrator are no commits.
+        (0..3).for_each(|_| commits.evaluated());
+        step(&mut commits);
+        assert_eq!(told(&mut commits), (1, 0));
+        // Recorded before it was committed: the commit belongs to no frame.
+        commits.evaluated();
+        assert_eq!(told(&mut commits), (0, 0));
+        commits.committed();
+        commits.evaluated();
+        assert_eq!(told(&mut commits), (0, 1));
+        // A frame that was lost leaves its commits to the next.
+        step(&mut commits);
+        let mut row = crate::Frame::default().row;
+        commits.tell(&mut row);
+        commits.lost(&row);
+        step(&mut commits);
+        assert_eq!(told(&mut commits), (1, 1));
+    }
+}

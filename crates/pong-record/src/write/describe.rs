@@ -1,0 +1,76 @@
+//! run.json from a sealed world.
+
+use super::RecordOptions;
+use crate::run::{FORMAT, Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
+use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
+use pong_engine::{EngineError, World};
+use pong_model::{Body, Model};
+
+/// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
+pub(super) fn describe(
+    world: &World,
+    models: Vec<RunModel>,
+    options: &RecordOptions,
+) -> Result<Run, EngineError> {
+    let mut objects = Vec::new();
+    let (mut bodies, mut primitives) = (Vec::new(), Vec::new());
+    for object in world.objects() {
+        let name = world.object_name(object)?;
+        let model = world.model_of(object)?;
+        let first = bodies.len();
+        for body in &model.bodies {
+            primitives.extend(body.primitives.iter().map(|primitive| RunPrimitive {
+                body: bodies.len(),
+                path: primitive.path.clone(),
+                kind: format!("{:?}", primitive.kind),
+                surface: model.surfaces[primitive.surface as usize].name.clone(),
+            }));
+            bodies.push(RunBody {
+                name: body_name(name, model, body),
+                object: object.index(),
+                path: body.path.clone(),
+                parent: body.parent.map(|parent| first + parent as usize),
+            });
+        }
+        objects.push(RunObject { name: name.to_owned(), model: world.model_id_of(object)?.index() });
+    }
+    let names = [FrameRow::TABLE, StateRow::TABLE, WrenchRow::TABLE, ContactRow::TABLE];
+    let names = names.into_iter().chain(options.energies.then_some(EnergyRow::TABLE));
+    Ok(Run {
+        format: FORMAT.to_owned(),
+        version: VERSION,
+        name: options.name.clone(),
+        writer: options.writer.clone(),
+        engine: env!("CARGO_PKG_VERSION").to_owned(),
+        scene_hash: world.scene_hash()?,
+        step: options.step,
+        commits_per_frame: options.commits_per_frame,
+        integrator: options.integrator.clone(),
+        contact_capacity: Some(world.contact_capacity()? as u64),
+        ledger: world.keeps_ledger(),
+        laws: world.law_names().map(str::to_owned).collect(),
+        models,
+        objects,
+        bodies,
+        pairs: world.pairs().map(|(_, pair)| pair.map(|object| object.index())).collect(),
+        primitives,
+        tables: names.map(|name| (name.to_owned(), RunTable { file: file(name), rows: None })).collect(),
+        finished: false,
+        frames: None,
+        lost: 0,
+    })
+}
+
+/// The file of a table.
+pub(super) fn file(table: &str) -> String {
+    format!("{table}.npy")
+}
+
+/// The Object's name for the root, with the path below the root for others.
+fn body_name(object: &str, model: &Model, body: &Body) -> String {
+    let root = &model.bodies[0].path;
+    match body.path.strip_prefix(root.as_str()).and_then(|rest| rest.strip_prefix('/')) {
+        Some(below) => format!("{object}/{below}"),
+        None => object.to_owned(),
+    }
+}

@@ -1,0 +1,425 @@
+//! What stands on the frame's path: no memory is taken, no file touched, nothing waited for (unless that is wanted).
+
+use super::capture::Capture;
+use super::commits::Commits;
+use super::message::{self, Kind};
+use super::models::{self, ModelSource};
+use super::thread::{BLOCK_HEAD, Shared, Writer, block_file};
+use super::{RecordOptions, WhenFull, describe, folder};
+use crate::error::LogError;
+use crate::event::{Event, LoggedEvent};
+use crate::table::{EnergyRow, FrameRow};
+use pong_engine::{EngineError, ModelId, ObjectId, PairId, World};
+use pong_model::Surface;
+use rtrb::{Producer, RingBuffer};
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+/// Records a sealed world.
+///
+/// The recorder is told of every evaluation, every commit and every change; [`record`](Self::record) writes the frame
+/// last computed. Dropping it closes the log; [`finish`](Self::finish) does so too and tells whether all went well.
+#[derive(Debug)]
+pub struct Recorder {
+    /// `None` once the log is closed.
+    producer: Option<Producer<u8>>,
+    thread: Option<JoinHandle<()>>,
+    shared: Arc<Shared>,
+    capture: Capture,
+    commits: Commits,
+    when_full: WhenFull,
+    /// Number of the next frame.
+    next: u64,
+    lost: u64,
+    /// Those that nobody was told of yet: the frame that the first belongs to, and how many.
+    events_lost: Option<(u64, u64)>,
+    events_lost_ever: u64,
+    blocks: u64,
+    /// For lines of events. Its memory stays.
+    line: Vec<u8>,
+    peak: usize,
+}
+
+/// How a log stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct RecordStatus {
+    /// Frames that were recorded, lost ones too.
+    pub frames: u64,
+    /// Frames in the files that count: a run that is cut off now keeps them.
+    pub flushed: u64,
+    /// Frames that are not and will not be in the log.
+    pub lost: u64,
+    /// Events likewise.
+    pub events_lost: u64,
+    /// Bytes of the rows that count.
+    pub bytes: u64,
+    /// Most bytes that waited for the files, of [`buffer_size`](Self::buffer_size).
+    pub buffer_peak: usize,
+    /// Bytes that may wait for the files.
+    pub buffer_size: usize,
+    /// Why nothing is written any more, if so.
+    pub error: Option<String>,
+}
+
+/// Bytes that may wait for the files unless the host says otherwise.
+const BUFFER: usize = 16 << 20;
+/// Bytes that frames leave free for events.
+const ROOM_FOR_EVENTS: usize = 1 << 16;
+/// Longest line of an event that is written in a frame: the numbers of all pairs in one, at most.
+const LINE: usize = 256;
+const DIGITS_OF_A_PAIR: usize = 11;
+
+impl Recorder {
+    /// Begins a log of a sealed world in a folder. `models` tells where each model came from, in the order in which
+    /// they were added. What the world remembers, switched pairs and changed surfaces go into the log, so that it
+    /// may begin at any time.
+    ///
+    /// # Errors
+    /// A folder that cannot be written or holds a log, a model whose files have changed, a world that is not sealed.
+    pub fn start(
+        world: &World,
+        folder: &Path,
+        models: &[ModelSource],
+        options: &RecordOptions,
+    ) -> Result<Self, LogError> {
+        let state_size = world.state_size()?;
+        folder::prepare(folder, options.overwrite)?;
+        let models = models::keep(world, models, folder)?;
+        let run = describe::describe(world, models, options)?;
+        let capture = Capture::new(world, options.energies)?;
+        let frame = capture.size(world.contact_capacity()?);
+        let pairs = world.pairs().len();
+        let line = LINE + pairs * DIGITS_OF_A_PAIR;
+        let least = (2 * message::room(&[line, frame])).max(message::room(&[BLOCK_HEAD + state_size]));
+        let wanted = options.buffer_bytes.unwrap_or(BUFFER).max(least) + ROOM_FOR_EVENTS;
+        let longest = frame.max(BLOCK_HEAD + state_size).max(line);
+        let (producer, consumer) = ring(wanted);
+        let writer = Writer::create(folder, run, options)?;
+        let shared = Arc::new(Shared::default());
+        let thread = {
+            let (shared, on_start) = (Arc::clone(&shared), options.on_thread_start);
+            std::thread::Builder::new().name("pong log".to_owned()).spawn(move || {
+                on_start.iter().for_each(|call| call());
+                writer.work(consumer, Vec::with_capacity(longest), &shared);
+            })
+        };
+        let thread = thread.map_err(|reason| {
+            LogError::refused(
+                format!("no thread could be started: {reason}"),
+                "let the system have more threads",
+            )
+        })?;
+        let mut recorder = Self {
+            producer: Some(producer),
+            thread: Some(thread),
+            shared,
+            capture,
+            commits: Commits::new(pairs),
+            when_full: options.when_full,
+            next: 0,
+            lost: 0,
+            events_lost: None,
+            events_lost_ever: 0,
+            blocks: 0,
+            line: Vec::with_capacity(line),
+            peak: 0,
+        };
+        recorder.tell_how_it_begins(world, state_size)?;
+        Ok(recorder)
+    }
+
+    /// The world was evaluated.
+    pub fn evaluated(&mut self) {
+        self.commits.evaluated();
+    }
+
+    /// The evaluation was committed.
+    pub fn committed(&mut self) {
+        self.commits.committed();
+    }
+
+    /// The evaluation was committed for these pairs.
+    pub fn committed_some(&mut self, pairs: &[PairId]) {
+        self.commits.committed_some(pairs);
+    }
+
+    /// Records the frame last computed, of this time (s). `evaluate_ns` is 0 where nobody measured. A frame for which
+    /// there is no room is lost, or waits, as the options say; that is no error.
+    ///
+    /// # Errors
+    /// A world without a frame, or whose states, pairs or surfaces are no longer those of its frame; a time that is
+    /// not finite.
+    pub fn record(
+        &mut self,
+        world: &World,
+        time: f64,
+        evaluate_ns: u64,
+        energies: Option<&EnergyRow>,
+    ) -> Result<(), LogError> {
+        if !time.is_finite() {
+            return Err(LogError::refused(format!("the time is {time}"), "give a finite time in s"));
+        }
+        if !world.frame_is_current() {
+            let call = "record a frame";
+            let cure = "record it after it was evaluated and before states, pairs or surfaces change";
+            return Err(EngineError::WrongPhase { call, cure }.into());
+        }
+        let report = world.report();
+        let mut row = FrameRow {
+            frame: self.next,
+            time,
+            // The thread knows how many are in the table.
+            first_contact: 0,
+            contacts: report.contacts,
+            flags: report.status.bits(),
+            evaluate_ns,
+            committed: FrameRow::EVALUATED,
+            commits_missed: 0,
+        };
+        self.commits.tell(&mut row);
+        if !self.hand_over(world, &row, energies)? {
+            self.commits.lost(&row);
+            self.lost += 1;
+            self.shared.lost.store(self.lost, Ordering::Relaxed);
+        }
+        self.next += 1;
+        Ok(())
+    }
+
+    /// A pair was switched on or off.
+    pub fn pair_switched(&mut self, pair: PairId, enabled: bool) {
+        let (frame, pair) = (self.next, pair.index());
+        self.line.clear();
+        let _ = write!(
+            self.line,
+            "{{\"frame\":{frame},\"event\":\"pair\",\"pair\":{pair},\"enabled\":{enabled}}}"
+        );
+        self.event();
+    }
+
+    /// The contact state of an Object was dropped.
+    pub fn forgot(&mut self, object: ObjectId) {
+        let (frame, object) = (self.next, object.index());
+        self.line.clear();
+        let _ = write!(self.line, "{{\"frame\":{frame},\"event\":\"forget\",\"object\":{object}}}");
+        self.event();
+    }
+
+    /// The values of a surface were replaced. Takes memory.
+    pub fn surface_set(&mut self, model: ModelId, surface: &Surface) {
+        let (model, name) = (model.index() as u32, surface.name.clone());
+        let event = Event::Surface { model, name, values: surface.into() };
+        self.line.clear();
+        let event = LoggedEvent { frame: self.next, event };
+        serde_json::to_writer(&mut self.line, &event).expect("an event can be written");
+        self.event();
+    }
+
+    /// A contact state was restored.
+    pub fn restored(&mut self, block: &[u8]) {
+        let Some((contents, end)) = block.split_last_chunk::<8>() else { return };
+        // Most of it is room that nothing is in.
+        let used = contents.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+        let mut head = [0; BLOCK_HEAD];
+        head[..8].copy_from_slice(&self.blocks.to_le_bytes());
+        head[8..16].copy_from_slice(&(block.len() as u64).to_le_bytes());
+        head[16..].copy_from_slice(end);
+        if !self.push(Kind::Block, &[&head, &contents[..used]]) {
+            self.event_was_lost();
+            return;
+        }
+        self.line.clear();
+        let (frame, file) = (self.next, self.blocks);
+        // As `block_file`, which takes memory.
+        let _ = write!(
+            self.line,
+            "{{\"frame\":{frame},\"event\":\"restore\",\"file\":\"contact_state_{file}.bin\"}}"
+        );
+        debug_assert!(String::from_utf8_lossy(&self.line).contains(&block_file(file)));
+        self.blocks += 1;
+        self.event();
+    }
+
+    /// How the log stands. Takes memory only where something has failed.
+    pub fn status(&self) -> RecordStatus {
+        let shared = &self.shared;
+        let error = if shared.failed.load(Ordering::Acquire) {
+            shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone()
+        } else {
+            None
+        };
+        RecordStatus {
+            frames: self.next,
+            flushed: shared.frames.load(Ordering::Relaxed),
+            lost: self.lost + shared.dropped.load(Ordering::Relaxed),
+            events_lost: self.events_lost_ever,
+            bytes: shared.bytes.load(Ordering::Relaxed),
+            buffer_peak: self.peak,
+            buffer_size: self.producer.as_ref().map_or(0, |producer| producer.buffer().capacity()),
+            error,
+        }
+    }
+
+    /// Writes what is left and closes the log.
+    ///
+    /// # Errors
+    /// What kept the files from being written, now or earlier; the log ends where it says.
+    pub fn finish(mut self) -> Result<RecordStatus, LogError> {
+        let before = self.status();
+        self.close();
+        let status = RecordStatus { buffer_size: before.buffer_size, ..self.status() };
+        match status.error {
+            None => Ok(status),
+            Some(text) => Err(LogError::Ended { text }),
+        }
+    }
+
+    fn close(&mut self) {
+        self.when_full = WhenFull::Wait;
+        self.tell_lost();
+        self.producer = None;
+        if let Some(thread) = self.thread.take() {
+            thread.thread().unpark();
+            if thread.join().is_err() {
+                let text =
+                    "log: the thread that writes it has failed; the log ends where it was flushed".to_owned();
+                *self.shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(text);
+                self.shared.failed.store(true, Ordering::Release);
+            }
+        }
+    }
+
+    fn tell_how_it_begins(&mut self, world: &World, state_size: usize) -> Result<(), LogError> {
+        for (id, model) in world.models() {
+            let surfaces = world.surfaces(id)?.iter().zip(&model.surfaces);
+            for (surface, _) in surfaces.filter(|(now, authored)| now != authored) {
+                self.surface_set(id, surface);
+            }
+        }
+        for (pair, _) in world.pairs() {
+            if !world.pair_enabled(pair)? {
+                self.pair_switched(pair, false);
+            }
+        }
+        if world.has_contact_state() {
+            let mut block = vec![0; state_size];
+            world.save_state(&mut block)?;
+            self.restored(&block);
+        }
+        Ok(())
+    }
+
+    /// Whether the frame could be handed to the thread.
+    fn hand_over(
+        &mut self,
+        world: &World,
+        row: &FrameRow,
+        energies: Option<&EnergyRow>,
+    ) -> Result<bool, LogError> {
+        if self.shared.failed.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
+        let partial = row.committed == FrameRow::COMMITTED_SOME;
+        if partial {
+            self.line.clear();
+            let _ = write!(self.line, "{{\"frame\":{},\"event\":\"commit\",\"pairs\":[", row.frame);
+            for (index, pair) in self.commits.pairs().iter().enumerate() {
+                let comma = if index > 0 { "," } else { "" };
+                let _ = write!(self.line, "{comma}{pair}");
+            }
+            self.line.extend_from_slice(b"]}");
+        }
+        let line = if partial { self.line.len() } else { 0 };
+        let frame = self.capture.size(row.contacts as usize);
+        if !self.wait_for(message::room(&[line, frame]) + ROOM_FOR_EVENTS) {
+            return Ok(false);
+        }
+        if partial {
+            let line = std::mem::take(&mut self.line);
+            self.push(Kind::Event, &[&line]);
+            self.line = line;
+        }
+        let Some(producer) = &mut self.producer else { return Ok(false) };
+        let bytes = self.capture.frame(world, row, energies)?;
+        let pushed = message::push(producer, Kind::Frame, &[bytes]);
+        self.peak = self.peak.max(producer.buffer().capacity() - producer.slots());
+        Ok(pushed)
+    }
+
+    /// Hands the line of an event to the thread, after word of those that were lost before it.
+    fn event(&mut self) {
+        let line = std::mem::take(&mut self.line);
+        if !self.tell_lost() || !self.push(Kind::Event, &[&line]) {
+            self.event_was_lost();
+        }
+        self.line = line;
+    }
+
+    /// Hands over word of events that were lost, if there were any and there is room now.
+    fn tell_lost(&mut self) -> bool {
+        let Some((frame, count)) = self.events_lost else { return true };
+        let mut note = [0; 96];
+        let mut rest = &mut note[..];
+        let _ = write!(rest, "{{\"frame\":{frame},\"event\":\"lost\",\"count\":{count}}}");
+        let length = 96 - rest.len();
+        let told = self.push(Kind::Event, &[&note[..length]]);
+        if told {
+            self.events_lost = None;
+        }
+        told
+    }
+
+    fn event_was_lost(&mut self) {
+        let (frame, count) = self.events_lost.unwrap_or((self.next, 0));
+        self.events_lost = Some((frame, count + 1));
+        self.events_lost_ever += 1;
+    }
+
+    fn push(&mut self, kind: Kind, parts: &[&[u8]]) -> bool {
+        let length = parts.iter().map(|part| part.len()).sum();
+        if !self.wait_for(message::room(&[length])) {
+            return false;
+        }
+        self.producer.as_mut().is_some_and(|producer| message::push(producer, kind, parts))
+    }
+
+    /// Whether there is so much room in the ring, now or, if the host wants to wait, soon.
+    fn wait_for(&mut self, room: usize) -> bool {
+        let Some(producer) = &self.producer else { return false };
+        loop {
+            if producer.slots() >= room {
+                return true;
+            }
+            if self.when_full == WhenFull::Lose || self.shared.failed.load(Ordering::Relaxed) {
+                return false;
+            }
+            let Some(thread) = self.thread.as_ref().filter(|thread| !thread.is_finished()) else {
+                return false;
+            };
+            thread.thread().unpark();
+            std::thread::sleep(Duration::from_micros(200));
+        }
+    }
+}
+
+impl Drop for Recorder {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+/// A ring of so many bytes, all of them touched, so that no page of it is new in a frame.
+fn ring(bytes: usize) -> (Producer<u8>, rtrb::Consumer<u8>) {
+    let (mut producer, mut consumer) = RingBuffer::new(bytes);
+    if let Ok(chunk) = producer.write_chunk_uninit(bytes) {
+        chunk.fill_from_iter(std::iter::repeat(1));
+    }
+    if let Ok(chunk) = consumer.read_chunk(bytes) {
+        chunk.commit_all();
+    }
+    (producer, consumer)
+}

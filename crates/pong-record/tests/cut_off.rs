@@ -1,0 +1,98 @@
+//! Logs that were cut off or damaged: read as far as they go, or refused by name.
+
+mod support;
+
+use pong_record::{Log, LogError, RecordOptions};
+use std::path::Path;
+use support::{folder, scene};
+
+const SIZES: [(&str, usize); 4] =
+    [("frames", 48), ("states", 3 * 104), ("wrenches", 3 * 48), ("contacts", 180)];
+
+#[test]
+fn a_table_cut_at_any_byte_of_its_last_row_is_read_up_to_the_row_before() {
+    let folder = folder("cut");
+    let place = scene(&folder).record(&folder, 20, &RecordOptions::default());
+    for (table, size) in SIZES {
+        let path = place.join(format!("{table}.npy"));
+        let whole = std::fs::read(&path).unwrap();
+        for cut in 0..=size {
+            std::fs::write(&path, &whole[..whole.len() - cut]).unwrap();
+            let mut log = Log::open(&place).unwrap();
+            let expected = if cut == 0 { 20 } else { 19 };
+            assert_eq!((log.frame_count(), log.is_whole()), (expected, cut == 0), "{table} less {cut} bytes");
+            log.frame(expected - 1).unwrap();
+            assert!(log.frame(expected).is_err());
+        }
+        std::fs::write(&path, whole).unwrap();
+    }
+}
+
+fn damage(place: &Path, file: &str, change: impl Fn(Vec<u8>) -> Vec<u8>) -> String {
+    let path = place.join(file);
+    let whole = std::fs::read(&path).unwrap();
+    std::fs::write(&path, change(whole.clone())).unwrap();
+    let told = match Log::open(place) {
+        Err(error) => error.to_string(),
+        Ok(mut log) => (0..log.frame_count())
+            .find_map(|frame| log.frame(frame).err())
+            .map_or("nothing was found".to_owned(), |error| error.to_string()),
+    };
+    std::fs::write(&path, whole).unwrap();
+    assert!(told.contains(file), "{told}");
+    told
+}
+
+#[test]
+fn damage_is_told_with_file_and_cause() {
+    let folder = folder("damaged");
+    let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
+    let replace = |from: &'static str, to: &'static str| {
+        move |bytes: Vec<u8>| {
+            // One byte, one character: tables are no text.
+            let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+            assert!(text.contains(from), "no {from} to replace");
+            text.replace(from, to).chars().map(|c| c as u8).collect()
+        }
+    };
+    let cases = [
+        ("states.npy", damage(&place, "states.npy", |_| b"no table".to_vec()), "header cannot be read"),
+        ("depth", damage(&place, "contacts.npy", replace("'depth'", "'dopth'")), "field `depth` is missing"),
+        ("force", damage(&place, "wrenches.npy", replace("<f8", "<f4")), "field `force` is"),
+        ("axes", damage(&place, "wrenches.npy", replace(", 3), }", ", 2), }")), "its axes are"),
+        ("json", damage(&place, "run.json", |bytes| bytes[..bytes.len() / 2].to_vec()), "line "),
+        ("format", damage(&place, "run.json", replace("pong-log", "ping-log")), "its format is"),
+        ("version", damage(&place, "run.json", replace("\"version\": 1", "\"version\": 2")), "version 2"),
+        (
+            "model",
+            damage(&place, "run.json", replace("\"model\": 1", "\"model\": 7")),
+            "number 7 of the models",
+        ),
+        ("way out", damage(&place, "run.json", replace("frames.npy", "../frames.npy")), "leads out"),
+        ("body", damage(&place, "run.json", replace("\"body\": 2", "\"body\": 3")), "number 3 of the bodies"),
+        ("event", damage(&place, "events.jsonl", |_| b"{\"frame\": 1}\n".to_vec()), "line 1"),
+        ("contact", damage(&place, "contacts.npy", last_pair_is_99), "pair 99"),
+    ];
+    for (what, told, expected) in cases {
+        assert!(told.contains(expected), "{what}: {told}");
+    }
+    assert!(Log::open(&place).unwrap().is_whole());
+    let nothing = Log::open(&folder.join("nothing"));
+    assert!(matches!(nothing, Err(LogError::Unreadable { .. })), "{nothing:?}");
+}
+
+fn last_pair_is_99(mut bytes: Vec<u8>) -> Vec<u8> {
+    let at = bytes.len() - 180 + 8;
+    bytes[at] = 99;
+    bytes
+}
+
+/// A line that was being written when the run was cut off.
+#[test]
+fn half_a_line_of_events_is_passed_over() {
+    let folder = folder("half_event");
+    let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
+    let text = "{\"frame\":1,\"event\":\"forget\",\"object\":0}\n{\"frame\":2,\"ev";
+    std::fs::write(place.join("events.jsonl"), text).unwrap();
+    assert_eq!(Log::open(&place).unwrap().events().len(), 1);
+}
