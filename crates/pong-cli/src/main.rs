@@ -5,6 +5,8 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod log;
+mod replay;
 mod run;
 mod text;
 mod verify;
@@ -24,6 +26,8 @@ struct Cli {
 enum Command {
     Check(check::Arguments),
     Run(run::Arguments),
+    Log(log::Arguments),
+    Replay(replay::Arguments),
     Verify(verify::Arguments),
 }
 
@@ -31,6 +35,8 @@ fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Check(arguments) => check::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
+        Command::Log(arguments) => log::main(&arguments),
+        Command::Replay(arguments) => replay::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
     }
 }

@@ -8,10 +8,12 @@
 //! | `table/` | the rows of the NumPy tables, and tables as they are read |
 //! | `write/` | [`Recorder`] on the frame's path, and the thread that writes the files |
 //! | `read/` | [`Log`]: whole frames by number |
+//! | `csv.rs` | the same rows as text |
 //! | `replay/` | a log goes through the engine again |
 
 #![forbid(unsafe_code)]
 
+mod csv;
 mod error;
 mod event;
 mod read;
@@ -20,6 +22,7 @@ mod run;
 pub mod table;
 mod write;
 
+pub use csv::{CsvTables, Look};
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};

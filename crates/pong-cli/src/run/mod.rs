@@ -1,14 +1,14 @@
 //! `pong run`: runs a scene, records it, sums it up.
 
-mod records;
+mod outputs;
 mod statistics;
 mod summary;
 
 use crate::text::print;
 use indicatif::{ProgressBar, ProgressStyle};
+use outputs::Outputs;
 use pong_executive::ExecutiveError;
 use pong_executive::scene::{BuiltScene, Scene};
-use records::Records;
 use statistics::Statistics;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -27,6 +27,15 @@ pub(crate) struct Arguments {
     /// unless -o says otherwise.
     #[arg(long)]
     csv: bool,
+    /// Writes a response log into this folder (docs/response_logs.md).
+    #[arg(long, value_name = "DIR")]
+    log: Option<PathBuf>,
+    /// Has every step in the log, whatever `record_every` says: such a log can be replayed exactly.
+    #[arg(long, requires = "log")]
+    every_step: bool,
+    /// Replaces a log that is in the folder.
+    #[arg(long, requires = "log")]
+    overwrite: bool,
     /// No progress bar and no summary; warnings and errors stay.
     #[arg(short, long)]
     quiet: bool,
@@ -79,29 +88,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 }
 
 fn run(arguments: &Arguments, built: &mut BuiltScene, statistics: &mut Statistics) -> Result<(), Failure> {
-    let mut records = match output_folder(arguments) {
-        Some(folder) => Some(Records::create(&folder, built).map_err(Failure::Output)?),
-        None => None,
-    };
-    let ended = advance(arguments, built, statistics, records.as_mut());
+    let mut outputs = Outputs::create(arguments, built).map_err(Failure::Output)?;
+    let ended = advance(arguments, built, statistics, &mut outputs);
     // What was recorded before a failure is what its cause is sought in.
-    let written = records.map_or(Ok(()), Records::finish).map_err(Failure::Output);
+    let written = outputs.finish().map_err(Failure::Output);
     ended.and(written)
-}
-
-fn output_folder(arguments: &Arguments) -> Option<PathBuf> {
-    let by_name = || {
-        let stem = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        PathBuf::from(format!("{stem}_out"))
-    };
-    arguments.output.clone().or_else(|| arguments.csv.then(by_name))
 }
 
 fn advance(
     arguments: &Arguments,
     built: &mut BuiltScene,
     statistics: &mut Statistics,
-    mut records: Option<&mut Records>,
+    outputs: &mut Outputs,
 ) -> Result<(), Failure> {
     let bar = progress_bar(built.steps, arguments.quiet);
     built.simulation.settle().map_err(Failure::Dynamics)?;
@@ -114,9 +112,7 @@ fn advance(
             statistics.observe(&built.simulation);
             bar.inc(1);
         }
-        if let Some(records) = records.as_deref_mut().filter(|_| done % built.record_every == 0) {
-            records.write(&built.simulation).map_err(Failure::Output)?;
-        }
+        outputs.observe(&built.simulation, done).map_err(Failure::Output)?;
     }
     bar.finish_and_clear();
     Ok(())

@@ -33,6 +33,8 @@ pub struct BuiltScene {
     pub simulation: Simulation,
     /// The objects in the order of the file.
     pub objects: Vec<SceneObject>,
+    /// The file of each model of the world, in the order in which the world has them.
+    pub model_files: Vec<PathBuf>,
     /// What sealing the world told.
     pub seal: SealReport,
     /// What the models' authors should know.
@@ -108,6 +110,7 @@ impl Scene {
             name: document.name.clone(),
             objects: scene_objects(document, &setting, &simulation),
             simulation,
+            model_files: std::mem::take(&mut setting.model_files),
             seal,
             warnings: setting.warnings,
             steps: libm::round(document.duration / document.step) as u64,

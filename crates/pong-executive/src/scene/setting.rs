@@ -5,7 +5,7 @@ use super::error::Faults;
 use pong_engine::{Config, EngineError, InterfaceId, ObjectId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub(crate) struct Setting {
@@ -14,6 +14,8 @@ pub(crate) struct Setting {
     pub objects: Vec<Option<ObjectId>>,
     /// Model of each object that could be made.
     pub models: Vec<Option<Arc<Model>>>,
+    /// The file of each model of the world, in the world's order.
+    pub model_files: Vec<PathBuf>,
     pub warnings: Vec<String>,
 }
 
@@ -27,12 +29,23 @@ impl Setting {
             ledger: document.ledger,
             ..Config::default()
         };
-        let mut setting =
-            Self { world: World::new(config), objects: Vec::new(), models: Vec::new(), warnings: Vec::new() };
+        let mut setting = Self {
+            world: World::new(config),
+            objects: Vec::new(),
+            models: Vec::new(),
+            model_files: Vec::new(),
+            warnings: Vec::new(),
+        };
         let named = load_models(document, folder, extensions, faults);
         setting.warnings =
             named.iter().flat_map(|(_, model)| model.iter().flat_map(|m| m.warnings.clone())).collect();
         setting.create_objects(document, &named, faults);
+        let files = setting.world.models().map(|(_, added)| {
+            let name = named.iter().find(|(_, model)| model.as_ref().is_some_and(|m| Arc::ptr_eq(m, added)));
+            let file = name.and_then(|(name, _)| document.models.iter().find(|(other, _)| other == name));
+            folder.join(file.map_or("", |(_, file)| file))
+        });
+        setting.model_files = files.collect();
         setting
     }
 

@@ -3,8 +3,8 @@
 use crate::error::LogError;
 use crate::read::Frame;
 use crate::run::Run;
-use crate::table::{Row, WrenchRow};
-use crate::write::Capture;
+use crate::table::Row;
+use crate::write::{Capture, wrench_row};
 use pong_engine::{InterfaceId, World};
 
 /// Two values that should be the same.
@@ -73,8 +73,7 @@ impl Comparison {
     fn wrench(&self, world: &World, frame: &Frame) -> Result<Option<(usize, Values)>, LogError> {
         let scales = Scales::of(&frame.wrenches);
         for (body, (id, logged)) in self.bodies.iter().zip(&frame.wrenches).enumerate() {
-            let wrench = world.wrench_common(*id)?;
-            let now = WrenchRow { force: wrench.force.into(), moment: wrench.moment.into() };
+            let now = wrench_row(world, *id)?;
             if let Some(what) = logged.difference(&now, 0, &|field, a, b| self.same(&scales, field, a, b)) {
                 return Ok(Some((body, what)));
             }

@@ -1,5 +1,6 @@
 //! A frame of the world as bytes.
 
+use crate::read::Frame;
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{Contact, ContactSide, EngineError, InterfaceId, State, World};
 
@@ -58,8 +59,7 @@ impl Capture {
             state_row(world.state_as_set(*body)?).put(&mut self.bytes);
         }
         for body in &self.bodies {
-            let wrench = world.wrench_common(*body)?;
-            WrenchRow { force: wrench.force.into(), moment: wrench.moment.into() }.put(&mut self.bytes);
+            wrench_row(world, *body)?.put(&mut self.bytes);
         }
         if self.energies {
             energies.copied().unwrap_or(NO_ENERGIES).put(&mut self.bytes);
@@ -68,6 +68,21 @@ impl Capture {
             self.contact_row(row.frame, &contact).put(&mut self.bytes);
         }
         Ok(&self.bytes)
+    }
+
+    /// As [`frame`](Self::frame), as rows, whose memory is used again.
+    pub fn rows(&self, world: &World, time: f64, out: &mut Frame) -> Result<(), EngineError> {
+        let report = world.report();
+        out.row = FrameRow { time, contacts: report.contacts, flags: report.status.bits(), ..out.row };
+        out.states.clear();
+        out.wrenches.clear();
+        out.contacts.clear();
+        for body in &self.bodies {
+            out.states.push(state_row(world.state_as_set(*body)?));
+            out.wrenches.push(wrench_row(world, *body)?);
+        }
+        out.contacts.extend(world.contacts_iter().map(|contact| self.contact_row(out.row.frame, &contact)));
+        Ok(())
     }
 
     pub fn contact_row(&self, frame: u64, contact: &Contact) -> ContactRow {
@@ -107,6 +122,11 @@ const NO_ENERGIES: EnergyRow = EnergyRow {
     work_in: f64::NAN,
     balance: f64::NAN,
 };
+
+pub(crate) fn wrench_row(world: &World, body: InterfaceId) -> Result<WrenchRow, EngineError> {
+    let wrench = world.wrench_common(body)?;
+    Ok(WrenchRow { force: wrench.force.into(), moment: wrench.moment.into() })
+}
 
 fn state_row(state: Option<&State>) -> StateRow {
     let unset = State {

@@ -7,7 +7,7 @@ use pong_engine::{EngineError, World};
 use pong_model::{Body, Model};
 
 /// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
-pub(super) fn describe(
+pub(crate) fn describe(
     world: &World,
     models: Vec<RunModel>,
     options: &RecordOptions,

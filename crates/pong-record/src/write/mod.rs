@@ -10,7 +10,8 @@ mod recorder;
 mod tables;
 mod thread;
 
-pub(crate) use capture::Capture;
+pub(crate) use capture::{Capture, wrench_row};
+pub(crate) use describe::describe;
 pub use models::ModelSource;
 pub use recorder::{RecordStatus, Recorder};
 

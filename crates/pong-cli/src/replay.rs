@@ -1,0 +1,95 @@
+//! `pong replay`: a response log goes through the engine again.
+
+use crate::text::{count, print};
+use indicatif::{ProgressBar, ProgressStyle};
+use pong_engine::WorkerSettings;
+use pong_record::{Log, LogError, ReplayOptions, ReplayReport, replay};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Runs the recorded states of a response log through the engine again and compares wrenches and contacts bit for bit.
+///
+/// Ends with 0 if every frame of the log came out the same, with 1 otherwise; the first frame that differs is told with
+/// body or contact, quantity and both values.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The folder of the log.
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// Lets numbers be apart by this, relative to the largest of their kind in the frame: for other versions of the
+    /// engine, and for logs that do not have every commit.
+    #[arg(long, value_name = "RELATIVE", value_parser = tolerance)]
+    tolerance: Option<f64>,
+    /// Threads that help; the results are the same bits.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    workers: usize,
+    /// No progress bar and no summary; differences and errors stay.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "give a number, such as 1e-9".to_owned())?;
+    if (0.0..1.0).contains(&value) { Ok(value) } else { Err("give a number from 0 up to 1".to_owned()) }
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let report = match run(arguments) {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    if !arguments.quiet {
+        print(&summary(&report, arguments.tolerance));
+    }
+    for difference in &report.differences {
+        eprintln!("{difference}");
+    }
+    if let Some(obstacle) = &report.obstacle {
+        eprintln!("not exact from frame {} on: {obstacle}", obstacle.frame());
+    }
+    if report.agrees() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
+    let mut log = Log::open(&arguments.log)?;
+    if !log.is_whole() {
+        eprintln!("warning: the log was not closed: {} whole frames of it are there", log.frame_count());
+    }
+    let settings = WorkerSettings { workers: arguments.workers, ..WorkerSettings::default() };
+    let options = ReplayOptions {
+        workers: (arguments.workers > 0).then_some(settings),
+        tolerance: arguments.tolerance,
+        ..ReplayOptions::default()
+    };
+    let bar = if arguments.quiet { ProgressBar::hidden() } else { ProgressBar::new(log.frame_count()) };
+    let template = "{bar:40} {percent:>3} %  frame {pos} of {len}, {eta} left";
+    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let report = replay(&mut log, &options, &mut |done| {
+        if done % 256 == 0 {
+            bar.set_position(done);
+        }
+    });
+    bar.finish_and_clear();
+    report
+}
+
+fn summary(report: &ReplayReport, tolerance: Option<f64>) -> String {
+    let frames = count(report.frames as usize, "frame", "frames");
+    let contacts = count(report.contacts as usize, "contact", "contacts");
+    let same = match tolerance {
+        None => "the same bits".to_owned(),
+        Some(tolerance) => format!("the same within {tolerance:?}"),
+    };
+    match (report.agrees(), report.compared) {
+        (true, _) => format!("{frames} with {contacts}: {same}\n"),
+        (false, compared) => {
+            let good = compared - u64::from(!report.differences.is_empty());
+            format!("{good} of {frames} replayed: {same}\n")
+        }
+    }
+}

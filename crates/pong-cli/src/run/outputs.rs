@@ -1,0 +1,142 @@
+//! What a run leaves behind: CSV files, a response log, or both, of the same rows.
+
+use super::Arguments;
+use pong_executive::scene::BuiltScene;
+use pong_executive::{Integrator, Simulation};
+use pong_record::{CsvTables, EnergyRow, Frame, LogError, Look, ModelSource, RecordOptions, Recorder};
+use std::path::{Path, PathBuf};
+
+/// The open files of a run.
+pub(super) struct Outputs {
+    csv: Option<Csv>,
+    log: Option<Recorder>,
+    energies: bool,
+    /// Every how many steps there is a line in the CSV files.
+    csv_every: u64,
+    log_every: u64,
+}
+
+struct Csv {
+    look: Look,
+    tables: CsvTables,
+    frame: Frame,
+}
+
+impl Outputs {
+    /// Begins the files. Nothing may have been evaluated yet: a log begins with the first commit.
+    pub fn create(arguments: &Arguments, built: &BuiltScene) -> Result<Self, String> {
+        let log_every = if arguments.every_step { 1 } else { built.record_every };
+        let mut outputs =
+            Self { csv: None, log: None, energies: built.ledger, csv_every: built.record_every, log_every };
+        if let Some(folder) = csv_folder(arguments) {
+            outputs.csv = Some(Csv::create(&folder, built).map_err(of_csv)?);
+        }
+        if let Some(folder) = &arguments.log {
+            let options = log_options(arguments, built, log_every);
+            let models: Vec<_> = built.model_files.iter().cloned().map(ModelSource::File).collect();
+            let log = Recorder::start(built.simulation.world(), folder, &models, &options);
+            outputs.log = Some(log.map_err(|error| of_log(&error))?);
+        }
+        Ok(outputs)
+    }
+
+    /// Takes in the instant after so many steps, at which the world has committed.
+    pub fn observe(&mut self, simulation: &Simulation, done: u64) -> Result<(), String> {
+        let energies = self.energies.then(|| energies(simulation));
+        let (world, time) = (simulation.world(), simulation.time());
+        if let Some(csv) = self.csv.as_mut().filter(|_| done.is_multiple_of(self.csv_every)) {
+            csv.frame.energies = energies;
+            csv.look.frame(world, time, &mut csv.frame).map_err(of_csv)?;
+            csv.tables.write(&csv.frame).map_err(of_csv)?;
+        }
+        if let Some(log) = &mut self.log {
+            log.evaluated();
+            log.committed();
+            if done.is_multiple_of(self.log_every) {
+                log.record(world, time, 0, energies.as_ref()).map_err(|error| of_log(&error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes out what is still in memory.
+    pub fn finish(self) -> Result<(), String> {
+        let csv = self.csv.map_or(Ok(()), |csv| csv.tables.finish().map_err(of_csv));
+        let log = self.log.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(|error| of_log(&error)));
+        csv.and(log)
+    }
+}
+
+impl Csv {
+    fn create(folder: &Path, built: &BuiltScene) -> Result<Self, LogError> {
+        let look = Look::new(built.simulation.world())?;
+        let tables = CsvTables::create(folder, look.run(), built.ledger)?;
+        Ok(Self { look, tables, frame: Frame::default() })
+    }
+}
+
+fn csv_folder(arguments: &Arguments) -> Option<PathBuf> {
+    let by_name = || {
+        let stem = arguments.scene.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        PathBuf::from(format!("{stem}_out"))
+    };
+    arguments.output.clone().or_else(|| arguments.csv.then(by_name))
+}
+
+fn log_options(arguments: &Arguments, built: &BuiltScene, every: u64) -> RecordOptions {
+    RecordOptions {
+        name: built.name.clone(),
+        writer: concat!("pong run ", env!("CARGO_PKG_VERSION")).to_owned(),
+        step: Some(built.simulation.step_length()),
+        commits_per_frame: Some(every),
+        integrator: Some(integrator(built.simulation.integrator())),
+        energies: built.ledger,
+        overwrite: arguments.overwrite,
+        ..RecordOptions::default()
+    }
+}
+
+fn integrator(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::ZeroOrderHold { substeps, delay } => {
+            format!("ZeroOrderHold(substeps: {substeps}, delay: {delay})")
+        }
+        other => format!("{other:?}"),
+    }
+}
+
+fn energies(simulation: &Simulation) -> EnergyRow {
+    let e = simulation.energy();
+    EnergyRow {
+        kinetic: e.kinetic,
+        potential: e.potential,
+        springs: e.springs,
+        contacts: e.contacts,
+        contact_loss: e.contact_loss,
+        spring_loss: e.spring_loss,
+        work_in: e.work_in,
+        balance: e.balance(),
+    }
+}
+
+fn of_csv(error: LogError) -> String {
+    match error {
+        LogError::Unwritable { path, reason } => {
+            format!("{}: cannot be written: {reason}; name another folder with -o", path.display())
+        }
+        other => other.to_string(),
+    }
+}
+
+fn of_log(error: &LogError) -> String {
+    match error {
+        LogError::Unwritable { path, reason } => {
+            format!("{}: cannot be written: {reason}; name another folder with --log", path.display())
+        }
+        LogError::Occupied { path, found } => format!(
+            "{}: holds a log already (`{found}`); name another folder with --log, or replace it with --overwrite",
+            path.display()
+        ),
+        other => other.to_string(),
+    }
+}
