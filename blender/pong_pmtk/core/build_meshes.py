@@ -14,6 +14,7 @@ from .polygon import off_plane, triangulated
 from .polyhedron_check import PLANE_TOLERANCE, check, diameter_of
 
 Made = list[tuple[Primitive, Origin]]
+CONVEX_FACES = 500  # nobody asks of larger meshes whether they are convex
 
 
 def build_mesh_kind(shape: Shape, files: dict[str, bytes]) -> Made:
@@ -91,10 +92,17 @@ def _triangle_mesh(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> 
         cure = "cut them into triangles by hand, or remove them"
         shape.error("self-crossing-face", cause, cure, faces=faces[crossed], fix="triangulate")
         return []
+    _tell_convex(shape, faces, loops, starts)
     used, triangles = np.unique(triangles, return_inverse=True)
     fields = {"vertices": shape.vertices[used], "triangles": triangles.reshape(-1, 3), **_thickness(shape)}
     made = shape.numbered("TriangleMesh", [fields], [faces[source]])
     return _to_file(shape, made, "triangles", files)
+
+
+def _tell_convex(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
+    if 4 <= len(faces) <= CONVEX_FACES and not shape.part and not check(shape.vertices, np.split(loops, starts[1:-1])):
+        cause = "it is closed and convex: a Polyhedron would do, and costs less"
+        shape.findings.hint("convex-mesh", shape.where, cause, "mark it as a Polyhedron, unless only its surface matters")
 
 
 def _tell_bent(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:

@@ -29,21 +29,21 @@ def typed(x) -> np.ndarray:
     flat = x.ravel()
     result = flat.copy()
     open_ = np.flatnonzero(np.isfinite(flat) & (flat != 0.0))
-    with np.errstate(all="ignore"):
-        exponent = np.floor(np.log10(np.abs(flat[open_])))
+    exponent = np.floor(np.log10(np.abs(flat[open_])))
+    # Powers of ten beyond 1e22 are rounded themselves: such numbers go the slow way.
+    quick = (exponent <= 22) & (exponent >= -14)
+    slow, open_, exponent = open_[~quick], open_[quick], exponent[quick]
     for digits in range(1, 10):
         # A whole number below 2^53 over (or times) a power of ten up to 1e22 is rounded once: the decimal itself.
         places = digits - 1 - exponent
-        scale = 10.0 ** np.clip(np.abs(places), 0, 22)
+        scale = 10.0 ** np.abs(places)
         value = flat[open_]
         whole = np.rint(np.where(places >= 0, value * scale, value / scale))
         decimal = np.where(places >= 0, whole / scale, whole * scale)
-        found = (rounded(decimal) == value) & (np.abs(places) <= 22)
+        found = rounded(decimal) == value
         result[open_[found]] = decimal[found]
         open_, exponent = open_[~found], exponent[~found]
-        if not len(open_):
-            break
-    for index in open_:
+    for index in np.concatenate([open_, slow]):
         result[index] = float(str(np.float32(flat[index])))
     return result.reshape(x.shape)
 

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Proposes what a mesh could be, from its shape. The author decides: nothing here is ever applied by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .exact import meant_rows
+from .pieces import is_closed, pieces_of
+from .polygon import off_plane
+from .polyhedron_check import PLANE_TOLERANCE, check
+from .snapshot import Mesh, SnapshotObject
+
+ROUND_VERTICES = 26  # fewer are a solid with corners: an icosahedron has 12
+ROUND_DEPTH = 0.9  # the middle of every face of a round mesh lies this near to the surface
+FIT_TOLERANCE = 2e-3  # of the size: how far vertices may lie off a fitted surface
+CENTER_TOLERANCE = 1e-4  # of the size
+CHECKED_FACES = 5000  # larger meshes are surfaces: nobody wants them as one convex solid
+
+
+@dataclass
+class Proposal:
+    """A kind, the fields of the mark that go with it, and why."""
+
+    kind: str
+    reason: str
+    fields: dict = field(default_factory=dict)
+    fix: str = ""  # what must be done first: see finding.FIXES
+
+
+def propose(thing: SnapshotObject) -> list[Proposal]:
+    """What an object could be, the likeliest first; empty for what cannot be a primitive."""
+    if thing.mesh is None:
+        return [Proposal("Point", "an empty: its origin")] if thing.type == "EMPTY" else []
+    vertices = meant_rows(thing.mesh.vertices, thing.exact.get("vertices"))
+    return propose_mesh(vertices, thing.mesh)
+
+
+def propose_mesh(vertices: np.ndarray, mesh: Mesh) -> list[Proposal]:
+    count = len(mesh.face_starts) - 1
+    if not len(vertices):
+        return []
+    if count <= 0:
+        return _without_faces(vertices, mesh)
+    faces = np.split(np.asarray(mesh.loops), np.asarray(mesh.face_starts)[1:-1])
+    if count == 1:
+        return _one_face(vertices, faces[0])
+    found = []
+    if count <= CHECKED_FACES and is_closed(faces):
+        found = [*_round(vertices, faces), *_solid(vertices, faces)]
+    return [*found, _surface(faces, bool(found))]
+
+
+def _without_faces(vertices: np.ndarray, mesh: Mesh) -> list[Proposal]:
+    if len(mesh.edges):
+        reason = f"{len(mesh.edges)} edges and no faces"
+        return [Proposal("LineSegment", reason), Proposal("Ray", reason + ": each from its first vertex to its second")]
+    if len(vertices) == 1:
+        return [Proposal("Point", "a single vertex")]
+    return [Proposal("Point", f"{len(vertices)} vertices without edges")]
+
+
+def _one_face(vertices: np.ndarray, face: np.ndarray) -> list[Proposal]:
+    corners = vertices[face]
+    if len(face) == 3:
+        return [Proposal("Triangle", "a single triangle"), Proposal("TriangleMesh", "a surface of one triangle")]
+    sheet = Proposal("TriangleMesh", f"a single face of {len(face)} corners: a sheet that ends at its rim")
+    if off_plane(corners) > PLANE_TOLERANCE * float(np.ptp(corners, axis=0).max()):
+        return [sheet]
+    return [Proposal("Plane", "a single planar face: all behind it is solid, without end"), sheet]
+
+
+def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
+    """Spheres and ellipsoids whose axes are those of the object."""
+    if len(vertices) < ROUND_VERTICES:
+        return []
+    fitted = fit_ellipsoid(vertices)
+    if fitted is None:
+        return []
+    center, axes = fitted
+    middles = np.array([vertices[face].mean(axis=0) for face in faces])
+    off = np.abs(np.sqrt((((vertices - center) / axes) ** 2).sum(axis=1)) - 1.0).max()
+    depth = np.sqrt((((middles - center) / axes) ** 2).sum(axis=1)).min()
+    if off > FIT_TOLERANCE or depth < ROUND_DEPTH:
+        return []
+    size = float(axes.max())
+    away = bool(np.sqrt(center @ center) > CENTER_TOLERANCE * size)
+    note = "; its origin is not its centre and must be set there first" if away else ""
+    fix = "set-origin" if away else ""
+    if np.ptp(axes) <= FIT_TOLERANCE * size:
+        radius = fit_sphere(vertices)
+        reason = f"its vertices lie on a sphere of radius {radius:.6g}{note}"
+        return [Proposal("Sphere", reason, {"radius": radius}, fix)]
+    shown = ", ".join(f"{a:.6g}" for a in axes)
+    semi_axes = tuple(float(f"{a:.7g}") for a in axes)
+    reason = f"its vertices lie on an ellipsoid of semi-axes {shown}{note}"
+    return [Proposal("Ellipsoid", reason, {"semi_axes": semi_axes}, fix)]
+
+
+def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+    """Centre and semi-axes, along the coordinate axes, of the ellipsoid nearest to points; `None` if there is none."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    size = float((high - low).max())
+    if not size > 0.0 or len(points) < 6:
+        return None
+    middle = (low + high) / 2.0
+    p = (points - middle) / size
+    solution, _, rank, _ = np.linalg.lstsq(np.hstack([p * p, p]), np.ones(len(p)), rcond=None)
+    squares, slopes = solution[:3], solution[3:]
+    if rank < 6 or not (squares > 0.0).all():
+        return None
+    center = -slopes / (2.0 * squares)
+    level = 1.0 + (squares * center * center).sum()
+    return middle + size * center, size * np.sqrt(level / squares)
+
+
+def fit_sphere(points: np.ndarray) -> float:
+    """Radius of the sphere nearest to points, to seven digits: what 32 bits can say."""
+    center = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    fitted = fit_ellipsoid(points)
+    if fitted is not None:
+        center = fitted[0]
+    return float(f"{np.sqrt(((points - center) ** 2).sum(axis=1)).mean():.7g}")
+
+
+def _solid(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
+    pieces = pieces_of(vertices, faces)
+    for piece in pieces:
+        own = [faces[i] for i in piece]
+        problems = check(vertices, own)
+        if problems and problems[0].rule == "inside-out":
+            return [Proposal("Polyhedron", "closed and convex, but its normals point inward", fix="recalculate-normals")]
+        if problems:
+            return []
+    if len(pieces) == 1:
+        return [Proposal("Polyhedron", f"closed and convex, {len(faces)} faces")]
+    return [Proposal("Polyhedron", f"{len(pieces)} pieces, each closed and convex")]
+
+
+def _surface(faces: list[np.ndarray], convex: bool) -> Proposal:
+    if convex:
+        return Proposal("TriangleMesh", "a surface, if only its outside matters")
+    if is_closed(faces):
+        return Proposal("TriangleMesh", "closed but not convex: a surface, or cut it into convex pieces")
+    return Proposal("TriangleMesh", "an open surface")
