@@ -61,7 +61,9 @@ def _matters(snapshot: Snapshot, empty: SnapshotObject) -> bool:
 def _copy(thing: SnapshotObject, empty: SnapshotObject, names: set[str], offset: np.ndarray) -> SnapshotObject:
     name = f"{empty.name}.{thing.name}"
     mark = replace(thing.mark, name=thing.mark.name or name)
-    shown = replace(thing, name=name, mark=mark, hidden=empty.hidden, excluded=empty.excluded, collections=[])
+    # A copy that is itself within an instanced collection is only there to be copied again.
+    seen = {"hidden": empty.hidden, "excluded": empty.excluded, "collections": empty.collections}
+    shown = replace(thing, name=name, mark=mark, **seen)
     if thing.parent in names:
         return replace(shown, parent=f"{empty.name}.{thing.parent}")
     # The collection's own space hangs below the empty, whatever parent the object has outside of it.

@@ -157,7 +157,7 @@ def check_scene(scene: Scene, root: SnapshotObject) -> None:
     for thing in scene.by_name.values():
         if thing.name in inside or thing.mark.role in ("none", "root") or _root_above(scene, thing):
             continue
-        if not (thing.excluded and any(c in snapshot.instance_offsets for c in thing.collections)):
+        if not any(collection in snapshot.instance_offsets for collection in thing.collections):
             cause = f"it is marked as a {thing.mark.role} but hangs below no root"
             findings.error("outside-root", scene.where(thing), cause, "parent it to a group of the model, or unmark it")
     if snapshot.edit_mode in inside:
