@@ -108,7 +108,7 @@ def arrow(around: int = 12) -> tuple[np.ndarray, list]:
     angles = np.linspace(0.0, 2.0 * np.pi, around, endpoint=False)
     circle = np.stack([np.cos(angles), np.sin(angles), np.zeros(around)], axis=1)
     up = np.array([0.0, 0.0, 1.0])
-    rings = [0.045 * circle, 0.045 * circle + 0.75 * up, 0.12 * circle + 0.75 * up]
+    rings = [0.03 * circle, 0.03 * circle + 0.75 * up, 0.08 * circle + 0.75 * up]
     vertices = np.concatenate([*rings, [up]])
     faces = [tuple(range(around - 1, -1, -1))]
     for ring in range(2):

@@ -12,7 +12,6 @@ import numpy as np
 from . import marks, shapes
 from .animate import action_curves, key
 from .camera import frame_camera
-from .core.read import read_file
 from .log import Log
 from .timeline import Film, View, film, track, travel, view
 
@@ -58,7 +57,7 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     unit = scene.unit_settings.scale_length or 1.0
     pictures = film(log, options.fps, options.speed, options.start, options.end)
     seen = view(log, pictures, _index_of_body(log, options.relative_to))
-    models = [read_file(path) for path in log.models]
+    models = [shapes.load(path) for path in log.models]
     extent = max([shapes.extent_of(model) for model in models] + [1e-3])
     shown = Shown(pictures, seen, {}, [], [], 0.0, [])
     collection = _fresh_collection(scene, f"Response of {log.run.get('name', log.folder.name)}")
@@ -217,7 +216,7 @@ def _show_contacts(log, options, shown, extent, collection, unit) -> None:
         arrow_mesh, mark_mesh = arrow.data, mark.data
         # Forces point into the bodies they act on.
         arrow.show_in_front = mark.show_in_front = True
-        _key_contact(arrow, mark, made, slot, shown.metres_per_newton, 0.012 * extent, unit)
+        _key_contact(arrow, mark, made, slot, shown.metres_per_newton, 0.018 * extent, unit)
         shown.arrows.append(arrow)
         shown.marks.append(mark)
 

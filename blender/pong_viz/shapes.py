@@ -4,10 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
+from .core import mesh_file
 from .core.model import Group, Model, Primitive
+from .core.read import read_file
 
 
 @dataclass
@@ -34,6 +37,23 @@ def sizes_for(extent: float, travel: float) -> Sizes:
     return Sizes(point=0.006 * extent, line=0.003 * extent, plane=extent + travel)
 
 
+def load(path: Path) -> Model:
+    """A model file, its mesh files put in their places."""
+    model = read_file(path)
+    _fill_meshes(model.root, path.parent)
+    return model
+
+
+def _fill_meshes(group: Group, folder: Path) -> None:
+    for primitive in group.primitives:
+        if "file" in primitive.fields:
+            vertices, faces = mesh_file.read(folder, primitive.fields["file"], primitive.fields.get("scale") or 1.0)
+            primitive.fields["vertices"] = vertices
+            primitive.fields["triangles" if primitive.kind == "TriangleMesh" else "faces"] = faces
+    for child in group.groups:
+        _fill_meshes(child, folder)
+
+
 def bodies_of(model: Model) -> dict[str, list[tuple[str, Primitive, np.ndarray, np.ndarray]]]:
     """Path of each movable group -> its primitives: path, primitive, rotation (3, 3), position (3,) in its frame."""
     bodies: dict[str, list] = {}
@@ -42,6 +62,8 @@ def bodies_of(model: Model) -> dict[str, list[tuple[str, Primitive, np.ndarray, 
         if body == path:
             bodies[body] = []
         for primitive in group.primitives:
+            if primitive.kind not in _DRAWN:
+                continue  # kinds of the user's own: nobody here knows their shape
             bodies[body].append((f"{path}/{primitive.name}", primitive, rotation, position))
         for child in group.groups:
             below = f"{path}/{child.name}"
