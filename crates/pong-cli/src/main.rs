@@ -10,6 +10,7 @@ mod replay;
 mod run;
 mod text;
 mod verify;
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
@@ -29,6 +30,7 @@ enum Command {
     Log(log::Arguments),
     Replay(replay::Arguments),
     Verify(verify::Arguments),
+    View(view::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -38,5 +40,6 @@ fn main() -> ExitCode {
         Command::Log(arguments) => log::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
+        Command::View(arguments) => view::main(&arguments),
     }
 }

@@ -1,0 +1,88 @@
+//! `pong view`: a response log as one web page.
+
+use crate::text::{count, number, print};
+use pong_geometry::extension::Extensions;
+use pong_record::Log;
+use pong_view::{Options, Page, ViewError};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Makes one self-contained web page of a response log (docs/response_logs.md) that plays the run in any browser.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The folder of the log.
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// The page; `<log>.html` unless given.
+    #[arg(short, long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+    /// Keeps every so many-th frame and the last; without it as many as --budget holds.
+    #[arg(long, value_name = "FRAMES", value_parser = clap::value_parser!(u64).range(1..))]
+    every: Option<u64>,
+    /// What the frames may take before they are packed, MB.
+    #[arg(long, value_name = "MB", default_value_t = 64, conflicts_with = "every",
+          value_parser = clap::value_parser!(u64).range(1..=4000))]
+    budget: u64,
+    /// Says nothing unless something is wrong.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let output = arguments.output.clone().unwrap_or_else(|| beside(&arguments.log));
+    let page = match page(arguments) {
+        Ok(page) => page,
+        Err(error) => {
+            eprintln!("{error}");
+            return ExitCode::FAILURE;
+        }
+    };
+    if let Err(reason) = std::fs::write(&output, &page.html) {
+        eprintln!("{}: cannot be written: {reason}; name a file in a folder with room", output.display());
+        return ExitCode::FAILURE;
+    }
+    for note in &page.notes {
+        eprintln!("note: {note}");
+    }
+    if !arguments.quiet {
+        print(&summary(&output, &page));
+    }
+    ExitCode::SUCCESS
+}
+
+fn page(arguments: &Arguments) -> Result<Page, ViewError> {
+    let mut log = Log::open(&arguments.log)?;
+    let options = Options { every: arguments.every, budget: arguments.budget * 1_000_000 };
+    pong_view::page(&mut log, &options, &Extensions::new())
+}
+
+/// `runs/drop` and `runs/drop/` are shown by `runs/drop.html`.
+fn beside(log: &Path) -> PathBuf {
+    match log.file_name() {
+        Some(name) => log.with_file_name(format!("{}.html", name.to_string_lossy())),
+        None => PathBuf::from("view.html"),
+    }
+}
+
+fn summary(output: &Path, page: &Page) -> String {
+    let frames = if page.every > 1 {
+        format!("{} of {} frames (every {})", page.frames, page.frames_in_log, page.every)
+    } else {
+        count(page.frames as usize, "frame", "frames")
+    };
+    let [unpacked, packed] = page.data_bytes;
+    format!(
+        "{}: {frames}, {}, {}; {} MB, of it {} MB of data ({} bytes per frame before packing)\n",
+        output.display(),
+        count(page.contacts as usize, "contact", "contacts"),
+        count(page.triangles as usize, "triangle", "triangles"),
+        number(megabytes(page.html.len() as u64)),
+        number(megabytes(packed)),
+        unpacked / page.frames.max(1),
+    )
+}
+
+/// Three decimals are enough.
+fn megabytes(bytes: u64) -> f64 {
+    (bytes as f64 / 1e3).round() / 1e3
+}

@@ -1,0 +1,53 @@
+// Contacts of a frame as things to draw and to list.
+
+/** What a contact is called from frame to frame. */
+export const keyOf = (run, row) => {
+    const { pair, primitive_a, primitive_b, element_a, element_b, flags } = run.contacts;
+    return [pair[row], primitive_a[row], primitive_b[row], element_a[row], element_b[row], flags[row] & 2].join(":");
+};
+
+/** One contact, vectors along the common axes, forces on A. */
+export function contactAt(run, row) {
+    const c = run.contacts;
+    const vector = (column) => [column[3 * row], column[3 * row + 1], column[3 * row + 2]];
+    const friction = vector(c.friction), slip = vector(c.slip);
+    return {
+        row,
+        key: keyOf(run, row),
+        a: run.primitive(c.primitive_a[row]),
+        b: run.primitive(c.primitive_b[row]),
+        nameA: run.partName(c.primitive_a[row]),
+        nameB: run.partName(c.primitive_b[row]),
+        elementA: c.element_a[row],
+        elementB: c.element_b[row],
+        feature: `${["face", "edge", "vertex", "feature"][(c.flags[row] >> 2) & 3]} ${c.feature[row]}`,
+        sticks: (c.flags[row] & 1) === 1,
+        point: vector(c.point),
+        normal: vector(c.normal),
+        depth: c.depth[row],
+        rate: c.rate[row],
+        weight: c.weight[row],
+        normalForce: c.normal_force[row],
+        friction,
+        frictionForce: Math.hypot(...friction),
+        slip,
+        slipSpeed: Math.hypot(...slip),
+    };
+}
+
+/** The contacts of a frame. */
+export function contactsIn(run, frame) {
+    const [from, to] = run.contactsOf(frame);
+    return Array.from({ length: to - from }, (_, index) => contactAt(run, from + index));
+}
+
+/** Largest normal or friction force of the whole run, N. */
+export function largestForce(run) {
+    const { normal_force, friction } = run.contacts;
+    let largest = 0;
+    for (let row = 0; row < normal_force.length; row++) {
+        const tangent = Math.hypot(friction[3 * row], friction[3 * row + 1], friction[3 * row + 2]);
+        largest = Math.max(largest, Math.abs(normal_force[row]), tangent);
+    }
+    return largest;
+}

@@ -1,0 +1,132 @@
+// The lists beside the picture: bodies, and the contacts of the frame.
+
+import { objectColor } from "#view/theme.js";
+import { count, digits, quantity } from "#view/units.js";
+
+/** Rows of contacts in the table; the number of the others is told below it. */
+const ROWS = 200;
+
+const element = (tag, properties = {}, ...children) => {
+    const made = Object.assign(document.createElement(tag), properties);
+    made.append(...children);
+    return made;
+};
+
+const swatch = (object) => {
+    const made = element("span", { className: "swatch" });
+    made.style.background = objectColor(object);
+    return made;
+};
+
+/** The bodies: one is picked, each can be hidden. */
+export class BodyList {
+    constructor(list, run, { onPick, onShow }) {
+        this.items = run.bodies.map((body, index) => {
+            const shown = element("input", { type: "checkbox", checked: true, title: "Show this body" });
+            shown.setAttribute("aria-label", `Show ${body.name}`);
+            shown.addEventListener("change", () => onShow(index, shown.checked));
+            const name = element("button", { type: "button", className: "name", title: body.name }, swatch(body.object), body.name);
+            name.addEventListener("click", () => onPick(index));
+            return element("li", {}, name, shown);
+        });
+        list.replaceChildren(...this.items);
+    }
+
+    pick(index) {
+        this.items.forEach((item, at) => {
+            item.classList.toggle("picked", at === index);
+            item.firstChild.setAttribute("aria-pressed", String(at === index));
+        });
+        this.items[index].scrollIntoView({ block: "nearest" });
+    }
+}
+
+/** The picked body in numbers. */
+export function describeBody(box, run, body, player, series) {
+    const { frame } = player;
+    const place = run.absolute(frame, body);
+    const at = 4 * (frame * run.bodies.length + body);
+    const turn = run.frames.orientation.subarray(at, at + 4);
+    const { force, moment, depth } = series.of(body);
+    const rows = [
+        ["Position", place.map((x) => x.toFixed(Math.abs(x) >= 1e5 ? 3 : 4).replace("-", "−")).join("  "), "m"],
+        ["Attitude w x y z", [...turn].map((x) => x.toFixed(4).replace("-", "−")).join("  "), ""],
+        ["Force x y z", force.components.map((x) => digits(x[frame])).join("  "), "N"],
+        ["Moment x y z", moment.components.map((x) => digits(x[frame])).join("  "), "N·m"],
+        ["Largest depth", quantity(depth.size[frame], "m"), ""],
+    ];
+    box.replaceChildren(
+        ...rows.flatMap(([name, text, unit]) => [element("dt", {}, name), element("dd", {}, `${text} ${unit}`.trim())]),
+    );
+}
+
+/** The contacts of the frame, strongest first. */
+export class ContactList {
+    constructor(body, more, run, { onSelect, onVisit }) {
+        Object.assign(this, { body, more, run, onSelect, rows: [], selected: null });
+        body.addEventListener("click", (event) => this.#toggle(event.target.closest("tr")));
+        body.addEventListener("dblclick", (event) => {
+            const row = event.target.closest("tr");
+            if (row) onVisit(row.dataset.key);
+        });
+        body.addEventListener("keydown", (event) => {
+            if (event.key !== "Enter" && event.key !== " ") return;
+            event.preventDefault();
+            event.stopPropagation();
+            this.#toggle(event.target.closest("tr"));
+        });
+    }
+
+    #toggle(row) {
+        if (row) this.onSelect(row.dataset.key === this.selected ? null : row.dataset.key);
+    }
+
+    show(contacts, selected) {
+        this.selected = selected;
+        const strongest = [...contacts].sort((a, b) => b.normalForce - a.normalForce).slice(0, ROWS);
+        while (this.rows.length < strongest.length) this.rows.push(this.#row());
+        strongest.forEach((contact, index) => this.#fill(this.rows[index], contact, contact.key === selected));
+        const missing = this.rows.slice(0, strongest.length);
+        if (this.body.childElementCount !== missing.length) this.body.replaceChildren(...missing);
+        const left = contacts.length - strongest.length;
+        this.more.textContent = left ? `and ${count(left)} weaker ones` : contacts.length ? "" : "No contact in this frame.";
+    }
+
+    #row() {
+        const cells = Array.from({ length: 5 }, () => element("td"));
+        const row = element("tr", { tabIndex: 0 }, ...cells);
+        const names = [element("span", { className: "side" }), element("span", { className: "side" })];
+        cells[0].append(...names);
+        return Object.assign(row, { cells_: cells, names_: names });
+    }
+
+    #fill(row, contact, isSelected) {
+        const { run } = this;
+        row.dataset.key = contact.key;
+        row.classList.toggle("picked", isSelected);
+        row.setAttribute("aria-selected", String(isSelected));
+        const [pair, ...numbers] = row.cells_;
+        const full = [this.#full(contact, "a"), this.#full(contact, "b")];
+        row.names_.forEach((name, index) => {
+            const { body } = index ? contact.b : contact.a;
+            const color = objectColor(run.bodies[body].object);
+            name.style.borderColor = color;
+            name.textContent = index ? contact.nameB : contact.nameA;
+        });
+        pair.title = `A  ${full[0]}\nB  ${full[1]}, ${contact.feature}\nshare of the pair's spring ${digits(contact.weight)}\nrate ${digits(contact.rate * 1e3)} mm/s, slip ${digits(contact.slipSpeed * 1e3)} mm/s`;
+        const texts = [
+            digits(contact.depth * 1e3), digits(contact.normalForce), digits(contact.frictionForce), contact.sticks ? "stick" : "slip",
+        ];
+        texts.forEach((text, index) => {
+            if (numbers[index].textContent !== text) numbers[index].textContent = text;
+        });
+        numbers[3].className = contact.sticks ? "stick" : "slip";
+    }
+
+    #full(contact, side) {
+        const { body, info } = contact[side];
+        const triangle = info.kind === "Triangle" ? `, triangle ${side === "a" ? contact.elementA : contact.elementB}` : "";
+        return `${this.run.bodies[body].name} · ${info.path} (${info.kind}, ${info.surface})${triangle}`;
+    }
+}
+

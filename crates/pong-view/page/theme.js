@@ -1,0 +1,27 @@
+// Colours. Bodies are muted, so that forces and contacts stand out; stick and slip differ in shape as well as colour.
+
+const OBJECTS = ["#7d9cc6", "#c9b27a", "#a58fca", "#86b487", "#c99393", "#7fb3bf", "#b9a28b", "#98a1b3"];
+
+export const STICK = "#1fb6a3";
+export const SLIP = "#f4622e";
+export const HIGHLIGHT = "#ffd23f";
+export const AXES = ["#e5484d", "#3fa45b", "#4a86e8"];
+
+/** Colour of an object. */
+export const objectColor = (object) => OBJECTS[object % OBJECTS.length];
+
+/** A colour of the style sheet. */
+export const styleColor = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+export const isDark = () => document.documentElement.dataset.theme !== "light";
+
+/** Dark or light, as the system has it until the reader says otherwise. */
+export function initTheme() {
+    const wantsLight = matchMedia("(prefers-color-scheme: light)").matches;
+    document.documentElement.dataset.theme = wantsLight ? "light" : "dark";
+}
+
+export function toggleTheme() {
+    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    document.dispatchEvent(new Event("theme"));
+}

@@ -1,0 +1,102 @@
+//! The page as text: what `page/` and `vendor/` hold, with the data of a run.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+
+const FRAME: &str = include_str!("../page/page.html");
+const STYLE: &str = include_str!("../page/style.css");
+const MAIN: &str = include_str!("../page/main.js");
+
+macro_rules! modules {
+    ($($name:literal),* $(,)?) => {
+        [$((concat!("#view/", $name), include_str!(concat!("../page/", $name)))),*]
+    };
+}
+
+/// The page's modules by the names they import each other by.
+const MODULES: &[(&str, &str)] = &modules![
+    "arrows.js", "bodies.js", "camera.js", "contacts.js", "data.js", "highlight.js", "keys.js", "list.js", "meshes.js",
+    "player.js", "plots.js", "series.js", "stage.js", "theme.js", "transport.js", "units.js",
+];
+const THREE: &str = include_str!("../vendor/three.min.js");
+const THREE_LICENSE: &str = include_str!("../vendor/LICENSE");
+
+/// JSON that may stand in a script element.
+pub(crate) fn json(value: &impl Serialize) -> String {
+    let text = serde_json::to_string(value).expect("names and finite numbers are always JSON");
+    text.replace('<', "\\u003c").replace('\u{2028}', "\\u2028").replace('\u{2029}', "\\u2029")
+}
+
+/// The whole page.
+pub(crate) fn page(title: &str, description: &str, data: &str) -> String {
+    let title = escaped(title);
+    let imports = imports();
+    let parts = [
+        ("title", title.as_str()),
+        ("style", STYLE),
+        ("three-license", THREE_LICENSE),
+        ("imports", imports.as_str()),
+        ("run", description),
+        ("data", data),
+        ("main", MAIN),
+    ];
+    let mut page = String::with_capacity(FRAME.len() + parts.iter().map(|part| part.1.len()).sum::<usize>());
+    let mut rest = FRAME;
+    while let Some((before, after)) = rest.split_once("{{") {
+        let (name, after) = after.split_once("}}").expect("page.html closes what it opens");
+        let part = parts.iter().find(|part| part.0 == name).expect("page.html asks for what there is");
+        page.push_str(before);
+        page.push_str(part.1);
+        rest = after;
+    }
+    page + rest
+}
+
+/// Names of modules to their text: a page opened from a disk may load nothing else.
+fn imports() -> String {
+    // Without names of their own, errors would name modules by all of their text.
+    let url = |name: &str, text: &str| {
+        let named = format!("{text}\n//# sourceURL=pong/{}\n", name.trim_start_matches("#view/"));
+        format!("data:text/javascript;base64,{}", STANDARD.encode(named))
+    };
+    let all = MODULES.iter().chain([&("three", THREE)]);
+    let map: serde_json::Map<_, _> =
+        all.map(|(name, text)| ((*name).to_owned(), serde_json::Value::String(url(name, text)))).collect();
+    json(&serde_json::json!({ "imports": map }))
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_cannot_break_out_of_the_page() {
+        let evil = "</script><script>alert(1)</script>{{data}}";
+        let page = super::page(evil, &json(&evil), "");
+        assert!(!page.contains("<script>alert"));
+        let read: String = serde_json::from_str(&json(&evil)).unwrap();
+        assert_eq!(read, evil);
+    }
+
+    #[test]
+    fn every_module_that_is_imported_is_there() {
+        let names: Vec<&str> = MODULES.iter().map(|module| module.0).chain(["three"]).collect();
+        for text in MODULES.iter().map(|module| module.1).chain([MAIN]) {
+            for import in text.lines().filter_map(|line| line.split_once(" from \"")) {
+                let name = import.1.trim_end_matches("\";");
+                assert!(names.contains(&name), "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_module_has_words_that_end_a_script() {
+        assert!(!MAIN.contains("</script"));
+        assert!(!STYLE.contains("</style"));
+    }
+}

@@ -1,0 +1,167 @@
+//! What a body looks like: its primitives as numbers the page can draw. Bodies of the same model share it.
+
+use crate::blob::{Blob, Column};
+use crate::hull::hull;
+use crate::surface::Surface;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::{Mat3, Quat, Vec3};
+use pong_model::{Body, PrimitiveInfo};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// One primitive of a shape.
+#[derive(Debug, Serialize)]
+pub(crate) struct Part {
+    path: String,
+    kind: &'static str,
+    surface: String,
+    /// First triangle, or first number of its kind's column.
+    first: u32,
+    /// How many triangles; 1 for kinds without any.
+    count: u32,
+}
+
+/// A body's primitives. Lengths in m, in the frame of the body.
+#[derive(Debug, Serialize)]
+pub(crate) struct Shape {
+    parts: Vec<Part>,
+    #[serde(skip)]
+    by_path: BTreeMap<String, usize>,
+    /// Largest distance of anything bounded from the body's origin, m.
+    radius: f64,
+    /// Corners of all triangles, (x, y, z).
+    vertices: Column,
+    /// Three corners each: faces of polyhedra, triangles, hulls of custom primitives.
+    triangles: Column,
+    /// Two corners each: edges that a draughtsman would draw.
+    edges: Column,
+    /// (x, y, z).
+    points: Column,
+    /// Both ends.
+    segments: Column,
+    /// Origin and tip.
+    rays: Column,
+    /// Centre, semi-axes, quaternion (w, x, y, z): spheres and ellipsoids.
+    balls: Column,
+    /// Normal and offset.
+    planes: Column,
+}
+
+/// A shape in the making.
+#[derive(Default)]
+struct Draft {
+    surface: Surface,
+    points: Vec<f64>,
+    segments: Vec<f64>,
+    rays: Vec<f64>,
+    balls: Vec<f64>,
+    planes: Vec<f64>,
+    radius: f64,
+}
+
+impl Shape {
+    pub fn new(body: &Body, surfaces: &[pong_model::Surface], blob: &mut Blob) -> Self {
+        let mut draft = Draft::default();
+        draft.surface.take_vertices(&body.triangles);
+        let name = |info: &PrimitiveInfo| surfaces[info.surface as usize].name.clone();
+        let parts = body.primitives.iter().map(|info| draft.part(body, info, name(info))).collect();
+        let by_path = body.primitives.iter().map(|info| info.path.clone()).zip(0..).collect();
+        draft.surface.add_creases(body);
+        let radius = draft.radius.max(draft.surface.radius());
+        Self {
+            parts,
+            by_path,
+            radius,
+            vertices: blob.f32s(draft.surface.vertices.iter().flat_map(|v| [v.x, v.y, v.z])),
+            triangles: blob.u32s(draft.surface.triangles.into_iter().flatten()),
+            edges: blob.u32s(draft.surface.edges.into_iter().flatten()),
+            points: blob.f32s(draft.points),
+            segments: blob.f32s(draft.segments),
+            rays: blob.f32s(draft.rays),
+            balls: blob.f32s(draft.balls),
+            planes: blob.f32s(draft.planes),
+        }
+    }
+
+    /// Largest distance of anything bounded from the body's origin, m.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The primitive of that path.
+    pub fn part(&self, path: &str) -> Option<usize> {
+        self.by_path.get(path).copied()
+    }
+
+    /// Number of triangles.
+    pub fn triangle_count(&self) -> usize {
+        self.triangles.length() / 3
+    }
+}
+
+impl Draft {
+    fn part(&mut self, body: &Body, info: &PrimitiveInfo, surface: String) -> Part {
+        let (first, count) = self.place(body, info);
+        Part { path: info.path.clone(), kind: info.kind.name(), surface, first, count }
+    }
+
+    /// Adds a primitive and tells where it lies.
+    fn place(&mut self, body: &Body, info: &PrimitiveInfo) -> (u32, u32) {
+        let index = info.elements.start as usize;
+        match info.kind {
+            PrimitiveKind::Point => {
+                self.reach(&body.points[index].position, 0.0);
+                one(&mut self.points, 3, body.points[index].position.iter().copied())
+            }
+            PrimitiveKind::LineSegment => {
+                let ends = &body.segments[index].ends;
+                ends.iter().for_each(|end| self.reach(end, 0.0));
+                one(&mut self.segments, 6, ends.iter().flat_map(|end| [end.x, end.y, end.z]))
+            }
+            PrimitiveKind::Ray => {
+                let ends = [body.rays[index].origin, body.rays[index].tip()];
+                ends.iter().for_each(|end| self.reach(end, 0.0));
+                one(&mut self.rays, 6, ends.iter().flat_map(|end| [end.x, end.y, end.z]))
+            }
+            PrimitiveKind::Sphere => {
+                let sphere = &body.spheres[index];
+                self.ball(&sphere.center, &Vec3::repeat(sphere.radius), &Mat3::identity())
+            }
+            PrimitiveKind::Ellipsoid => {
+                let ellipsoid = &body.ellipsoids[index];
+                self.ball(&ellipsoid.center, &ellipsoid.semi_axes, &ellipsoid.axes)
+            }
+            PrimitiveKind::Plane => {
+                let plane = &body.planes[index];
+                let numbers = plane.normal.iter().copied().chain([plane.offset]);
+                one(&mut self.planes, 4, numbers)
+            }
+            PrimitiveKind::Triangle => self.surface.add_mesh(&body.triangles, info),
+            PrimitiveKind::Polyhedron => self.surface.add_polyhedron(&body.polyhedra[index]),
+            PrimitiveKind::Custom => self.surface.add_hull(&hull(body.customs[index].as_ref())),
+        }
+    }
+
+    fn ball(&mut self, center: &Vec3, semi_axes: &Vec3, axes: &Mat3) -> (u32, u32) {
+        self.reach(center, semi_axes.max());
+        // A left-handed set of axes is the same ellipsoid as the right-handed one.
+        let mut axes = *axes;
+        if axes.determinant() < 0.0 {
+            axes.neg_mut();
+        }
+        let q = Quat::from_matrix(&axes);
+        let numbers = center.iter().chain(semi_axes).copied().chain([q.w, q.i, q.j, q.k]);
+        one(&mut self.balls, 10, numbers)
+    }
+
+    fn reach(&mut self, place: &Vec3, radius: f64) {
+        self.radius = self.radius.max(place.norm() + radius);
+    }
+}
+
+/// Adds what belongs to one primitive, so many numbers each, and tells which it is.
+fn one(column: &mut Vec<f64>, width: usize, numbers: impl Iterator<Item = f64>) -> (u32, u32) {
+    let first = column.len() / width;
+    column.extend(numbers);
+    (first as u32, 1)
+}
