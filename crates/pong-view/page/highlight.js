@@ -9,6 +9,7 @@ import { HIGHLIGHT } from "#view/theme.js";
 
 const POINT_PIXELS = 10, LINE_PIXELS = 5;
 const LARGER = 1.004;
+const NEARER = { polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 };
 
 /** What is highlighted of one body. */
 class BodyHighlight {
@@ -95,7 +96,7 @@ class BodyHighlight {
         const { segments, rays } = this.meshes.shape;
         const of = (column, set) => [...set].flatMap((index) => [...column.subarray(6 * index, 6 * index + 6)]);
         const geometry = lines([...of(segments, this.parts.segments), ...of(rays, this.parts.rays)]);
-        return new LineSegments2(geometry, new LineMaterial({ color: HIGHLIGHT, linewidth: LINE_PIXELS }));
+        return new LineSegments2(geometry, new LineMaterial({ color: HIGHLIGHT, linewidth: LINE_PIXELS, ...NEARER }));
     }
 
     #balls() {
@@ -112,7 +113,7 @@ class BodyHighlight {
 const veil = () =>
     new MeshBasicMaterial({
         color: HIGHLIGHT, transparent: true, opacity: 0.45, side: DoubleSide, depthWrite: false,
-        polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1,
+        ...NEARER,
     });
 
 export class Highlights {

@@ -4,7 +4,7 @@ import { Raycaster, Vector2, Vector3 } from "three";
 import { ContactMarks } from "#view/arrows.js";
 import { Bodies } from "#view/bodies.js";
 import { CameraControl } from "#view/camera.js";
-import { contactsIn, largestForce } from "#view/contacts.js";
+import { contactsIn, typicalForces } from "#view/contacts.js";
 import { load } from "#view/data.js";
 import { Highlights } from "#view/highlight.js";
 import { bindKeys } from "#view/keys.js";
@@ -19,8 +19,8 @@ import { count, niceStep, quantity } from "#view/units.js";
 
 /** While a run plays, lists are written anew this often, s. */
 const LIST_PERIOD = 0.1;
-/** The largest force of the run is drawn as long as this share of the bodies shown first. */
-const ARROW_SHARE = 0.45;
+/** Usual forces, and the largest of the run, are drawn at most as long as these shares of the bodies shown first. */
+const USUAL_SHARE = 0.35, LARGEST_SHARE = 1.5;
 const PICK_PIXELS = 12;
 
 const byId = (id) => document.getElementById(id);
@@ -63,8 +63,8 @@ class Page {
         this.bodies.show(0, 0);
         const { x, y, z } = this.bodies.box(this.bodies.moving).getSize(new Vector3());
         const size = Math.hypot(x, y, z) || this.bodies.size;
-        const force = largestForce(this.run);
-        this.baseScale = force > 0 ? (ARROW_SHARE * size) / force : 1;
+        const { usual, largest } = typicalForces(this.run);
+        this.baseScale = largest > 0 ? Math.min((USUAL_SHARE * size) / usual, (LARGEST_SHARE * size) / largest) : 1;
     }
 
     get metresPerNewton() {
@@ -319,6 +319,8 @@ function interfaceOf(page) {
         contacts: () => page.contacts,
         arrows: () => page.marks.arrowCount,
         highlighted: () => page.highlights.count,
+        /** Where a place of the scene is in the picture, px. */
+        project: (place) => page.project(place),
         pick: (name) => page.pick(index(name)),
         select: (key) => page.select(key),
         picturesDrawn: () => stage.pictures,

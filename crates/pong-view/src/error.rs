@@ -40,7 +40,9 @@ impl std::fmt::Display for ViewError {
                 "{}: holds no whole frame, so there is nothing to show; let the run write at least one frame",
                 folder.display()
             ),
-            Self::Packing(reason) => write!(f, "the page's data cannot be packed: {reason}; free some memory"),
+            Self::Packing(reason) => {
+                write!(f, "the page's data cannot be packed: {reason}; free some memory")
+            }
         }
     }
 }

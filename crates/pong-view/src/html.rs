@@ -16,8 +16,22 @@ macro_rules! modules {
 
 /// The page's modules by the names they import each other by.
 const MODULES: &[(&str, &str)] = &modules![
-    "arrows.js", "bodies.js", "camera.js", "contacts.js", "data.js", "highlight.js", "keys.js", "list.js", "meshes.js",
-    "player.js", "plots.js", "series.js", "stage.js", "theme.js", "transport.js", "units.js",
+    "arrows.js",
+    "bodies.js",
+    "camera.js",
+    "contacts.js",
+    "data.js",
+    "highlight.js",
+    "keys.js",
+    "list.js",
+    "meshes.js",
+    "player.js",
+    "plots.js",
+    "series.js",
+    "stage.js",
+    "theme.js",
+    "transport.js",
+    "units.js",
 ];
 const THREE: &str = include_str!("../vendor/three.min.js");
 const THREE_LICENSE: &str = include_str!("../vendor/LICENSE");

@@ -19,10 +19,12 @@ impl Origin {
     pub fn choose(places: &[Vec<Vec3>], radii: &[f64]) -> Self {
         let known = |p: &&Vec3| p.iter().all(|x| x.is_finite());
         let all = || places.iter().flatten().filter(known);
-        let Some(lead) = (0..radii.len()).find(|&body| places.iter().all(|frame| known(&&frame[body]))) else {
+        let Some(lead) = (0..radii.len()).find(|&body| places.iter().all(|frame| known(&&frame[body])))
+        else {
             return Self::Fixed(all().next().copied().unwrap_or_else(Vec3::zeros));
         };
-        let spread = places.iter().flat_map(|frame| frame.iter().filter(known).map(|p| (p - frame[lead]).norm()));
+        let spread =
+            places.iter().flat_map(|frame| frame.iter().filter(known).map(|p| (p - frame[lead]).norm()));
         let size = spread.chain(radii.iter().map(|r| 2.0 * r)).fold(0.0, f64::max);
         let travel = (0..radii.len()).map(|body| travel(places.iter().map(|frame| frame[body])));
         if !places.is_empty() && travel.fold(f64::INFINITY, f64::min) > FAR * size {

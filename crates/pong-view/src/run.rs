@@ -2,14 +2,14 @@
 
 use crate::ViewError;
 use crate::blob::{Blob, Column};
-use crate::origin::Origin;
 use crate::html;
+use crate::origin::Origin;
 use crate::shape::Shape;
 use crate::tables::{ContactColumns, FrameColumns, Frames};
 use crate::thin::Thinning;
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
-use pong_record::{Log, Run};
+use pong_record::{Log, Run, RunModel};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -103,7 +103,10 @@ pub fn page(log: &mut Log, options: &Options, extensions: &Extensions) -> Result
     let radii: Vec<f64> = looks.of_body.iter().map(|&shape| looks.shapes[shape].radius()).collect();
     let origin = Origin::choose(&frames.places(), &radii);
     let triangles = looks.shapes.iter().map(|shape| shape.triangle_count() as u64).sum();
-    let notes = notes(log, &run, &frames, &thinning, &origin);
+    let mut notes = notes(log, &run, &frames, &thinning, &origin);
+    notes.extend(looks.changed.iter().map(|name| {
+        format!("The model {name} is not the one of the run: its hash is another, what is drawn may be wrong")
+    }));
     let before_frames = blob.len();
     let description = Description {
         name: &run.name,
@@ -191,6 +194,8 @@ struct Looks {
     of_body: Vec<usize>,
     /// Body and number of the part in its shape, for each primitive of the log.
     primitives: Vec<[usize; 2]>,
+    /// Models whose hash is not the one in the log.
+    changed: Vec<String>,
 }
 
 impl Looks {
@@ -200,7 +205,10 @@ impl Looks {
             let path = log.model_path(index).unwrap_or_default();
             files.push((pong_model::load(&path, extensions).map_err(ViewError::Model)?, path));
         }
-        let mut looks = Self { shapes: Vec::new(), of_body: Vec::new(), primitives: Vec::new() };
+        let is_changed = |(model, logged): &(&(Model, PathBuf), &RunModel)| model.0.hash != logged.hash;
+        let changed = files.iter().zip(&run.models).filter(is_changed).map(|(model, _)| model.0.name.clone());
+        let changed = changed.collect();
+        let mut looks = Self { shapes: Vec::new(), of_body: Vec::new(), primitives: Vec::new(), changed };
         let mut known = Vec::new();
         for body in &run.bodies {
             let key = (run.objects[body.object].model, body.path.as_str());
@@ -230,5 +238,8 @@ fn shape_of((model, file): &(Model, PathBuf), path: &str, blob: &mut Blob) -> Re
 }
 
 fn foreign(file: &std::path::Path, what: &str, path: &str) -> ViewError {
-    ViewError::Foreign { model: file.to_owned(), cause: format!("it has no {what} `{path}`, which the log names") }
+    ViewError::Foreign {
+        model: file.to_owned(),
+        cause: format!("it has no {what} `{path}`, which the log names"),
+    }
 }

@@ -88,7 +88,10 @@ impl Frames {
 
     /// Places of all bodies, frame after frame, m.
     pub fn places(&self) -> Vec<Vec<Vec3>> {
-        self.states.iter().map(|states| states.iter().map(|state| Vec3::from(state.position)).collect()).collect()
+        self.states
+            .iter()
+            .map(|states| states.iter().map(|state| Vec3::from(state.position)).collect())
+            .collect()
     }
 
     pub fn contact_count(&self) -> usize {
@@ -137,7 +140,8 @@ impl Frames {
     pub fn contact_columns(&self, origin: &Origin, blob: &mut Blob) -> ContactColumns {
         let all = || self.contacts.iter();
         let frames = self.rows.iter().enumerate();
-        let origins = frames.flat_map(|(frame, row)| std::iter::repeat_n(origin.at(frame), row.contacts as usize));
+        let origins =
+            frames.flat_map(|(frame, row)| std::iter::repeat_n(origin.at(frame), row.contacts as usize));
         let flags = |c: &ContactRow| {
             u8::from(c.sticks != 0) | u8::from(c.end != 0) << 1 | (c.feature_kind.min(3) as u8) << 2
         };

@@ -1,0 +1,150 @@
+// Opens the page of a log in a browser and compares what it shows with the tables of the log.
+//
+//     node check.mjs LOG PAGE.html [PICTURE.png]
+
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { resolve } from "node:path";
+import { drawn, hasColor, open, pixels } from "./page.mjs";
+import { readTable } from "./npy.mjs";
+
+const STICK = [0x1f, 0xb6, 0xa3], SLIP = [0xf4, 0x62, 0x2e];
+const [log, file, picture] = process.argv.slice(2);
+const frames = readTable(`${log}/frames.npy`);
+const states = readTable(`${log}/states.npy`);
+const contacts = readTable(`${log}/contacts.npy`);
+const { browser, page, complaints, seconds } = await open(`file://${resolve(file)}`);
+const bodies = await page.evaluate(() => pong.bodies);
+const stateOf = (frame, body) => states[frame * bodies.length + body];
+const moved = bodies.map((_, body) => {
+    const [first, last] = [stateOf(0, body), stateOf(frames.length - 1, body)].map((state) => state.position);
+    return Math.hypot(...first.map((x, axis) => last[axis] - x));
+});
+const mover = moved.indexOf(Math.max(...moved));
+const busiest = frames.reduce((best, frame, index) => (frame.contacts > frames[best].contacts ? index : best), 0);
+const positions = () => page.evaluate(() => pong.bodies.map((body) => pong.position(body)));
+const isNear = (a, b) => a.every((x, axis) => Math.abs(x - b[axis]) <= 1e-6 * Math.max(1, moved[mover]));
+
+const checks = {
+    async "all frames are there, without a complaint"() {
+        assert.equal(await page.evaluate(() => pong.frameCount), frames.length);
+        assert.deepEqual(complaints, []);
+    },
+
+    async "the scrubber puts the bodies where the log has them"() {
+        await page.focus("#scrubber");
+        for (const [key, frame] of [["End", frames.length - 1], ["Home", 0], ["ArrowRight", 1]]) {
+            await page.keyboard.press(key);
+            const shown = await positions();
+            bodies.forEach((name, body) => assert.ok(isNear(shown[body], stateOf(frame, body).position), `${name} ${shown}`));
+        }
+        const track = await page.locator("#scrubber").boundingBox();
+        await page.mouse.click(track.x + track.width / 2, track.y + track.height / 2);
+        const frame = await page.evaluate(() => pong.frame());
+        assert.ok(Math.abs(frame - frames.length / 2) < 0.02 * frames.length, `frame ${frame}`);
+        const shown = await positions();
+        bodies.forEach((name, body) => assert.ok(isNear(shown[body], stateOf(frame, body).position), name));
+    },
+
+    async "the pixels move as the body does"() {
+        const others = bodies.map((_, body) => body).filter((body) => body !== mover);
+        const toggles = page.locator("#bodies input");
+        for (const body of others) await toggles.nth(body).uncheck();
+        for (const id of ["normals", "frictions", "highlight"]) await page.locator(`#${id}`).uncheck();
+        const seen = [];
+        for (const frame of [0, frames.length - 1]) {
+            await page.evaluate(([frame, name]) => { pong.seekFrame(frame); pong.select(null); pong.pick(name); }, [frame, bodies[mover]]);
+            const at = await page.evaluate((name) => pong.projected(name), bodies[mover]);
+            seen.push({ at, ...drawn(await pixels(page)) });
+        }
+        for (const body of others) await toggles.nth(body).check();
+        for (const id of ["normals", "frictions", "highlight"]) await page.locator(`#${id}`).check();
+        const way = (of) => [0, 1].map((axis) => seen[1][of][axis] - seen[0][of][axis]);
+        const [expected, found] = [way("at"), way("center")];
+        const off = Math.hypot(found[0] - expected[0], found[1] - expected[1]);
+        assert.ok(seen[0].count > 500 && seen[1].count > 500, "hardly a pixel is drawn");
+        assert.ok(off < 4 + 0.3 * Math.hypot(...expected), `${found} instead of ${expected}`);
+    },
+
+    async "contacts are listed, marked and have arrows"() {
+        await page.evaluate((frame) => pong.seekFrame(frame), busiest);
+        const { first_contact: first, contacts: count } = frames[busiest];
+        const logged = contacts.slice(first, first + count);
+        assert.ok(count > 0, "the run has no contact");
+        assert.equal(await page.locator("#contacts tr").count(), Math.min(count, 200));
+        assert.ok((await page.textContent("#contact-count")).startsWith(count.toLocaleString("en")));
+        const strongest = Math.max(...logged.map((contact) => contact.normal_force));
+        const listed = await page.locator("#contacts tr").first().locator("td").nth(2).textContent();
+        assert.ok(Math.abs(Number(listed) - strongest) <= 1e-3 * strongest, `${listed} N instead of ${strongest} N`);
+        assert.ok((await page.evaluate(() => pong.arrows())) >= logged.filter((contact) => contact.normal_force > 0).length);
+        assert.ok((await page.evaluate(() => pong.highlighted())) > 0);
+        const { key, sticks, at } = await page.evaluate(() => {
+            const [contact] = [...pong.contacts()].sort((a, b) => b.normalForce - a.normalForce);
+            return { key: contact.key, sticks: contact.sticks, at: pong.project(contact.point) };
+        });
+        assert.ok(hasColor(await pixels(page), at, sticks ? STICK : SLIP), "no mark at the contact");
+        await page.locator("#contacts tr").first().click();
+        assert.equal(await page.locator("#contacts tr.picked").getAttribute("data-key"), key);
+        assert.ok(await page.locator("#label").isVisible());
+    },
+
+    async "contacts are never made up between frames"() {
+        const [a, b] = [busiest, Math.min(busiest + 1, frames.length - 1)];
+        const found = await page.evaluate(([from, to]) => {
+            pong.seek(0.3 * from + 0.7 * to);
+            return [pong.frame(), JSON.stringify(pong.contacts())];
+        }, [frames[a].time, frames[b].time]);
+        const exact = await page.evaluate((frame) => (pong.seekFrame(frame), JSON.stringify(pong.contacts())), a);
+        assert.deepEqual(found, [a, exact]);
+    },
+
+    async "a click in a plot shows that time"() {
+        const time = frames[Math.round(0.7 * (frames.length - 1))].time;
+        const x = await page.evaluate((time) => pong.xOfTime(time), time);
+        const box = await page.locator("#plot").boundingBox();
+        await page.mouse.click(box.x + x, box.y + box.height / 2);
+        const off = Math.abs((await page.evaluate(() => pong.time())) - time);
+        assert.ok(off <= (2 * (frames.at(-1).time - frames[0].time)) / box.width + (frames[1].time - frames[0].time), `${off} s off`);
+    },
+
+    async "space plays and pauses"() {
+        await page.evaluate(() => pong.seekFrame(0));
+        await page.focus("#picture");
+        await page.keyboard.press("Space");
+        const before = await page.evaluate(() => [pong.picturesDrawn(), performance.now()]);
+        await page.waitForTimeout(2000);
+        const after = await page.evaluate(() => [pong.picturesDrawn(), performance.now()]);
+        await page.keyboard.press("Space");
+        assert.ok((await page.evaluate(() => pong.time())) > frames[0].time);
+        assert.equal(await page.evaluate(() => pong.isPlaying()), false);
+        const rate = ((after[0] - before[0]) / (after[1] - before[1])) * 1000;
+        console.log(`     ${rate.toFixed(1)} pictures per second, ${await page.evaluate(() => pong.triangles())} triangles drawn`);
+    },
+
+    async "every control has a name, and a thing that was drawn stays drawn in the light theme"() {
+        const nameless = await page.evaluate(() =>
+            [...document.querySelectorAll("button, input, select, canvas")]
+                .filter((e) => !(e.getAttribute("aria-label") || e.labels?.[0]?.textContent || e.textContent.trim() || e.ariaHidden))
+                .map((e) => e.outerHTML));
+        assert.deepEqual(nameless, []);
+        await page.keyboard.press("t");
+        assert.ok(drawn(await pixels(page)).count > 500);
+        await page.keyboard.press("t");
+    },
+};
+
+console.log(`  ${file}: ready after ${seconds.toFixed(1)} s`);
+let failed = 0;
+for (const [name, check] of Object.entries(checks)) {
+    const fault = await check().then(() => null, (error) => error);
+    console.log(`  ${fault ? "FAILED" : "ok"}  ${name}${fault ? `\n${fault.stack}` : ""}`);
+    failed += fault ? 1 : 0;
+}
+if (picture) {
+    await page.evaluate((frame) => { pong.seekFrame(frame); pong.select(null); }, busiest);
+    await page.waitForTimeout(500);
+    writeFileSync(picture, await page.screenshot());
+}
+if (complaints.length) console.log(complaints.join("\n"));
+await browser.close();
+process.exit(failed || complaints.length ? 1 : 0);
