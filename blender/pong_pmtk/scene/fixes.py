@@ -1,0 +1,289 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The repairs that findings offer (core/finding.py, FIXES), as functions of an object.
+
+They work on the stored mesh, in Edit Mode on the edited one, and give an object its own copy of a shared mesh before
+they change it. What they move is moved in float64, and the full numbers are kept. A repair that does not apply raises
+`FixFault` with the reason and changes nothing.
+"""
+
+import bmesh
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..core.exact import meant, meant_rows
+from ..core.transforms import frame_of, local_transform, matrix_quaternion
+from ..store import exact, marks
+from ..store.references import select_only, unique_name
+from . import extract, meshes, proposal
+
+MERGE_SHARE = 1e-6  # of the mesh's diameter: as far as the engine takes places to be the same
+
+
+class FixFault(ValueError):
+    """Why a repair was not made."""
+
+
+def run(context, name, obj):
+    """Makes a repair by its name."""
+    if obj.library or (obj.data is not None and obj.data.library):
+        raise FixFault(f"{obj.name} is linked from another file: make it local, or mend it there")
+    REPAIRS[name](context, obj)
+
+
+def _own_mesh(obj):
+    if obj.type != "MESH":
+        raise FixFault(f"{obj.name} is no mesh")
+    if obj.data.users > 1 and not obj.data.is_editmode:
+        obj.data = obj.data.copy()
+    return obj.data
+
+
+def _edit(obj, change):
+    """Runs `change(bmesh)` on the mesh of an object, in the mode it is in."""
+    mesh = _own_mesh(obj)
+    if mesh.is_editmode:
+        change(bmesh.from_edit_mesh(mesh))
+        bmesh.update_edit_mesh(mesh)
+        return
+    edited = bmesh.new()
+    edited.from_mesh(mesh)
+    change(edited)
+    edited.to_mesh(mesh)
+    edited.free()
+    mesh.update()
+
+
+def _diameter(edited):
+    places = np.array([vertex.co for vertex in edited.verts]).reshape(-1, 3)
+    return float(np.linalg.norm(np.ptp(places, axis=0))) if len(places) else 0.0
+
+
+def delete_loose(_context, obj):
+    def change(edited):
+        edges = [edge for edge in edited.edges if not edge.link_faces]
+        bmesh.ops.delete(edited, geom=edges, context="EDGES")
+        bmesh.ops.delete(edited, geom=[v for v in edited.verts if not v.link_faces], context="VERTS")
+
+    _edit(obj, change)
+
+
+def dissolve_degenerate(_context, obj):
+    _edit(obj, lambda edited: bmesh.ops.dissolve_degenerate(
+        edited, dist=MERGE_SHARE * _diameter(edited), edges=list(edited.edges)))
+
+
+def merge_by_distance(_context, obj):
+    _edit(obj, lambda edited: bmesh.ops.remove_doubles(
+        edited, verts=list(edited.verts), dist=MERGE_SHARE * _diameter(edited)))
+
+
+def recalculate_normals(_context, obj):
+    _edit(obj, lambda edited: bmesh.ops.recalc_face_normals(edited, faces=list(edited.faces)))
+
+
+def flip_normals(_context, obj):
+    _edit(obj, lambda edited: bmesh.ops.reverse_faces(edited, faces=list(edited.faces)))
+
+
+def triangulate(_context, obj):
+    _edit(obj, lambda edited: bmesh.ops.triangulate(edited, faces=list(edited.faces)))
+
+
+def _facts(context, obj):
+    """What the core needs to know to work out the object's transform."""
+    reader = extract.Reader(context.evaluated_depsgraph_get(), context.view_layer)
+    return reader.object(obj)
+
+
+def _move_vertices(obj, linear, offset):
+    """Maps the vertices of an object by x -> linear · x + offset."""
+    mesh = _own_mesh(obj)
+    if mesh.is_editmode:
+        raise FixFault(f"leave Edit Mode of {obj.name} first")
+    if mesh.shape_keys:
+        raise FixFault(f"{obj.name} has shape keys: apply them first")
+    places = meant_rows(meshes.read(mesh).vertices, exact.read(obj).get("vertices"))
+    moved = sum(places[:, i : i + 1] * linear[:, i] for i in range(3)) + offset
+    mesh.vertices.foreach_set("co", moved.astype(np.float32).ravel())
+    exact.write(obj, {"vertices": moved})
+    if np.linalg.det(linear) < 0.0:
+        flip_normals(None, obj)
+    mesh.update()
+
+
+def _keep_children(obj, linear, offset):
+    """Children stay where they are when x of the object becomes linear · x + offset."""
+    matrix = Matrix(np.block([[linear, offset.reshape(3, 1)], [np.zeros((1, 3)), np.ones((1, 1))]]).tolist())
+    for child in obj.children:
+        child.matrix_parent_inverse = matrix @ child.matrix_parent_inverse
+
+
+def apply_scale(context, obj):
+    """Scale goes into the mesh, or into the children of an empty."""
+    scale = local_transform(_facts(context, obj)).scale
+    _apply(obj, np.diag(scale))
+    obj.scale, obj.delta_scale = (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
+    _forget(obj, "scale")
+
+
+def apply_transform(context, obj):
+    """Rotation and scale go into the mesh, or into the children of an empty."""
+    local = local_transform(_facts(context, obj))
+    _apply(obj, local.rotation * local.scale)
+    obj.scale, obj.delta_scale = (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
+    _set_quaternion(obj, (1.0, 0.0, 0.0, 0.0))
+    _forget(obj, "scale", "rotation")
+
+
+def _apply(obj, linear):
+    if obj.type == "MESH":
+        _move_vertices(obj, linear, np.zeros(3))
+    elif obj.type != "EMPTY":
+        raise FixFault(f"{obj.name} is a {obj.type.lower()}: convert it to a mesh first")
+    _keep_children(obj, linear, np.zeros(3))
+
+
+def _set_quaternion(obj, quaternion):
+    obj.rotation_mode = "QUATERNION"
+    obj.rotation_quaternion = quaternion
+    obj.delta_rotation_quaternion = (1.0, 0.0, 0.0, 0.0)
+
+
+def _forget(obj, *names):
+    """Full numbers that hold no more."""
+    if exact.KEY in obj:
+        for name in names:
+            if name in obj[exact.KEY]:
+                del obj[exact.KEY][name]
+
+
+def clear_parent_inverse(context, obj):
+    """The object keeps its place, with its own transform alone."""
+    local = local_transform(_facts(context, obj))
+    frame = frame_of(local.matrix.linear, np.sign(local.scale))
+    if frame is None:
+        raise FixFault(f"{obj.name} is sheared by its parent: apply the parent's scale first")
+    quaternion = matrix_quaternion(frame.rotation)
+    obj.matrix_parent_inverse = Matrix()
+    obj.delta_location, obj.delta_scale = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0)
+    obj.location, obj.scale = local.matrix.offset, np.diag(frame.rest)
+    _set_quaternion(obj, quaternion)
+    exact.write(obj, {"location": local.matrix.offset, "rotation": np.array(quaternion), "scale": np.diag(frame.rest)})
+
+
+def set_origin(context, obj):
+    """The origin goes into the middle of the vertices; everything stays in place."""
+    facts = _facts(context, obj)
+    if facts.mesh is None or not len(facts.mesh.vertices):
+        raise FixFault(f"{obj.name} has no vertices")
+    local = local_transform(facts)
+    places = facts.mesh.vertices
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    _move_vertices(obj, np.eye(3), -middle)
+    _keep_children(obj, np.eye(3), -middle)
+    location = meant(facts.transform.location, facts.exact.get("location"))
+    moved = location + (local.rotation * local.scale) @ middle
+    obj.location = moved
+    exact.write(obj, {**{k: v for k, v in facts.exact.items() if k != "vertices"}, "location": moved})
+
+
+def fit(kind):
+    """Sizes of a sphere or ellipsoid from the mesh."""
+
+    def repair(_context, obj):
+        sizes = proposal.sizes(obj, kind)
+        if not sizes:
+            raise FixFault(f"{obj.name} has no vertices to fit a {kind.lower()} to")
+        marks.write_numbers(obj, sizes)
+
+    return repair
+
+
+def rename(_context, obj):
+    """A name of its own among its siblings."""
+    siblings = obj.parent.children if obj.parent else bpy.context.scene.objects
+    taken = {other.pong.label or other.name for other in siblings if other != obj}
+    wanted = (obj.pong.label or obj.name).replace("/", "_") or obj.pong.role
+    obj.pong.label = unique_name(wanted, taken)
+
+
+def unhide(context, obj):
+    obj.hide_viewport = False
+    if obj.name in context.view_layer.objects:
+        obj.hide_set(False)
+    _show_layers(context.view_layer.layer_collection, obj)
+    context.view_layer.update()
+
+
+def _show_layers(layer, obj):
+    """Shows every layer collection on the way to an object; tells whether the object is below."""
+    below = [_show_layers(child, obj) for child in layer.children]
+    holds = any(below) or obj.name in layer.collection.objects
+    if holds:
+        layer.exclude = layer.hide_viewport = False
+        layer.collection.hide_viewport = False
+    return holds
+
+
+def leave_edit_mode(_context, _obj):
+    if bpy.context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def _operate(context, obj, operate):
+    """Runs an operator of Blender's on one object; what was selected is selected again."""
+    leave_edit_mode(context, obj)
+    chosen = [other for other in context.view_layer.objects if other.select_get()]
+    active = context.view_layer.objects.active
+    select_only(context, [obj], obj)
+    if not obj.select_get():
+        raise FixFault(f"{obj.name} cannot be selected: show it and take away its lock")
+    before = set(context.scene.objects)
+    operate()
+    made = [other for other in context.scene.objects if other not in before]
+    select_only(context, chosen, active)
+    return made
+
+
+def convert_to_mesh(context, obj):
+    _operate(context, obj, lambda: bpy.ops.object.convert(target="MESH"))
+
+
+def make_instances_real(context, obj):
+    _operate(context, obj, lambda: bpy.ops.object.duplicates_make_real(use_base_parent=True, use_hierarchy=True))
+
+
+def separate_loose(context, obj):
+    """Each connected piece becomes an object with the same mark."""
+    _own_mesh(obj)
+
+    def separate():
+        bpy.ops.object.mode_set(mode="EDIT")
+        bpy.ops.mesh.separate(type="LOOSE")
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+    for piece in _operate(context, obj, separate):
+        piece.pong.label = ""
+
+
+REPAIRS = {
+    "apply-scale": apply_scale,
+    "apply-transform": apply_transform,
+    "clear-parent-inverse": clear_parent_inverse,
+    "convert-to-mesh": convert_to_mesh,
+    "delete-loose": delete_loose,
+    "dissolve-degenerate": dissolve_degenerate,
+    "fit-ellipsoid": fit("Ellipsoid"),
+    "fit-sphere": fit("Sphere"),
+    "flip-normals": flip_normals,
+    "leave-edit-mode": leave_edit_mode,
+    "make-instances-real": make_instances_real,
+    "merge-by-distance": merge_by_distance,
+    "recalculate-normals": recalculate_normals,
+    "rename": rename,
+    "separate-loose": separate_loose,
+    "set-origin": set_origin,
+    "triangulate": triangulate,
+    "unhide": unhide,
+}

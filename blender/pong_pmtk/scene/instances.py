@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Instances: what a snapshot needs to know of those that the core makes, and those that only Blender can make.
+
+What an empty shows of a collection is composed by the core from stored transforms, like everything else, so nothing is
+rounded twice. Instances on vertices and faces, and those of geometry nodes, exist only as matrices of the dependency
+graph and are taken from there, as objects with names made from the instancer's.
+"""
+
+from dataclasses import replace
+
+import bpy
+import numpy as np
+
+from ..core.snapshot import Transform
+
+SEPARATOR = "."  # between the name of an instancer and that of what it shows
+NO_ID = 2**31 - 1  # fills the unused places of a persistent id
+
+
+def shown_collections(scene):
+    """Name -> collection: those that empties of a scene show, and those shown by their objects in turn."""
+    found, open_ = {}, list(scene.objects)
+    while open_:
+        obj = open_.pop()
+        collection = obj.instance_collection
+        if obj.instance_type == "COLLECTION" and collection is not None and collection.name not in found:
+            found[collection.name] = collection
+            open_ += collection.all_objects
+    return found
+
+
+def beyond(scene, shown):
+    """Objects of shown collections that the scene itself does not hold, each once."""
+    own = set(scene.objects)
+    members = {obj: None for collection in shown.values() for obj in collection.all_objects if obj not in own}
+    return list(members)
+
+
+def collections_of(obj):
+    """The names of all collections that an object is in, directly or through their parents."""
+    found, open_ = [], list(obj.users_collection)
+    while open_:
+        collection = open_.pop()
+        if collection.name not in found:
+            found.append(collection.name)
+            open_ += [above for above in bpy.data.collections if collection.name in above.children]
+    return sorted(found)
+
+
+def shown_elsewhere(scene):
+    """Names of objects that Blender shows on their parents' vertices or faces and not where they are themselves."""
+    instancers = [obj for obj in scene.objects if obj.instance_type in ("VERTS", "FACES")]
+    return {child.name for obj in instancers for child in obj.children}
+
+
+def scattered(reader):
+    """Marked instances that are not of a collection shown by an empty."""
+    made = []
+    for instance in reader.depsgraph.object_instances:
+        if not instance.is_instance or instance.parent is None:
+            continue
+        parent, shown = instance.parent.original, instance.instance_object.original
+        if parent.instance_type != "COLLECTION" and shown != parent and shown.pong.role != "none":
+            made.append(_one(reader, instance, parent, shown))
+    return made
+
+
+def _one(reader, instance, parent, shown):
+    number = "_".join(str(number) for number in reversed(instance.persistent_id) if number != NO_ID)
+    facts = reader.object(shown)
+    facts.name = f"{parent.name}{SEPARATOR}{shown.name}_{number}"
+    facts.mark = replace(facts.mark, name=f"{facts.mark.name or shown.name}_{number}")
+    matrix = np.linalg.inv(np.array(parent.matrix_world, float)) @ np.array(instance.matrix_world, float)
+    facts.parent, facts.parent_type = parent.name, "OBJECT"
+    facts.transform = Transform(parent_inverse=matrix)
+    facts.exact.pop("location", None)
+    facts.hidden = facts.excluded = False
+    facts.collections = []
+    return facts

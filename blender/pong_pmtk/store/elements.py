@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which vertices, edges and faces a part takes: integer attributes of the mesh.
+
+Attributes follow their elements when a mesh is edited, in and out of Edit Mode; indices would not. The names of the
+attributes are kept with the object, because objects may share a mesh. Whole numbers, because Blender 4.2 gives no
+access to truth values in Edit Mode.
+"""
+
+import bmesh
+import numpy as np
+
+PREFIX = "pong_"
+DOMAINS = {"vertices": "POINT", "edges": "EDGE", "faces": "FACE"}
+
+
+def domain_of(kind):
+    """What elements a kind is made of."""
+    return {"Point": "vertices", "LineSegment": "edges", "Ray": "edges"}.get(kind, "faces")
+
+
+def new_attribute(mesh, stem):
+    """A name for an attribute that the mesh does not have yet."""
+    number = 1
+    while any(f"{PREFIX}{stem}_{number}{suffix}" in _names(mesh) for suffix in ("", "_v", "_e", "_f")):
+        number += 1
+    return f"{PREFIX}{stem}_{number}"
+
+
+def _names(mesh):
+    names = {attribute.name for attribute in mesh.attributes}
+    if mesh.is_editmode:
+        edited = bmesh.from_edit_mesh(mesh)
+        for sequence in (edited.verts, edited.edges, edited.faces):
+            names.update(sequence.layers.int.keys())
+    return names
+
+
+def _full_name(name, elements):
+    """Names of attributes are unique within a mesh, whatever they are of."""
+    return f"{name}_{elements[0]}"
+
+
+def indices(mesh, name, elements):
+    """Indices of the marked elements of an attribute, as the mesh is stored (or edited just now)."""
+    full = _full_name(name, elements)
+    if mesh.is_editmode:
+        sequence = _sequence(bmesh.from_edit_mesh(mesh), elements)
+        layer = sequence.layers.int.get(full)
+        return [] if layer is None else [index for index, element in enumerate(sequence) if element[layer]]
+    attribute = mesh.attributes.get(full)
+    if attribute is None or attribute.domain != DOMAINS[elements] or not len(attribute.data):
+        return []
+    values = np.empty(len(attribute.data), np.int32)
+    attribute.data.foreach_get("value", values)
+    return np.flatnonzero(values).tolist()
+
+
+def mark(mesh, name, elements, chosen, value=1):
+    """Sets an attribute of the elements with these indices; the others keep theirs."""
+    full = _full_name(name, elements)
+    if mesh.is_editmode:
+        _mark_edited(mesh, full, elements, chosen, value)
+        return
+    attribute = mesh.attributes.get(full) or mesh.attributes.new(full, "INT", DOMAINS[elements])
+    values = np.zeros(len(attribute.data), np.int32)
+    attribute.data.foreach_get("value", values)
+    values[list(chosen)] = value
+    attribute.data.foreach_set("value", values)
+
+
+def _mark_edited(mesh, full, elements, chosen, value):
+    edited = bmesh.from_edit_mesh(mesh)
+    sequence = _sequence(edited, elements)
+    layer = sequence.layers.int.get(full) or sequence.layers.int.new(full)
+    sequence.ensure_lookup_table()
+    for index in chosen:
+        sequence[index][layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+def forget(mesh, name):
+    """Takes the attributes of a part away."""
+    for elements in DOMAINS:
+        full = _full_name(name, elements)
+        if mesh.is_editmode:
+            sequence = _sequence(bmesh.from_edit_mesh(mesh), elements)
+            layer = sequence.layers.int.get(full)
+            if layer is not None:
+                sequence.layers.int.remove(layer)
+        elif full in mesh.attributes:
+            mesh.attributes.remove(mesh.attributes[full])
+
+
+def _sequence(edited, elements):
+    return {"vertices": edited.verts, "edges": edited.edges, "faces": edited.faces}[elements]
+
+
+def selected(mesh, elements):
+    """Indices of the selected elements, in Edit Mode and out of it."""
+    if mesh.is_editmode:
+        sequence = _sequence(bmesh.from_edit_mesh(mesh), elements)
+        return [index for index, element in enumerate(sequence) if element.select and not element.hide]
+    sequence = {"vertices": mesh.vertices, "edges": mesh.edges, "faces": mesh.polygons}[elements]
+    values = np.empty(len(sequence), bool)
+    sequence.foreach_get("select", values)
+    return np.flatnonzero(values).tolist()
+
+
+def select(mesh, chosen):
+    """Selects elements of an edited mesh and nothing else; `chosen`: {"vertices": indices, ...}."""
+    edited = bmesh.from_edit_mesh(mesh)
+    for sequence in (edited.faces, edited.edges, edited.verts):
+        sequence.ensure_lookup_table()
+        for element in sequence:
+            element.select = False
+    for elements, numbers in chosen.items():
+        sequence = _sequence(edited, elements)
+        for index in numbers:
+            if index < len(sequence):
+                sequence[index].select_set(True)
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

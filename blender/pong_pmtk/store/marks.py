@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Property groups of marks and model settings, and how the core's classes go in and out of them.
+
+`Object.pong` is what an object is to the engine, `Object.pong_model` what belongs to a whole model, on its root. They
+are on the object, never on its mesh, which others may share.
+"""
+
+import bpy
+
+from ..core.marks import KINDS, VERSION, Mark, ModelSettings, Part
+from . import elements, numbers, spec, surfaces
+
+ROLES = [
+    ("none", "None", "The engine does not see this object, but what hangs below it"),
+    ("root", "Root", "The whole model; its origin is that of the model"),
+    ("group", "Group", "Holds groups or primitives"),
+    ("primitive", "Primitive", "Touches others"),
+]
+KIND_TIPS = {
+    "Point": "An empty's origin, or every vertex of a mesh",
+    "LineSegment": "Every edge of a mesh",
+    "Ray": "A plunger: from an empty along its z axis, or every edge from its first vertex to its second",
+    "Sphere": "A ball around the object's origin",
+    "Ellipsoid": "An ellipsoid around the object's origin, along its axes",
+    "Plane": "Everything behind a plane: through an empty's origin across its z axis, or that of a mesh's only face",
+    "Triangle": "Every face of a mesh, all of them triangles",
+    "TriangleMesh": "All faces of a mesh, cut into triangles",
+    "Polyhedron": "A convex solid; each connected piece of a mesh is one of its own",
+}
+KIND_ITEMS = [("NONE", "None", "Nothing")] + [(kind, kind, KIND_TIPS.get(kind, "")) for kind in KINDS]
+BOUND_ITEMS = [
+    ("Aabb", "Box", "Box along the axes of the group"),
+    ("Sphere", "Sphere", "Ball"),
+    ("Obb", "Oriented Box", "Box that fits best"),
+]
+
+
+class PONG_PG_part(bpy.types.PropertyGroup):
+    """Some elements of a mesh as primitives of one kind."""
+
+    name: bpy.props.StringProperty(name="Name")
+    kind: bpy.props.EnumProperty(name="Kind", items=KIND_ITEMS)
+    surface: bpy.props.StringProperty(name="Surface", description="Empty: that of the object")
+    attribute: bpy.props.StringProperty(options={"HIDDEN"})  # of the mesh
+
+
+class PONG_PG_mark(bpy.types.PropertyGroup):
+    """What one object is to the engine; core/marks.py says what a kind takes from its object."""
+
+    role: bpy.props.EnumProperty(name="Role", items=ROLES)
+    version: bpy.props.IntProperty(default=0, options={"HIDDEN"})  # 0: never marked
+    label: bpy.props.StringProperty(name="Name", description="In the model. Empty: the object's name")
+    surface: bpy.props.StringProperty(name="Surface", description="Empty: that of the group above")
+    movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own, whose state the host gives")
+    bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, description="Bounding volume around all below")
+    custom_bound: bpy.props.StringProperty(name="Custom Bound", description="A registered kind of volume instead")
+    order: bpy.props.IntProperty(name="Order", min=0, description="Place among siblings, from 1. 0: behind, by name")
+    kind: bpy.props.EnumProperty(name="Kind", items=KIND_ITEMS)
+    radius: numbers.number("radius_64", name="Radius", min=0.0, precision=4)
+    semi_axes: numbers.vector("semi_axes_64", name="Semi-axes", min=0.0, precision=4)
+    length: numbers.number("length_64", name="Length", min=0.0, precision=4, description="Free length of the plunger")
+    use_reach: numbers.given("reach_64", name="Reach")
+    reach: numbers.number("reach_64", name="Reach", min=0.0, precision=4,
+                          description="How far behind the origin a surface is still hit, m")
+    response: bpy.props.EnumProperty(name="Response", items=[
+        ("Normal", "Normal", "The force acts along the surface's normal"),
+        ("Axial", "Axial", "The force acts along the ray")])
+    use_thickness: numbers.given("thickness_64", default=0.01, name="Thickness")
+    thickness: numbers.number("thickness_64", name="Thickness", min=0.0, precision=4,
+                              description="How far behind its front a triangle still pushes forward, m")
+    two_sided: bpy.props.BoolProperty(name="Two-sided", description="Two surfaces back to back")
+    inactive: bpy.props.StringProperty(options={"HIDDEN"})  # attribute of the mesh
+    file: bpy.props.StringProperty(name="File", description="Write the mesh to this OBJ or STL file beside the model")
+    file_scale: numbers.number("file_scale_64", default=1.0, name="File Scale", min=0.0,
+                               description="Metres in one unit of that file")
+    custom_kind: bpy.props.StringProperty(name="Registered As", description="Kind that is registered with the engine")
+    parameters: numbers.listed("parameters_64", name="Parameters")
+    parts: bpy.props.CollectionProperty(type=PONG_PG_part)
+    active_part: bpy.props.IntProperty()
+
+
+class PONG_PG_model(bpy.types.PropertyGroup):
+    """What belongs to a whole model; of its root."""
+
+    label: bpy.props.StringProperty(name="Model", description="Name of the model. Empty: the root's")
+    entry_memory: bpy.props.BoolProperty(
+        name="Entry Memory", default=True,
+        description="Points and sphere centres remember through which face they entered a polyhedron")
+    surfaces: bpy.props.CollectionProperty(type=surfaces.PONG_PG_surface)
+    active_surface: bpy.props.IntProperty()
+    pairs: bpy.props.CollectionProperty(type=surfaces.PONG_PG_pair)
+    active_pair: bpy.props.IntProperty()
+
+
+# In the mark and in the property group.
+SAME = ("role", "surface", "order", "movable", "bound", "custom_bound", "response", "two_sided", "file", "custom_kind")
+# Kept in full precision, and left out where not given.
+NUMBERS = ("radius", "length", "reach", "thickness", "file_scale")
+LISTS = {"semi_axes": tuple, "parameters": list}
+
+
+def read_mark(obj):
+    """The mark of an object, as the core has it."""
+    group = obj.pong
+    mark = Mark(version=group.version or VERSION, name=group.label, kind=_kind(group))
+    for field in SAME:
+        setattr(mark, field, getattr(group, field))
+    for field, value in read_numbers(obj).items():
+        setattr(mark, field, value)
+    if obj.type == "MESH":
+        mark.inactive_faces = elements.indices(obj.data, group.inactive, "faces") if group.inactive else []
+        mark.parts = [_part(obj.data, part) for part in group.parts]
+    return mark
+
+
+def read_numbers(obj):
+    """The numbers of an object's mark that are given."""
+    group, found = obj.pong, {}
+    for field in NUMBERS:
+        if field + numbers.SUFFIX in group:
+            found[field] = float(group[field + numbers.SUFFIX])
+    for field, make in LISTS.items():
+        if field + numbers.SUFFIX in group:
+            found[field] = make(float(value) for value in group[field + numbers.SUFFIX])
+    return found
+
+
+def write_numbers(obj, values):
+    """Gives an object's mark numbers; those at the defaults of a mark are taken away."""
+    for field, value in values.items():
+        key = field + numbers.SUFFIX
+        default = getattr(DEFAULTS, field)
+        if value is None or value == default or (field in LISTS and not any(value)):
+            obj.pong.pop(key, None)
+        else:
+            obj.pong[key] = [float(item) for item in value] if field in LISTS else float(value)
+
+
+DEFAULTS = Mark()
+
+
+def _kind(holder):
+    return "" if holder.kind == "NONE" else holder.kind
+
+
+def _part(mesh, part):
+    chosen = {name: elements.indices(mesh, part.attribute, name) for name in elements.DOMAINS}
+    return Part(name=part.name, kind=_kind(part), surface=part.surface, **chosen)
+
+
+def write_mark(obj, mark):
+    """Gives an object a mark."""
+    group = obj.pong
+    clear_mark(obj)
+    group.version = mark.version
+    group.label = mark.name
+    group.kind = mark.kind or "NONE"
+    for field in SAME:
+        setattr(group, field, getattr(mark, field))
+    write_numbers(obj, {field: getattr(mark, field) for field in (*NUMBERS, *LISTS)})
+    if mark.inactive_faces:
+        group.inactive = elements.new_attribute(obj.data, "inactive")
+        elements.mark(obj.data, group.inactive, "faces", mark.inactive_faces)
+    for part in mark.parts:
+        add_part(obj, part)
+
+
+def add_part(obj, part):
+    """Marks elements of a mesh as a part."""
+    made = obj.pong.parts.add()
+    made.name, made.kind, made.surface = part.name, part.kind or "NONE", part.surface
+    made.attribute = elements.new_attribute(obj.data, "part")
+    for name in elements.DOMAINS:
+        chosen = getattr(part, name)
+        if chosen:
+            elements.mark(obj.data, made.attribute, name, chosen)
+    obj.pong.active_part = len(obj.pong.parts) - 1
+    return made
+
+
+def remove_part(obj, index):
+    part = obj.pong.parts[index]
+    elements.forget(obj.data, part.attribute)
+    obj.pong.parts.remove(index)
+    obj.pong.active_part = max(0, min(obj.pong.active_part, len(obj.pong.parts) - 1))
+
+
+def clear_mark(obj):
+    """Takes an object's mark away, with the attributes of its parts."""
+    group = obj.pong
+    if obj.type == "MESH" and not obj.data.library:
+        for name in [part.attribute for part in group.parts] + [group.inactive]:
+            if name:
+                elements.forget(obj.data, name)
+    group.parts.clear()
+    for name in group.bl_rna.properties.keys():
+        if name not in ("rna_type", "name", "parts"):
+            group.property_unset(name)
+    for key in list(group.keys()):
+        if key.endswith(numbers.SUFFIX):
+            del group[key]
+
+
+def read_settings(root):
+    """The settings of a model, as the core has them."""
+    group = root.pong_model
+    pairs = [{"surfaces": (pair.first, pair.second), **spec.from_plain(spec.read(pair))} for pair in group.pairs]
+    return ModelSettings(
+        name=group.label,
+        entry_memory=group.entry_memory,
+        surfaces={surface.name: spec.from_plain(spec.read(surface)) for surface in group.surfaces},
+        pairs=pairs,
+    )
+
+
+def write_settings(root, settings):
+    """Gives a root the settings of a model."""
+    group = root.pong_model
+    group.label = settings.name
+    group.entry_memory = settings.entry_memory
+    group.surfaces.clear()
+    group.pairs.clear()
+    for name, fields in settings.surfaces.items():
+        surfaces.add_surface(group, name, fields)
+    for fields in settings.pairs:
+        surfaces.add_pair(group, fields)
+
+
+CLASSES = (*surfaces.CLASSES, PONG_PG_part, PONG_PG_mark, PONG_PG_model)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.Object.pong = bpy.props.PointerProperty(type=PONG_PG_mark, name="Pong")
+    bpy.types.Object.pong_model = bpy.props.PointerProperty(type=PONG_PG_model, name="Pong Model")
+
+
+def unregister():
+    del bpy.types.Object.pong_model
+    del bpy.types.Object.pong
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Who belongs to a model and who names what in it."""
+
+def root_of(obj):
+    """The root that an object stands below, itself included; None outside of any model."""
+    while obj is not None:
+        if obj.pong.role == "root":
+            return obj
+        obj = obj.parent
+    return None
+
+
+def roots(scene):
+    """All roots of a scene, by name."""
+    return sorted((obj for obj in scene.objects if obj.pong.role == "root"), key=lambda obj: obj.name)
+
+
+def current_root(context):
+    """The model the panels are about: that of the active object, else the only one of the scene."""
+    active = context.view_layer.objects.active if context.view_layer else None
+    root = root_of(active)
+    if root is not None:
+        return root
+    all_roots = roots(context.scene)
+    return all_roots[0] if len(all_roots) == 1 else None
+
+
+def tree(root):
+    """A root and everything below it."""
+    return [root, *root.children_recursive]
+
+
+def rename_surface(root, old, new):
+    """Makes everything of a model that names a surface use its new name."""
+    for obj in tree(root):
+        for holder in (obj.pong, *obj.pong.parts):
+            if holder.surface == old:
+                holder.surface = new
+    for pair in root.pong_model.pairs:
+        if pair.first == old:
+            pair.first = new
+        if pair.second == old:
+            pair.second = new
+
+
+def select_only(context, objects, active=None):
+    """Selects objects and nothing else, as far as they can be selected."""
+    context.view_layer.update()  # what was just made cannot be selected before
+    for obj in context.view_layer.objects:
+        obj.select_set(False)
+    for obj in objects:
+        if obj.name in context.view_layer.objects:
+            obj.select_set(True)
+    if active is not None and active.name in context.view_layer.objects:
+        context.view_layer.objects.active = active
+
+
+def unique_name(wanted, taken):
+    """`wanted`, with a number behind it if it is taken."""
+    if wanted not in taken:
+        return wanted
+    number = 2
+    while f"{wanted}_{number}" in taken:
+        number += 1
+    return f"{wanted}_{number}"
+
+
+def parents_first(root, depth=0):
+    """A root and what is below it that has a role, with depths, in the order of the tree."""
+    listed = [(root, depth)] if root.pong.role != "none" else []
+    below = depth + 1 if listed else depth
+    for child in sorted(root.children, key=lambda obj: obj.name):
+        listed += parents_first(child, below)
+    return listed

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the panels remember while Blender runs: findings, and what the overlays show."""
+
+import json
+
+import bpy
+
+
+class PONG_PG_finding(bpy.types.PropertyGroup):
+    """One finding of the last check; core/finding.py says what the fields mean."""
+
+    severity: bpy.props.StringProperty()
+    rule: bpy.props.StringProperty()
+    object: bpy.props.StringProperty()
+    path: bpy.props.StringProperty()
+    cause: bpy.props.StringProperty()
+    cure: bpy.props.StringProperty()
+    fix: bpy.props.StringProperty()
+    elements: bpy.props.StringProperty()  # JSON: {"vertices": [...], "edges": [...], "faces": [...]}
+
+
+def _redraw(_self, context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+def _toggle(name, tip):
+    return bpy.props.BoolProperty(name=name, description=tip, update=_redraw)
+
+
+class PONG_PG_state(bpy.types.PropertyGroup):
+    """Of the window manager, so it is not saved and not undone."""
+
+    findings: bpy.props.CollectionProperty(type=PONG_PG_finding)
+    active_finding: bpy.props.IntProperty()
+    checked: bpy.props.StringProperty()  # what the last check was of
+    active_object: bpy.props.IntProperty()
+    show_bounds: _toggle("Bounds", "Bounding volumes of the groups")
+    show_normals: _toggle("Normals", "Outward normals of faces and planes")
+    show_rays: _toggle("Rays", "Rays with their reach, and segments")
+    show_groups: _toggle("Groups", "What hangs below what; movable groups stand out")
+    normal_length: bpy.props.FloatProperty(name="Length", default=0.1, min=0.001, update=_redraw,
+                                           description="Of the normals, as a share of the face's size")
+
+
+def state(context):
+    return context.window_manager.pong
+
+
+def keep_findings(context, findings, checked):
+    """Lists findings in the panel."""
+    kept = state(context)
+    kept.findings.clear()
+    kept.active_finding = 0
+    kept.checked = checked
+    for finding in findings:
+        item = kept.findings.add()
+        for field in ("severity", "rule", "object", "path", "cause", "cure", "fix"):
+            setattr(item, field, getattr(finding, field))
+        if not finding.evaluated:
+            chosen = {sort: getattr(finding, sort) for sort in ("vertices", "edges", "faces")}
+            item.elements = json.dumps({sort: numbers for sort, numbers in chosen.items() if numbers})
+
+
+CLASSES = (PONG_PG_finding, PONG_PG_state)
+
+
+def register():
+    for cls in CLASSES:
+        bpy.utils.register_class(cls)
+    bpy.types.WindowManager.pong = bpy.props.PointerProperty(type=PONG_PG_state, name="Pong")
+
+
+def unregister():
+    del bpy.types.WindowManager.pong
+    for cls in reversed(CLASSES):
+        bpy.utils.unregister_class(cls)

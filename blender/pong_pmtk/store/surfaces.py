@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Property groups of surfaces and of pairs of surfaces."""
+
+import bpy
+
+from . import spec
+from .spec import FIELDS
+
+NORMAL_LAWS = [
+    ("DEFAULT", "Undamped", "A linear spring without damping", None),
+    ("Linear", "Linear", "Spring and damper in parallel that never pull", {"damping": 0.0}),
+    ("HuntCrossley", "Hunt-Crossley", "Damping that grows with depth", {"dissipation": 0.0, "exponent": 1.0}),
+    ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
+]
+FRICTION_LAWS = [
+    ("DEFAULT", "None", "No friction", None),
+    ("Bristle", "Bristle", "A bristle that sticks and slips", {"mu": 0.2}),
+    ("Coulomb", "Coulomb", "Regularised: creeps under any load", {"mu": 0.2, "slip_speed": 0.001}),
+    ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
+]
+SERIES = [("DEFAULT", "Of both in series", "What the rule for two springs in series gives", None)]
+# In a pair "no friction" is something else than "what the two surfaces give".
+PAIR_FRICTION_LAWS = SERIES + [("None", "None", "No friction between the two", {})] + FRICTION_LAWS[1:]
+PAIR_NORMAL_LAWS = SERIES + NORMAL_LAWS[1:]
+
+
+def _rigid(self):
+    return spec.value_at(spec.read(self), ("stiffness",), 0.0) == float("inf")
+
+
+def _set_rigid(self, rigid):
+    if rigid != _rigid(self):
+        spec.put(self, ("stiffness",), float("inf") if rigid else 1e6)
+
+
+def _exponent(self):
+    return 1 if spec.value_at(spec.read(self), ("normal", FIELDS, "exponent"), 1.0) == 1.5 else 0
+
+
+def _set_exponent(self, index):
+    spec.put(self, ("normal", FIELDS, "exponent"), (1.0, 1.5)[index])
+
+
+def _restitution(self):
+    return spec.value_at(spec.read(self), ("normal", FIELDS, "restitution")) is not None
+
+
+def _set_restitution(self, on):
+    """Restitution replaces damping (or dissipation) and the other way round."""
+    if on == _restitution(self):
+        return
+    linear = "Linear" in (spec.read(self).get("normal") or {})
+    spec.put(self, ("normal", FIELDS, "damping" if linear else "dissipation"), None if on else 0.0)
+    start = {"e": 0.5, "mass": 1.0} if linear else {"e": 0.5, "speed": 0.1}
+    spec.put(self, ("normal", FIELDS, "restitution"), start if on else None)
+
+
+class Laws:
+    """What surfaces and pairs have in common."""
+
+    spec: bpy.props.StringProperty(options={"HIDDEN"})
+    use_stiffness: spec.given("stiffness", default=1e6, name="Stiffness", description="Give a stiffness for the pair")
+    stiffness: spec.number("stiffness", name="Stiffness", min=0.0, description="N/m; N/m^1.5 with exponent 1.5")
+    rigid: bpy.props.BoolProperty(name="Rigid", description="All the yield is the other's", get=_rigid, set=_set_rigid)
+
+    damping: spec.number("normal", FIELDS, "damping", name="Damping", min=0.0, description="N·s/m")
+    use_ramp: spec.given("normal", FIELDS, "ramp", default=1e-4, name="Ramp")
+    ramp: spec.number("normal", FIELDS, "ramp", name="Ramp", min=0.0, precision=6,
+                      description="Depth over which the damping sets in, m")
+    use_restitution: bpy.props.BoolProperty(name="From Restitution", get=_restitution, set=_set_restitution,
+                                            description="Find the damping from the rebound speed over the impact speed")
+    restitution: spec.number("normal", FIELDS, "restitution", "e", name="Restitution", min=0.0, max=1.0)
+    mass: spec.number("normal", FIELDS, "restitution", "mass", name="Mass", min=0.0, description="Effective, kg")
+    speed: spec.number("normal", FIELDS, "restitution", "speed", name="Speed", min=0.0, description="Of impact, m/s")
+    dissipation: spec.number("normal", FIELDS, "dissipation", name="Dissipation", min=0.0, description="s/m")
+    exponent: bpy.props.EnumProperty(name="Exponent", get=_exponent, set=_set_exponent, items=[
+        ("LINEAR", "1", "Linear in depth", 0), ("HERTZ", "1.5", "Hertz: the stiffness is in N/m^1.5", 1)])
+    normal_name: spec.text("normal", FIELDS, "name", name="Law")
+    normal_parameters: spec.numbers("normal", FIELDS, "parameters", name="Parameters")
+
+    mu: spec.number("friction", FIELDS, "mu", name="μ", min=0.0, description="Kinetic coefficient of friction")
+    use_static_excess: spec.given("friction", FIELDS, "static_excess", name="Static Excess")
+    static_excess: spec.number("friction", FIELDS, "static_excess", name="Static Excess", min=0.0,
+                               description="Breaks away at (1 + a)·μ")
+    use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Stiffness")
+    bristle_stiffness: spec.number("friction", FIELDS, "stiffness", name="Bristle Stiffness", min=0.0,
+                                   description="N/m; two thirds of the normal stiffness unless given")
+    use_bristle_damping: spec.given("friction", FIELDS, "damping", name="Bristle Damping")
+    bristle_damping: spec.number("friction", FIELDS, "damping", name="Bristle Damping", min=0.0, description="N·s/m")
+    slip_speed: spec.number("friction", FIELDS, "slip_speed", name="Slip Speed", min=0.0, precision=5,
+                            description="At which the full force is reached, m/s")
+    friction_name: spec.text("friction", FIELDS, "name", name="Law")
+    friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
+
+
+def _renamed(self, _context):
+    """Marks, parts and pairs that name this surface follow it to its new name."""
+    from .references import rename_surface
+
+    old, self.known_as = self.known_as, self.name
+    if old and old != self.name:
+        rename_surface(self.id_data, old, self.name)
+
+
+class PONG_PG_surface(Laws, bpy.types.PropertyGroup):
+    """One surface of a model."""
+
+    name: bpy.props.StringProperty(name="Name", update=_renamed)
+    known_as: bpy.props.StringProperty(options={"HIDDEN"})  # the name that others still use
+    normal: spec.law("normal", NORMAL_LAWS, name="Normal Force")
+    friction: spec.law("friction", FRICTION_LAWS, name="Friction")
+
+
+class PONG_PG_pair(Laws, bpy.types.PropertyGroup):
+    """Values for two surfaces when they touch each other."""
+
+    first: bpy.props.StringProperty(name="Surface")
+    second: bpy.props.StringProperty(name="Surface", description="May belong to another model")
+    normal: spec.law("normal", PAIR_NORMAL_LAWS, name="Normal Force")
+    friction: spec.law("friction", PAIR_FRICTION_LAWS, name="Friction")
+
+
+def add_surface(settings, name, fields):
+    """Adds a surface to model settings; `fields` as the core has them."""
+    surface = settings.surfaces.add()
+    surface.known_as = name
+    surface.name = name
+    spec.write(surface, spec.to_plain({key: value for key, value in fields.items() if value is not None}))
+    return surface
+
+
+def add_pair(settings, fields):
+    pair = settings.pairs.add()
+    fields = dict(fields)
+    pair.first, pair.second = fields.pop("surfaces")
+    spec.write(pair, spec.to_plain(fields))
+    return pair
+
+
+CLASSES = (PONG_PG_surface, PONG_PG_pair)

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The lists of the panels."""
+
+import bpy
+
+from ..store.references import current_root, parents_first
+
+ROLE_ICONS = {"root": "OUTLINER_OB_EMPTY", "group": "EMPTY_ARROWS", "primitive": "MESH_CUBE", "none": "DOT"}
+SEVERITY_ICONS = {"error": "CANCEL", "warning": "ERROR", "hint": "INFO"}
+INDENT = 0.6
+
+
+class PONG_UL_tree(bpy.types.UIList):
+    """The groups and primitives of the current model, below each other as they hang."""
+
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+        row = layout.row(align=True)
+        row.separator(factor=1.0 + INDENT * 4 * self.depths.get(item.name, 0))
+        op = row.operator("pong.select_tree", text="", icon=ROLE_ICONS[item.pong.role], emboss=False)
+        op.name, op.below = item.name, True
+        row.label(text=item.pong.label or item.name)
+        if item.pong.role == "primitive":
+            row.label(text=f"{len(item.pong.parts)} parts" if len(item.pong.parts) else item.pong.kind)
+        elif item.pong.role == "group":
+            row.prop(item.pong, "movable", text="", icon="CON_TRANSLIKE" if item.pong.movable else "LOCKED", emboss=False)
+        if item.pong.surface:
+            row.label(text=item.pong.surface, icon="MATERIAL")
+
+    def filter_items(self, context, data, property_name):
+        objects = getattr(data, property_name)
+        root = current_root(context)
+        order = parents_first(root) if root else []
+        self.depths = {obj.name: depth for obj, depth in order}
+        rank = {obj.name: number for number, (obj, _depth) in enumerate(order)}
+        words = self.filter_name.lower()
+        flags, places, last = [], [], len(rank)
+        for obj in objects:
+            shown = obj.name in rank and words in obj.name.lower()
+            flags.append(self.bitflag_filter_item if shown else 0)
+            places.append(rank.get(obj.name, last))
+            last += obj.name not in rank
+        return flags, places
+
+    depths = {}
+
+
+class PONG_UL_surfaces(bpy.types.UIList):
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+        row = layout.row(align=True)
+        row.prop(item, "name", text="", emboss=False, icon="MATERIAL")
+        row.label(text="rigid" if item.rigid else f"{item.stiffness:.3g} N/m")
+        row.label(text=item.friction.lower() if item.friction != "DEFAULT" else "")
+
+
+class PONG_UL_pairs(bpy.types.UIList):
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+        layout.label(text=f"{item.first} – {item.second}", icon="ARROW_LEFTRIGHT")
+
+
+class PONG_UL_parts(bpy.types.UIList):
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
+        row = layout.row(align=True)
+        row.prop(item, "name", text="", emboss=False)
+        row.label(text=item.kind)
+        row.label(text=item.surface)
+
+
+class PONG_UL_findings(bpy.types.UIList):
+    def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, index):
+        row = layout.row(align=True)
+        op = row.operator("pong.finding_select", text="", icon=SEVERITY_ICONS.get(item.severity, "DOT"), emboss=False)
+        op.index = index
+        row.label(text=f"{item.object or 'scene'}: {item.cause}")
+        if item.fix:
+            row.operator("pong.finding_fix", text="", icon="TOOL_SETTINGS").index = index
+
+
+CLASSES = (PONG_UL_tree, PONG_UL_surfaces, PONG_UL_pairs, PONG_UL_parts, PONG_UL_findings)

@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panels of the "Pong" tab."""
+
+import bpy
+
+from ..store.references import current_root
+from ..store.state import state
+
+SIZES = {"Sphere": ("radius",), "Ellipsoid": ("semi_axes",), "Ray": ("length",)}
+BUTTONS_OF_PARTS = (("ADD", "pong.mark_elements", {}), ("REMOVE", "pong.part_remove", {}))
+
+
+class Panel:
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Pong"
+
+    @classmethod
+    def poll(cls, _context):
+        return True
+
+
+class PONG_PT_model(Panel, bpy.types.Panel):
+    bl_label = "Model"
+
+    def draw(self, context):
+        layout, root = self.layout, current_root(context)
+        if root is None:
+            layout.label(text="No model: select an object of one,", icon="INFO")
+            layout.label(text="or make a root around the selection")
+            layout.operator("pong.root_new", icon="ADD")
+            layout.operator("pong.import_ron", icon="IMPORT")
+            return
+        layout.use_property_split = True
+        layout.prop(root.pong_model, "label", text="Name", placeholder=root.name)
+        layout.prop(root.pong_model, "entry_memory")
+        row = layout.row(align=True)
+        row.operator("pong.check", icon="CHECKMARK")
+        row.operator("pong.export_ron", text="Export", icon="EXPORT")
+
+
+class PONG_PT_tree(Panel, bpy.types.Panel):
+    bl_label = "Groups"
+
+    @classmethod
+    def poll(cls, context):
+        return current_root(context) is not None
+
+    def draw(self, context):
+        layout = self.layout
+        layout.template_list("PONG_UL_tree", "", context.scene, "objects", state(context), "active_object", rows=5)
+        row = layout.row(align=True)
+        row.operator("pong.group_new", text="Group", icon="ADD")
+        row.operator("pong.group_move", text="Move to Active", icon="OUTLINER")
+
+
+class PONG_PT_object(Panel, bpy.types.Panel):
+    bl_label = "Object"
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None
+
+    def draw(self, context):
+        layout, obj = self.layout, context.object
+        layout.use_property_split = True
+        mark = obj.pong
+        layout.label(text=obj.name, icon="OBJECT_DATA")
+        layout.prop(mark, "role")
+        if mark.role != "none":
+            layout.prop(mark, "label", placeholder=obj.name)
+            draw_surface_choice(layout, context, mark)
+        if mark.role in ("group", "primitive"):
+            layout.prop(mark, "order")
+        if mark.role in ("root", "group"):
+            self._group(layout, mark)
+        elif mark.role == "primitive" and not len(mark.parts):
+            self._primitive(layout, mark)
+        layout.operator_menu_enum("pong.mark", "kind", text="Mark Selected as", icon="MESH_CUBE")
+
+    def _group(self, layout, mark):
+        if mark.role == "group":
+            layout.prop(mark, "movable")
+        layout.prop(mark, "bound")
+        layout.prop(mark, "custom_bound")
+
+    def _primitive(self, layout, mark):
+        layout.prop(mark, "kind")
+        for name in SIZES.get(mark.kind, ()):
+            layout.prop(mark, name)
+        if mark.kind == "Ray":
+            draw_optional(layout, mark, "reach")
+            layout.prop(mark, "response")
+        if mark.kind in ("Triangle", "TriangleMesh"):
+            draw_optional(layout, mark, "thickness")
+            layout.prop(mark, "two_sided")
+        if mark.kind in ("TriangleMesh", "Polyhedron"):
+            layout.prop(mark, "file")
+            if mark.file:
+                layout.prop(mark, "file_scale")
+        if mark.kind == "Custom":
+            layout.prop(mark, "custom_kind")
+            layout.prop(mark, "parameters")
+
+
+def draw_optional(layout, holder, name):
+    row = layout.row(heading=holder.bl_rna.properties[name].name)
+    row.prop(holder, f"use_{name}", text="")
+    field = row.row()
+    field.enabled = getattr(holder, f"use_{name}")
+    field.prop(holder, name, text="")
+
+
+def draw_surface_choice(layout, context, holder, name="surface"):
+    root = current_root(context)
+    if root is not None:
+        layout.prop_search(holder, name, root.pong_model, "surfaces", icon="MATERIAL")
+    else:
+        layout.prop(holder, name)
+
+
+class PONG_PT_parts(Panel, bpy.types.Panel):
+    bl_label = "Parts"
+    bl_parent_id = "PONG_PT_object"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context):
+        layout, mark = self.layout, context.object.pong
+        row = layout.row()
+        row.template_list("PONG_UL_parts", "", mark, "parts", mark, "active_part", rows=3)
+        column = row.column(align=True)
+        for icon, operator, _options in BUTTONS_OF_PARTS:
+            column.operator(operator, text="", icon=icon)
+        if len(mark.parts):
+            part = mark.parts[min(mark.active_part, len(mark.parts) - 1)]
+            draw_surface_choice(layout, context, part)
+            row = layout.row(align=True)
+            row.operator("pong.part_assign", text="Assign").take_out = False
+            row.operator("pong.part_assign", text="Take Out").take_out = True
+            row.operator("pong.part_select", text="Select")
+        row = layout.row(align=True)
+        row.operator("pong.mark_inactive", text="Faces Inactive").active = False
+        row.operator("pong.mark_inactive", text="Active").active = True
+
+
+class PONG_PT_surfaces(Panel, bpy.types.Panel):
+    bl_label = "Surfaces"
+
+    @classmethod
+    def poll(cls, context):
+        return current_root(context) is not None
+
+    def draw(self, context):
+        layout, settings = self.layout, current_root(context).pong_model
+        row = layout.row()
+        row.template_list("PONG_UL_surfaces", "", settings, "surfaces", settings, "active_surface", rows=3)
+        column = row.column(align=True)
+        column.operator("pong.surface_add", text="", icon="ADD")
+        column.operator("pong.surface_remove", text="", icon="REMOVE")
+        if len(settings.surfaces):
+            layout.operator("pong.surface_assign", text="Assign to Selected", icon="CHECKMARK")
+            surface = settings.surfaces[min(settings.active_surface, len(settings.surfaces) - 1)]
+            layout.use_property_split = True
+            layout.prop(surface, "rigid")
+            if not surface.rigid:
+                layout.prop(surface, "stiffness")
+            draw_laws(layout, surface)
+        row = layout.row(align=True)
+        row.operator_menu_enum("pong.preset_load", "preset", text="Load Preset", icon="PRESET")
+        row.operator("pong.preset_save", text="Save as Preset", icon="PRESET_NEW")
+
+
+def draw_laws(layout, laws):
+    layout.prop(laws, "normal")
+    if laws.normal in ("Linear", "HuntCrossley"):
+        layout.prop(laws, "use_restitution")
+        linear = laws.normal == "Linear"
+        if laws.use_restitution:
+            layout.prop(laws, "restitution")
+            layout.prop(laws, "mass" if linear else "speed")
+        else:
+            layout.prop(laws, "damping" if linear else "dissipation")
+        if linear:
+            draw_optional(layout, laws, "ramp")
+        else:
+            layout.prop(laws, "exponent")
+    elif laws.normal == "Custom":
+        layout.prop(laws, "normal_name")
+        layout.prop(laws, "normal_parameters")
+    layout.prop(laws, "friction")
+    if laws.friction in ("Bristle", "Coulomb"):
+        layout.prop(laws, "mu")
+    if laws.friction == "Bristle":
+        for name in ("static_excess", "bristle_stiffness", "bristle_damping"):
+            draw_optional(layout, laws, name)
+    elif laws.friction == "Coulomb":
+        layout.prop(laws, "slip_speed")
+    elif laws.friction == "Custom":
+        layout.prop(laws, "friction_name")
+        layout.prop(laws, "friction_parameters")
+
+
+class PONG_PT_pairs(Panel, bpy.types.Panel):
+    bl_label = "Pairs of Surfaces"
+    bl_parent_id = "PONG_PT_surfaces"
+    bl_options = {"DEFAULT_CLOSED"}
+
+    def draw(self, context):
+        layout, settings = self.layout, current_root(context).pong_model
+        row = layout.row()
+        row.template_list("PONG_UL_pairs", "", settings, "pairs", settings, "active_pair", rows=2)
+        column = row.column(align=True)
+        column.operator("pong.pair_add", text="", icon="ADD")
+        column.operator("pong.pair_remove", text="", icon="REMOVE")
+        if len(settings.pairs):
+            pair = settings.pairs[min(settings.active_pair, len(settings.pairs) - 1)]
+            layout.use_property_split = True
+            layout.prop_search(pair, "first", settings, "surfaces")
+            layout.prop(pair, "second")
+            draw_optional(layout, pair, "stiffness")
+            draw_laws(layout, pair)
+
+
+class PONG_PT_findings(Panel, bpy.types.Panel):
+    bl_label = "Findings"
+
+    def draw(self, context):
+        layout, found = self.layout, state(context)
+        row = layout.row(align=True)
+        row.operator("pong.check", icon="CHECKMARK")
+        row.operator("pong.findings_copy", text="", icon="COPYDOWN")
+        layout.template_list("PONG_UL_findings", "", found, "findings", found, "active_finding", rows=5)
+        if len(found.findings):
+            item = found.findings[min(found.active_finding, len(found.findings) - 1)]
+            box = layout.box().column(align=True)
+            for text in (item.path, f"[{item.rule}] {item.cause}", item.cure):
+                for line in wrapped(text, context.region.width):
+                    box.label(text=line)
+            if item.fix:
+                layout.operator("pong.finding_fix", text=f"Fix: {item.fix}", icon="TOOL_SETTINGS").index = -1
+
+
+def wrapped(text, width_px):
+    """Labels do not wrap; this does, at about seven pixels a letter."""
+    lines, line = [], ""
+    for word in text.split():
+        if line and len(line) + len(word) >= max(width_px // 7, 20):
+            lines.append(line)
+            line = ""
+        line = f"{line} {word}".strip()
+    return [*lines, line] if line else lines
+
+
+class PONG_PT_overlays(Panel, bpy.types.Panel):
+    bl_label = "Overlays"
+
+    def draw(self, context):
+        shown = state(context)
+        grid = self.layout.grid_flow(columns=2, align=True)
+        for name in ("show_bounds", "show_normals", "show_rays", "show_groups"):
+            grid.prop(shown, name, toggle=True)
+        if shown.show_normals:
+            self.layout.prop(shown, "normal_length")
+
+
+CLASSES = (
+    PONG_PT_model, PONG_PT_tree, PONG_PT_object, PONG_PT_parts, PONG_PT_surfaces, PONG_PT_pairs, PONG_PT_findings,
+    PONG_PT_overlays,
+)
