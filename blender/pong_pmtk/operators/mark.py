@@ -33,7 +33,7 @@ class PONG_OT_mark(Selection, bpy.types.Operator):
             _mark(obj, kind)
             if self.surface:
                 obj.pong.surface = self.surface
-            told.append(f"{obj.name}: {kind}")
+            told.append(f"{obj.name}: {kind}" + (f" ({proposed.reason})" if self.kind == "PROPOSE" else ""))
         if not told:
             return {"CANCELLED"}
         self.report({"INFO"}, ", ".join(told[:5]) + (", …" if len(told) > 5 else ""))

@@ -25,13 +25,14 @@ def snapshot(context):
     view_layer.update()
     reader = Reader(context.evaluated_depsgraph_get(), view_layer)
     shown, elsewhere = instances.shown_collections(scene), instances.shown_elsewhere(scene)
+    members = instances.memberships(shown)
     objects = [reader.object(obj) for obj in scene.objects]
     objects += [reader.object(obj) for obj in instances.beyond(scene, shown)]
     objects += instances.scattered(reader)
     for facts in objects:
         if facts.name in elsewhere:
             facts.mark = Mark()  # only its instances are there
-        facts.collections = [name for name in facts.collections if name in shown]
+        facts.collections = members.get(facts.name, [])
     return Snapshot(
         objects=objects,
         unit_scale=_shortest(scene.unit_settings.scale_length),
@@ -64,11 +65,12 @@ class Reader:
     def __init__(self, depsgraph, view_layer):
         self.depsgraph = depsgraph
         self.view_layer = view_layer
+        self.included = set(view_layer.objects.keys())  # one by one they are searched for from the first on
 
     def object(self, obj):
         """The facts of one object."""
         parented = obj.parent is not None
-        excluded = obj.name not in self.view_layer.objects
+        excluded = obj.name not in self.included
         hidden = not excluded and not obj.visible_get(view_layer=self.view_layer)
         mesh, stored = self._meshes(obj)
         return SnapshotObject(
@@ -90,7 +92,6 @@ class Reader:
             excluded=excluded,
             instance_of=_collection_shown(obj),
             linked_from=obj.library.filepath if obj.library else "",
-            collections=[] if obj.hide_viewport else instances.collections_of(obj),
             exact={**exact.read(obj), **{name: np.array(value) for name, value in marks.read_numbers(obj).items()}},
         )
 

@@ -8,7 +8,6 @@ graph and are taken from there, as objects with names made from the instancer's.
 
 from dataclasses import replace
 
-import bpy
 import numpy as np
 
 from ..core.snapshot import Transform
@@ -36,15 +35,14 @@ def beyond(scene, shown):
     return list(members)
 
 
-def collections_of(obj):
-    """The names of all collections that an object is in, directly or through their parents."""
-    found, open_ = [], list(obj.users_collection)
-    while open_:
-        collection = open_.pop()
-        if collection.name not in found:
-            found.append(collection.name)
-            open_ += [above for above in bpy.data.collections if collection.name in above.children]
-    return sorted(found)
+def memberships(shown):
+    """Name of an object -> names of the shown collections that show it. Hidden objects have no instances."""
+    found = {}
+    for name, collection in sorted(shown.items()):
+        for obj in collection.all_objects:
+            if not obj.hide_viewport:
+                found.setdefault(obj.name, []).append(name)
+    return found
 
 
 def shown_elsewhere(scene):

@@ -5,8 +5,8 @@ The latter are a text of the file (Text Editor: "pong_presets.json"), so they ca
 files, and they stay there when the toolkit is not installed.
 
 Standard materials. Friction is that of the material on itself, dry: Marks' Standard Handbook for Mechanical Engineers,
-10th ed., table 3.2.1 (static and sliding). Stiffness follows from Young's modulus E and Poisson's ratio ν, usual values of
-engineering, by Hertz: a ball of radius 10 mm on a rigid flat, secant at a load of 100 N,
+10th ed., table 3.2.1 (static and sliding). Stiffness follows from Young's modulus E and Poisson's ratio ν, usual values
+of engineering, by Hertz: a ball of radius 10 mm on a rigid flat, secant at a load of 100 N,
 
     K = 4/3·E/(1 − ν²)·√R,   δ = (F/K)^(2/3),   k = F/δ
 
@@ -22,8 +22,8 @@ TEXT_NAME = "pong_presets.json"
 RADIUS_M = 0.01
 LOAD_N = 100.0
 SOURCE = (
-    "Friction on itself, dry, {static:g} static, {sliding:g} sliding: Marks' Handbook, 10th ed., table 3.2.1. Stiffness "
-    "of a 10 mm ball at 100 N by Hertz, E {e:g} GPa, ν {nu:g}"
+    "Friction on itself, dry, {static:g} static, {sliding:g} sliding: Marks' Handbook, 10th ed., table 3.2.1. "
+    "Stiffness of a 10 mm ball at 100 N by Hertz, E {e:g} GPa, ν {nu:g}"
 )
 
 # name -> (E, GPa; ν; static and sliding friction on itself, dry)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Who belongs to a model and who names what in it."""
 
+from ..core.naming import natural
+
 def root_of(obj):
     """The root that an object stands below, itself included; None outside of any model."""
     while obj is not None:
@@ -65,10 +67,18 @@ def unique_name(wanted, taken):
     return f"{wanted}_{number}"
 
 
-def parents_first(root, depth=0):
-    """A root and what is below it that has a role, with depths, in the order of the tree."""
-    listed = [(root, depth)] if root.pong.role != "none" else []
-    below = depth + 1 if listed else depth
-    for child in sorted(root.children, key=lambda obj: obj.name):
-        listed += parents_first(child, below)
+def parents_first(root, objects):
+    """(object, depth) of a root and what is below it that has a role, in the order of the tree."""
+    below = {}
+    for obj in objects:
+        if obj.parent is not None:
+            below.setdefault(obj.parent.name, []).append(obj)
+    listed, open_ = [], [(root, 0)]
+    while open_:
+        obj, depth = open_.pop()
+        marked = obj.pong.role != "none"
+        if marked:
+            listed.append((obj, depth))
+        children = sorted(below.get(obj.name, ()), key=lambda child: natural(child.name), reverse=True)
+        open_ += [(child, depth + marked) for child in children]
     return listed

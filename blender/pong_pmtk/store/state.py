@@ -19,11 +19,10 @@ class PONG_PG_finding(bpy.types.PropertyGroup):
     elements: bpy.props.StringProperty()  # JSON: {"vertices": [...], "edges": [...], "faces": [...]}
 
 
-def _redraw(_self, context):
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+def _redraw(_self, _context):
+    from ..ui import overlay
+
+    overlay.later()
 
 
 def _toggle(name, tip):
@@ -41,8 +40,8 @@ class PONG_PG_state(bpy.types.PropertyGroup):
     show_normals: _toggle("Normals", "Outward normals of faces and planes")
     show_rays: _toggle("Rays", "Rays with their reach, and segments")
     show_groups: _toggle("Groups", "What hangs below what; movable groups stand out")
-    normal_length: bpy.props.FloatProperty(name="Length", default=0.1, min=0.001, update=_redraw,
-                                           description="Of the normals, as a share of the face's size")
+    normal_length: bpy.props.FloatProperty(name="Length", default=0.05, min=0.001, update=_redraw,
+                                           description="Of the normals, as a share of the model's size")
 
 
 def state(context):

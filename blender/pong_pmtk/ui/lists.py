@@ -22,14 +22,15 @@ class PONG_UL_tree(bpy.types.UIList):
         if item.pong.role == "primitive":
             row.label(text=f"{len(item.pong.parts)} parts" if len(item.pong.parts) else item.pong.kind)
         elif item.pong.role == "group":
-            row.prop(item.pong, "movable", text="", icon="CON_TRANSLIKE" if item.pong.movable else "LOCKED", emboss=False)
+            icon = "CON_TRANSLIKE" if item.pong.movable else "LOCKED"
+            row.prop(item.pong, "movable", text="", icon=icon, emboss=False)
         if item.pong.surface:
             row.label(text=item.pong.surface, icon="MATERIAL")
 
     def filter_items(self, context, data, property_name):
         objects = getattr(data, property_name)
         root = current_root(context)
-        order = parents_first(root) if root else []
+        order = parents_first(root, objects) if root else []
         self.depths = {obj.name: depth for obj, depth in order}
         rank = {obj.name: number for number, (obj, _depth) in enumerate(order)}
         words = self.filter_name.lower()

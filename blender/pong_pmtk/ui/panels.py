@@ -5,6 +5,7 @@ import bpy
 
 from ..store.references import current_root
 from ..store.state import state
+from . import overlay
 
 SIZES = {"Sphere": ("radius",), "Ellipsoid": ("semi_axes",), "Ray": ("length",)}
 BUTTONS_OF_PARTS = (("ADD", "pong.mark_elements", {}), ("REMOVE", "pong.part_remove", {}))
@@ -14,11 +15,6 @@ class Panel:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Pong"
-
-    @classmethod
-    def poll(cls, _context):
-        return True
-
 
 class PONG_PT_model(Panel, bpy.types.Panel):
     bl_label = "Model"
@@ -209,6 +205,10 @@ class PONG_PT_pairs(Panel, bpy.types.Panel):
     bl_parent_id = "PONG_PT_surfaces"
     bl_options = {"DEFAULT_CLOSED"}
 
+    @classmethod
+    def poll(cls, context):
+        return current_root(context) is not None
+
     def draw(self, context):
         layout, settings = self.layout, current_root(context).pong_model
         row = layout.row()
@@ -265,6 +265,9 @@ class PONG_PT_overlays(Panel, bpy.types.Panel):
             grid.prop(shown, name, toggle=True)
         if shown.show_normals:
             self.layout.prop(shown, "normal_length")
+        text = overlay.message(context)
+        if text:
+            self.layout.label(text=text, icon="INFO")
 
 
 CLASSES = (

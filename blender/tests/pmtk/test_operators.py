@@ -7,6 +7,8 @@ from pathlib import Path
 
 import bpy
 import numpy as np
+from pong_pmtk.core.finding import FIXES
+from pong_pmtk.scene import fixes
 from pong_pmtk.store import elements, marks
 from pong_pmtk.store.state import state
 
@@ -23,7 +25,8 @@ class Marking(InBlender):
     def test_the_geometry_proposes_and_the_author_decides(self):
         objects = {
             "Polyhedron": new("solid", mesh(CUBE)),
-            "TriangleMesh": new("sheet", mesh(SQUARE)),
+            "TriangleMesh": new("sheet", mesh((CUBE[0], CUBE[1][1:]))),
+            "Plane": new("ground", mesh(SQUARE)),
             "LineSegment": new("bar", mesh(([(0, 0, 0), (1, 0, 0)], []), edges=[(0, 1)])),
             "Point": new("feet", mesh(([(0, 0, 0)], []))),
             "Sphere": ball(),
@@ -223,6 +226,9 @@ class Findings(InBlender):
 
 class Repairs(InBlender):
     """Every repair keeps what it must not change: where things are."""
+
+    def test_there_is_one_for_every_offer(self):
+        self.assertLessEqual(set(FIXES), set(fixes.REPAIRS))
 
     def repaired(self, obj, fix):
         activate(obj)
