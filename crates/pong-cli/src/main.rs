@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod import;
 mod log;
 mod replay;
 mod run;
@@ -26,6 +27,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Arguments),
+    Import(import::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
     Replay(replay::Arguments),
@@ -36,6 +38,7 @@ enum Command {
 fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Check(arguments) => check::main(&arguments),
+        Command::Import(arguments) => import::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),

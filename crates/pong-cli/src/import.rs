@@ -1,0 +1,205 @@
+//! `pong import`: a mesh file becomes a model file.
+
+use crate::text::{count, print};
+use indicatif::{ProgressBar, ProgressStyle};
+use pong_import::{DefaultSurface, Imported, Options, Up};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Makes a model file of a mesh file: glTF (.glb, .gltf), OBJ or STL.
+///
+/// Nodes of a glTF file become groups and primitives as `extras.pong` says, which the modelling toolkit writes. Without
+/// it every node becomes a group, convex solids become polyhedra and other surfaces meshes of triangles.
+/// docs/importing.md has the whole of it.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The mesh file.
+    #[arg(value_name = "MESH")]
+    input: PathBuf,
+    /// The model file to write.
+    #[arg(short, long, value_name = "MODEL.ron")]
+    output: PathBuf,
+    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    up: Option<Axis>,
+    /// Length of one unit of the file: 0.001, 1mm, 1in.
+    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
+    unit: f64,
+    /// Name of the model; that of the file unless given.
+    #[arg(long)]
+    name: Option<String>,
+    /// glTF: the scene to import.
+    #[arg(long)]
+    scene: Option<String>,
+    /// glTF: the node to take where several are marked as roots.
+    #[arg(long, value_name = "NODE")]
+    root: Option<String>,
+    #[command(flatten)]
+    surface: Surface,
+    /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
+    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
+    weld: Option<f64>,
+    /// Unmarked convex solids of more faces become surfaces of triangles.
+    #[arg(long, value_name = "FACES", default_value_t = 1000)]
+    faces_max: usize,
+    /// Puts meshes of more than this many faces into OBJ files beside the model.
+    #[arg(long, value_name = "FACES", num_args = 0..=1, default_missing_value = "1000")]
+    mesh_files: Option<usize>,
+}
+
+/// The surface of whatever the file gives none.
+#[derive(clap::Args)]
+pub(crate) struct Surface {
+    /// Name of the surface for whatever names none.
+    #[arg(id = "surface_name", long = "surface", value_name = "NAME", default_value = "default")]
+    name: String,
+    /// Its stiffness, N/m.
+    #[arg(long, value_name = "N/m", value_parser = positive)]
+    stiffness: Option<f64>,
+    /// Its damping, N·s/m.
+    #[arg(long, value_name = "N·s/m", default_value_t = 0.0, requires = "stiffness", value_parser = not_negative)]
+    damping: f64,
+    /// Its kinetic coefficient of friction.
+    #[arg(long, default_value_t = 0.0, requires = "stiffness", value_parser = not_negative)]
+    mu: f64,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+pub(crate) enum Axis {
+    Y,
+    Z,
+}
+
+impl From<Axis> for Up {
+    fn from(axis: Axis) -> Self {
+        match axis {
+            Axis::Y => Self::Y,
+            Axis::Z => Self::Z,
+        }
+    }
+}
+
+impl Surface {
+    pub(crate) fn chosen(&self) -> Option<DefaultSurface> {
+        let Self { name, stiffness, damping, mu } = self;
+        stiffness.map(|stiffness| DefaultSurface {
+            name: name.clone(),
+            stiffness,
+            damping: *damping,
+            mu: *mu,
+        })
+    }
+}
+
+/// Units of length and their metres.
+const LENGTHS: [(&str, f64); 8] = [
+    ("um", 1e-6),
+    ("µm", 1e-6),
+    ("mm", 1e-3),
+    ("cm", 1e-2),
+    ("in", 0.0254),
+    ("ft", 0.3048),
+    ("km", 1e3),
+    ("m", 1.0),
+];
+
+/// A length above zero, in metres unless a unit follows.
+pub(crate) fn length_m(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let unit = LENGTHS.iter().find(|(unit, _)| text.ends_with(unit));
+    let (digits, metres) = unit.map_or((text, 1.0), |(unit, metres)| (text.trim_end_matches(unit), *metres));
+    let value: f64 = match digits.trim() {
+        "" => 1.0,
+        digits => digits.parse().map_err(|_| format!("`{text}` is no length: write 0.005, 5mm or 0.2in"))?,
+    };
+    // Decimal units by division: 5 mm is the number nearest to 0.005.
+    let length = if metres < 0.02 { value / (1.0 / metres).round() } else { value * metres };
+    if length > 0.0 && length.is_finite() { Ok(length) } else { Err("it must be above zero".to_owned()) }
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    if value > 0.0 { Ok(value) } else { Err("it must be above zero".to_owned()) }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
+    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("it must not be negative".to_owned()) }
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let options = Options {
+        up: arguments.up.map(Up::from),
+        unit_m: arguments.unit,
+        scene: arguments.scene.clone(),
+        root: arguments.root.clone(),
+        name: arguments.name.clone(),
+        surface: arguments.surface.chosen(),
+        weld_m: arguments.weld,
+        faces_max: arguments.faces_max,
+        inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
+    };
+    let bar = spinner();
+    let result = pong_import::import(&arguments.input, &arguments.output, &options, &mut |what| {
+        bar.set_message(what.to_owned())
+    });
+    bar.finish_and_clear();
+    match result {
+        Ok(imported) => {
+            imported.findings.notes.iter().for_each(|note| eprintln!("note: {note}"));
+            print(&summary(&imported));
+            ExitCode::SUCCESS
+        }
+        Err(findings) => {
+            eprintln!("{findings}");
+            eprintln!("{}; nothing was written", count(findings.faults.len(), "fault", "faults"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Shows what is being done, on terminals only.
+pub(crate) fn spinner() -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+fn summary(imported: &Imported) -> String {
+    let kinds: Vec<String> =
+        imported.primitives.iter().map(|(kind, number)| format!("{number} {kind}")).collect();
+    let read = format!(
+        "{} and {} read: {}\n",
+        count(imported.vertices, "vertex", "vertices"),
+        count(imported.triangles, "triangle", "triangles"),
+        kinds.join(", ")
+    );
+    imported.files.iter().fold(read, |text, file| text + &format!("written: {}\n", file.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_take_units() {
+        for (text, metres) in [
+            ("5mm", 0.005),
+            ("0.005", 0.005),
+            ("1 in", 0.0254),
+            ("mm", 0.001),
+            ("2m", 2.0),
+            ("1e-6", 1e-6),
+            ("3um", 3e-6),
+        ] {
+            assert_eq!(length_m(text), Ok(metres), "{text}");
+        }
+        for text in ["0", "-1mm", "five", "inf", "3 parsecs"] {
+            assert!(length_m(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! `pong import` as a terminal user meets it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const TETRAHEDRON: &str = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("import").join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::write(folder.join("part.obj"), TETRAHEDRON).unwrap();
+    folder
+}
+
+fn pong(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_pong")).args(arguments).current_dir(folder).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn an_imported_model_passes_the_check() {
+    let folder = folder("check");
+    let arguments =
+        ["import", "part.obj", "-o", "part.ron", "--unit", "mm", "--stiffness", "1e6", "--mu", "0.2"];
+    let (code, out, err) = pong(&folder, &arguments);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(out, "4 vertices and 4 triangles read: 1 Polyhedron\nwritten: ./part.ron\n");
+    let (code, out, err) = pong(&folder, &["check", "part.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    let text = std::fs::read_to_string(folder.join("part.ron")).unwrap();
+    let surface = r#""default": (stiffness: 1000000.0, friction: Bristle(mu: 0.2)),"#;
+    assert!(text.contains(surface) && text.contains("(0.1, 0.0, 0.0)"), "{text}");
+}
+
+#[test]
+fn faults_end_with_one_and_leave_what_was_there() {
+    let folder = folder("fault");
+    std::fs::write(folder.join("part.ron"), "earlier").unwrap();
+    std::fs::write(folder.join("broken.stl"), "solid").unwrap();
+    let (code, out, err) = pong(&folder, &["import", "broken.stl", "-o", "part.ron"]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert!(
+        err.starts_with("error: broken.stl: [") && err.ends_with("1 fault; nothing was written\n"),
+        "{err}"
+    );
+    assert_eq!(std::fs::read_to_string(folder.join("part.ron")).unwrap(), "earlier");
+    let names: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names.len(), 3, "{names:?}");
+}
+
+#[test]
+fn notes_go_to_standard_error_and_wrong_flags_end_with_two() {
+    let folder = folder("notes");
+    let (code, _, err) = pong(&folder, &["import", "part.obj", "-o", "part.ron"]);
+    assert_eq!(code, 0);
+    assert!(err.starts_with("note: part.obj: [placeholder-surface]"), "{err}");
+    for wrong in [["--unit", "0"], ["--up", "x"], ["--damping", "1"]] {
+        let (code, _, err) = pong(&folder, &[&["import", "part.obj", "-o", "part.ron"][..], &wrong].concat());
+        assert_eq!(code, 2, "{err}");
+    }
+}

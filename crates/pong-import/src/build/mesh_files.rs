@@ -1,0 +1,132 @@
+//! Big meshes in files of their own beside the model file.
+
+use super::value_of;
+use crate::findings::Findings;
+use crate::model::{Field, Model, Primitive, field};
+use nalgebra::Vector3;
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+/// Moves meshes of more than `inline_max` triangles, and those that name a file, into files; returns these.
+pub(super) fn split_off(
+    model: &mut Model,
+    inline_max: usize,
+    findings: &mut Findings,
+) -> Vec<(String, Vec<u8>)> {
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    let stem: String = file_name(&model.name);
+    let mut visit = |primitive: &mut Primitive| {
+        let Some(Field::Vertices(vertices)) = value_of(&primitive.fields, "vertices") else { return };
+        let faces: Vec<Vec<u32>> =
+            match primitive.fields.iter().map(|(_, value)| value).find(|value| is_faces(value)) {
+                Some(Field::Triangles(triangles)) => triangles.iter().map(|t| t.to_vec()).collect(),
+                Some(Field::Faces(faces)) => faces.clone(),
+                _ => return,
+            };
+        let asked = match value_of(&primitive.fields, "file") {
+            Some(Field::Text(name)) => Some(name.clone()),
+            _ => None,
+        };
+        if asked.is_none() && faces.len() <= inline_max {
+            return;
+        }
+        let wanted = asked.unwrap_or_else(|| format!("{stem}_{}.obj", file_name(&primitive.name)));
+        let (base, ending) = wanted.rsplit_once('.').unwrap_or((&wanted, ""));
+        let numbered = (2..).map(|number| format!("{base}_{number}.{ending}"));
+        let name = std::iter::once(wanted.clone())
+            .chain(numbered)
+            .find(|name| !taken.contains(name))
+            .unwrap_or_default();
+        taken.insert(name.clone());
+        let scale = match value_of(&primitive.fields, "scale") {
+            Some(Field::Number(scale)) => *scale,
+            _ => 1.0,
+        };
+        let vertices = &vertices.iter().map(|place| place / scale).collect::<Vec<_>>();
+        let contents = match ending.to_lowercase().as_str() {
+            "obj" => obj(vertices, &faces),
+            "stl" => match stl(vertices, &faces) {
+                Ok(bytes) => bytes,
+                Err(cause) => {
+                    findings.fault(&primitive.name, "mesh-file-kind", cause, "name a file that ends in .obj");
+                    return;
+                }
+            },
+            _ => {
+                let cause = format!("\"{wanted}\" is neither .obj nor .stl");
+                findings.fault(
+                    &primitive.name,
+                    "mesh-file-kind",
+                    cause,
+                    "name a file that ends in .obj or .stl",
+                );
+                return;
+            }
+        };
+        if name.contains(['\\', ':']) || name.starts_with('/') || name.split('/').any(|part| part == "..") {
+            let cause = format!("\"{name}\" leads out of the model's folder");
+            findings.fault(&primitive.name, "mesh-file-outside", cause, "name a file beside the model file");
+            return;
+        }
+        primitive
+            .fields
+            .retain(|(key, _)| !matches!(key.as_str(), "file" | "vertices" | "triangles" | "faces"));
+        primitive.fields.insert(0, field("file", Field::Text(name.clone())));
+        files.push((name, contents));
+    };
+    model.root.each_primitive(&mut visit);
+    files
+}
+
+fn is_faces(value: &Field) -> bool {
+    matches!(value, Field::Triangles(_) | Field::Faces(_))
+}
+
+/// Letters, digits, `-`, `_` and `.` of a name; others become `_`.
+fn file_name(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' }).collect()
+}
+
+/// All digits: reading gives the same bits.
+fn obj(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Vec<u8> {
+    let mut text = String::new();
+    for place in vertices {
+        let _ = writeln!(text, "v {:?} {:?} {:?}", place.x, place.y, place.z);
+    }
+    for face in faces {
+        text.push('f');
+        face.iter().for_each(|vertex| {
+            let _ = write!(text, " {}", vertex + 1);
+        });
+        text.push('\n');
+    }
+    text.into_bytes()
+}
+
+/// Binary STL; single precision must hold every coordinate.
+fn stl(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Result<Vec<u8>, String> {
+    let lost = vertices.iter().flat_map(|place| place.iter()).find(|x| f64::from(**x as f32) != **x);
+    if let Some(x) = lost {
+        return Err(format!("STL keeps single precision, and {x} needs more"));
+    }
+    let single = |place: &Vector3<f64>| stl_io::Vertex::new([place.x as f32, place.y as f32, place.z as f32]);
+    let triangles: Option<Vec<stl_io::Triangle>> = faces
+        .iter()
+        .map(|face| {
+            let corners: [u32; 3] = face.as_slice().try_into().ok()?;
+            let [a, b, c] = corners.map(|vertex| vertices[vertex as usize]);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            let vertices = corners.map(|vertex| single(&vertices_at(vertices, vertex)));
+            Some(stl_io::Triangle { normal: single(&normal), vertices })
+        })
+        .collect();
+    let triangles = triangles.ok_or("STL has triangles only, and a face has more corners")?;
+    let mut bytes = Vec::new();
+    stl_io::write_stl(&mut bytes, triangles.iter()).map_err(|reason| reason.to_string())?;
+    Ok(bytes)
+}
+
+fn vertices_at(vertices: &[Vector3<f64>], index: u32) -> Vector3<f64> {
+    vertices[index as usize]
+}

@@ -1,0 +1,93 @@
+//! A model file and the mesh files beside it: written beside their places, read back, and moved there together.
+
+use crate::findings::Findings;
+use pong_geometry::extension::Extensions;
+use std::path::{Path, PathBuf};
+
+/// Writes the model and its mesh files once the engine's loader has accepted them; its faults and warnings are noted.
+pub(crate) fn write_checked(
+    output: &Path,
+    text: String,
+    mesh_files: Vec<(String, Vec<u8>)>,
+    findings: &mut Findings,
+) -> Option<Vec<PathBuf>> {
+    let folder = match output.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let name = output.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let staging = folder.join(format!(".{name}.{}", std::process::id()));
+    let unwritable = |findings: &mut Findings, reason: std::io::Error| {
+        let path = output.display().to_string();
+        findings.fault(
+            &path,
+            "unwritable",
+            format!("it cannot be written: {reason}"),
+            "name a file in a folder that can be written",
+        );
+    };
+    let mut files = mesh_files;
+    files.push((name.clone(), text.into_bytes()));
+    if let Err(reason) = stage(&staging, &files) {
+        unwritable(findings, reason);
+        let _ = std::fs::remove_dir_all(&staging);
+        return None;
+    }
+    check(&staging.join(&name), output, findings);
+    let mut written = Vec::new();
+    if findings.faults.is_empty() {
+        match move_all(&staging, folder, &files) {
+            Ok(paths) => written = paths,
+            Err(reason) => unwritable(findings, reason),
+        }
+    }
+    let _ = std::fs::remove_dir_all(&staging);
+    // The model comes first in what is told.
+    written.reverse();
+    findings.faults.is_empty().then_some(written)
+}
+
+fn stage(staging: &Path, files: &[(String, Vec<u8>)]) -> std::io::Result<()> {
+    std::fs::create_dir(staging)?;
+    for (name, contents) in files {
+        let path = staging.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(staging))?;
+        std::fs::write(path, contents)?;
+    }
+    Ok(())
+}
+
+fn move_all(staging: &Path, folder: &Path, files: &[(String, Vec<u8>)]) -> std::io::Result<Vec<PathBuf>> {
+    let mut written = Vec::new();
+    for (name, _) in files {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap_or(folder))?;
+        std::fs::rename(staging.join(name), &path)?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+/// Reads the staged model as the engine will; messages name its final place.
+fn check(staged: &Path, output: &Path, findings: &mut Findings) {
+    let (staged_name, name) = (staged.display().to_string(), output.display().to_string());
+    match pong_model::load(staged, &Extensions::new()) {
+        Ok(model) => {
+            for warning in &model.warnings {
+                let cause = warning.strip_prefix(&format!("{staged_name}:")).unwrap_or(warning);
+                findings.note(&name, "loader", format!("line {cause}"), "");
+            }
+        }
+        Err(errors) => {
+            for error in errors.0 {
+                if matches!(error.rule, "unknown-primitive" | "unknown-volume") {
+                    let cause = format!("{}: {}", error.path, error.cause);
+                    findings.note(&name, error.rule, cause, "the host that loads the model must register it");
+                    continue;
+                }
+                let path = format!("{name}: {}", error.path);
+                findings.fault(&path, error.rule, error.cause, error.cure);
+            }
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! From a mesh file to a model file, all of it or nothing.
+
+use crate::affine::Up;
+use crate::build::{self, Building};
+use crate::files;
+use crate::findings::Findings;
+use crate::laws::DefaultSurface;
+use crate::source::{self, Reading};
+use crate::write;
+use std::path::{Path, PathBuf};
+
+/// How a mesh file is to be imported.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL.
+    pub up: Option<Up>,
+    /// Metres in one unit of the file.
+    pub unit_m: f64,
+    /// glTF: name of the scene; `None` for the default one.
+    pub scene: Option<String>,
+    /// Name of the node to take as root where several are marked as roots.
+    pub root: Option<String>,
+    /// Name of the model; `None` for what the file says, else the file's own name.
+    pub name: Option<String>,
+    /// Surface of whatever names none; `None` puts a placeholder there.
+    pub surface: Option<DefaultSurface>,
+    /// Vertices within this distance of each other are one, m; `None` for bit-equal ones only.
+    pub weld_m: Option<f64>,
+    /// Convex solids of more faces become surfaces, unless they are marked as polyhedra.
+    pub faces_max: usize,
+    /// Meshes of more triangles or faces go to files beside the model.
+    pub inline_max: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            up: None,
+            unit_m: 1.0,
+            scene: None,
+            root: None,
+            name: None,
+            surface: None,
+            weld_m: None,
+            faces_max: 1000,
+            inline_max: usize::MAX,
+        }
+    }
+}
+
+/// What was written.
+#[derive(Clone, Debug)]
+pub struct Imported {
+    /// The model file and mesh files beside it.
+    pub files: Vec<PathBuf>,
+    /// Distinct vertices and triangles read.
+    pub vertices: usize,
+    /// Triangles read.
+    pub triangles: usize,
+    /// Number of primitives in the model by kind, in the order of kinds in the format.
+    pub primitives: Vec<(&'static str, usize)>,
+    /// What the author should know; the loader's warnings are among it.
+    pub findings: Findings,
+}
+
+/// Imports a mesh file and writes the model to `output`.
+///
+/// `progress` is called with what is being done. The model is read back by the engine's loader before it is put in
+/// its place; after a fault nothing is written.
+///
+/// # Errors
+/// Every fault that was found, and the notes.
+pub fn import(
+    input: &Path,
+    output: &Path,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+) -> Result<Imported, Findings> {
+    let mut findings = Findings::default();
+    let built = convert(input, options, progress, &mut findings);
+    let Some(built) = built.filter(|_| findings.faults.is_empty()) else { return Err(findings) };
+    progress("writing");
+    let primitives = kinds_of(&built.model.root);
+    let text = write::text(&built.model);
+    let (vertices, triangles) = (built.vertices, built.triangles);
+    drop(built.model);
+    progress("checking");
+    let files = files::write_checked(output, text, built.mesh_files, &mut findings);
+    match files {
+        Some(files) => Ok(Imported { files, vertices, triangles, primitives, findings }),
+        None => Err(findings),
+    }
+}
+
+fn convert(
+    input: &Path,
+    options: &Options,
+    progress: &mut dyn FnMut(&str),
+    findings: &mut Findings,
+) -> Option<build::Built> {
+    let file = input.display().to_string();
+    if !(options.unit_m > 0.0 && options.unit_m.is_finite()) {
+        findings.fault(&file, "unit", format!("a unit of {} m", options.unit_m), "give metres above zero");
+        return None;
+    }
+    progress("reading");
+    let reading = Reading { up: options.up, unit_m: options.unit_m, scene: options.scene.clone() };
+    let source = source::read(input, &reading, findings)?;
+    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let mut building = Building {
+        file,
+        name: options.name.clone().unwrap_or(stem),
+        root: options.root.clone(),
+        weld_m: options.weld_m,
+        unit_m: options.unit_m,
+        surface: options.surface.clone(),
+        faces_max: options.faces_max,
+        inline_max: options.inline_max,
+        progress,
+    };
+    let mut built = build::build(source, &mut building, findings)?;
+    if let Some(name) = &options.name {
+        built.model.name.clone_from(name);
+    }
+    Some(built)
+}
+
+fn kinds_of(root: &crate::model::Group) -> Vec<(&'static str, usize)> {
+    let mut counts: Vec<(&'static str, usize)> = crate::marks::KINDS.iter().map(|kind| (*kind, 0)).collect();
+    let mut open = vec![root];
+    while let Some(group) = open.pop() {
+        for primitive in &group.primitives {
+            counts.iter_mut().filter(|(kind, _)| *kind == primitive.kind).for_each(|(_, count)| *count += 1);
+        }
+        open.extend(&group.groups);
+    }
+    counts.retain(|(_, count)| *count > 0);
+    counts
+}

@@ -1,0 +1,229 @@
+//! Marks: what `extras.pong` of a glTF node says of it, and of a scene. The names are those of the modelling toolkit.
+
+use crate::findings::Findings;
+use serde_json::{Map, Value};
+
+/// The newest version of marks that is understood.
+const VERSION: u64 = 1;
+
+const ROLES: [&str; 4] = ["none", "root", "group", "primitive"];
+const BOUNDS: [&str; 3] = ["Aabb", "Sphere", "Obb"];
+pub(crate) const KINDS: [&str; 10] = [
+    "Point",
+    "LineSegment",
+    "Ray",
+    "Sphere",
+    "Ellipsoid",
+    "Plane",
+    "Triangle",
+    "TriangleMesh",
+    "Polyhedron",
+    "Custom",
+];
+
+/// What one node is to the engine; lengths in units of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Mark {
+    pub(crate) role: String,
+    /// Empty for the node's own name.
+    pub(crate) name: String,
+    /// Empty for that of the group above.
+    pub(crate) surface: String,
+    /// Place among siblings, from 1; 0 for after those, in the order of names.
+    pub(crate) order: u64,
+    pub(crate) movable: bool,
+    /// As model files write it; empty for `Aabb`, the default.
+    pub(crate) bound: String,
+    pub(crate) kind: String,
+    /// Before the node's scale, as semi-axes and length are.
+    pub(crate) radius: f64,
+    pub(crate) semi_axes: [f64; 3],
+    pub(crate) length: f64,
+    /// Whatever the scale, as is the thickness.
+    pub(crate) reach: Option<f64>,
+    pub(crate) response: String,
+    pub(crate) thickness: Option<f64>,
+    pub(crate) two_sided: bool,
+    /// Name of the mesh file to write, and metres in one unit of it.
+    pub(crate) file: String,
+    pub(crate) file_scale: f64,
+    pub(crate) custom_kind: String,
+    pub(crate) parameters: Vec<f64>,
+    /// Settings of the model that a root may carry.
+    pub(crate) settings: Option<Value>,
+    /// Whether it speaks of faces, edges or vertices by number.
+    pub(crate) numbered: Option<&'static str>,
+}
+
+/// What belongs to a whole model.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Settings {
+    pub(crate) name: String,
+    pub(crate) entry_memory: Option<bool>,
+    pub(crate) surfaces: Map<String, Value>,
+    pub(crate) pairs: Vec<Value>,
+}
+
+/// Reads fields of an object and notes those that are wrong or unknown.
+struct Fields<'a> {
+    map: &'a Map<String, Value>,
+    path: &'a str,
+    findings: &'a mut Findings,
+}
+
+impl Fields<'_> {
+    fn take<T>(&mut self, key: &str, what: &str, read: impl Fn(&Value) -> Option<T>) -> Option<T> {
+        let value = self.map.get(key).filter(|value| !value.is_null())?;
+        let read = read(value);
+        if read.is_none() {
+            let cause = format!("`{key}` of its mark is {value}, not {what}");
+            self.findings.fault(self.path, "mark", cause, "correct the mark where the file was made");
+        }
+        read
+    }
+
+    fn text(&mut self, key: &str) -> String {
+        self.take(key, "text", |value| value.as_str().map(str::to_owned)).unwrap_or_default()
+    }
+
+    fn word(&mut self, key: &str, allowed: &[&str], default: &str) -> String {
+        let what = format!("one of {}", allowed.join(", "));
+        let read = |value: &Value| value.as_str().filter(|word| allowed.contains(word)).map(str::to_owned);
+        self.take(key, &what, read).unwrap_or_else(|| default.to_owned())
+    }
+
+    fn number(&mut self, key: &str) -> Option<f64> {
+        self.take(key, "a number that is not negative", |value| value.as_f64().filter(|x| *x >= 0.0))
+    }
+
+    fn flag(&mut self, key: &str) -> Option<bool> {
+        // Custom properties of some programs keep 0 and 1 for false and true.
+        self.take(key, "true or false", |value| {
+            value.as_bool().or(value.as_u64().filter(|x| *x < 2).map(|x| x == 1))
+        })
+    }
+
+    fn bound(&mut self) -> String {
+        let custom = self.text("custom_bound");
+        let bound = self.word("bound", &BOUNDS, "");
+        match (custom.as_str(), bound.as_str()) {
+            ("", "Aabb") => String::new(),
+            ("", _) => bound,
+            _ => format!("Custom({custom:?})"),
+        }
+    }
+
+    fn unknown(&mut self, known: &[&str]) {
+        for key in self.map.keys().filter(|key| !known.contains(&key.as_str())) {
+            let cause = format!("`{key}` of its mark is not known and counts for nothing");
+            self.findings.note(self.path, "unknown-field", cause, "");
+        }
+    }
+}
+
+/// The object of `extras.pong`; some programs keep it as text.
+fn object<'a>(
+    value: &'a Value,
+    parsed: &'a mut Value,
+    path: &str,
+    findings: &mut Findings,
+) -> Option<&'a Map<String, Value>> {
+    if let Some(text) = value.as_str() {
+        *parsed = serde_json::from_str(text).unwrap_or(Value::Null);
+    } else {
+        *parsed = value.clone();
+    }
+    let map = parsed.as_object();
+    match map {
+        None => findings.fault(path, "mark", "its `extras.pong` is no JSON object", "write it again"),
+        Some(map) => {
+            let version = map.get("version").and_then(Value::as_u64).unwrap_or(VERSION);
+            if version > VERSION {
+                let cause = format!("its mark is of version {version}; known are those up to {VERSION}");
+                findings.fault(path, "mark-version", cause, "use a newer pong, or an older toolkit");
+            }
+        }
+    }
+    map
+}
+
+impl Mark {
+    /// `None` for a node without a role, and after a fault.
+    pub(crate) fn read(value: &Value, path: &str, findings: &mut Findings) -> Option<Self> {
+        let mut parsed = Value::Null;
+        let map = object(value, &mut parsed, path, findings)?;
+        let before = findings.faults.len();
+        let mut fields = Fields { map, path, findings };
+        let all_numbers =
+            |value: &Value| -> Option<Vec<f64>> { value.as_array()?.iter().map(Value::as_f64).collect() };
+        let numbers = |value: &Value| -> Option<[f64; 3]> { all_numbers(value)?.try_into().ok() };
+        let mark = Self {
+            role: fields.word("role", &ROLES, if map.contains_key("kind") { "primitive" } else { "none" }),
+            name: fields.text("name"),
+            surface: fields.text("surface"),
+            movable: fields.flag("movable").unwrap_or(false),
+            order: fields.take("order", "a whole number", Value::as_u64).unwrap_or(0),
+            bound: fields.bound(),
+            kind: fields.word("kind", &[&KINDS[..], &[""]].concat(), ""),
+            radius: fields.number("radius").unwrap_or(0.0),
+            semi_axes: fields.take("semi_axes", "three numbers", numbers).unwrap_or([0.0; 3]),
+            length: fields.number("length").unwrap_or(0.0),
+            reach: fields.number("reach"),
+            response: fields.word("response", &["Normal", "Axial"], "Normal"),
+            thickness: fields.number("thickness"),
+            two_sided: fields.flag("two_sided").unwrap_or(false),
+            file: fields.text("file"),
+            file_scale: fields.number("file_scale").filter(|scale| *scale > 0.0).unwrap_or(1.0),
+            custom_kind: fields.text("custom_kind"),
+            parameters: fields.take("parameters", "a list of numbers", all_numbers).unwrap_or_default(),
+            settings: map.get("settings").filter(|settings| settings.is_object()).cloned(),
+            numbered: ["inactive_faces", "parts"]
+                .into_iter()
+                .find(|key| map.get(*key).and_then(Value::as_array).is_some_and(|list| !list.is_empty())),
+        };
+        fields.unknown(&[
+            "role",
+            "version",
+            "name",
+            "surface",
+            "order",
+            "movable",
+            "bound",
+            "custom_bound",
+            "kind",
+            "radius",
+            "semi_axes",
+            "length",
+            "reach",
+            "response",
+            "thickness",
+            "two_sided",
+            "inactive_faces",
+            "file",
+            "file_scale",
+            "custom_kind",
+            "parameters",
+            "parts",
+            "settings",
+        ]);
+        (mark.role != "none" && findings.faults.len() == before).then_some(mark)
+    }
+}
+
+impl Settings {
+    pub(crate) fn read(value: &Value, path: &str, findings: &mut Findings) -> Self {
+        let mut parsed = Value::Null;
+        let Some(map) = object(value, &mut parsed, path, findings) else { return Self::default() };
+        let mut fields = Fields { map, path, findings };
+        let settings = Self {
+            name: fields.text("name"),
+            entry_memory: fields.flag("entry_memory"),
+            surfaces: fields
+                .take("surfaces", "an object", |value| value.as_object().cloned())
+                .unwrap_or_default(),
+            pairs: fields.take("pairs", "a list", |value| value.as_array().cloned()).unwrap_or_default(),
+        };
+        fields.unknown(&["version", "name", "entry_memory", "surfaces", "pairs"]);
+        settings
+    }
+}

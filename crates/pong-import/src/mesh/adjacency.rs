@@ -1,0 +1,55 @@
+//! Which triangles share edges.
+
+use super::ring;
+
+/// No triangle.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// For each triangle its neighbours across the edges from corner 0, 1 and 2.
+pub(crate) struct Adjacency {
+    pub(crate) across: Vec<[u32; 3]>,
+    /// Edges of one triangle alone: (triangle, corner where it starts).
+    pub(crate) free: Vec<(u32, u8)>,
+    /// Triangles at edges that more than two share, one per edge.
+    pub(crate) crowded: Vec<u32>,
+    /// Triangles at edges along which both neighbours run the same way, one per edge.
+    pub(crate) wound_against: Vec<u32>,
+}
+
+impl Adjacency {
+    pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
+        let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
+        for (index, triangle) in triangles.iter().enumerate() {
+            for (corner, (a, b)) in ring(triangle).enumerate() {
+                let key = u64::from(a.min(b)) << 32 | u64::from(a.max(b));
+                edges.push((key, 4 * index as u32 + corner as u32));
+            }
+        }
+        edges.sort_unstable();
+        let mut found = Self {
+            across: vec![[NONE; 3]; triangles.len()],
+            free: Vec::new(),
+            crowded: Vec::new(),
+            wound_against: Vec::new(),
+        };
+        let place = |half: u32| ((half / 4) as usize, (half % 4) as usize);
+        let start = |half: u32| triangles[place(half).0][place(half).1];
+        for group in edges.chunk_by(|a, b| a.0 == b.0) {
+            match *group {
+                [(_, one)] => found.free.push((one / 4, (one % 4) as u8)),
+                [(_, one), (_, other)] if start(one) != start(other) => {
+                    found.across[place(one).0][place(one).1] = other / 4;
+                    found.across[place(other).0][place(other).1] = one / 4;
+                }
+                [(_, one), _] => found.wound_against.push(one / 4),
+                _ => found.crowded.push(group[0].1 / 4),
+            }
+        }
+        found
+    }
+
+    /// Whether every edge joins two triangles that run along it in opposite directions.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.free.is_empty() && self.crowded.is_empty() && self.wound_against.is_empty()
+    }
+}

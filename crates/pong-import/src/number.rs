@@ -1,0 +1,104 @@
+//! Numbers between files: single precision to the decimal its author typed, and decimals as model files write them.
+
+use nalgebra::Vector3;
+
+/// The number of least digits that rounds to `value` in single precision: 0.1f32 becomes 0.1, not
+/// 0.10000000149011612. Equal numbers stay equal, different ones different, and their order stays.
+pub(crate) fn widened(value: f32) -> f64 {
+    if value == value.trunc() && value.abs() < 1e7 {
+        return f64::from(value);
+    }
+    let mut digits = [0u8; 64];
+    let text = {
+        use std::io::Write;
+        let mut rest: &mut [u8] = &mut digits;
+        let _ = write!(rest, "{value:e}");
+        let left = rest.len();
+        &digits[..64 - left]
+    };
+    std::str::from_utf8(text).ok().and_then(|text| text.parse().ok()).unwrap_or(f64::from(value))
+}
+
+/// Rounds to a decimal grid a dozen digits below the size of a model.
+///
+/// Products of transforms leave 0.30000000000000004 where 0.3 is meant; places that agree to the last digits but
+/// not to the last bit would not be one vertex.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Grid {
+    per_unit: f64,
+}
+
+/// Digits kept below the leading one of the model's size.
+const DIGITS: i32 = 13;
+
+impl Grid {
+    /// The grid for coordinates of at most this size.
+    pub(crate) fn of_size(size: f64) -> Self {
+        let leading = if size > 0.0 && size.is_finite() { size.log10().floor() as i32 } else { 0 };
+        // Up to 1e22 powers of ten are exact; beyond, nothing need be rounded.
+        Self { per_unit: 10f64.powi((DIGITS - leading).clamp(0, 22)) }
+    }
+
+    pub(crate) fn round(self, value: f64) -> f64 {
+        let scaled = value * self.per_unit;
+        // Beyond 2^53 every number is whole already.
+        if scaled.abs() < 9e15 { scaled.round_ties_even() / self.per_unit + 0.0 } else { value }
+    }
+
+    pub(crate) fn round_place(self, place: &Vector3<f64>) -> Vector3<f64> {
+        place.map(|x| self.round(x))
+    }
+}
+
+/// As model files write it: shortest digits that give the same bits, never an integer; scientific notation outside
+/// of 1e-4 to 1e16.
+pub(crate) fn decimal(value: f64) -> String {
+    let value = value + 0.0;
+    if value.is_infinite() {
+        return if value > 0.0 { "inf" } else { "-inf" }.to_owned();
+    }
+    if value == 0.0 || (1e-4..1e16).contains(&value.abs()) {
+        return format!("{value:?}");
+    }
+    let text = format!("{value:e}");
+    let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let (sign, size) = exponent.strip_prefix('-').map_or(('+', exponent), |size| ('-', size));
+    format!("{digits}e{sign}{size:0>2}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn single_precision_becomes_the_decimal_it_was_typed_as() {
+        for (value, expected) in
+            [(0.1f32, 0.1), (-12.375, -12.375), (1e-30, 1e-30), (16_777_216.0, 16_777_216.0)]
+        {
+            assert_eq!(widened(value), expected);
+        }
+        assert_eq!(widened(f32::MAX) as f32, f32::MAX);
+        assert!(widened(f32::NAN).is_nan());
+    }
+
+    #[test]
+    fn the_grid_keeps_what_is_typed_and_drops_what_products_leave() {
+        let grid = Grid::of_size(3.0);
+        assert_eq!(grid.round(0.1 + 0.2), 0.3);
+        assert_eq!(grid.round(2.2e-16).to_bits(), 0);
+        assert_eq!(grid.round(-1e-17).to_bits(), 0);
+        assert_eq!(Grid::of_size(1e-3).round(1.23456789012e-4), 1.23456789012e-4);
+        assert_eq!(Grid::of_size(1e30).round(1e30), 1e30);
+    }
+
+    #[test]
+    fn decimals_are_never_integers() {
+        assert_eq!(decimal(1.0), "1.0");
+        assert_eq!(decimal(-0.0), "0.0");
+        assert_eq!(decimal(f64::INFINITY), "inf");
+        for (value, text) in [(1e16, "1e+16"), (-1.5e-7, "-1.5e-07"), (0.0001, "0.0001"), (1e100, "1e+100")] {
+            assert_eq!(decimal(value), text);
+            assert_eq!(text.parse::<f64>(), Ok(value));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The JSON of a glTF file: container, extensions, numbers of double precision.
+
+use crate::affine::Affine;
+use crate::findings::{Finding, Findings};
+use crate::number::widened;
+use nalgebra::{Matrix3, Vector3};
+use serde_json::Value;
+
+/// Required extensions that change nothing about geometry.
+const HARMLESS: [&str; 6] =
+    ["KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "MSFT_texture_", "KHR_node_visibility"];
+
+/// Look-ups that do not mind what is missing.
+pub(super) trait Json {
+    fn list(&self, key: &str) -> &[Value];
+    fn text(&self, key: &str) -> Option<&str>;
+    fn index(&self, key: &str) -> Option<usize>;
+}
+
+impl Json for Value {
+    fn list(&self, key: &str) -> &[Value] {
+        self.get(key).and_then(Value::as_array).map(Vec::as_slice).unwrap_or(&[])
+    }
+
+    fn text(&self, key: &str) -> Option<&str> {
+        self.get(key).and_then(Value::as_str)
+    }
+
+    fn index(&self, key: &str) -> Option<usize> {
+        self.get(key).and_then(Value::as_u64).map(|index| index as usize)
+    }
+}
+
+fn damaged(file: &str, cause: String) -> Finding {
+    let cure = "export it again as glTF 2.0".to_owned();
+    Finding { path: file.to_owned(), rule: "damaged", cause, cure }
+}
+
+/// The JSON and the bytes that come with it in a `.glb` file.
+pub(super) fn parse(bytes: &[u8], file: &str) -> Result<(Value, Option<Vec<u8>>), Finding> {
+    let glb = match bytes.starts_with(b"glTF") {
+        true => Some(::gltf::Glb::from_slice(bytes).map_err(|reason| damaged(file, reason.to_string()))?),
+        false => None,
+    };
+    let text: &[u8] = glb.as_ref().map_or(bytes, |glb| &glb.json);
+    let value: Value = serde_json::from_slice(text).map_err(|reason| damaged(file, reason.to_string()))?;
+    let version = value.get("asset").and_then(|asset| asset.text("version")).unwrap_or("");
+    if !version.starts_with("2.") {
+        let cause = format!("it is glTF of version \"{version}\", not 2.0");
+        return Err(Finding { rule: "version", ..damaged(file, cause) });
+    }
+    Ok((value, glb.and_then(|glb| glb.bin.map(|bin| bin.into_owned()))))
+}
+
+/// Required extensions that change the geometry in ways unknown here.
+pub(super) fn refuse_extensions(value: &Value, file: &str, findings: &mut Findings) {
+    for name in value.list("extensionsRequired").iter().filter_map(Value::as_str) {
+        if HARMLESS.iter().any(|start| name.starts_with(start)) {
+            continue;
+        }
+        let cure = match name {
+            "KHR_draco_mesh_compression" => "switch Draco compression off in the export",
+            "EXT_meshopt_compression" | "KHR_meshopt_compression" => "export without meshopt compression",
+            "KHR_mesh_quantization" => "export positions as 32-bit floats, without quantization",
+            "EXT_mesh_gpu_instancing" => "export without instancing, one node per place",
+            _ => "export without this extension",
+        };
+        findings.fault(file, "unsupported-extension", format!("it requires the extension {name}"), cure);
+    }
+}
+
+/// The document for the crate, checked by its rules.
+pub(super) fn document(value: &Value, file: &str) -> Result<::gltf::Document, Finding> {
+    let mut plain = value.clone();
+    if let Some(fields) = plain.as_object_mut() {
+        fields.remove("extensionsRequired");
+    }
+    let text = plain.to_string();
+    let root = ::gltf::json::Root::from_str(&text).map_err(|reason| damaged(file, reason.to_string()))?;
+    ::gltf::Document::from_json(root).map_err(|reason| match reason {
+        ::gltf::Error::Validation(all) => {
+            let told: Vec<String> =
+                all.iter().take(5).map(|(path, what)| format!("{path}: {what}")).collect();
+            damaged(file, told.join(", "))
+        }
+        other => damaged(file, other.to_string()),
+    })
+}
+
+/// What was a number of single precision becomes the decimal it was typed as; others stay.
+fn number(value: f64) -> f64 {
+    let single = value as f32;
+    if f64::from(single) == value { widened(single) } else { value }
+}
+
+/// `N` numbers; `None` if the field is missing.
+fn numbers<const N: usize>(node: &Value, key: &str, path: &str) -> Result<Option<[f64; N]>, Finding> {
+    let Some(value) = node.get(key) else { return Ok(None) };
+    let all: Option<Vec<f64>> =
+        value.as_array().map(|all| all.iter().filter_map(Value::as_f64).map(number).collect());
+    match all.and_then(|all| <[f64; N]>::try_from(all).ok()) {
+        Some(numbers) => Ok(Some(numbers)),
+        None => Err(damaged(path, format!("its {key} is not {N} numbers"))),
+    }
+}
+
+/// A node's transform to its parent, in the axes and units of the file.
+pub(super) fn transform(node: &Value, path: &str) -> Result<Affine, Finding> {
+    if let Some(m) = numbers::<16>(node, "matrix", path)? {
+        if [m[3], m[7], m[11], m[15]] != [0.0, 0.0, 0.0, 1.0] {
+            return Err(damaged(path, "its matrix is no affine transform".to_owned()));
+        }
+        let linear = Matrix3::new(m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]);
+        return Ok(Affine { linear, translation: Vector3::new(m[12], m[13], m[14]) });
+    }
+    let translation = numbers::<3>(node, "translation", path)?.unwrap_or([0.0; 3]);
+    let rotation = numbers::<4>(node, "rotation", path)?.unwrap_or([0.0, 0.0, 0.0, 1.0]);
+    let scale = numbers::<3>(node, "scale", path)?.unwrap_or([1.0; 3]);
+    let affine = Affine::from_parts(translation.into(), rotation, scale.into());
+    affine.ok_or_else(|| damaged(path, "its rotation is no quaternion".to_owned()))
+}

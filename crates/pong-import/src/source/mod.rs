@@ -1,0 +1,119 @@
+//! What the readers of glTF, OBJ and STL files have in common: a tree of nodes with geometry.
+
+mod gltf;
+mod obj;
+mod stl;
+mod welder;
+
+use crate::affine::{Affine, Up};
+use crate::findings::{Finding, Findings};
+use nalgebra::Vector3;
+use serde_json::Value;
+use std::path::Path;
+
+pub(crate) use welder::{Welder, WordMap};
+
+/// How a file is to be read.
+pub(crate) struct Reading {
+    /// `None` for what the format is known for: y in glTF, z in OBJ and STL.
+    pub(crate) up: Option<Up>,
+    /// Metres in one unit of the file.
+    pub(crate) unit_m: f64,
+    /// Name of the scene to read; glTF only.
+    pub(crate) scene: Option<String>,
+}
+
+/// A file as a tree of nodes; lengths in metres, axes those of models.
+#[derive(Default)]
+pub(crate) struct Source {
+    /// Parents before their children.
+    pub(crate) nodes: Vec<Node>,
+    /// `extras.pong` of the scene.
+    pub(crate) settings: Option<Value>,
+}
+
+pub(crate) struct Node {
+    pub(crate) name: String,
+    pub(crate) parent: Option<usize>,
+    /// Names from the top, with `/` between; for messages.
+    pub(crate) path: String,
+    /// To the parent.
+    pub(crate) local: Affine,
+    /// `extras.pong`.
+    pub(crate) mark: Option<Value>,
+    pub(crate) mesh: Option<Shape>,
+}
+
+/// Vertices in the node's frame and what they span.
+#[derive(Default)]
+pub(crate) struct Shape {
+    /// Distinct places.
+    pub(crate) vertices: Vec<Vector3<f64>>,
+    /// Triangles, counter-clockwise seen from the front.
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// For each triangle an index into `looks`; empty if all have the first.
+    pub(crate) look_of: Vec<u16>,
+    pub(crate) looks: Vec<Look>,
+    pub(crate) lines: Vec<[u32; 2]>,
+    pub(crate) points: Vec<u32>,
+}
+
+/// What a material says of its faces.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Look {
+    pub(crate) surface: Option<String>,
+    pub(crate) inactive: bool,
+}
+
+/// Reads a file by the ending of its name.
+pub(crate) fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
+    let file = path.display().to_string();
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if !matches!(ending.as_str(), "glb" | "gltf" | "obj" | "stl") {
+        let cause = "the name ends in none of .glb, .gltf, .obj and .stl";
+        findings.fault(&file, "unknown-format", cause, "export the mesh in one of these formats");
+        return None;
+    }
+    let bytes = findings.ok(bytes_of(path, &file))?;
+    match ending.as_str() {
+        "obj" => obj::read(&bytes, path, reading, findings),
+        "stl" => stl::read(bytes, path, reading, findings),
+        _ => gltf::read(&bytes, path, reading, findings),
+    }
+}
+
+/// The bytes of a regular file; a pipe or a device could keep the reader waiting for ever.
+fn bytes_of(path: &Path, called: &str) -> Result<Vec<u8>, Finding> {
+    let unreadable = |reason: String| Finding {
+        path: called.to_owned(),
+        rule: "unreadable",
+        cause: format!("it cannot be read: {reason}"),
+        cure: "name a mesh file that can be read".to_owned(),
+    };
+    let about = std::fs::metadata(path).map_err(|reason| unreadable(reason.to_string()))?;
+    if !about.is_file() {
+        return Err(unreadable("it is not a regular file".to_owned()));
+    }
+    std::fs::read(path).map_err(|reason| unreadable(reason.to_string()))
+}
+
+/// The file's name without folder and ending: what a model without a name is called.
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Whether all coordinates are finite; else a fault is noted.
+fn all_finite(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
+    let bad = shape.vertices.iter().position(|place| !place.iter().all(|x| x.is_finite()));
+    if let Some(index) = bad {
+        let cause = format!("vertex {index} is not finite");
+        findings.fault(path, "not-finite", cause, "repair the mesh where it was made");
+    }
+    bad.is_none()
+}
+
+impl Shape {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.lines.is_empty() && self.points.is_empty()
+    }
+}

@@ -1,0 +1,113 @@
+//! Values as lines of RON: on one line if they fit into it, else one field a line and long lists filled.
+
+use std::borrow::Cow;
+
+/// Most characters of a line.
+const WIDTH: usize = 120;
+const INDENT: usize = 4;
+
+/// A label and its value.
+pub(super) type Item = (Cow<'static, str>, Shown);
+
+/// A value on its way to lines.
+pub(super) enum Shown {
+    Flat(String),
+    /// Something in brackets; always one item a line if `broken`.
+    Block {
+        opening: String,
+        items: Vec<Item>,
+        closing: &'static str,
+        broken: bool,
+    },
+    /// A long list of short tokens, as many on a line as fit.
+    Filled(Vec<String>),
+}
+
+impl Shown {
+    pub(super) fn block(opening: &str, items: Vec<Item>, closing: &'static str) -> Self {
+        Self::Block { opening: opening.to_owned(), items, closing, broken: false }
+    }
+
+    pub(super) fn broken(opening: &str, items: Vec<Item>, closing: &'static str) -> Self {
+        let broken = !items.is_empty();
+        Self::Block { opening: opening.to_owned(), items, closing, broken }
+    }
+}
+
+/// Text in quotes.
+pub(super) fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '\\' => out.push_str("\\\\"),
+            '"' => out.push_str("\\\""),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => out.push_str(&format!("\\u{{{:x}}}", c as u32)),
+            c => out.push(c),
+        }
+    }
+    out + "\""
+}
+
+/// Appends the lines of label and value; the last ends with a comma.
+pub(super) fn lay_out(label: &str, value: &Shown, indent: usize, out: &mut String) {
+    let start = " ".repeat(indent) + label;
+    let room = WIDTH.saturating_sub(start.chars().count() + 1);
+    if let Some(line) = flat(value, room) {
+        *out += &format!("{start}{line},\n");
+        return;
+    }
+    match value {
+        Shown::Flat(line) => *out += &format!("{start}{line},\n"),
+        Shown::Filled(tokens) => {
+            *out += &format!("{start}[\n");
+            fill(tokens, indent + INDENT, out);
+            *out += &format!("{}],\n", " ".repeat(indent));
+        }
+        Shown::Block { opening, items, closing, .. } => {
+            *out += &format!("{start}{opening}\n");
+            items.iter().for_each(|(label, inner)| lay_out(label, inner, indent + INDENT, out));
+            *out += &format!("{}{closing},\n", " ".repeat(indent));
+        }
+    }
+}
+
+/// The value on one line, or `None` if it is longer than the room.
+fn flat(value: &Shown, room: usize) -> Option<String> {
+    let line = match value {
+        Shown::Flat(line) => line.clone(),
+        Shown::Filled(tokens) if 3 * tokens.len() > room + 3 => return None,
+        Shown::Filled(tokens) => format!("[{}]", tokens.join(", ")),
+        Shown::Block { broken: true, .. } => return None,
+        Shown::Block { opening, items, closing, .. } => {
+            let parts: Option<Vec<String>> =
+                items.iter().map(|(label, inner)| Some(format!("{label}{}", flat(inner, room)?))).collect();
+            format!("{opening}{}{closing}", parts?.join(", "))
+        }
+    };
+    (line.chars().count() <= room).then_some(line)
+}
+
+fn fill(tokens: &[String], indent: usize, out: &mut String) {
+    let margin = " ".repeat(indent);
+    let mut used = 0;
+    for token in tokens {
+        // Token and comma, and a space if another stands before it on the line.
+        let width = token.len() + 1;
+        if used > 0 && used + 1 + width <= WIDTH - indent {
+            out.push(' ');
+            used += 1 + width;
+        } else {
+            if used > 0 {
+                out.push('\n');
+            }
+            out.push_str(&margin);
+            used = width;
+        }
+        out.push_str(token);
+        out.push(',');
+    }
+    out.push('\n');
+}

@@ -1,0 +1,177 @@
+//! The same shape from every format, units, axes, and files that are not what they should be.
+
+mod common;
+
+use common::*;
+use pong_import::{Options, Up};
+use pong_model::Model;
+use serde_json::json;
+use std::path::PathBuf;
+
+fn corners(model: &Model) -> Vec<[f64; 3]> {
+    let mut corners: Vec<[f64; 3]> =
+        model.bodies[0].polyhedra[0].vertices.iter().map(|v| v.position.into()).collect();
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    corners
+}
+
+fn sorted(mut places: Vec<[f64; 3]>) -> Vec<[f64; 3]> {
+    places.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    places
+}
+
+fn cube_files(test: &str) -> Vec<PathBuf> {
+    let folder = folder(test);
+    let save = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let gltf = cube_file();
+    let obj: String = CUBE.iter().map(|[x, y, z]| format!("v {x} {y} {z}\n")).collect::<String>()
+        + "o cube\n"
+        + &SIDES
+            .iter()
+            .map(|side| format!("f {}\n", side.map(|v| (v + 1).to_string()).join(" ")))
+            .collect::<String>();
+    std::fs::write(folder.join("cube data.bin"), gltf.bytes()).unwrap();
+    use base64::Engine;
+    let data = base64::engine::general_purpose::STANDARD.encode(gltf.bytes());
+    vec![
+        save("binary.stl", &binary_stl(&cube())),
+        save("text.stl", text_stl(&cube()).as_bytes()),
+        save("cube.obj", obj.as_bytes()),
+        save("cube.glb", &gltf.glb()),
+        save("beside.gltf", gltf.text("cube%20data.bin").as_bytes()),
+        save("inline.gltf", gltf.text(&format!("data:application/octet-stream;base64,{data}")).as_bytes()),
+    ]
+}
+
+#[test]
+fn a_cube_is_one_polyhedron_of_six_faces_from_every_format() {
+    for path in cube_files("cube") {
+        let (imported, model) = run(&path, &options()).unwrap();
+        assert_eq!(imported.primitives, [("Polyhedron", 1)], "{}", path.display());
+        assert!(imported.findings.notes.is_empty(), "{}", imported.findings);
+        assert_eq!(corners(&model), sorted(CUBE.to_vec()));
+        let text = std::fs::read_to_string(&imported.files[0]).unwrap();
+        let faces = text.split("faces: [").nth(1).unwrap().split("]]").next().unwrap();
+        assert_eq!(faces.matches('[').count(), 6, "{text}");
+        assert_eq!(faces.matches(',').count(), 6 * 3 + 5, "six faces of four corners: {text}");
+    }
+}
+
+#[test]
+fn the_same_file_gives_the_same_bytes() {
+    for path in cube_files("bytes") {
+        let write = || {
+            run(&path, &options()).unwrap();
+            std::fs::read(path.with_extension("ron")).unwrap()
+        };
+        assert_eq!(write(), write());
+    }
+}
+
+#[test]
+fn units_and_axes_are_those_asked_for() {
+    let folder = folder("units");
+    let path = folder.join("wedge.stl");
+    // Corners at distinct distances along the axes.
+    let [o, x, y, z] = [[0.0; 3], [100.0, 0.0, 0.0], [0.0, 200.0, 0.0], [0.0, 0.0, 300.0]];
+    std::fs::write(&path, binary_stl(&[[o, y, x], [o, x, z], [o, z, y], [x, y, z]])).unwrap();
+    let millimetres = Options { unit_m: 0.001, ..options() };
+    let (_, model) = run(&path, &millimetres).unwrap();
+    assert_eq!(corners(&model), sorted(vec![[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.2, 0.0], [0.0, 0.0, 0.3]]));
+    let (_, model) = run(&path, &Options { up: Some(Up::Y), ..millimetres }).unwrap();
+    assert_eq!(corners(&model), sorted(vec![[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.0, 0.2], [0.0, -0.3, 0.0]]));
+}
+
+#[test]
+fn gltf_has_y_up_unless_told_otherwise() {
+    let mut gltf = Gltf::new();
+    let mesh = gltf.mesh(0, &[[1.0, 2.0, 3.0]]);
+    gltf.node(None, json!({"mesh": mesh, "translation": [10.0, 20.0, 30.0]}));
+    let path = gltf.save(&folder("up"), "point.glb");
+    let at = |options: &Options| run(&path, options).unwrap().1.bodies[0].points[0].position;
+    assert_eq!(<[f64; 3]>::from(at(&options())), [11.0, -33.0, 22.0]);
+    assert_eq!(<[f64; 3]>::from(at(&Options { up: Some(Up::Z), ..options() })), [11.0, 22.0, 33.0]);
+}
+
+#[test]
+fn obj_objects_become_groups_and_loose_elements_points_and_segments() {
+    let folder = folder("obj");
+    let path = folder.join("parts.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\no sheet\nf 1 2 3 4\no roof\nf 1 2 5\nl 1 2 3 # a chain\np -1\n";
+    std::fs::write(&path, text).unwrap();
+    let (imported, model) = run(&path, &options()).unwrap();
+    assert_eq!(imported.primitives, [("Point", 1), ("LineSegment", 2), ("TriangleMesh", 2)]);
+    let paths: Vec<&str> = model.bodies[0].primitives.iter().map(|info| info.path.as_str()).collect();
+    for expected in ["parts/sheet/sheet", "parts/roof/roof", "parts/parts/parts"] {
+        assert!(paths.contains(&expected), "{paths:?}");
+    }
+    assert_eq!(model.bodies[0].triangles.triangles.len(), 3);
+}
+
+/// A dented n-gon keeps its outline: the two triangles a fan would make outside of it are not there.
+#[test]
+fn dented_faces_are_cut_within_their_outline() {
+    let path = folder("dent").join("dent.obj");
+    std::fs::write(&path, "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 2 3 4 5 1\n").unwrap();
+    let (_, model) = run(&path, &options()).unwrap();
+    let set = &model.bodies[0].triangles;
+    let area = |t: &pong_geometry::primitive::TriangleRecord| {
+        let [a, b, c] = t.vertices.map(|v| set.vertices[v as usize]);
+        0.5 * (b - a).cross(&(c - a)).z
+    };
+    let areas: Vec<f64> = set.triangles.iter().map(area).collect();
+    assert!(areas.iter().all(|area| *area > 0.0), "{areas:?}");
+    assert_eq!(areas.iter().sum::<f64>(), 10.0);
+}
+
+#[test]
+fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
+    let folder = folder("damaged");
+    let cases: [(&str, Vec<u8>, &str); 12] = [
+        ("a.ply", b"ply".to_vec(), "unknown-format"),
+        ("empty.stl", binary_stl(&[]), "empty-mesh"),
+        ("short.stl", binary_stl(&cube())[..300].to_vec(), "damaged"),
+        ("nan.stl", binary_stl(&[[[f64::NAN, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]), "not-finite"),
+        ("empty.obj", b"# nothing\n".to_vec(), "empty-mesh"),
+        ("index.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "damaged"),
+        ("curve.obj", b"v 0 0 0\ncstype bezier\n".to_vec(), "free-form"),
+        ("line.obj", b"v 0 0 0\nl 1 7\n".to_vec(), "damaged"),
+        ("text.glb", b"glTF\x02\0\0\0".to_vec(), "damaged"),
+        ("syntax.gltf", b"{".to_vec(), "damaged"),
+        ("old.gltf", br#"{"asset": {"version": "1.0"}}"#.to_vec(), "version"),
+        ("gone.gltf", cube_file().text("gone.bin").into_bytes(), "buffer"),
+    ];
+    for (name, bytes, rule) in cases {
+        let path = folder.join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let findings = run(&path, &options()).unwrap_err();
+        assert_eq!(rules(&findings), [rule], "{name}: {findings}");
+        assert!(findings.faults.iter().all(|fault| !fault.cure.is_empty()));
+    }
+    assert_eq!(rules(&run(&folder.join("missing.stl"), &options()).unwrap_err()), ["unreadable"]);
+    let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left.len(), 12, "{left:?}");
+}
+
+#[test]
+fn big_meshes_go_to_files_beside_the_model_and_mean_the_same() {
+    let folder = folder("mesh_files");
+    let path = folder.join("sheet.stl");
+    let sheet: Vec<[Place; 3]> = (0..20)
+        .map(|k| {
+            let (x, z) = (f64::from(k) * 0.1, f64::from(k % 3) * 0.01);
+            [[x, 0.0, z], [x + 0.07, 0.0, z], [x, 1.0 / 3.0, z]]
+        })
+        .collect();
+    std::fs::write(&path, binary_stl(&sheet)).unwrap();
+    let (_, inline) = run(&path, &options()).unwrap();
+    let (imported, beside) = run(&path, &Options { inline_max: 10, ..options() }).unwrap();
+    assert_eq!(inline.hash, beside.hash);
+    let names: Vec<_> =
+        imported.files.iter().map(|file| file.file_name().unwrap().to_str().unwrap()).collect();
+    assert_eq!(names, ["sheet.ron", "sheet_sheet.obj"]);
+}
