@@ -102,5 +102,9 @@ def grid(x, y, height) -> Mesh:
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
     vertices = [(a, b, height(a, b)) for b in y.tolist() for a in x.tolist()]
     n = len(x)
-    faces = [[j * n + i, j * n + i + 1, (j + 1) * n + i + 1, (j + 1) * n + i] for j in range(len(y) - 1) for i in range(n - 1)]
+    faces = [
+        [j * n + i, j * n + i + 1, (j + 1) * n + i + 1, (j + 1) * n + i]
+        for j in range(len(y) - 1)
+        for i in range(n - 1)
+    ]
     return mesh(vertices, faces)

@@ -19,7 +19,7 @@ MANY = 512  # more things are not fitted one and all
 
 @dataclass
 class Volume:
-    """A volume in the frame of its movable group. `kind` "Unbounded" has no size; a Sphere's `half` is its radius thrice."""
+    """A volume in the frame of its movable group. "Unbounded" has no size; a Sphere's `half` is its radius thrice."""
 
     kind: str
     center: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -76,7 +76,9 @@ class Things:
         """Of very many points only those that lie outermost in any of 26 directions choose where a volume stands."""
         if len(self.points) <= MANY:
             return self
-        steps = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if (x, y, z) != (0, 0, 0)])
+        steps = np.array(
+            [[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if (x, y, z) != (0, 0, 0)]
+        )
         chosen = np.unique(self.along(steps / np.sqrt((steps**2).sum(axis=1, keepdims=True))).argmax(axis=0))
         return Things(self.points[chosen], self.radii[chosen], self.fronts[chosen], self.ellipsoids)
 

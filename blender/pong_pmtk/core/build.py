@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Snapshot -> Model. Whatever cannot be exported faithfully is a finding of severity error, and then there is no model."""
+"""Snapshot -> Model. What cannot be exported faithfully is a finding of severity error; then there is no model."""
 
 from __future__ import annotations
 

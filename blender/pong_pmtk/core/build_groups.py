@@ -54,10 +54,13 @@ class GroupBuilder:
         below = [item for item in items if item.thing.mark.role == "group"]
         primitives = [item for item in items if item.thing.mark.role == "primitive"]
         if below and primitives:
-            cause = f'a group holds groups or primitives, never both: "{below[0].thing.name}" and "{primitives[0].thing.name}"'
+            both = f'"{below[0].thing.name}" and "{primitives[0].thing.name}"'
+            cause = f"a group holds groups or primitives, never both: {both}"
             self.findings.error("groups-and-primitives", where, cause, "put the primitives into a group of their own")
         if not items and not any(child.name in self.scene.carrying for child in self.scene.children[thing.name]):
-            self.findings.error("empty-group", where, "a group without contents", "hang something below it, or unmark it")
+            self.findings.error(
+                "empty-group", where, "a group without contents", "hang something below it, or unmark it"
+            )
         for item in below:
             built = self.posed_group(item, surface)
             if built is not None:
@@ -158,7 +161,9 @@ class GroupBuilder:
         if (primitive.surface or above) is None:
             cause = "it has no surface, and no group above names one"
             if not any(f.rule == "no-surface" and f.object == thing.name for f in self.findings):
-                self.findings.error("no-surface", self.scene.where(thing), cause, "assign a surface to it or to its group")
+                self.findings.error(
+                    "no-surface", self.scene.where(thing), cause, "assign a surface to it or to its group"
+                )
 
     def surface(self, thing: SnapshotObject) -> str | None:
         name = thing.mark.surface

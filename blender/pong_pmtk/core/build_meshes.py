@@ -10,7 +10,7 @@ from .build_primitives import Origin, Shape
 from .exact import meant, rounded
 from .model import Primitive
 from .pieces import pieces_of
-from .polygon import off_plane, triangulated
+from .polygon import off_planes, triangulated
 from .polyhedron_check import PLANE_TOLERANCE, check, diameter_of
 
 Made = list[tuple[Primitive, Origin]]
@@ -102,17 +102,20 @@ def _triangle_mesh(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> 
 def _tell_convex(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
     if 4 <= len(faces) <= CONVEX_FACES and not shape.part and not check(shape.vertices, np.split(loops, starts[1:-1])):
         cause = "it is closed and convex: a Polyhedron would do, and costs less"
-        shape.findings.hint("convex-mesh", shape.where, cause, "mark it as a Polyhedron, unless only its surface matters")
+        shape.findings.hint(
+            "convex-mesh", shape.where, cause, "mark it as a Polyhedron, unless only its surface matters"
+        )
 
 
 def _tell_bent(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
     """Faces of more than three corners that do not lie in a plane: where they are cut changes the surface."""
-    bent = []
-    for face in np.flatnonzero(np.diff(starts) > 3):
-        corners = shape.vertices[loops[starts[face] : starts[face + 1]]]
-        allowed = max(shape.noise, PLANE_TOLERANCE * float(np.ptp(corners, axis=0).max()))
-        if off_plane(corners) > allowed:
-            bent.append(int(faces[face]))
+    bent: list[int] = []
+    widths = np.diff(starts)
+    for width in np.unique(widths[widths > 3]).tolist():
+        alike = np.flatnonzero(widths == width)
+        corners = shape.vertices[loops[starts[alike][:, None] + np.arange(width)]]
+        sizes = np.ptp(corners, axis=1).max(axis=1)
+        bent += faces[alike[off_planes(corners) > np.maximum(shape.noise, PLANE_TOLERANCE * sizes)]].tolist()
     if bent:
         cause = f"{len(bent)} faces are not planar; they are cut into triangles along their shorter diagonals"
         shape.warn("bent-face", cause, "cut them by hand to choose", faces=bent, fix="triangulate")
@@ -174,7 +177,9 @@ def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: 
         }
         if 0.0 < worst.off <= shape.noise:
             size, away = diameter_of(vertices), float(np.abs(vertices).max())
-            cause = f"32-bit rounding bends it: it is {size:.3g} m large and {away:.3g} m from the origin ({worst.cause})"
+            cause = (
+                f"32-bit rounding bends it: it is {size:.3g} m large and {away:.3g} m from the origin ({worst.cause})"
+            )
             cure = "move the origins of its object and its group into it"
             shape.error("rounded-away", cause, cure, fix="set-origin", **at)
             continue
@@ -196,11 +201,16 @@ def _to_file(shape: Shape, made: Made, faces: str, files: dict[str, bytes]) -> M
     if not _file_allowed(shape, name, scale, lists, files):
         return made
     files[name] = mesh_file.write(name, vertices, lists, scale)
-    if mesh_file.kind_of(name) == "stl" and (rounded(mesh_file.before_scale(vertices, scale)) * scale != vertices).any():
+    if (
+        mesh_file.kind_of(name) == "stl"
+        and (rounded(mesh_file.before_scale(vertices, scale)) * scale != vertices).any()
+    ):
         cause = "an STL file holds 32-bit numbers: its vertices are rounded to them"
         shape.warn("stl-rounds", cause, "use an OBJ file to keep them")
     rest = {key: value for key, value in primitive.fields.items() if key not in ("vertices", faces)}
-    return [(Primitive(primitive.kind, primitive.name, {"file": name, "scale": scale, **rest}, primitive.surface), origin)]
+    return [
+        (Primitive(primitive.kind, primitive.name, {"file": name, "scale": scale, **rest}, primitive.surface), origin)
+    ]
 
 
 def _file_allowed(shape: Shape, name: str, scale: float, faces, files: dict[str, bytes]) -> bool:

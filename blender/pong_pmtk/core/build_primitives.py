@@ -224,7 +224,9 @@ def _indices_hold(shape: Shape, mesh: Mesh, count: int) -> bool:
     for indices in (loops, np.asarray(mesh.edges).ravel()):
         whole = whole and (len(indices) == 0 or (indices.min() >= 0 and indices.max() < count))
     if not whole:
-        shape.error("index-out-of-range", "its mesh names vertices that it has not", "validate the mesh, or make it anew")
+        shape.error(
+            "index-out-of-range", "its mesh names vertices that it has not", "validate the mesh, or make it anew"
+        )
         return False
     widths = np.diff(starts)
     few = np.flatnonzero(widths < 3)
@@ -264,7 +266,9 @@ def _edges(shape: Shape) -> np.ndarray:
             shape.warn("loose-geometry", cause, "delete them", vertices=loose, fix="delete-loose")
         if len(shape.mesh.face_starts) > 1:
             cause = "its faces are not exported, only their edges"
-            shape.findings.hint("faces-not-exported", shape.where, cause, "mark it as another kind, or delete its faces only")
+            shape.findings.hint(
+                "faces-not-exported", shape.where, cause, "mark it as another kind, or delete its faces only"
+            )
     ends = shape.vertices[edges[chosen]]
     zero = (ends[:, 0] == ends[:, 1]).all(axis=1)
     if zero.any():
@@ -372,7 +376,9 @@ def _plane(shape: Shape):
         inverse = np.linalg.inv(place.affine.linear)
         normal = inverse[2] / np.sqrt(inverse[2] @ inverse[2])
         normal = transforms.cleaned(normal)
-        return shape.numbered("Plane", [{"normal": tuple(normal.tolist()), "offset": float(normal @ place.origin()) + 0.0}])
+        return shape.numbered(
+            "Plane", [{"normal": tuple(normal.tolist()), "offset": float(normal @ place.origin()) + 0.0}]
+        )
     chosen = shape.part.faces if shape.part else range(len(shape.mesh.face_starts) - 1)
     if len(chosen) != 1:
         cause = f"a plane of {len(chosen)} faces"

@@ -98,7 +98,7 @@ def needed(values) -> bool:
 
 
 def typed_angle(stored: float) -> float:
-    """The angle that was meant, rad: people type degrees, so the shorter of the decimals in rad and in degrees counts."""
+    """The angle that was meant, rad: of the decimals in radians and in degrees, which people type, the shorter one."""
     if not bool(is_single(stored)) or stored == 0.0:
         return float(stored)
     radians = float(typed(stored))

@@ -70,4 +70,6 @@ def _copy(thing: SnapshotObject, empty: SnapshotObject, names: set[str], offset:
     inverse = thing.transform.parent_inverse
     matrix = offset if inverse is None or thing.parent is None else offset @ np.asarray(inverse, dtype=np.float64)
     moved = None if np.array_equal(matrix, np.eye(4)) else matrix
-    return replace(shown, parent=empty.name, parent_type="OBJECT", transform=replace(thing.transform, parent_inverse=moved))
+    return replace(
+        shown, parent=empty.name, parent_type="OBJECT", transform=replace(thing.transform, parent_inverse=moved)
+    )

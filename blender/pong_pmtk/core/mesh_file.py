@@ -23,7 +23,7 @@ class MeshFileError(ValueError):
 
 
 def kind_of(name: str) -> str:
-    """"obj" or "stl"."""
+    """ "obj" or "stl"."""
     kind = PurePosixPath(name).suffix.lower()[1:]
     if kind not in ("obj", "stl"):
         raise MeshFileError("mesh-file-kind", f'"{name}" is neither .obj nor .stl')

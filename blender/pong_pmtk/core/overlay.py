@@ -43,7 +43,7 @@ def volume_lines(volume: Volume) -> np.ndarray:
 
 
 def normals_lines(model: Model, length: float) -> Lines:
-    """From the middle of every face outward; inactive faces have none, planes one at the point nearest to the origin."""
+    """From the middle of every face outward, of planes from the point nearest to the origin; not of inactive faces."""
     return _of_primitives(model, lambda primitive: _normals(primitive, length))
 
 

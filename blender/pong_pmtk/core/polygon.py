@@ -50,8 +50,19 @@ def width(corners: np.ndarray) -> float:
 
 def off_plane(corners: np.ndarray) -> float:
     """How far the farthest corner lies off the polygon's plane."""
-    normal, offset = plane_of(corners)
-    return float(np.abs(corners @ normal - offset).max())
+    return float(off_planes(corners[None])[0])
+
+
+def off_planes(corners: np.ndarray) -> np.ndarray:
+    """`off_plane` of many polygons of as many corners each, (n, k, 3)."""
+    arms = corners - corners[:, :1]
+    scale = np.abs(arms).max(axis=(1, 2), keepdims=True)
+    arms = arms / np.where(scale > 0.0, scale, 1.0)  # so that no size overflows
+    area = np.cross(arms[:, 1:-1], arms[:, 2:]).sum(axis=1)
+    size = np.sqrt((area * area).sum(axis=1, keepdims=True))
+    normals = area / np.where(size > 0.0, size, 1.0)
+    heights = ((arms - arms.mean(axis=1, keepdims=True)) * normals[:, None]).sum(axis=2)
+    return np.abs(heights).max(axis=1) * scale[:, 0, 0]
 
 
 def ears(corners: np.ndarray) -> list[tuple[int, int, int]] | None:

@@ -141,7 +141,9 @@ def _planar(vertices: np.ndarray, faces: list[np.ndarray], diameter: float) -> l
         off = off_plane(vertices[face]) if len(face) > 3 else 0.0
         if off > PLANE_TOLERANCE * diameter:
             cause = f"a vertex is {off / diameter:.1e} of the diameter off the plane of this face"
-            problems.append(Problem("face-not-planar", cause, "move it, or cut the face into triangles", [index], off=off))
+            problems.append(
+                Problem("face-not-planar", cause, "move it, or cut the face into triangles", [index], off=off)
+            )
     return problems
 
 
@@ -156,7 +158,8 @@ def _convex(vertices: np.ndarray, hull: list[HullFace], used: np.ndarray, diamet
         highest = int(np.argmax(heights))
         if heights[highest] > tolerance:
             place = tuple(vertices[used[highest]].tolist())
-            cause = f"not convex: the vertex {place} is {heights[highest] / diameter:.1e} of the diameter in front of this face"
+            share = f"{heights[highest] / diameter:.1e} of the diameter"
+            cause = f"not convex: the vertex {place} is {share} in front of this face"
             problems.append(
                 Problem("not-convex", cause, cure, [face.authored], [int(used[highest])], float(heights[highest]))
             )

@@ -131,7 +131,9 @@ def _solid(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
         own = [faces[i] for i in piece]
         problems = check(vertices, own)
         if problems and problems[0].rule == "inside-out":
-            return [Proposal("Polyhedron", "closed and convex, but its normals point inward", fix="recalculate-normals")]
+            return [
+                Proposal("Polyhedron", "closed and convex, but its normals point inward", fix="recalculate-normals")
+            ]
         if problems:
             return []
     if len(pieces) == 1:

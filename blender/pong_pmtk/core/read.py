@@ -240,7 +240,10 @@ class ModelReader(ValueReader):
     def contents(self, node: Node, fields: dict[str, Node], path: str, group: Group) -> None:
         groups, primitives = self.optional(fields, "groups"), self.optional(fields, "primitives")
         if groups and primitives:
-            cause, cure = "a group holds groups or primitives, never both", "put the primitives into a group of their own"
+            cause, cure = (
+                "a group holds groups or primitives, never both",
+                "put the primitives into a group of their own",
+            )
             self.fault(fields["primitives"].at, path, "groups-and-primitives", cause, cure)
         siblings: set[str] = set()
         for index, item in enumerate(self.attempt(self.list_items, groups, path, default=[])):

@@ -185,7 +185,9 @@ def check_object(scene: Scene, thing: SnapshotObject) -> None:
         findings.error("hidden-object", where, "it is hidden, and hidden objects are not evaluated", cure, fix="unhide")
     if thing.name not in scene.carrying:
         if mark.role == "none" and thing.mesh is not None and thing.parent:
-            findings.hint("unmarked-mesh", where, "a mesh without a mark: it is not exported", "mark it, or leave it as it is")
+            findings.hint(
+                "unmarked-mesh", where, "a mesh without a mark: it is not exported", "mark it, or leave it as it is"
+            )
         return
     if thing.parent and thing.parent_type not in PARENT_TYPES and mark.role != "root":
         cause = f"it is parented to a {thing.parent_type.lower()} of its parent, not to the object"
@@ -201,4 +203,3 @@ def check_object(scene: Scene, thing: SnapshotObject) -> None:
         findings.warn("animation", where, cause, f"its place at frame {scene.snapshot.frame} is exported")
     if thing.linked_from:
         findings.hint("linked-object", where, f"it comes from {thing.linked_from}", "what that file says is exported")
-

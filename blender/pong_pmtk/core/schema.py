@@ -38,9 +38,7 @@ PRIMITIVES: dict[str, tuple[Field, ...]] = {
         ("orientation", "rotation", (1.0, 0.0, 0.0, 0.0)),
     ),
     "Plane": _fields(("normal", "direction", REQUIRED), ("offset", "number", REQUIRED)),
-    "Triangle": _fields(
-        ("thickness", "positive"), ("two_sided", "boolean", False), ("vertices", "vectors3", REQUIRED)
-    ),
+    "Triangle": _fields(("thickness", "positive"), ("two_sided", "boolean", False), ("vertices", "vectors3", REQUIRED)),
     # Of these two either `file` or the lists must be there: see read_primitive.py.
     "TriangleMesh": _fields(
         ("file", "text_value"),
@@ -61,9 +59,7 @@ PRIMITIVES: dict[str, tuple[Field, ...]] = {
 }
 
 NORMAL_LAWS: dict[str, tuple[Field, ...]] = {
-    "Linear": _fields(
-        ("damping", "not_negative"), ("ramp", "not_negative"), ("restitution", "restitution_mass")
-    ),
+    "Linear": _fields(("damping", "not_negative"), ("ramp", "not_negative"), ("restitution", "restitution_mass")),
     "HuntCrossley": _fields(
         ("dissipation", "not_negative"),
         ("exponent", "exponent", REQUIRED),

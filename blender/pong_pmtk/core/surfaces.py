@@ -28,7 +28,9 @@ def _pair(pair) -> Node:
 
 
 def _names(names) -> Node:
-    return Node(0, Tuple(None, [node_of(name) for name in names])) if isinstance(names, (list, tuple)) else node_of(names)
+    return (
+        Node(0, Tuple(None, [node_of(name) for name in names])) if isinstance(names, (list, tuple)) else node_of(names)
+    )
 
 
 def node_of(value) -> Node:
@@ -49,7 +51,7 @@ def node_of(value) -> Node:
 
 def law_of(value: dict) -> Tagged | None:
     if len(value) == 1:
-        (name, fields), = value.items()
+        ((name, fields),) = value.items()
         if isinstance(name, str) and name[:1].isupper() and isinstance(fields, dict):
             return Tagged(name, fields)
     return None

@@ -236,7 +236,9 @@ def _check(t: Transform) -> None:
     numbers = [t.location, t.rotation, t.scale, t.delta_location, t.delta_rotation, t.delta_scale]
     inverse = [] if t.parent_inverse is None else [np.ravel(t.parent_inverse)]
     if not all(np.isfinite(np.asarray(part, dtype=np.float64)).all() for part in numbers + inverse):
-        raise TransformFault("transform-not-finite", "its transform is not finite", "clear location, rotation and scale")
+        raise TransformFault(
+            "transform-not-finite", "its transform is not finite", "clear location, rotation and scale"
+        )
     if not np.all(np.asarray(t.scale) * np.asarray(t.delta_scale)):
         raise TransformFault("zero-scale", f"its scale is {tuple(t.scale)}", "give it a scale, or remove the object")
     if inverse and np.linalg.det(np.asarray(t.parent_inverse)[:3, :3]) == 0.0:

@@ -74,5 +74,18 @@ def in_single_precision(snapshot):
     return snapshot
 
 
-__all__ = ["PONG", "ROOT", "STEEL", "author", "build", "built", "check", "check_model", "models", "np", "rules", "scene"]
+__all__ = [
+    "PONG",
+    "ROOT",
+    "STEEL",
+    "author",
+    "build",
+    "built",
+    "check",
+    "check_model",
+    "models",
+    "np",
+    "rules",
+    "scene",
+]
 __all__ += ["in_single_precision", "write_files", "write_text"]

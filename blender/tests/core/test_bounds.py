@@ -33,7 +33,9 @@ class Fits(unittest.TestCase):
         arms = np.linalg.qr(rng.normal(size=(3, 3)))[0] * rng.uniform(0.1, 3, 3)
         center = rng.normal(size=3)
         zero = np.zeros((len(points) + 3, 3))
-        things = bounds.Things(np.concatenate([points, balls]), np.concatenate([np.zeros(len(points)), radii]), zero, [(center, arms)])
+        things = bounds.Things(
+            np.concatenate([points, balls]), np.concatenate([np.zeros(len(points)), radii]), zero, [(center, arms)]
+        )
         sphere = on_ball(2000, rng)
         cloud = np.concatenate([points, *(b + r * sphere for b, r in zip(balls, radii)), center + sphere @ arms.T])
         return things, cloud
@@ -90,12 +92,16 @@ class Fits(unittest.TestCase):
             s = scene()
             arm = s.group("arm", location=(1.0, 2.0, 3.0), rotation_mode="XYZ", rotation=(0.1, 0.2, 0.3))
             s.mesh("drum", "Polyhedron", cylinder(random.random(), 0.0, random.random(), 7), above=arm)
-            s.primitive("egg", "Ellipsoid", above=arm, semi_axes=(0.1, random.random(), 0.5), rotation=(0.5, 0.5, 0.5, 0.5))
+            s.primitive(
+                "egg", "Ellipsoid", above=arm, semi_axes=(0.1, random.random(), 0.5), rotation=(0.5, 0.5, 0.5, 0.5)
+            )
             s.primitive("ray", "Ray", above=arm, length=random.random(), reach=0.3)
             model = built(s).model
             volume = bounds.volumes(model)["model"]
             _, text = check_model(model)
-            low, high = (np.array(part.split(), dtype=float) for part in re.search(r"\((.*)\) … \((.*)\) m", text).groups())
+            low, high = (
+                np.array(part.split(), dtype=float) for part in re.search(r"\((.*)\) … \((.*)\) m", text).groups()
+            )
             np.testing.assert_allclose(low, volume.center - volume.half, rtol=1e-5, atol=1e-6)
             np.testing.assert_allclose(high, volume.center + volume.half, rtol=1e-5, atol=1e-6)
 
@@ -103,7 +109,9 @@ class Fits(unittest.TestCase):
 class Overlays(unittest.TestCase):
     def model(self):
         s = scene()
-        arm = s.group("arm", movable=True, location=(1.0, 0.0, 0.0), rotation_mode="XYZ", rotation=(0.0, 0.0, math.pi / 2))
+        arm = s.group(
+            "arm", movable=True, location=(1.0, 0.0, 0.0), rotation_mode="XYZ", rotation=(0.0, 0.0, math.pi / 2)
+        )
         hand = s.group("hand", above=arm, location=(0.0, 0.0, 1.0))
         s.mesh("block", "Polyhedron", box((2.0, 2.0, 2.0)), above=hand, inactive_faces=[0])
         s.primitive("ray", "Ray", above=hand, length=0.5, reach=0.1)

@@ -6,7 +6,7 @@ import math
 import random
 import unittest
 
-from support import PONG, author, build, built, check_model, in_single_precision, np, rules, scene
+from support import PONG, build, built, check_model, in_single_precision, np, rules, scene
 from core import polygon, polyhedron_check
 from core.author import box, cylinder, grid, mesh, prism
 from core.marks import Part
@@ -25,7 +25,10 @@ def area(vertices, triangles):
 def star(points, inner=0.4):
     """A star in the plane: concave everywhere between its tips."""
     turn = [math.pi * i / points for i in range(2 * points)]
-    return [((1.0 if i % 2 == 0 else inner) * math.cos(a), (1.0 if i % 2 == 0 else inner) * math.sin(a), 0.0) for i, a in enumerate(turn)]
+    return [
+        ((1.0 if i % 2 == 0 else inner) * math.cos(a), (1.0 if i % 2 == 0 else inner) * math.sin(a), 0.0)
+        for i, a in enumerate(turn)
+    ]
 
 
 class Triangulation(unittest.TestCase):
@@ -269,13 +272,20 @@ class LikeTheLoader(unittest.TestCase):
     def test_what_is_exported_loads(self):
         """One scene with every kind, through single precision, under an odd chain of transforms."""
         s = scene()
-        chain = {"rotation_mode": "ZXY", "rotation": (0.3, -1.2, 2.0), "location": (3.0, -7.1, 0.2), "scale": (1.5, 1.5, 1.5)}
+        chain = {
+            "rotation_mode": "ZXY",
+            "rotation": (0.3, -1.2, 2.0),
+            "location": (3.0, -7.1, 0.2),
+            "scale": (1.5, 1.5, 1.5),
+        }
         arm = s.group("arm", movable=True, bound="Obb", **chain)
         hand = s.group("hand", above=arm, location=(0.1, 0.0, 0.0), rotation_mode="XYZ", rotation=(0.0, 0.5, 0.0))
         s.primitive("point", "Point", above=hand)
         s.primitive("ray", "Ray", above=hand, length=0.2, reach=0.01, response="Axial")
         s.primitive("ball", "Sphere", above=hand, radius=0.1, location=(1.0, 0.0, 0.0))
-        s.primitive("egg", "Ellipsoid", above=hand, semi_axes=(0.1, 0.2, 0.3), rotation_mode="XYZ", rotation=(1.0, 2.0, 0.5))
+        s.primitive(
+            "egg", "Ellipsoid", above=hand, semi_axes=(0.1, 0.2, 0.3), rotation_mode="XYZ", rotation=(1.0, 2.0, 0.5)
+        )
         s.primitive("ground", "Plane", above=hand, location=(0.0, 0.0, -3.0))
         s.mesh("frame", "LineSegment", box((1, 1, 1)), above=hand, scale=(1.0, -2.0, 3.0))
         s.mesh("drum", "Polyhedron", cylinder(0.3, -0.1, 0.4, 24), above=hand, scale=(1.0, 2.0, -0.5))

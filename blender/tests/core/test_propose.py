@@ -19,7 +19,9 @@ def ball(rings=8, segments=12, axes=(1.0, 1.0, 1.0), center=(0.0, 0.0, 0.0)):
     at = lambda i, j: i * segments + j % segments  # noqa: E731
     faces = [[top, at(0, j), at(0, j + 1)] for j in range(segments)]
     faces += [[bottom, at(rings - 2, j + 1), at(rings - 2, j)] for j in range(segments)]
-    faces += [[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i in range(rings - 2) for j in range(segments)]
+    faces += [
+        [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i in range(rings - 2) for j in range(segments)
+    ]
     return mesh(np.array(vertices) * axes + center, faces)
 
 
@@ -28,7 +30,9 @@ class Kinds(unittest.TestCase):
         return propose_mesh(shape.vertices, shape)[0]
 
     def test_what_each_shape_is(self):
-        notch = mesh([*box((1, 1, 1)).vertices, (0, 0, 0.2)], [*BOX[:1], *BOX[2:], [4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]])
+        notch = mesh(
+            [*box((1, 1, 1)).vertices, (0, 0, 0.2)], [*BOX[:1], *BOX[2:], [4, 5, 8], [5, 7, 8], [7, 6, 8], [6, 4, 8]]
+        )
         for shape, kind in (
             (mesh([(0, 0, 0)]), "Point"),
             (mesh([(0, 0, 0), (1, 0, 0)]), "Point"),
@@ -55,11 +59,19 @@ class Kinds(unittest.TestCase):
     def test_reasons_tell_what_stands_in_the_way(self):
         inside_out = mesh(box((1, 1, 1)).vertices, [face[::-1] for face in BOX])
         self.assertEqual(self.first(inside_out).fix, "recalculate-normals")
-        two = mesh(np.concatenate([box((1, 1, 1)).vertices, box((1, 1, 1), (3, 0, 0)).vertices]), [*BOX, *(np.array(BOX) + 8)])
+        two = mesh(
+            np.concatenate([box((1, 1, 1)).vertices, box((1, 1, 1), (3, 0, 0)).vertices]), [*BOX, *(np.array(BOX) + 8)]
+        )
         self.assertIn("2 pieces", self.first(two).reason)
 
     def test_what_is_proposed_can_be_built(self):
-        for shape in (box((1, 1, 1)), ball(), ball(axes=(1, 2, 3)), cylinder(1, 0, 1, 9), grid([0, 1], [0, 1], lambda x, y: 0)):
+        for shape in (
+            box((1, 1, 1)),
+            ball(),
+            ball(axes=(1, 2, 3)),
+            cylinder(1, 0, 1, 9),
+            grid([0, 1], [0, 1], lambda x, y: 0),
+        ):
             for proposal in propose_mesh(shape.vertices, shape):
                 s = scene()
                 s.mesh("thing", proposal.kind, shape, **proposal.fields)

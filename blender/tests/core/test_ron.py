@@ -95,26 +95,28 @@ class Faults(unittest.TestCase):
         return caught.exception.faults
 
     def test_line_and_column(self):
-        fault, = self.faults(HEAD + '\n  Sphere(name: "a", center: (0, 0, 0), radius: -1),' + TAIL)
+        (fault,) = self.faults(HEAD + '\n  Sphere(name: "a", center: (0, 0, 0), radius: -1),' + TAIL)
         self.assertEqual((fault.line, fault.column, fault.path, fault.rule), (2, 48, "r/a", "not-positive"))
-        self.assertEqual(str(fault), "m.ron:2:48: r/a: [not-positive] the radius is -1.0; the radius must be above zero")
+        self.assertEqual(
+            str(fault), "m.ron:2:48: r/a: [not-positive] the radius is -1.0; the radius must be above zero"
+        )
 
     def test_rules(self):
         for body, rule in {
-            "Sphere(name: \"a\", center: (0, 0, 0))": "missing-field",
-            "Sphere(name: \"a\", center: (0, 0), radius: 1)": "wrong-type",
-            "Cone(name: \"a\")": "unknown-kind",
-            "Point(name: \"a\", position: (0, 0, 0), color: 1)": "unknown-field",
-            "Point(name: \"a\", name: \"b\", position: (0, 0, 0))": "repeated-field",
-            "Point(name: \"a\", position: (0, 0, inf))": "not-finite",
-            "Point(name: \"\", position: (0, 0, 0))": "empty-name",
-            "Point(name: \"a/b\", position: (0, 0, 0))": "slash-in-name",
-            "Point(name: \"a\", position: (0, 0, 0)), Point(name: \"a\", position: (0, 0, 0))": "repeated-name",
-            "Point(name: \"a\", position: (0, 0, 0), surface: \"t\")": "unknown-surface",
-            "Ellipsoid(name: \"a\", center: (0, 0, 0), semi_axes: (1, 1, 1), orientation: (1, 1, 0, 0))": "quaternion-norm",
-            "Plane(name: \"a\", normal: (0, 0, 0), offset: 0)": "zero-direction",
-            "Polyhedron(name: \"a\", vertices: [(0, 0, 0)], faces: [[0, -1]])": "not-an-index",
-            "TriangleMesh(name: \"a\", file: \"a.stl\", vertices: [(0, 0, 0)])": "either-or",
+            'Sphere(name: "a", center: (0, 0, 0))': "missing-field",
+            'Sphere(name: "a", center: (0, 0), radius: 1)': "wrong-type",
+            'Cone(name: "a")': "unknown-kind",
+            'Point(name: "a", position: (0, 0, 0), color: 1)': "unknown-field",
+            'Point(name: "a", name: "b", position: (0, 0, 0))': "repeated-field",
+            'Point(name: "a", position: (0, 0, inf))': "not-finite",
+            'Point(name: "", position: (0, 0, 0))': "empty-name",
+            'Point(name: "a/b", position: (0, 0, 0))': "slash-in-name",
+            'Point(name: "a", position: (0, 0, 0)), Point(name: "a", position: (0, 0, 0))': "repeated-name",
+            'Point(name: "a", position: (0, 0, 0), surface: "t")': "unknown-surface",
+            'Ellipsoid(name: "a", center: (0, 0, 0), semi_axes: (1, 1, 1), orientation: (1, 1, 0, 0))': "quaternion-norm",
+            'Plane(name: "a", normal: (0, 0, 0), offset: 0)': "zero-direction",
+            'Polyhedron(name: "a", vertices: [(0, 0, 0)], faces: [[0, -1]])': "not-an-index",
+            'TriangleMesh(name: "a", file: "a.stl", vertices: [(0, 0, 0)])': "either-or",
             "": "empty-group",
         }.items():
             with self.subTest(rule):
@@ -140,12 +142,14 @@ class OfTheDocument(unittest.TestCase):
                 "root": f'(name: "r", surface: "steel", primitives: [{body if where == "primitives" else point}])',
             }
             if where == "surfaces":
-                fields["root"] = f'(name: "r", surface: "{re.search(chr(34) + "(.*?)" + chr(34), body).group(1)}", primitives: [{point}])'
+                fields["root"] = (
+                    f'(name: "r", surface: "{re.search(chr(34) + "(.*?)" + chr(34), body).group(1)}", primitives: [{point}])'
+                )
             if where == "groups":
                 fields["root"] = f'(name: "r", surface: "steel", groups: [{body}])'
             whole = (
                 f'(format: "pong-model", version: 1, name: "m", surfaces: {{{fields["surfaces"]}}}, '
-                f'pairs: [{fields["pairs"]}], root: {fields["root"]})'
+                f"pairs: [{fields['pairs']}], root: {fields['root']})"
             )
             with self.subTest(where, body=body[:40]):
                 model = read_text(body if not where else whole)
@@ -173,7 +177,9 @@ class Layout(unittest.TestCase):
         read = read_text(write_text(model))
         self.assertEqual(read.root.primitives[0].fields["vertices"].tobytes(), vertices.tobytes())
         for before, after in zip(points, read.root.primitives[1:]):
-            self.assertEqual(np.array(after.fields["position"]).tobytes(), np.array(before.fields["position"]).tobytes())
+            self.assertEqual(
+                np.array(after.fields["position"]).tobytes(), np.array(before.fields["position"]).tobytes()
+            )
         self.assertEqual(read.surfaces, model.surfaces)
 
     def test_names_keep_every_character(self):
@@ -184,10 +190,14 @@ class Layout(unittest.TestCase):
             self.assertEqual((read.name, read.root.surface, read.root.primitives[0].name), (name, name, point))
 
     def test_defaults_are_not_written(self):
-        text = HEAD.replace("version: 1,", "version: 1, entry_memory: true,") + (
-            'Ray(name: "a", origin: (0, 0, 0), direction: (0, 0, 1), length: Some(1), reach: None, response: Normal),'
-            'Ellipsoid(name: "b", center: (0, 0, 0), semi_axes: (1, 2, 3), orientation: (1, 0, 0, 0), surface: None)'
-        ) + TAIL
+        text = (
+            HEAD.replace("version: 1,", "version: 1, entry_memory: true,")
+            + (
+                'Ray(name: "a", origin: (0, 0, 0), direction: (0, 0, 1), length: Some(1), reach: None, response: Normal),'
+                'Ellipsoid(name: "b", center: (0, 0, 0), semi_axes: (1, 2, 3), orientation: (1, 0, 0, 0), surface: None)'
+            )
+            + TAIL
+        )
         written = write_text(read_text(text))
         for name in ("entry_memory", "reach", "response", "orientation", "None", "bound"):
             self.assertNotIn(name, written)
@@ -205,7 +215,9 @@ class Layout(unittest.TestCase):
             "c": {"stiffness": 1.0, "friction": Tagged("Coulomb", {"mu": 0.1, "slip_speed": 0.001})},
         }
         pairs = [{"surfaces": ("a", "b"), "friction": None}, {"surfaces": ("a", "x"), "stiffness": 3.0}]
-        group = Group("r", surface="a", bound="Custom:torus", primitives=[Primitive("Point", "p", {"position": (0, 0, 0)})])
+        group = Group(
+            "r", surface="a", bound="Custom:torus", primitives=[Primitive("Point", "p", {"position": (0, 0, 0)})]
+        )
         read = read_text(write_text(Model("m", laws, group, pairs, False)))
         self.assertEqual((read.surfaces, read.pairs, read.entry_memory), (laws, pairs, False))
         self.assertEqual(read.root.bound, "Custom:torus")
@@ -234,7 +246,11 @@ class MeshFiles(unittest.TestCase):
         self.assertEqual(mesh_file.read_stl(text)[0].tolist(), [[0, 0, float(np.float32(0.1))], [1, 0, 0], [0, 1, 0]])
 
     def test_damaged_ones_are_refused(self):
-        for name, data in (("a.stl", b"\0" * 80 + b"\5\0\0\0"), ("a.obj", b"v 1 2\nf 1 1 1\n"), ("a.obj", b"v 1 2 3\nf 1 2 3\n")):
+        for name, data in (
+            ("a.stl", b"\0" * 80 + b"\5\0\0\0"),
+            ("a.obj", b"v 1 2\nf 1 1 1\n"),
+            ("a.obj", b"v 1 2 3\nf 1 2 3\n"),
+        ):
             with self.assertRaises(mesh_file.MeshFileError):
                 (mesh_file.read_obj if name.endswith("obj") else mesh_file.read_stl)(data)
 

@@ -52,7 +52,9 @@ def random_primitive(index):
         ("Polyhedron", {"vertices": solid, "faces": faces, "inactive_faces": (0, 4)}),
         ("Custom", {"kind": "torus", "parameters": (1.0, single)}),
     ])  # fmt: skip
-    return Primitive(kind, f"p{index}" if random.random() < 0.7 else f"{kind} {index}", fields, random.choice([None, "ice"]))
+    return Primitive(
+        kind, f"p{index}" if random.random() < 0.7 else f"{kind} {index}", fields, random.choice([None, "ice"])
+    )
 
 
 def random_group(name, depth):
@@ -99,7 +101,8 @@ class Models(unittest.TestCase):
     def test_names_that_blender_cannot_keep(self):
         long = "x" * 80
         groups = [
-            Group(name, primitives=[Primitive("Point", long, {"position": (0.0, 0.0, 0.0)})]) for name in ("a", "b", long)
+            Group(name, primitives=[Primitive("Point", long, {"position": (0.0, 0.0, 0.0)})])
+            for name in ("a", "b", long)
         ]
         model = Model("m", {"s": {"stiffness": 1.0}}, Group("a", surface="s", groups=groups))
         snapshot = unbuild(model, reserved={"b"})

@@ -56,7 +56,9 @@ def random_transform(scaled=True):
         t.scale = (random.choice([1.0, random.uniform(0.2, 3), -random.uniform(0.2, 3)]),) * 3
         t.delta_scale = (random.choice([1.0, 2.0]),) * 3
     if random.random() < 0.4:
-        t.parent_inverse = matrix_of(random_transform(False)) if random.random() < 0.5 else np.diag([2.0, 2.0, 2.0, 1.0])
+        t.parent_inverse = (
+            matrix_of(random_transform(False)) if random.random() < 0.5 else np.diag([2.0, 2.0, 2.0, 1.0])
+        )
     return t
 
 
@@ -126,7 +128,9 @@ class Chains(unittest.TestCase):
         s = scene()
         above = s.root
         for depth in range(6):
-            above = s.group(f"g{depth}", above=above, location=(10.1, 0.3, 7.7), rotation_mode="XYZ", rotation=(0.1, 0.2, 0.3))
+            above = s.group(
+                f"g{depth}", above=above, location=(10.1, 0.3, 7.7), rotation_mode="XYZ", rotation=(0.1, 0.2, 0.3)
+            )
         s.primitive("p", "Point", above=above, location=(0.1, 0.2, 0.3))
         made = build(in_single_precision(s.snapshot()))
         group = made.model.root
@@ -194,7 +198,9 @@ class Scales(unittest.TestCase):
 
     def test_rays_are_stretched(self):
         s = scene()
-        s.primitive("ray", "Ray", length=0.5, scale=(1.0, 1.0, 3.0), rotation_mode="XYZ", rotation=(math.pi / 2, 0.0, 0.0))
+        s.primitive(
+            "ray", "Ray", length=0.5, scale=(1.0, 1.0, 3.0), rotation_mode="XYZ", rotation=(math.pi / 2, 0.0, 0.0)
+        )
         fields = built(s).model.root.primitives[0].fields
         self.assertEqual((fields["direction"], fields["length"]), ((0.0, -1.0, 0.0), 1.5))
 
