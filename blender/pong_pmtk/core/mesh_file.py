@@ -108,14 +108,15 @@ def write(name: str, vertices: np.ndarray, faces, scale: float = 1.0) -> bytes:
 
 
 def before_scale(values: np.ndarray, scale: float) -> np.ndarray:
-    """Numbers that give `values` when they are multiplied by the scale, to the last bit where there are such."""
+    """Numbers that give `values` when they are multiplied by the scale: 32-bit ones, as files have them, if these do.
+
+    What is a product of the scale comes back to the last bit.
+    """
     if scale == 1.0:
         return values
-    best = values / scale
-    for candidate in (np.nextafter(best, np.inf), np.nextafter(best, -np.inf)):
-        best = np.where((best * scale != values) & (candidate * scale == values), candidate, best)
-    single = best.astype(np.float32).astype(np.float64)
-    return np.where(single * scale == values, single, best)
+    quotient = values / scale
+    single = quotient.astype(np.float32).astype(np.float64)
+    return np.where(single * scale == values, single, quotient)
 
 
 def write_obj(vertices: np.ndarray, faces) -> bytes:
