@@ -76,11 +76,19 @@ def main():
     folder = Path(sys.argv[-1])
     if sys.argv[1] == "--use":
         use(folder)
-        return
+        leave()
     assert Path(os.environ["BLENDER_USER_RESOURCES"]).resolve() == folder.resolve()
     install(build(folder))
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     subprocess.run([sys.executable, str(HERE), "--use", str(folder)], check=True, env=environment)
+    leave()
+
+
+def leave():
+    """Without Blender's own exit: see run.py."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(0)
 
 
 main()
