@@ -14,6 +14,7 @@ single precision cannot hold of them is kept beside it by the toolkit, so the mo
 """
 
 import argparse
+import os
 import pathlib
 import sys
 from dataclasses import dataclass
@@ -183,13 +184,21 @@ def model(name, surfaces, root, pairs=(), entry_memory=True):
 
 # --- from the tree to Blender and out ----------------------------------------------------------------------------
 
-def main(models, folder, arguments=None):
-    """Builds models and writes their files; `folder` is that of the script. Ends the program."""
+def main(models, folder, texts=None, arguments=None):
+    """Builds models and writes their files; `folder` is that of the script. `texts`: name -> text of what is written
+    beside them, such as scenes. Ends the program.
+    """
     parser = argparse.ArgumentParser(description=f"Builds {', '.join(made.name for made in models)} with Blender.")
     parser.add_argument("folder", nargs="?", type=pathlib.Path, default=folder, help="where the models go")
     parser.add_argument("--blend", type=pathlib.Path, metavar="FILE", help="save the scene")
     options = parser.parse_args(arguments)
-    sys.exit(build(models, options.folder, options.blend))
+    failed = build(models, options.folder, options.blend)
+    for name, text in ({} if failed else texts or {}).items():
+        (options.folder / name).write_text(text, encoding="utf-8", newline="\n")
+        print(f"{options.folder / name}: written")
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(failed)  # Blender as a module may crash or hang in its own exit, when Python has gone
 
 
 def build(models, folder, blend=None):
