@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Builds two docking interfaces after the International Docking System Standard.
 
-Run it from anywhere: python3 build.py [folder]. It writes idss_active.ron and idss_passive.ron. Every dimension
-stands below; README.md says where each comes from.
+Made through the modelling toolkit: python build.py [FOLDER] [--blend FILE] with Blender as a Python module. It writes
+idss_active.ron and idss_passive.ron. Every dimension stands below; README.md says where each comes from.
 
 Both sides are drawn in their own docking frame: origin in the middle of the soft-capture ring's face, z out of the
 vehicle. Mated, the passive frame is the active one turned by 180 degrees about x. Petals are facets of a cone, so
@@ -15,7 +15,8 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-import model_writer as w  # noqa: E402
+import authoring as a  # noqa: E402
+import geometry as g  # noqa: E402
 
 # --- dimensions, m and degrees -------------------------------------------------------------------------------------
 
@@ -58,8 +59,8 @@ LATCH_HALF_WIDTH = 0.020
 # --- surfaces --------------------------------------------------------------------------------------------------------
 
 SURFACES = {
-    "structure": "(stiffness: 1e6, normal: Linear(damping: 4400.0, ramp: 0.0002), friction: Bristle(mu: 0.2))",
-    "latch": "(stiffness: 2e5, normal: Linear(damping: 60.0, ramp: 0.0002), friction: Bristle(mu: 0.1))",
+    "structure": a.surface(1e6, normal=a.linear(damping=4400.0, ramp=0.0002), friction=a.bristle(mu=0.2)),
+    "latch": a.surface(2e5, normal=a.linear(damping=60.0, ramp=0.0002), friction=a.bristle(mu=0.1)),
 }
 
 UP = (0.0, 0.0, 1.0)
@@ -72,26 +73,26 @@ PETAL_HEIGHT = CONE_RADIUS - PASSAGE_RADIUS - PETAL_TIP_THICKNESS
 
 def radial_wall(azimuth, side):
     """Half space on one side (+1: of smaller azimuth) of the half plane through the axis at an azimuth."""
-    return (w.scaled(w.cross(UP, w.on_circle(1.0, azimuth)), side), 0.0)
+    return (g.scaled(g.cross(UP, g.on_circle(1.0, azimuth)), side), 0.0)
 
 
 def ring_sector(name, azimuth, radii, heights):
     """One straight sector of a ring; its two ends are inner walls."""
-    outwards = w.on_circle(1.0, azimuth)
+    outwards = g.on_circle(1.0, azimuth)
     half_spaces = [
-        (w.scaled(outwards, -1.0), -radii[0]),
+        (g.scaled(outwards, -1.0), -radii[0]),
         (outwards, radii[1]),
         (UP, heights[1]),
         (DOWN, -heights[0]),
         radial_wall(azimuth + STEP / 2, 1),
         radial_wall(azimuth - STEP / 2, -1),
     ]
-    return w.polyhedron(name, half_spaces, inactive=(4, 5))
+    return a.polyhedron(name, half_spaces, inactive=(4, 5))
 
 
 def facet_corner(radius, azimuth, z=0.0):
     """Corner of the polygon whose flats lie at `radius`, at the smaller azimuth of a facet."""
-    return w.on_circle(radius / math.cos(math.radians(STEP / 2)), azimuth - STEP / 2, z)
+    return g.on_circle(radius / math.cos(math.radians(STEP / 2)), azimuth - STEP / 2, z)
 
 
 def ring(radii, heights, prefix):
@@ -101,7 +102,7 @@ def ring(radii, heights, prefix):
         sectors = []
         for i in range(third * FACETS // 3, (third + 1) * FACETS // 3):
             sectors.append(ring_sector(f"{prefix}_{i:02}", i * STEP, radii, heights))
-        thirds.append(w.group(f"{prefix}_third_{third}", primitives=sectors, bound="Obb"))
+        thirds.append(a.group(f"{prefix}_third_{third}", primitives=sectors, bound="Obb"))
     return thirds
 
 
@@ -113,7 +114,7 @@ def rim_segments(petals, z):
         nearest = min(abs((azimuth - p + 180.0) % 360.0 - 180.0) for p in petals)
         if nearest > 30.0:
             ends = (facet_corner(RIM_RADIUS, azimuth, z), facet_corner(RIM_RADIUS, azimuth + STEP, z))
-            lines.append(w.segment(f"rim_{i:02}", *ends))
+            lines.append(a.segment(f"rim_{i:02}", *ends))
     return lines
 
 
@@ -122,36 +123,36 @@ def rim_segments(petals, z):
 def on_cone(azimuth, facet, z):
     """Point on the outer side of the petals: facet given by its middle azimuth."""
     radius = (CONE_RADIUS - z) / math.cos(math.radians(azimuth - facet))
-    return w.on_circle(radius, azimuth, z)
+    return g.on_circle(radius, azimuth, z)
 
 
 def cone_normal(facet):
-    return w.unit(w.add(w.on_circle(1.0, facet), UP))
+    return g.unit(g.add(g.on_circle(1.0, facet), UP))
 
 
 def petal(azimuth):
     """A petal as one convex piece, three facets outside and a flat inside, and its edges: (piece, segments)."""
-    radial = w.on_circle(1.0, azimuth)
-    skins = [w.plane(cone_normal(facet), on_cone(facet, facet, 0.0)) for facet in (azimuth - STEP, azimuth, azimuth + STEP)]
-    root_inside = w.on_circle(PETAL_ROOT_INSIDE, azimuth)
-    tip_inside = w.on_circle(PASSAGE_RADIUS, azimuth, PETAL_HEIGHT)
+    radial = g.on_circle(1.0, azimuth)
+    skins = [g.plane(cone_normal(facet), on_cone(facet, facet, 0.0)) for facet in (azimuth - STEP, azimuth, azimuth + STEP)]
+    root_inside = g.on_circle(PETAL_ROOT_INSIDE, azimuth)
+    tip_inside = g.on_circle(PASSAGE_RADIUS, azimuth, PETAL_HEIGHT)
     middle = on_cone(azimuth, azimuth, 0.0)
-    inside = w.plane_through(root_inside, tip_inside, w.add(tip_inside, w.cross(UP, radial)), middle)
+    inside = g.plane_through(root_inside, tip_inside, g.add(tip_inside, g.cross(UP, radial)), middle)
     half_spaces = skins + [inside]
     segments = []
     tips = []
     for side, label in ((-1, "left"), (1, "right")):
         root = on_cone(azimuth + side * PETAL_ROOT_HALF_ANGLE, azimuth + side * STEP, 0.0)
         tip = on_cone(azimuth + side * PETAL_TIP_HALF_ANGLE, azimuth, PETAL_HEIGHT)
-        flank = w.plane_through(root, tip, (0.0, 0.0, PETAL_HEIGHT / 2), middle)
-        knee = w.rounded(w.meet(flank, skins[1], skins[1 + side]))
+        flank = g.plane_through(root, tip, (0.0, 0.0, PETAL_HEIGHT / 2), middle)
+        knee = g.rounded(g.meet(flank, skins[1], skins[1 + side]))
         half_spaces.append(flank)
-        segments.append(w.segment(f"{label}_low_edge", root, knee))
-        segments.append(w.segment(f"{label}_high_edge", knee, tip))
+        segments.append(a.segment(f"{label}_low_edge", root, knee))
+        segments.append(a.segment(f"{label}_high_edge", knee, tip))
         tips.append(tip)
     half_spaces += [(DOWN, 0.0), (UP, PETAL_HEIGHT)]
-    segments.append(w.segment("tip", *tips))
-    return w.polyhedron("body", half_spaces), segments
+    segments.append(a.segment("tip", *tips))
+    return a.polyhedron("body", half_spaces), segments
 
 
 def petal_groups(azimuths):
@@ -159,10 +160,10 @@ def petal_groups(azimuths):
     for i, azimuth in enumerate(azimuths):
         body, segments = petal(azimuth)
         parts = [
-            w.group("solid", primitives=[body], bound="Obb"),
-            w.group("edges", primitives=segments, bound="Aabb"),
+            a.group("solid", primitives=[body], bound="Obb"),
+            a.group("edges", primitives=segments, bound="Aabb"),
         ]
-        groups.append(w.group(f"petal_{i}", groups=parts, bound="Sphere"))
+        groups.append(a.group(f"petal_{i}", groups=parts, bound="Sphere"))
     return groups
 
 
@@ -170,14 +171,14 @@ def petal_groups(azimuths):
 
 def latch_frame(azimuth):
     """Axes of a latch: x away from the docking axis (its slide), y along the rim, z out of the ring."""
-    radial = w.on_circle(1.0, azimuth)
-    return radial, w.cross(UP, radial), UP
+    radial = g.on_circle(1.0, azimuth)
+    return radial, g.cross(UP, radial), UP
 
 
 def latch_tip(azimuth):
     """Middle of the catch's edge, latch extended."""
     radius = RIM_RADIUS + STRIKER_RECESS - STRIKER_BACK + LATCH_ENGAGEMENT
-    return w.on_circle(radius, azimuth, STRIKER_BACK + LATCH_PLAY)
+    return g.on_circle(radius, azimuth, STRIKER_BACK + LATCH_PLAY)
 
 
 def latch(i, azimuth):
@@ -185,84 +186,83 @@ def latch(i, azimuth):
     profile = [(0.0, 0.0), (-0.030, 0.026), (-0.050, 0.026), (-0.050, 0.0)]  # (x, z): catch edge, nose, top, back
     half_spaces = []
     for (x0, z0), (x1, z1) in zip(profile, profile[1:] + profile[:1]):
-        half_spaces.append(w.plane((z1 - z0, 0.0, x0 - x1), (x0, 0.0, z0)))
+        half_spaces.append(g.plane((z1 - z0, 0.0, x0 - x1), (x0, 0.0, z0)))
     half_spaces += [((0.0, 1.0, 0.0), LATCH_HALF_WIDTH), ((0.0, -1.0, 0.0), LATCH_HALF_WIDTH)]
 
     def across(name, x, z):
-        return w.segment(name, (x, -LATCH_HALF_WIDTH, z), (x, LATCH_HALF_WIDTH, z))
+        return a.segment(name, (x, -LATCH_HALF_WIDTH, z), (x, LATCH_HALF_WIDTH, z))
 
     contents = [
-        w.polyhedron("pawl", half_spaces),
+        a.polyhedron("pawl", half_spaces),
         across("catch_edge", *profile[0]),
         across("nose_edge", *profile[1]),
     ]
-    return w.group(
+    return a.group(
         f"latch_{i}",
         primitives=contents,
         bound="Sphere",
         surface="latch",
         movable=True,
         position=latch_tip(azimuth),
-        orientation=w.quaternion_of_axes(*latch_frame(azimuth)),
+        orientation=g.quaternion_of_axes(*latch_frame(azimuth)),
     )
 
 
 def striker(i, azimuth):
     """A bar behind the ring's rim: its slope is the cam, its back face holds the latch. z points out of the ring."""
-    radial = w.on_circle(1.0, azimuth)
-    along = w.cross(UP, radial)
-    slope = w.unit(w.sub(UP, radial))  # towards the axis and out of the ring
-    slope_point = w.on_circle(RIM_RADIUS + STRIKER_RECESS - STRIKER_FRONT, azimuth, -STRIKER_FRONT)
+    radial = g.on_circle(1.0, azimuth)
+    along = g.cross(UP, radial)
+    slope = g.unit(g.sub(UP, radial))  # towards the axis and out of the ring
+    slope_point = g.on_circle(RIM_RADIUS + STRIKER_RECESS - STRIKER_FRONT, azimuth, -STRIKER_FRONT)
     half_spaces = [
-        w.plane(slope, slope_point),
+        g.plane(slope, slope_point),
         (UP, -STRIKER_FRONT),
         (DOWN, STRIKER_BACK),
         (radial, RIM_RADIUS),
         (along, STRIKER_HALF_WIDTH),
-        (w.scaled(along, -1.0), STRIKER_HALF_WIDTH),
+        (g.scaled(along, -1.0), STRIKER_HALF_WIDTH),
     ]
 
     def edge(name, depth):
-        inner = w.on_circle(RIM_RADIUS + STRIKER_RECESS - depth, azimuth, -depth)
-        half = w.scaled(along, STRIKER_HALF_WIDTH)
-        return w.segment(name, w.sub(inner, half), w.add(inner, half))
+        inner = g.on_circle(RIM_RADIUS + STRIKER_RECESS - depth, azimuth, -depth)
+        half = g.scaled(along, STRIKER_HALF_WIDTH)
+        return a.segment(name, g.sub(inner, half), g.add(inner, half))
 
-    contents = [w.polyhedron("bar", half_spaces), edge("front_edge", STRIKER_FRONT), edge("back_edge", STRIKER_BACK)]
-    return w.group(f"striker_{i}", primitives=contents, bound="Obb")
+    contents = [a.polyhedron("bar", half_spaces), edge("front_edge", STRIKER_FRONT), edge("back_edge", STRIKER_BACK)]
+    return a.group(f"striker_{i}", primitives=contents, bound="Obb")
 
 
 # --- the two sides -------------------------------------------------------------------------------------------------
 
 def hard_ring(z):
     radii = (HARD_RING_INNER_RADIUS, HARD_RING_OUTER_RADIUS)
-    return w.group("hard_ring", groups=ring(radii, (z - HARD_RING_HEIGHT, z), "hard"), bound="Aabb")
+    return a.group("hard_ring", groups=ring(radii, (z - HARD_RING_HEIGHT, z), "hard"), bound="Aabb")
 
 
 def active():
+    """Origin: middle of the vehicle's hard-capture plane, z out of the vehicle. The soft-capture ring and its three
+    latches are movable: the host supplies their states. A latch slides along its own x axis.
+    """
     pads = []
     for i in range(PADS_PER_RING):
-        pads.append(w.point(f"pad_{i:02}", w.on_circle(PAD_RADIUS, (i + 0.5) * 360.0 / PADS_PER_RING)))
+        pads.append(a.point(f"pad_{i:02}", g.on_circle(PAD_RADIUS, (i + 0.5) * 360.0 / PADS_PER_RING)))
     body = (RIM_RADIUS, RING_OUTER_RADIUS)
     ring_parts = [
-        w.group("ring_body", groups=ring(body, (-RING_HEIGHT, 0.0), "sector"), bound="Aabb"),
-        w.group("rim", primitives=rim_segments(ACTIVE_PETALS, 0.0), bound="Aabb"),
-        w.group("pads", primitives=pads, bound="Aabb"),
+        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, 0.0), "sector"), bound="Aabb"),
+        a.group("rim", primitives=rim_segments(ACTIVE_PETALS, 0.0), bound="Aabb"),
+        a.group("pads", primitives=pads, bound="Aabb"),
     ]
     ring_parts += petal_groups(ACTIVE_PETALS)
     ring_parts += [latch(i, azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
-    soft_ring = w.group(
+    soft_ring = a.group(
         "ring", groups=ring_parts, bound="Sphere", movable=True, position=(0.0, 0.0, RING_EXTENSION)
     )
-    about = [
-        "Active docking interface after the International Docking System Standard. Written by build.py.",
-        "Origin: middle of the vehicle's hard-capture plane; z points out of the vehicle. The soft-capture ring and",
-        "its three latches are movable: the host supplies their states. A latch slides along its own x axis.",
-    ]
-    root = w.group("vehicle", groups=[hard_ring(0.0), soft_ring], bound="Aabb", surface="structure")
-    return w.model("idss_active", SURFACES, root, about)
+    root = a.group("vehicle", groups=[hard_ring(0.0), soft_ring], bound="Aabb", surface="structure")
+    return a.model("idss_active", SURFACES, root)
 
 
 def passive():
+    """Origin: middle of the soft-capture ring's face, z out of the vehicle."""
     plates = []
     for i in range(FACETS // 3):
         azimuth = i * 3 * STEP
@@ -274,25 +274,16 @@ def passive():
     body = (RIM_RADIUS, RING_OUTER_RADIUS)
     parts = [
         hard_ring(-RING_HEIGHT),
-        w.group("ring_body", groups=ring(body, (-RING_HEIGHT, -PLATE_RELIEF), "sector"), bound="Aabb"),
-        w.group("striker_plates", primitives=plates, bound="Aabb"),
-        w.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Aabb"),
+        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, -PLATE_RELIEF), "sector"), bound="Aabb"),
+        a.group("striker_plates", primitives=plates, bound="Aabb"),
+        a.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Aabb"),
     ]
     parts += petal_groups(PASSIVE_PETALS)
     # Mated, azimuth a of the active side is -a here.
     parts += [striker(i, -azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
-    about = [
-        "Passive docking interface after the International Docking System Standard. Written by build.py.",
-        "Origin: middle of the soft-capture ring's face; z points out of the vehicle.",
-    ]
-    return w.model("idss_passive", SURFACES, w.group("vehicle", groups=parts, bound="Aabb", surface="structure"), about)
-
-
-def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
-    w.write(folder / "idss_active.ron", active())
-    w.write(folder / "idss_passive.ron", passive())
+    root = a.group("vehicle", groups=parts, bound="Aabb", surface="structure")
+    return a.model("idss_passive", SURFACES, root)
 
 
 if __name__ == "__main__":
-    main()
+    a.main([active(), passive()], HERE)
