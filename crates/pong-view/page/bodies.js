@@ -6,22 +6,24 @@ import {
     Quaternion, Vector3,
 } from "three";
 import { dotTexture, ShapeMeshes, unitBall } from "#view/meshes.js";
-import { isDark, objectColor } from "#view/theme.js";
+import { bodyColors, isDark } from "#view/theme.js";
 import { niceStep } from "#view/units.js";
 
 const POINT_PIXELS = 7, LINE_PIXELS = 3;
 const XRAY = 0.3;
 /** A body that stands still is shown at the start unless it is larger by this. */
 const SURROUNDINGS = 4;
+/** A way this many times as long as the bodies on it is not shown as a whole at the start. */
+const LONG_WAY = 12;
 /** Frames looked at to find out how much room a run takes. */
 const SAMPLES = 200;
 
 /** A body with everything that is drawn of it. */
 class BodyView extends Group {
-    constructor(index, body, meshes, dot) {
+    constructor(index, color, meshes, dot) {
         super();
         this.meshes = meshes;
-        this.color = new Color(objectColor(body.object));
+        this.color = new Color(color);
         this.isShown = true;
         this.planes = [];
         this.solids = [];
@@ -99,8 +101,8 @@ export class Bodies extends Group {
         super();
         this.run = run;
         const shapes = run.shapes.map((shape) => new ShapeMeshes(shape));
-        const dot = dotTexture(false);
-        this.views = run.bodies.map((body, index) => new BodyView(index, body, shapes[body.shape], dot));
+        const dot = dotTexture(false), colors = bodyColors(run.bodies);
+        this.views = run.bodies.map((body, index) => new BodyView(index, colors[index], shapes[body.shape], dot));
         this.add(...this.views);
         this.from = { place: new Vector3(), turn: new Quaternion() };
         this.to = { place: new Vector3(), turn: new Quaternion() };
@@ -153,11 +155,13 @@ export class Bodies extends Group {
         return this.movers.length ? this.movers : [...this.views.keys()];
     }
 
-    /** What to look at: the bodies that move, and those of their size (a terrain is not). */
+    /** What to look at: the bodies that move, on their way unless that is long, and what else is of their size. */
     get subject() {
-        const size = (indices) => this.box(indices).getSize(new Vector3()).length();
-        const limit = SURROUNDINGS * size(this.moving);
-        return [...this.views.keys()].filter((body) => this.moving.includes(body) || size([body]) < limit);
+        const sizeOf = (box) => box.getSize(new Vector3()).length();
+        const now = this.box(this.moving), limit = SURROUNDINGS * sizeOf(now);
+        const still = [...this.views.keys()].filter((body) => sizeOf(this.box([body])) < limit);
+        const box = this.box(still).union(now);
+        return sizeOf(this.way) < LONG_WAY * sizeOf(now) ? box.union(this.way) : box;
     }
 
     // Room that the run takes, who moves, and planes of a size to suit.
@@ -174,6 +178,11 @@ export class Bodies extends Group {
             });
         }
         this.movers = [...movers];
+        this.way = new Box3();
+        for (let frame = 0; frame < run.frameCount; frame += steps) {
+            this.show(frame, 0);
+            this.way.union(this.box(this.movers));
+        }
         this.show(0, 0);
         if (room.isEmpty()) room.setFromCenterAndSize(new Vector3(), new Vector3(1, 1, 1));
         this.size = room.getSize(new Vector3()).length() || 1;

@@ -3,8 +3,8 @@
 import { OrbitControls, Quaternion, Vector3 } from "three";
 
 /** Views by name: where the camera stands from what it looks at. */
-const VIEWS = { oblique: [1, -1.5, 0.9], front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], left: [-1, 0, 0], back: [0, 1, 0] };
-const MARGIN = 1.12;
+const VIEWS = { oblique: [1, -1.4, 1.1], front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], left: [-1, 0, 0], back: [0, 1, 0] };
+const MARGIN = 1.02;
 /** Of the shown distance, for the keys that turn and zoom. */
 const KEY_ZOOM = 1.2;
 

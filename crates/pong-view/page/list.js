@@ -1,6 +1,6 @@
 // The lists beside the picture: bodies, and the contacts of the frame.
 
-import { objectColor } from "#view/theme.js";
+import { bodyColors } from "#view/theme.js";
 import { count, digits, quantity } from "#view/units.js";
 
 /** Rows of contacts in the table; the number of the others is told below it. */
@@ -12,20 +12,21 @@ const element = (tag, properties = {}, ...children) => {
     return made;
 };
 
-const swatch = (object) => {
+const swatch = (color) => {
     const made = element("span", { className: "swatch" });
-    made.style.background = objectColor(object);
+    made.style.background = color;
     return made;
 };
 
 /** The bodies: one is picked, each can be hidden. */
 export class BodyList {
     constructor(list, run, { onPick, onShow }) {
+        const colors = bodyColors(run.bodies);
         this.items = run.bodies.map((body, index) => {
             const shown = element("input", { type: "checkbox", checked: true, title: "Show this body" });
             shown.setAttribute("aria-label", `Show ${body.name}`);
             shown.addEventListener("change", () => onShow(index, shown.checked));
-            const name = element("button", { type: "button", className: "name", title: body.name }, swatch(body.object), body.name);
+            const name = element("button", { type: "button", className: "name", title: body.name }, swatch(colors[index]), body.name);
             name.addEventListener("click", () => onPick(index));
             return element("li", {}, name, shown);
         });
@@ -49,21 +50,21 @@ export function describeBody(box, run, body, player, series) {
     const turn = run.frames.orientation.subarray(at, at + 4);
     const { force, moment, depth } = series.of(body);
     const rows = [
-        ["Position", place.map((x) => x.toFixed(Math.abs(x) >= 1e5 ? 3 : 4).replace("-", "−")).join("  "), "m"],
-        ["Attitude w x y z", [...turn].map((x) => x.toFixed(4).replace("-", "−")).join("  "), ""],
-        ["Force x y z", force.components.map((x) => digits(x[frame])).join("  "), "N"],
-        ["Moment x y z", moment.components.map((x) => digits(x[frame])).join("  "), "N·m"],
-        ["Largest depth", quantity(depth.size[frame], "m"), ""],
+        ["Position, m", place.map((x) => x.toFixed(Math.abs(x) >= 1e5 ? 3 : 4).replace("-", "−")).join("  ")],
+        ["Attitude w x y z", [...turn].map((x) => x.toFixed(4).replace("-", "−")).join("  ")],
+        ["Force x y z, N", force.components.map((x) => digits(x[frame])).join("  ")],
+        ["Moment x y z, N·m", moment.components.map((x) => digits(x[frame])).join("  ")],
+        ["Largest depth", quantity(depth.size[frame], "m")],
     ];
     box.replaceChildren(
-        ...rows.flatMap(([name, text, unit]) => [element("dt", {}, name), element("dd", {}, `${text} ${unit}`.trim())]),
+        ...rows.flatMap(([name, text]) => [element("dt", {}, name), element("dd", {}, text)]),
     );
 }
 
 /** The contacts of the frame, strongest first. */
 export class ContactList {
     constructor(body, more, run, { onSelect, onVisit }) {
-        Object.assign(this, { body, more, run, onSelect, rows: [], selected: null });
+        Object.assign(this, { body, more, run, onSelect, rows: [], selected: null, colors: bodyColors(run.bodies) });
         body.addEventListener("click", (event) => this.#toggle(event.target.closest("tr")));
         body.addEventListener("dblclick", (event) => {
             const row = event.target.closest("tr");
@@ -101,7 +102,6 @@ export class ContactList {
     }
 
     #fill(row, contact, isSelected) {
-        const { run } = this;
         row.dataset.key = contact.key;
         row.classList.toggle("picked", isSelected);
         row.setAttribute("aria-selected", String(isSelected));
@@ -109,8 +109,7 @@ export class ContactList {
         const full = [this.#full(contact, "a"), this.#full(contact, "b")];
         row.names_.forEach((name, index) => {
             const { body } = index ? contact.b : contact.a;
-            const color = objectColor(run.bodies[body].object);
-            name.style.borderColor = color;
+            name.style.borderColor = this.colors[body];
             name.textContent = index ? contact.nameB : contact.nameA;
         });
         pair.title = `A  ${full[0]}\nB  ${full[1]}, ${contact.feature}\nshare of the pair's spring ${digits(contact.weight)}\nrate ${digits(contact.rate * 1e3)} mm/s, slip ${digits(contact.slipSpeed * 1e3)} mm/s`;

@@ -38,7 +38,7 @@ class Page {
         this.camera = new CameraControl(this.stage, this.bodies);
         this.transport = new Transport(run, this.player);
         this.plots = new Plots(byId("plot"), run, this.series, this.player);
-        this.body = this.bodies.moving[0] ?? 0;
+        this.body = this.#busiest();
         this.selected = null;
         this.shownFrame = -1;
         this.listAge = Infinity;
@@ -54,9 +54,16 @@ class Page {
         this.stage.onTick = (seconds) => this.#tick(seconds);
         this.stage.onDraw = () => this.#beforePicture();
         this.pick(this.body);
-        this.camera.frame(this.bodies.box(this.bodies.subject), "oblique");
+        this.camera.frame(this.bodies.subject, "oblique");
         this.player.seekFrame(0);
         this.stage.run();
+    }
+
+    // The body with the largest force in the run, a moving one if there is.
+    #busiest() {
+        const { moving } = this.bodies;
+        const peaks = moving.map((body) => this.series.of(body).force.size.reduce((a, b) => Math.max(a, b), 0));
+        return moving[peaks.indexOf(Math.max(...peaks))] ?? 0;
     }
 
     #measureArrows() {
@@ -88,7 +95,7 @@ class Page {
 
     #bindControls() {
         const onChange = (id, action) => byId(id).addEventListener("change", (event) => action(event.target));
-        onChange("side", ({ value }) => this.camera.frame(this.bodies.box(this.bodies.subject), value));
+        onChange("side", ({ value }) => this.camera.frame(this.bodies.subject, value));
         onChange("camera", ({ value }) => this.camera.setMode(value, this.body));
         onChange("xray", ({ checked }) => (this.bodies.setXray(checked), this.stage.redraw()));
         onChange("edges", ({ checked }) => (this.bodies.setEdges(checked), this.stage.redraw()));

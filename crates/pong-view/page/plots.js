@@ -17,6 +17,7 @@ export class Plots {
         this.window = [run.start, run.end];
         this.picture = document.createElement("canvas");
         this.isStale = true;
+        this.width = 1;
         new ResizeObserver(() => this.refresh()).observe(canvas.parentElement);
         this.#listen();
     }
@@ -64,18 +65,15 @@ export class Plots {
         this.refresh();
     }
 
-    get #width() {
-        return Math.max(1, this.canvas.clientWidth - LEFT - RIGHT);
-    }
 
     #timeAt(x) {
         const [from, to] = this.window;
-        return from + ((x - LEFT) / this.#width) * (to - from);
+        return from + ((x - LEFT) / this.width) * (to - from);
     }
 
     #x(time) {
         const [from, to] = this.window;
-        return LEFT + (to > from ? (time - from) / (to - from) : 0) * this.#width;
+        return LEFT + (to > from ? (time - from) / (to - from) : 0) * this.width;
     }
 
     /** Where on the page a time is, px from the left of the plots. */
@@ -87,7 +85,9 @@ export class Plots {
     draw() {
         const { canvas, picture } = this, ratio = Math.min(devicePixelRatio, 2);
         const { clientWidth: width, clientHeight: height } = canvas;
-        if (width < LEFT + RIGHT || height < 40) return;
+        if (width < LEFT + RIGHT + 1 || height < 40) return;
+        // Of the curves; asking for a size while drawing thousands of points would be slow.
+        this.width = width - LEFT - RIGHT;
         const wide = Math.round(width * ratio), high = Math.round(height * ratio);
         if (canvas.width !== wide || canvas.height !== high) {
             Object.assign(canvas, { width: wide, height: high });
@@ -140,19 +140,15 @@ export class Plots {
         const scale = scaleFor(Math.max(Math.abs(low), Math.abs(high)), unit);
         const y = (value) => top + height - ((value - low) / (high - low)) * height;
         this.#drawValues(context, scale, low, high, y, height);
-        context.fillStyle = styleColor("--text");
-        context.textAlign = "left";
-        context.font = "600 11px system-ui, sans-serif";
-        context.fillText(`${title}, ${scale.unit}`, LEFT + 6, top + 4);
-        context.font = "11px system-ui, sans-serif";
         context.save();
         context.beginPath();
-        context.rect(LEFT, top - 1, this.#width, height + 2);
+        context.rect(LEFT, top - 1, this.width, height + 2);
         context.clip();
         shown.forEach((values, axis) => this.#curve(context, values, y, AXES[axis], 1));
         if (peak) this.#curve(context, peak, y, styleColor("--quiet"), 1);
         this.#curve(context, size, y, styleColor("--curve"), 1.6);
         context.restore();
+        caption(context, `${title}, ${scale.unit}`, LEFT + 6, top + 4, "left");
         return { top, height, scale };
     }
 
@@ -163,7 +159,7 @@ export class Plots {
         context.textAlign = "right";
         for (let k = Math.ceil(low / step - 1e-9); k * step <= high * (1 + 1e-9) + 1e-300; k++) {
             const at = Math.round(y(k * step)) + 0.5;
-            line(context, LEFT, at, LEFT + this.#width, at);
+            line(context, LEFT, at, LEFT + this.width, at);
             const text = ((k * step) / scale.factor).toFixed(decimalsFor(step / scale.factor));
             context.fillText(text.replace("-", "−"), LEFT - 7, at + 4);
         }
@@ -218,20 +214,17 @@ export class Plots {
     #drawMoment(context, height) {
         const { player, run } = this;
         const x = Math.round(this.#x(player.time)) + 0.5;
-        if (x >= LEFT - 1 && x <= LEFT + this.#width + 1) {
+        if (x >= LEFT - 1 && x <= LEFT + this.width + 1) {
             context.strokeStyle = styleColor("--accent");
             context.lineWidth = 1;
             line(context, x, TOP - 8, x, height - BOTTOM);
         }
         const series = this.series.of(this.body);
-        context.font = "600 11px system-ui, sans-serif";
-        context.textAlign = "right";
         PANES.forEach(({ name }, index) => {
             const { top, scale } = this.panes[index];
-            context.fillStyle = styleColor("--curve");
             const value = digits(series[name].size[player.frame] / scale.factor);
             const text = name === "depth" ? value : `|${name === "force" ? "F" : "M"}| ${value}`;
-            context.fillText(`${text} ${scale.unit}`, LEFT + this.#width - 4, top + 4);
+            caption(context, `${text} ${scale.unit}`, LEFT + this.width - 4, top + 4, "right");
         });
         const spoken = PANES.map(({ name, title, unit }) => `${title} ${digits(series[name].size[player.frame])} ${unit}`);
         this.canvas.setAttribute("aria-label", `${run.bodies[this.body].name} over time. Now: ${spoken.join(", ")}`);
@@ -243,4 +236,18 @@ function line(context, x0, y0, x1, y1) {
     context.moveTo(x0, y0);
     context.lineTo(x1, y1);
     context.stroke();
+}
+
+// Text on a patch, so that a curve behind it does not cross it.
+function caption(context, text, x, y, align) {
+    context.font = "600 11px system-ui, sans-serif";
+    context.textAlign = align;
+    const { width } = context.measureText(text);
+    context.globalAlpha = 0.8;
+    context.fillStyle = styleColor("--panel");
+    context.fillRect(align === "left" ? x - 3 : x - width - 3, y - 10, width + 6, 13);
+    context.globalAlpha = 1;
+    context.fillStyle = styleColor("--text");
+    context.fillText(text, x, y);
+    context.font = "11px system-ui, sans-serif";
 }

@@ -1,6 +1,11 @@
 // Colours. Bodies are muted, so that forces and contacts stand out; stick and slip differ in shape as well as colour.
 
+import { Color } from "three";
+
 const OBJECTS = ["#7d9cc6", "#c9b27a", "#a58fca", "#86b487", "#c99393", "#7fb3bf", "#b9a28b", "#98a1b3"];
+
+/** Steps of lightness. */
+const SHADES = [0, -0.1, 0.1, -0.18, 0.17];
 
 export const STICK = "#1fb6a3";
 export const SLIP = "#f4622e";
@@ -9,6 +14,16 @@ export const AXES = ["#e5484d", "#3fa45b", "#4a86e8"];
 
 /** Colour of an object. */
 export const objectColor = (object) => OBJECTS[object % OBJECTS.length];
+
+/** Colour of each body: that of its object, those below the root a little lighter or darker in turn. */
+export function bodyColors(bodies) {
+    const below = new Map();
+    return bodies.map(({ object, parent }) => {
+        const index = parent === null ? 0 : (below.get(object) ?? 0) + 1;
+        if (index) below.set(object, index);
+        return `#${new Color(objectColor(object)).offsetHSL(0, 0, SHADES[index % SHADES.length]).getHexString()}`;
+    });
+}
 
 /** A colour of the style sheet. */
 export const styleColor = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
