@@ -65,7 +65,6 @@ export class Plots {
         this.refresh();
     }
 
-
     #timeAt(x) {
         const [from, to] = this.window;
         return from + ((x - LEFT) / this.width) * (to - from);
