@@ -1,0 +1,219 @@
+"""Scenes of the retention latches (docs/scene_format.md): an arm lowers the payload, claws close, loads come on."""
+
+import math
+
+from dimensions import *  # noqa: F403
+from geometry import rounded
+
+UPRIGHT = (1.0, 0.0, 0.0, 0.0)
+STILL = [(0.0, 0.0)]
+
+# --- berthing --------------------------------------------------------------------------------------------------------
+ARM_STIFFNESS = (4e3, 4e3, 4e3, 5e4, 5e4, 5e4)  # N/m, N·m/rad
+ARM_DAMPING = (3.8e3, 3.8e3, 3.8e3, 4.8e4, 4.8e4, 4.8e4)
+START = (0.050, 0.040, 0.600)  # of the payload's frame: aft and to starboard of the latches, above them
+ROLL_DEG, PITCH_DEG, YAW_DEG = 0.5, -0.5, 0.5
+SPEED = 0.030
+OVERTRAVEL = 0.150  # of the arm below the seated payload: 600 N
+LOWERED = 26.0  # s; the arm holds from here
+KEEL_CLOSING = (28.0, 32.0)  # s: the keel latch centres the payload first
+CLOSING = (34.0, 44.0)  # of the claws
+CLAW_ROWS = 20
+LIMP = (46.0, 50.0)  # the arm gives way to where the payload sits
+BERTHED = 58.0
+
+# --- wedge: pushed down on the aft flares, held back along x by a force that fades away ----------------------------
+PUSH = 2000.0
+WEDGE_OFFSET = 0.150
+WEDGE_RATIOS = (0.80, 0.55)  # of the holding force over the push, at the times below
+WEDGE_TIMES = (4.0, 104.0)
+WEDGE_END = 62.0
+
+# --- loads on the latched payload, one after the other --------------------------------------------------------------
+LOAD_X, LOAD_Y, LOAD_Z = 20e3, 10e3, 8e3
+LOAD_Z_X = -0.8  # where the upward load acts: forward of the middle
+LOAD_RAMP, LOAD_HOLD = 2.0, 3.0
+
+
+def texts():
+    return {"scene_wedge.ron": wedge(), "scene_berthing.ron": berthing(), "scene_loads.ron": loads()}
+
+
+# --- numbers ----------------------------------------------------------------------------------------------------------
+
+def numbers(values):
+    return "(" + ", ".join(repr(round(float(x), 12) + 0.0) for x in values) + ")"
+
+
+def about_axis(axis, angle_deg):
+    half = math.radians(angle_deg) / 2
+    return (math.cos(half), *(math.sin(half) * float(i == axis) for i in range(3)))
+
+
+def product(p, q):
+    return (
+        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
+        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
+        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
+    )
+
+
+def attitude():
+    """Yaw about z after pitch about y after roll about x."""
+    return product(about_axis(2, YAW_DEG), product(about_axis(1, PITCH_DEG), about_axis(0, ROLL_DEG)))
+
+
+def turned(q, v):
+    inverse = (q[0], -q[1], -q[2], -q[3])
+    return product(product(q, (0.0, *v)), inverse)[1:]
+
+
+# --- bodies ------------------------------------------------------------------------------------------------------------
+
+def body(group, rows):
+    """One line: a movable group that stands still (one row) or goes through places at times."""
+    if len(rows) == 1:
+        return f'(group: "{group}", motion: Fixed, position: {numbers(rows[0][1])}, orientation: {numbers(rows[0][2])}),'
+    return f'(group: "{group}", motion: Prescribed(Table([{table(rows)}]))),'
+
+
+def table(rows):
+    return ", ".join(f"(time: {time!r}, position: {numbers(p)}, orientation: {numbers(q)})" for time, p, q in rows)
+
+
+def claw(name, closing):
+    """Rows of a claw that closes between two times, with a gentle end; None: it is closed."""
+    place = rounded(hinge(name))
+    if closing is None:
+        return [(0.0, place, UPRIGHT)]
+    start, end = closing
+    rows = [(0.0, place, about_axis(1, OPEN_DEG))]
+    for i in range(CLAW_ROWS + 1):
+        t = i / CLAW_ROWS
+        closed = t**3 * (10 - 15 * t + 6 * t**2)
+        rows.append((round(start + t * (end - start), 9), place, about_axis(1, OPEN_DEG * (1 - closed))))
+    return [*rows, (end + 1.0, place, UPRIGHT)]
+
+
+def keel_jaw_rows(side, closing):
+    open_ = rounded(keel_jaw(side))
+    closed = (open_[0], open_[1] - side * (KEEL_OPEN_GAP - KEEL_CLOSED_GAP), open_[2])
+    if closing is None:
+        return [(0.0, closed, UPRIGHT)]
+    start, end = closing
+    return [(0.0, open_, UPRIGHT), (start, open_, UPRIGHT), (end, closed, UPRIGHT), (end + 1.0, closed, UPRIGHT)]
+
+
+def bay(claws, keel):
+    lines = ['(name: "bay", model: "bay", bodies: [', "    (motion: Fixed),"]
+    lines += ["    " + body(f"bay/{name}/claw", claws(name)) for name in LATCHES]
+    lines += ["    " + body(f"bay/keel_jaw_{label}", keel(side)) for side, label in ((-1, "port"), (1, "starboard"))]
+    return lines + ["]),"]
+
+
+def payload(position, orientation):
+    return [
+        '(name: "payload", model: "payload", bodies: [(',
+        f"    motion: Free, mass: {PAYLOAD_MASS}, inertia: Diagonal{numbers(PAYLOAD_INERTIA)}, "
+        f"mass_center: {numbers(MASS_CENTER)},",
+        f"    position: {numbers(position)}, orientation: {numbers(orientation)},",
+        ")]),",
+    ]
+
+
+def arm(rows):
+    return [f'(name: "arm", model: "arm", bodies: [(motion: Prescribed(Table([{table(rows)}])))]),']
+
+
+# --- scenes ------------------------------------------------------------------------------------------------------------
+
+def scene(name, about, objects, duration, record_every, loads=(), springs=(), models=("bay", "payload")):
+    lines = [f"// {line}" for line in about]
+    lines += ["(", '    format: "pong-scene",', "    version: 1,", f'    name: "{name}",']
+    lines += ["    models: { " + ", ".join(f'"{model}": "{model}.ron"' for model in models) + " },"]
+    lines += ["    objects: ["] + ["        " + line for line in objects] + ["    ],"]
+    lines += ['    pairs: [("bay", "payload")],']
+    lines += ["    loads: ["] + ["        " + line for line in loads] + ["    ],"] if loads else []
+    lines += ["    springs: ["] + ["        " + line for line in springs] + ["    ],"] if springs else []
+    lines += ["    integrator: RungeKutta4,", "    step: 1e-3,", f"    duration: {duration!r},"]
+    lines += [f"    record_every: {record_every},", "    ledger: true,", ")"]
+    return "\n".join(lines) + "\n"
+
+
+def arm_rows():
+    """Where the arm's tip goes: down at one speed past the seat, holds, then gives way to the seated payload's place."""
+    q = attitude()
+    grip = turned(q, GRAPPLE)
+    travel = START[2] + OVERTRAVEL
+
+    def row(time, down):
+        return (time, tuple(s + g for s, g in zip((START[0], START[1], START[2] - down), grip)), q)
+
+    even = (travel - 4 * SPEED) / SPEED
+    rows = [row(0.0, 0.0), row(1.0, 0.0), row(3.0, SPEED), row(4.0, 2 * SPEED), row(4.0 + even, travel - 2 * SPEED)]
+    rows += [row(5.0 + even, travel - SPEED), row(7.0 + even, travel), row(LIMP[0], travel)]
+    seated = (LIMP[1], GRAPPLE, UPRIGHT)
+    return [(round(time, 9), p, q) for time, p, q in rows] + [seated, (LIMP[1] + 1.0, *seated[1:])]
+
+
+def berthing():
+    about = [
+        "An arm lowers the payload into its latches at 30 mm/s, 50 mm too far aft, 40 mm to starboard, rolled, pitched",
+        "and yawed by half a degree. Guides bring it in, the keel latch centres it, claws draw it down, the arm goes limp.",
+        "Written by build.py.",
+    ]
+    objects = [
+        *bay(lambda name: claw(name, CLOSING), lambda side: keel_jaw_rows(side, KEEL_CLOSING)),
+        *payload(START, attitude()),
+        *arm(arm_rows()),
+    ]
+    spring = (
+        f'(first: On(body: "arm"), second: On(body: "payload", position: {numbers(GRAPPLE)}), '
+        f"stiffness: {numbers(ARM_STIFFNESS)}, damping: {numbers(ARM_DAMPING)}),"
+    )
+    return scene("berthing", about, objects, BERTHED, 50, springs=[spring], models=("bay", "payload", "arm"))
+
+
+def open_claw(name):
+    return claw(name, (1e3, 1e3 + 8.0))[:1]
+
+
+def wedge():
+    about = [
+        "With its pins on the aft flares, the payload is pushed down by 2 kN and held back by a force along x that fades",
+        "from 0.80 to 0.55 of the push. It sticks until the ratio falls below cot(flare + friction angle) = 0.667.",
+        "Written by build.py.",
+    ]
+    touch = PIN_RADIUS / math.sin(math.radians(FLARE_DEG)) + flare_z(WEDGE_OFFSET)  # 45°: straight above the flare
+    rows = [(0.0, 0.0, 0.0), (2.0, WEDGE_RATIOS[0], 1.0), (WEDGE_TIMES[0], WEDGE_RATIOS[0], 1.0)]
+    rows += [(WEDGE_TIMES[1], WEDGE_RATIOS[1], 1.0)]
+    steps = ", ".join(f"(time: {t!r}, force: {numbers((PUSH * h, 0.0, -PUSH * v))})" for t, h, v in rows)
+    objects = [
+        *bay(open_claw, lambda side: keel_jaw_rows(side, (1e3, 1e3 + 1.0))[:1]),
+        *payload((WEDGE_OFFSET, 0.0, touch), UPRIGHT),
+    ]
+    return scene("wedge", about, objects, WEDGE_END, 50, loads=[f'(body: "payload", table: [{steps}]),'])
+
+
+def loads():
+    about = [
+        "Loads on the latched payload, each for three seconds: 8 kN upwards ahead of the middle, which all four latches",
+        "take by the lever; 20 kN aft, which the primary latches take; 10 kN to starboard, which the keel latch takes.",
+        "Written by build.py.",
+    ]
+    lines = []
+    cases = [  # force, and where it is held, so that nothing turns
+        ((0.0, 0.0, LOAD_Z), (LOAD_Z_X, 0.0, 0.0)),
+        ((LOAD_X, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        ((0.0, LOAD_Y, 0.0), (0.0, 0.0, KEEL_Z)),
+    ]
+    for i, (force, place) in enumerate(cases):
+        start = 1.0 + i * (2 * LOAD_RAMP + LOAD_HOLD + 1.0)
+        times = (start, start + LOAD_RAMP, start + LOAD_RAMP + LOAD_HOLD, start + 2 * LOAD_RAMP + LOAD_HOLD)
+        forces = ((0.0, 0.0, 0.0), force, force, (0.0, 0.0, 0.0))
+        steps = ", ".join(f"(time: {t!r}, force: {numbers(f)})" for t, f in zip(times, forces))
+        lines.append(f'(body: "payload", point: {numbers(place)}, table: [{steps}]),')
+    objects = [*bay(lambda name: claw(name, None), lambda side: keel_jaw_rows(side, None))]
+    objects += payload((0.0, 0.0, -CLAW_BITE / 2), UPRIGHT)
+    return scene("loads", about, objects, 1.0 + 3 * (2 * LOAD_RAMP + LOAD_HOLD + 1.0), 20, loads=lines)

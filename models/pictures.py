@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of scenes through pong_viz, from a place of one's own: what the picture.py of models use.
+
+A picture.py runs as
+
+    python picture.py PONG [-o PNG]
+
+with Blender as a Python module and PONG the program; it writes picture.png beside itself unless told otherwise.
+"""
+
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "blender"))
+
+
+def main(folder, scene, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=0.3, alpha=0.9):
+    """Runs a scene of the folder and takes the picture of one moment, seen from `eye` towards `target`, m."""
+    parser = argparse.ArgumentParser(description=f"Takes a picture of {scene} with Blender.")
+    parser.add_argument("pong", help="the program `pong`")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=folder / "picture.png")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as log:
+        subprocess.run([given.pong, "run", "--quiet", "--log", log, str(folder / scene)], check=True)
+        _show(log, at_s, size, arrow_m, alpha)
+        _look(eye, target, lens_mm)
+        _shoot(given.output.resolve())
+    print(f"{given.output}: {given.output.stat().st_size / 1e3:.0f} kB")
+    sys.stdout.flush()
+    os._exit(0)  # Blender as a module may crash or hang in its own exit
+
+
+def _show(log, at_s, size, arrow_m, alpha):
+    import bpy
+    from pong_viz.log import Log
+    from pong_viz.render import Picture, prepare
+    from pong_viz.scene import Options, show
+
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    prepare(bpy.context.scene, Picture(*size))
+    options = Options(start=at_s, end=at_s + 0.1, arrow_length=arrow_m, alpha=alpha, shapes="all")
+    show(Log(pathlib.Path(log)), options)
+
+
+def _look(eye, target, lens_mm):
+    import bpy
+    from mathutils import Vector
+
+    camera = bpy.context.scene.camera
+    way = Vector(eye) - Vector(target)
+    camera.location = eye
+    camera.rotation_quaternion = way.to_track_quat("Z", "Y")
+    camera.data.lens, camera.data.clip_start, camera.data.clip_end = lens_mm, 0.01 * way.length, 100.0 * way.length
+
+
+def _shoot(path):
+    import bpy
+    from pong_viz.render import still
+
+    scene = bpy.context.scene
+    scene.render.dither_intensity = 0.0  # noise does not compress
+    scene.render.image_settings.compression = 100
+    still(scene, path, 1)
