@@ -104,6 +104,9 @@ class Marks extends Points {
     }
 }
 
+/** 1 where the force on A is shown, -1 for the one on B. */
+export const signFor = ({ a, b }, body) => (b.body === body && a.body !== body ? -1 : 1);
+
 /** Everything that is drawn of the contacts of a frame. */
 export class ContactMarks extends Group {
     constructor() {
@@ -124,9 +127,8 @@ export class ContactMarks extends Group {
 
     /** `metresPerNewton` is the scale; forces are those on `body` where it is B, else those on A. */
     show(contacts, metresPerNewton, body, selected, { hasNormals, hasFriction }) {
-        const signOf = (contact) => (contact.b.body === body && contact.a.body !== body ? -1 : 1);
         const arrow = (contact, vector, force) => {
-            const direction = new Vector3().fromArray(vector).multiplyScalar(signOf(contact));
+            const direction = new Vector3().fromArray(vector).multiplyScalar(signFor(contact, body));
             return { from: new Vector3().fromArray(contact.point), direction: direction.normalize(), length: force * metresPerNewton };
         };
         const isSeen = ({ length }) => length > 0;

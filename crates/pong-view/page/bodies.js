@@ -17,6 +17,8 @@ const SURROUNDINGS = 4;
 const LONG_WAY = 12;
 /** Frames looked at to find out how much room a run takes. */
 const SAMPLES = 200;
+/** Every so many-th of them brings its places into the picture. */
+const STATIONS = 20;
 
 /** A body with everything that is drawn of it. */
 class BodyView extends Group {
@@ -95,6 +97,8 @@ function grid(size) {
     return new BufferGeometry().setAttribute("position", new BufferAttribute(Float32Array.from(places), 3));
 }
 
+const sizeOf = (box) => box.getSize(new Vector3()).length();
+
 /** All bodies. */
 export class Bodies extends Group {
     constructor(run) {
@@ -155,13 +159,20 @@ export class Bodies extends Group {
         return this.movers.length ? this.movers : [...this.views.keys()];
     }
 
+    /** Places on the outside of some bodies as they stand. */
+    places(indices = this.views.keys()) {
+        return [...indices].flatMap((index) => {
+            const view = this.views[index];
+            return view.visible ? view.meshes.marks.map((place) => place.clone().applyMatrix4(view.matrixWorld)) : [];
+        });
+    }
+
     /** What to look at: the bodies that move, on their way unless that is long, and what else is of their size. */
     get subject() {
-        const sizeOf = (box) => box.getSize(new Vector3()).length();
         const now = this.box(this.moving), limit = SURROUNDINGS * sizeOf(now);
         const still = [...this.views.keys()].filter((body) => sizeOf(this.box([body])) < limit);
-        const box = this.box(still).union(now);
-        return sizeOf(this.way) < LONG_WAY * sizeOf(now) ? box.union(this.way) : box;
+        const places = this.places(new Set([...still, ...this.moving]));
+        return this.isWayShort ? [...places, ...this.stations] : places;
     }
 
     // Room that the run takes, who moves, and planes of a size to suit.
@@ -179,11 +190,14 @@ export class Bodies extends Group {
         }
         this.movers = [...movers];
         this.way = new Box3();
+        this.stations = [];
         for (let frame = 0; frame < run.frameCount; frame += steps) {
             this.show(frame, 0);
             this.way.union(this.box(this.movers));
+            if (frame % (steps * STATIONS) === 0) this.stations.push(...this.places(this.movers));
         }
         this.show(0, 0);
+        this.isWayShort = sizeOf(this.way) < LONG_WAY * sizeOf(this.box(this.moving));
         if (room.isEmpty()) room.setFromCenterAndSize(new Vector3(), new Vector3(1, 1, 1));
         this.size = room.getSize(new Vector3()).length() || 1;
         const center = room.getCenter(new Vector3());

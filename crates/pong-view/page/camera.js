@@ -1,10 +1,11 @@
 // Where the picture is taken from: orbit, pan, zoom; along with a body; standard views.
 
-import { OrbitControls, Quaternion, Vector3 } from "three";
+import { Box3, OrbitControls, Quaternion, Vector3 } from "three";
 
 /** Views by name: where the camera stands from what it looks at. */
 const VIEWS = { oblique: [1, -1.4, 1.1], front: [0, -1, 0], right: [1, 0, 0], top: [0, -1e-4, 1], left: [-1, 0, 0], back: [0, 1, 0] };
-const MARGIN = 1.02;
+/** Of the picture that what is looked at may fill, across and up; bars lie over its upper and lower edge. */
+const FILL = [0.9, 0.76];
 /** Of the shown distance, for the keys that turn and zoom. */
 const KEY_ZOOM = 1.2;
 
@@ -54,24 +55,45 @@ export class CameraControl {
         this.#remember();
     }
 
-    /** Looks at a box from a standard side, or from where it is. */
-    frame(box, side) {
-        if (box.isEmpty()) return;
+    /** Looks at places from a standard side, or from where it is. */
+    frame(places, side) {
+        if (!places.length) places = [new Vector3(-0.5, -0.5, -0.5), new Vector3(0.5, 0.5, 0.5)];
         const { camera } = this.stage;
-        const center = box.getCenter(new Vector3());
         const direction = side
             ? new Vector3().fromArray(VIEWS[side])
             : camera.position.clone().sub(this.controls.target);
         if (side) camera.up.set(0, 0, 1);
         direction.normalize();
-        const radius = 0.5 * box.getSize(new Vector3()).length() || 0.5;
-        const half = (camera.fov * Math.PI) / 360;
-        const narrow = Math.min(half, Math.atan(Math.tan(half) * camera.aspect));
-        camera.position.copy(center).addScaledVector(direction, (MARGIN * radius) / Math.sin(narrow));
-        this.controls.target.copy(center);
-        camera.lookAt(center);
+        const { target, distance } = this.#aim(places, direction);
+        camera.position.copy(target).addScaledVector(direction, distance);
+        this.controls.target.copy(target);
+        camera.lookAt(target);
         this.controls.update();
         this.stage.redraw();
+    }
+
+    // What to look at along a direction, and from how far, so that all places fill the picture.
+    #aim(places, direction) {
+        const { camera } = this.stage;
+        const across = new Vector3().crossVectors(camera.up, direction).normalize();
+        const up = new Vector3().crossVectors(direction, across);
+        const slope = Math.tan((camera.fov * Math.PI) / 360);
+        const slopes = [FILL[0] * slope * camera.aspect, FILL[1] * slope];
+        const target = new Box3().setFromPoints(places).getCenter(new Vector3());
+        let distance = 1;
+        // The middle of what is seen is not the middle of what is there: what is near is larger.
+        for (let round = 0; round < 4; round++) {
+            const seen = places.map((place) => {
+                const from = place.clone().sub(target);
+                return [across, up, direction].map((axis) => from.dot(axis));
+            });
+            distance = seen.reduce((far, [x, y, z]) => Math.max(far, z + Math.abs(x) / slopes[0], z + Math.abs(y) / slopes[1]), 0) || 1;
+            [across, up].forEach((axis, index) => {
+                const [low, high] = bounds(seen.map((place) => place[index] / Math.max(distance - place[2], 1e-9 * distance)));
+                target.addScaledVector(axis, (distance * (low + high)) / 2);
+            });
+        }
+        return { target, distance };
     }
 
     /** Looks at a place from so far away. */
@@ -94,3 +116,5 @@ export class CameraControl {
         return this.stage.camera.position.distanceTo(this.controls.target);
     }
 }
+
+const bounds = (numbers) => numbers.reduce(([low, high], x) => [Math.min(low, x), Math.max(high, x)], [Infinity, -Infinity]);

@@ -1,7 +1,7 @@
 // The lists beside the picture: bodies, and the contacts of the frame.
 
 import { bodyColors } from "#view/theme.js";
-import { count, digits, quantity } from "#view/units.js";
+import { count, digits, fixed, quantity } from "#view/units.js";
 
 /** Rows of contacts in the table; the number of the others is told below it. */
 const ROWS = 200;
@@ -21,6 +21,7 @@ const swatch = (color) => {
 /** The bodies: one is picked, each can be hidden. */
 export class BodyList {
     constructor(list, run, { onPick, onShow }) {
+        this.list = list;
         const colors = bodyColors(run.bodies);
         this.items = run.bodies.map((body, index) => {
             const shown = element("input", { type: "checkbox", checked: true, title: "Show this body" });
@@ -38,7 +39,10 @@ export class BodyList {
             item.classList.toggle("picked", at === index);
             item.firstChild.setAttribute("aria-pressed", String(at === index));
         });
-        this.items[index].scrollIntoView({ block: "nearest" });
+        // Only the list scrolls, not what it is in.
+        const { list } = this, { offsetTop, offsetHeight } = this.items[index];
+        const top = offsetTop - list.offsetTop;
+        list.scrollTop = Math.min(Math.max(list.scrollTop, top + offsetHeight - list.clientHeight), top);
     }
 }
 
@@ -50,8 +54,8 @@ export function describeBody(box, run, body, player, series) {
     const turn = run.frames.orientation.subarray(at, at + 4);
     const { force, moment, depth } = series.of(body);
     const rows = [
-        ["Position, m", place.map((x) => x.toFixed(Math.abs(x) >= 1e5 ? 3 : 4).replace("-", "−")).join("  ")],
-        ["Attitude w x y z", [...turn].map((x) => x.toFixed(4).replace("-", "−")).join("  ")],
+        ["Position, m", place.map((x) => fixed(x, Math.abs(x) >= 1e5 ? 3 : 4)).join("  ")],
+        ["Attitude w x y z", [...turn].map((x) => fixed(x, 4)).join("  ")],
         ["Force x y z, N", force.components.map((x) => digits(x[frame])).join("  ")],
         ["Moment x y z, N·m", moment.components.map((x) => digits(x[frame])).join("  ")],
         ["Largest depth", quantity(depth.size[frame], "m")],

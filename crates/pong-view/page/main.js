@@ -1,7 +1,7 @@
 // Puts the page together: what is shown follows from the moment, the picked body and the selected contact.
 
 import { Raycaster, Vector2, Vector3 } from "three";
-import { ContactMarks } from "#view/arrows.js";
+import { ContactMarks, signFor } from "#view/arrows.js";
 import { Bodies } from "#view/bodies.js";
 import { CameraControl } from "#view/camera.js";
 import { contactsIn, typicalForces } from "#view/contacts.js";
@@ -20,7 +20,9 @@ import { count, niceStep, quantity } from "#view/units.js";
 /** While a run plays, lists are written anew this often, s. */
 const LIST_PERIOD = 0.1;
 /** Usual forces, and the largest of the run, are drawn at most as long as these shares of the bodies shown first. */
-const USUAL_SHARE = 0.35, LARGEST_SHARE = 1.5;
+const USUAL_SHARE = 0.3, LARGEST_SHARE = 0.9;
+/** Frames whose arrows are brought into the picture at the start. */
+const ARROW_FRAMES = 40, ARROWS = 4000;
 const PICK_PIXELS = 12;
 
 const byId = (id) => document.getElementById(id);
@@ -54,7 +56,7 @@ class Page {
         this.stage.onTick = (seconds) => this.#tick(seconds);
         this.stage.onDraw = () => this.#beforePicture();
         this.pick(this.body);
-        this.camera.frame(this.bodies.subject, "oblique");
+        this.camera.frame(this.#subject(), "oblique");
         this.player.seekFrame(0);
         this.stage.run();
     }
@@ -72,6 +74,27 @@ class Page {
         const size = Math.hypot(x, y, z) || this.bodies.size;
         const { usual, largest } = typicalForces(this.run);
         this.baseScale = largest > 0 ? Math.min((USUAL_SHARE * size) / usual, (LARGEST_SHARE * size) / largest) : 1;
+    }
+
+    // What to look at, with the arrows of some frames.
+    #subject() {
+        const { run, bodies } = this, places = bodies.subject;
+        const last = run.frameCount - 1, step = Math.max(1, last / ARROW_FRAMES);
+        const frames = bodies.isWayShort ? [this.#peakFrame()] : [0];
+        for (let frame = 0; bodies.isWayShort && frame <= last; frame += step) frames.push(Math.round(frame));
+        const contacts = frames.flatMap((frame) => contactsIn(run, frame));
+        const some = Math.ceil(contacts.length / ARROWS);
+        for (const contact of contacts.filter((_, index) => index % some === 0)) {
+            const length = signFor(contact, this.body) * contact.normalForce * this.metresPerNewton;
+            const point = new Vector3().fromArray(contact.point);
+            places.push(point, point.clone().addScaledVector(new Vector3().fromArray(contact.normal), length));
+        }
+        return places;
+    }
+
+    #peakFrame() {
+        const { size } = this.series.of(this.body).force;
+        return size.reduce((best, value, frame) => (value > size[best] ? frame : best), 0);
     }
 
     get metresPerNewton() {
@@ -95,7 +118,7 @@ class Page {
 
     #bindControls() {
         const onChange = (id, action) => byId(id).addEventListener("change", (event) => action(event.target));
-        onChange("side", ({ value }) => this.camera.frame(this.bodies.subject, value));
+        onChange("side", ({ value }) => this.camera.frame(this.#subject(), value));
         onChange("camera", ({ value }) => this.camera.setMode(value, this.body));
         onChange("xray", ({ checked }) => (this.bodies.setXray(checked), this.stage.redraw()));
         onChange("edges", ({ checked }) => (this.bodies.setEdges(checked), this.stage.redraw()));
@@ -105,8 +128,8 @@ class Page {
         onChange("plot-body", ({ value }) => this.pick(Number(value)));
         onChange("components", ({ checked }) => ((this.plots.hasComponents = checked), this.plots.refresh()));
         byId("scale").addEventListener("input", () => this.#showContacts());
-        byId("frame-all").addEventListener("click", () => this.camera.frame(this.bodies.box()));
-        byId("frame-body").addEventListener("click", () => this.camera.frame(this.bodies.box([this.body])));
+        byId("frame-all").addEventListener("click", () => this.camera.frame(this.bodies.places()));
+        byId("frame-body").addEventListener("click", () => this.camera.frame(this.bodies.places([this.body])));
         byId("theme").addEventListener("click", toggleTheme);
         byId("help-open").addEventListener("click", () => byId("help").showModal());
         byId("plot-all").addEventListener("click", () => this.plots.showAll());
@@ -200,9 +223,8 @@ class Page {
     }
 
     #toPeak() {
-        const { size } = this.series.of(this.body).force;
         this.player.pause();
-        this.player.seekFrame(size.reduce((best, value, frame) => (value > size[best] ? frame : best), 0));
+        this.player.seekFrame(this.#peakFrame());
     }
 
     #tick(seconds) {
@@ -332,6 +354,7 @@ function interfaceOf(page) {
         select: (key) => page.select(key),
         picturesDrawn: () => stage.pictures,
         drawNow: () => stage.draw(),
+        colors: () => bodies.views.map((view) => view.color.getHexString()),
         triangles: () => stage.renderer.info.render.triangles,
         xOfTime: (time) => page.plots.xOf(time),
     };

@@ -6,6 +6,8 @@ import {
 } from "three";
 
 const BALL_NUMBERS = 10;
+/** Places of a kind by which a shape is brought into the picture. */
+const MARKS = 400;
 /** Of the great circles on balls, which show them turn. */
 const CIRCLE_STEPS = 48;
 
@@ -40,6 +42,7 @@ export class ShapeMeshes {
         this.ballMatrices = ballMatrices(shape.balls);
         this.circles = shape.balls.length ? placed(circles(this.ballMatrices)) : null;
         this.box = this.#box();
+        this.marks = this.#marks();
     }
 
     /** A geometry with the vertices of the shape and corners of its own. */
@@ -57,6 +60,21 @@ export class ShapeMeshes {
     /** Matrices of the balls, to be shared by all that draw them. */
     sharedBallMatrices() {
         return (this.shared ??= new InstancedBufferAttribute(this.ballMatrices, 16));
+    }
+
+    /** Some places on the outside, in the body's frame: enough to tell how much room the shape takes. */
+    #marks() {
+        const { shape } = this, places = [], unit = [-1, 1];
+        for (const numbers of [shape.vertices, shape.points, shape.segments, shape.rays]) {
+            const step = 3 * Math.max(1, Math.ceil(numbers.length / 3 / MARKS));
+            for (let i = 0; i + 2 < numbers.length; i += step) places.push(new Vector3().fromArray(numbers, i));
+        }
+        const matrix = new Matrix4(), some = Math.max(1, Math.ceil(this.ballCount / MARKS));
+        for (let i = 0; i < this.ballCount; i += some) {
+            matrix.fromArray(this.ballMatrices, 16 * i);
+            for (const x of unit) for (const y of unit) for (const z of unit) places.push(new Vector3(x, y, z).multiplyScalar(0.7).applyMatrix4(matrix));
+        }
+        return places;
     }
 
     // Box around everything bounded, in the body's frame.

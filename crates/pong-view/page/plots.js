@@ -8,7 +8,7 @@ const PANES = [
     { name: "moment", title: "Moment", unit: "N·m" },
     { name: "depth", title: "Depth", unit: "m" },
 ];
-const LEFT = 64, RIGHT = 22, TOP = 18, GAP = 12, BOTTOM = 20;
+const LEFT = 64, RIGHT = 22, TOP = 20, GAP = 20, BOTTOM = 20;
 const ZOOM = 1.25;
 
 export class Plots {
@@ -94,7 +94,8 @@ export class Plots {
         }
         if (this.isStale) {
             Object.assign(picture, { width: wide, height: high });
-            const context = picture.getContext("2d");
+            // Curves of thousands of points are drawn by the processor in milliseconds, by a graphics card not.
+            const context = picture.getContext("2d", { willReadFrequently: true });
             context.scale(ratio, ratio);
             this.#drawAll(context, width, height);
             this.isStale = false;
@@ -104,7 +105,7 @@ export class Plots {
         context.clearRect(0, 0, wide, high);
         context.drawImage(picture, 0, 0);
         context.setTransform(ratio, 0, 0, ratio, 0, 0);
-        this.#drawMoment(context, height);
+        this.#drawMoment(context);
     }
 
     #drawAll(context, width, height) {
@@ -147,12 +148,16 @@ export class Plots {
         if (peak) this.#curve(context, peak, y, styleColor("--quiet"), 1);
         this.#curve(context, size, y, styleColor("--curve"), 1.6);
         context.restore();
-        caption(context, `${title}, ${scale.unit}`, LEFT + 6, top + 4, "left");
+        caption(context, `${title}, ${scale.unit}`, LEFT, top - 6, "left");
         return { top, height, scale };
     }
 
     #drawValues(context, scale, low, high, y, height) {
-        const step = niceStep((high - low) / scale.factor, Math.max(4, height / 15)) * scale.factor;
+        const span = (high - low) / scale.factor, labels = Math.max(3, height / 15);
+        // Few labels may all but one fall outside: then twice as many are asked for.
+        const isSparse = (step) => Math.floor(high / scale.factor / step) + Math.floor(-low / scale.factor / step) < 1;
+        const few = niceStep(span, labels);
+        const step = (isSparse(few) ? niceStep(span, 2 * labels) : few) * scale.factor;
         context.fillStyle = styleColor("--quiet");
         context.strokeStyle = styleColor("--grid");
         context.textAlign = "right";
@@ -210,20 +215,20 @@ export class Plots {
         context.stroke();
     }
 
-    #drawMoment(context, height) {
+    #drawMoment(context) {
         const { player, run } = this;
         const x = Math.round(this.#x(player.time)) + 0.5;
         if (x >= LEFT - 1 && x <= LEFT + this.width + 1) {
             context.strokeStyle = styleColor("--accent");
             context.lineWidth = 1;
-            line(context, x, TOP - 8, x, height - BOTTOM);
+            for (const pane of this.panes) line(context, x, pane.top, x, pane.top + pane.height);
         }
         const series = this.series.of(this.body);
         PANES.forEach(({ name }, index) => {
             const { top, scale } = this.panes[index];
             const value = digits(series[name].size[player.frame] / scale.factor);
             const text = name === "depth" ? value : `|${name === "force" ? "F" : "M"}| ${value}`;
-            caption(context, `${text} ${scale.unit}`, LEFT + this.width - 4, top + 4, "right");
+            caption(context, `${text} ${scale.unit}`, LEFT + this.width, top - 6, "right");
         });
         const spoken = PANES.map(({ name, title, unit }) => `${title} ${digits(series[name].size[player.frame])} ${unit}`);
         this.canvas.setAttribute("aria-label", `${run.bodies[this.body].name} over time. Now: ${spoken.join(", ")}`);
@@ -237,15 +242,10 @@ function line(context, x0, y0, x1, y1) {
     context.stroke();
 }
 
-// Text on a patch, so that a curve behind it does not cross it.
+// Above a plot, where no curve is.
 function caption(context, text, x, y, align) {
     context.font = "600 11px system-ui, sans-serif";
     context.textAlign = align;
-    const { width } = context.measureText(text);
-    context.globalAlpha = 0.8;
-    context.fillStyle = styleColor("--panel");
-    context.fillRect(align === "left" ? x - 3 : x - width - 3, y - 10, width + 6, 13);
-    context.globalAlpha = 1;
     context.fillStyle = styleColor("--text");
     context.fillText(text, x, y);
     context.font = "11px system-ui, sans-serif";

@@ -4,8 +4,9 @@ import { Color } from "three";
 
 const OBJECTS = ["#7d9cc6", "#c9b27a", "#a58fca", "#86b487", "#c99393", "#7fb3bf", "#b9a28b", "#98a1b3"];
 
-/** Steps of lightness. */
-const SHADES = [0, -0.1, 0.1, -0.18, 0.17];
+/** Steps of lightness, and how far the hues of the bodies of one object may lie apart. */
+const SHADES = [0, -0.12, 0.1, -0.05, 0.15], HUES = 0.16;
+const GOLDEN = 0.618034;
 
 export const STICK = "#1fb6a3";
 export const SLIP = "#f4622e";
@@ -15,13 +16,14 @@ export const AXES = ["#e5484d", "#3fa45b", "#4a86e8"];
 /** Colour of an object. */
 export const objectColor = (object) => OBJECTS[object % OBJECTS.length];
 
-/** Colour of each body: that of its object, those below the root a little lighter or darker in turn. */
+/** Colour of each body: that of its object, those below the root off it in hue and lightness, each by a step of its own. */
 export function bodyColors(bodies) {
     const below = new Map();
     return bodies.map(({ object, parent }) => {
         const index = parent === null ? 0 : (below.get(object) ?? 0) + 1;
         if (index) below.set(object, index);
-        return `#${new Color(objectColor(object)).offsetHSL(0, 0, SHADES[index % SHADES.length]).getHexString()}`;
+        const hue = index ? HUES * (((index * GOLDEN) % 1) - 0.5) : 0;
+        return `#${new Color(objectColor(object)).offsetHSL(hue, 0, SHADES[index % SHADES.length]).getHexString()}`;
     });
 }
 

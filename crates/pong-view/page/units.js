@@ -22,6 +22,12 @@ export function digits(value, count = 4) {
     return value.toFixed(Math.min(decimals, 6)).replace("-", "−");
 }
 
+/** So many decimals; what rounds to nothing has no sign. */
+export function fixed(value, decimals) {
+    const text = value.toFixed(decimals);
+    return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+}
+
 /** A value with its unit and a prefix that suits it: `1.250 kN`. */
 export function quantity(value, unit, count = 4) {
     if (!Number.isFinite(value)) return "–";

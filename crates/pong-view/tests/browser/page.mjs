@@ -22,7 +22,19 @@ export async function open(url, options = {}) {
     await page.waitForFunction(() => window.pong, null, { timeout: 120_000 }).catch(async (error) => {
         throw new Error([`the page does not come up: ${await page.textContent("#wait")}`, ...complaints, error].join("\n"));
     });
+    // Ready is what has been drawn.
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
     return { browser, page, complaints, seconds: (performance.now() - begin) / 1000 };
+}
+
+/** Pictures per second while the run plays from its start. */
+export async function rate(page, seconds = 3) {
+    const count = () => page.evaluate(() => [pong.picturesDrawn(), performance.now()]);
+    await page.evaluate(() => { pong.seekFrame(0); pong.play(); });
+    const [before] = [await count(), await page.waitForTimeout(1000 * seconds)];
+    const after = await count();
+    await page.evaluate(() => pong.pause());
+    return ((after[0] - before[0]) / (after[1] - before[1])) * 1000;
 }
 
 /** The picture of the run alone, as `{ width, height, at(x, y) }`; bars and labels over it are left out. */
