@@ -7,12 +7,14 @@ timeline and marks need numpy only.
 
 
 def register():
-    from . import ui
+    from . import command, ui
 
     ui.register()
+    command.register()
 
 
 def unregister():
-    from . import ui
+    from . import command, ui
 
+    command.unregister()
     ui.unregister()

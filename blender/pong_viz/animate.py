@@ -5,10 +5,22 @@ import bpy
 import numpy as np
 
 
+_OURS = "pong_response"
+
+
+def is_ours(action) -> bool:
+    """Whether an action comes from playback."""
+    return action is not None and bool(action.get(_OURS))
+
+
 def action_curves(owner, name: str):
     """The curves of a new action of an object: something with `new(data_path, index=i)`."""
+    old = owner.animation_data.action if owner.animation_data else None
     owner.animation_data_clear()
+    if is_ours(old) and old.users == 0:
+        bpy.data.actions.remove(old)
     action = bpy.data.actions.new(name)
+    action[_OURS] = True
     data = owner.animation_data_create()
     data.action = action
     if not hasattr(action, "slots"):  # before 4.4

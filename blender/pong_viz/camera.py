@@ -6,18 +6,20 @@ import numpy as np
 from mathutils import Vector
 
 DIRECTION = (1.0, -1.5, 0.75)  # from what is looked at to the camera
+SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}  # objects that have a size
+LARGE = 20.0  # times what is looked at: a terrain, not what the camera is for
 
 
-def frame_camera(scene, collection, bodies, direction=DIRECTION, lens_mm: float = 50.0):
-    """Adds a camera that sees every body in every picture, and two suns."""
-    low, high = _box_of_run(scene, bodies)
-    center, radius = 0.5 * (low + high), max(0.5 * float(np.linalg.norm(high - low)), 1e-3)
+def frame_camera(scene, collection, bodies, points, extent: float, direction=DIRECTION, lens_mm: float = 50.0):
+    """Adds a camera that sees the bodies in every picture and all points, and two suns. `extent`: of what is looked at."""
+    low, high = _box_of_run(scene, _looked_at(bodies, extent), points)
+    center, radius = 0.5 * (low + high), max(0.5 * float(np.linalg.norm(high - low)), 0.05 * extent)
     data = bpy.data.cameras.new("Pong camera")
     data.lens = lens_mm
     camera = bpy.data.objects.new("Pong camera", data)
     collection.objects.link(camera)
-    aspect = scene.render.resolution_y / max(1, scene.render.resolution_x)
-    half_angle = 0.5 * data.angle * min(1.0, aspect)
+    sides = sorted((scene.render.resolution_x, scene.render.resolution_y))
+    half_angle = np.arctan(np.tan(0.5 * data.angle) * sides[0] / sides[1])  # the lens tells that of the longer side
     away = Vector(direction).normalized()
     distance = float(1.02 * radius / np.sin(half_angle))
     camera.location = Vector(center) + distance * away
@@ -34,20 +36,34 @@ def frame_camera(scene, collection, bodies, direction=DIRECTION, lens_mm: float 
     return camera
 
 
-def _box_of_run(scene, bodies, samples: int = 24):
-    """Box around all bodies with what hangs on them, over the run. Planes have no end: they do not count."""
-    points = []
+def _looked_at(bodies, extent: float) -> list:
+    """Bodies that one can see the end of; all if there are none."""
+    chosen = []
+    for body in bodies:
+        corners = np.array([corner for item in _solid(body) for corner in _corners(item)])
+        instanced = body.instance_type == "COLLECTION"
+        if instanced or (len(corners) and np.ptp(corners, axis=0).max() <= LARGE * extent):
+            chosen.append(body)
+    return chosen or bodies
+
+
+def _solid(body) -> list:
+    return [item for item in (body, *body.children_recursive) if item.type in SOLID and item.get("pong_kind") != "Plane"]
+
+
+def _box_of_run(scene, bodies, points, samples: int = 24):
+    """Box around all bodies with what hangs on them, over the run, and around points. Planes have no end: they do not count."""
+    found = [points]
     for picture in np.unique(np.linspace(scene.frame_start, scene.frame_end, samples).astype(int)):
         scene.frame_set(int(picture))
         for body in bodies:
-            for item in (body, *body.children_recursive):
-                points += _corners(item)
+            found.append(np.array([corner for item in _solid(body) for corner in _corners(item)] or [body.matrix_world.translation]))
     scene.frame_set(scene.frame_start)
-    points = np.array(points)
-    return points.min(axis=0), points.max(axis=0)
+    joined = np.concatenate([np.zeros((0, 3)), *found])
+    if len(joined) == 0:
+        return np.zeros(3), np.zeros(3)
+    return joined.min(axis=0), joined.max(axis=0)
 
 
 def _corners(item):
-    if item.type != "MESH" or item.get("pong_kind") == "Plane":
-        return [tuple(item.matrix_world.translation)]
     return [tuple(item.matrix_world @ Vector(corner)) for corner in item.bound_box]

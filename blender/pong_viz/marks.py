@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .log import Log
-from .timeline import Film, View, from_z
+from .timeline import Film, View, from_z, turned
 
 STICK = (0.10, 0.75, 0.25, 1.0)  # colour of a contact whose friction sticks
 SLIP = (0.95, 0.25, 0.10, 1.0)  # and of one that slips
@@ -22,9 +22,15 @@ class Slots:
     shown: np.ndarray  # bool
     points: np.ndarray  # (.., 3)
     turns: np.ndarray  # (.., 4): takes +z to the direction of the force
+    tangents: np.ndarray  # (.., 4): takes +z to the normal of the contact
     forces: np.ndarray  # N
     sticks: np.ndarray  # bool
     left_out: int  # contacts of no slot, over all pictures
+
+    def tips(self, metres_per_newton: float) -> np.ndarray:
+        """Ends of all arrows that are shown, (n, 3)."""
+        ways = turned(self.turns[self.shown], np.broadcast_to([0.0, 0.0, 1.0], (int(self.shown.sum()), 3)))
+        return self.points[self.shown] + metres_per_newton * self.forces[self.shown][:, None] * ways
 
 
 def slots(log: Log, film: Film, seen: View, most: int = 64) -> Slots:
@@ -32,45 +38,55 @@ def slots(log: Log, film: Film, seen: View, most: int = 64) -> Slots:
 
     The force is that on the first object of the pair; its opposite acts on the second.
     """
-    rows, inverse = np.unique(film.rows, return_inverse=True)
-    listed = {int(row): _largest(log.contacts_of(int(row)), most) for row in rows}
-    most_shown = max((len(contacts) for contacts in listed.values()), default=0)
-    count = len(film.rows)
-    made = Slots(
-        shown=np.zeros((count, most_shown), dtype=bool),
-        points=np.zeros((count, most_shown, 3)),
-        turns=np.tile([1.0, 0.0, 0.0, 0.0], (count, most_shown, 1)),
-        forces=np.zeros((count, most_shown)),
-        sticks=np.zeros((count, most_shown), dtype=bool),
-        left_out=sum(max(0, int(log.frames["contacts"][rows[i]]) - most) for i in inverse),
-    )
+    in_picture = np.asarray(log.frames["contacts"])[film.rows].astype(int)
+    made = _hidden(len(film.rows), min(int(in_picture.max(initial=0)), most))
+    made.left_out = int(np.maximum(in_picture - most, 0).sum())
+    owners = _owners(log)
     for picture, row in enumerate(film.rows):
-        contacts = listed[int(row)]
-        forces = _signs(log, contacts)[:, None] * _forces(contacts)
-        for slot, contact in enumerate(contacts):
-            _fill(made, picture, slot, contact, forces[slot], seen)
+        contacts = _largest(log.contacts_of(int(row)), most)
+        if len(contacts):
+            _fill(made, picture, contacts, _signs(owners, contacts)[:, None] * _forces(contacts), seen)
     return made
 
 
-def _fill(made: Slots, picture: int, slot: int, contact, force, seen: View) -> None:
-    size = float(np.linalg.norm(force))
-    direction = force if size > 0.0 else contact["normal"]
-    made.shown[picture, slot] = True
-    made.points[picture, slot] = seen.point(contact["point"], picture)
-    made.turns[picture, slot] = from_z(seen.direction(direction, picture))
-    made.forces[picture, slot] = size
-    made.sticks[picture, slot] = bool(contact["sticks"])
+def _hidden(pictures: int, count: int) -> Slots:
+    no_turn = [1.0, 0.0, 0.0, 0.0]
+    return Slots(
+        shown=np.zeros((pictures, count), dtype=bool),
+        points=np.zeros((pictures, count, 3)),
+        turns=np.tile(no_turn, (pictures, count, 1)),
+        tangents=np.tile(no_turn, (pictures, count, 1)),
+        forces=np.zeros((pictures, count)),
+        sticks=np.zeros((pictures, count), dtype=bool),
+        left_out=0,
+    )
+
+
+def _fill(made: Slots, picture: int, contacts: np.ndarray, forces: np.ndarray, seen: View) -> None:
+    sizes, here = np.linalg.norm(forces, axis=1), (picture, slice(len(contacts)))
+    directions = np.where(sizes[:, None] > 0.0, forces, contacts["normal"])
+    made.shown[here] = True
+    made.points[here] = seen.point(contacts["point"], picture)
+    made.turns[here] = from_z(seen.direction(directions, picture))
+    made.tangents[here] = from_z(seen.direction(contacts["normal"], picture))
+    made.forces[here] = sizes
+    made.sticks[here] = contacts["sticks"] != 0
 
 
 def _forces(contacts: np.ndarray) -> np.ndarray:
     return contacts["normal_force"][:, None] * contacts["normal"] + contacts["friction_force"]
 
 
-def _signs(log: Log, contacts: np.ndarray) -> np.ndarray:
+def _owners(log: Log) -> tuple[np.ndarray, np.ndarray]:
+    """Object of each primitive, and the first object of each pair."""
+    objects = [log.run["bodies"][primitive.body]["object"] for primitive in log.primitives]
+    return np.array(objects, dtype=int), np.array([first for first, _ in log.pairs], dtype=int)
+
+
+def _signs(owners: tuple[np.ndarray, np.ndarray], contacts: np.ndarray) -> np.ndarray:
     """1 where A belongs to the first object of the pair, else -1."""
-    owner = np.array([log.run["bodies"][p.body]["object"] for p in log.primitives] or [0])
-    first = np.array([pair[0] for pair in log.run["pairs"]] or [0])
-    return np.where(owner[contacts["primitive_a"]] == first[contacts["pair"]], 1.0, -1.0)
+    of_primitive, first = owners
+    return np.where(of_primitive[contacts["primitive_a"]] == first[contacts["pair"]], 1.0, -1.0)
 
 
 def _largest(contacts: np.ndarray, most: int) -> np.ndarray:
@@ -81,15 +97,14 @@ def _largest(contacts: np.ndarray, most: int) -> np.ndarray:
     return contacts[np.sort(np.argsort(-sizes, kind="stable")[:most])]
 
 
-def touched(log: Log, film: Film, primitive: int) -> np.ndarray:
-    """For each picture: whether a primitive touches."""
-    rows, inverse = np.unique(film.rows, return_inverse=True)
-
-    def touches(row: int) -> bool:
-        contacts = log.contacts_of(row)
-        return bool(np.any(contacts["primitive_a"] == primitive) or np.any(contacts["primitive_b"] == primitive))
-
-    return np.array([touches(int(row)) for row in rows])[inverse]
+def touched(log: Log, film: Film) -> dict[int, np.ndarray]:
+    """Primitive -> for each picture, whether it touches. Those that never do in the film are left out."""
+    lit: dict[int, np.ndarray] = {}
+    for picture, row in enumerate(film.rows):
+        contacts = log.contacts_of(int(row))
+        for primitive in np.union1d(contacts["primitive_a"], contacts["primitive_b"]):
+            lit.setdefault(int(primitive), np.zeros(len(film.rows), dtype=bool))[picture] = True
+    return lit
 
 
 def largest_force(log: Log) -> float:

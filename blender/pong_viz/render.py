@@ -13,7 +13,7 @@ BACKGROUND = (0.50, 0.53, 0.58)
 
 @dataclass
 class Picture:
-    """How to render."""
+    """How to render; the engine `scene` leaves all settings of the scene as they are."""
 
     width: int = 1280
     height: int = 720
@@ -22,13 +22,19 @@ class Picture:
 
 
 def prepare(scene, picture: Picture) -> None:
-    """Sets size and engine."""
+    """Sets size, engine and, where there is none, a background."""
+    if picture.engine == "scene":
+        return
     scene.render.resolution_x, scene.render.resolution_y = picture.width, picture.height
     scene.render.resolution_percentage = 100
     scene.render.engine = _engine(picture.engine)
     if scene.world is None:
         scene.world = bpy.data.worlds.new("Pong world")
         scene.world.color = BACKGROUND
+        scene.world.use_nodes = True
+        for node in scene.world.node_tree.nodes:
+            if node.type == "BACKGROUND":  # what EEVEE and Cycles see
+                node.inputs["Color"].default_value = (*BACKGROUND, 1.0)
     if picture.engine == "workbench":
         shading = scene.display.shading
         shading.light, shading.color_type = "STUDIO", "OBJECT"
@@ -51,34 +57,85 @@ def _engine(name: str) -> str:
     return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in known or bpy.app.version < (5, 0, 0) else "BLENDER_EEVEE"
 
 
+class RenderFault(Exception):
+    """A picture or film that cannot be made; the text names the file, the cause and the cure."""
+
+
 def still(scene, path: Path, frame: int) -> Path:
     """One picture as PNG."""
+    _check(path, ".png")
     scene.frame_set(frame)
     _as_png(scene)
     scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True, scene=scene.name)
-    return path
+    return _rendered(path, write_still=True, scene=scene.name)
 
 
-def frames(scene, folder: Path) -> None:
-    """Every picture of the scene as `frame_0001.png` ... in a folder."""
+def frames(scene, folder: Path) -> Path:
+    """Every picture of the scene as `frame_0001.png` ... in a folder. Pictures of an earlier, longer film are taken away."""
     folder.mkdir(parents=True, exist_ok=True)
+    for old in folder.glob("frame_[0-9][0-9][0-9][0-9]*.png"):
+        old.unlink()
     _as_png(scene)
     scene.render.filepath = str(folder / "frame_")
-    bpy.ops.render.render(animation=True, scene=scene.name)
+    _rendered(folder / f"frame_{scene.frame_end:04}.png", animation=True, scene=scene.name)
+    return folder
 
 
 def movie(scene, path: Path) -> Path:
     """The whole scene as an mp4 film (H.264)."""
+    _check(path, ".mp4")
+    as_film(scene, path)
+    return _rendered(path, animation=True, scene=scene.name)
+
+
+def as_film(scene, path: Path) -> None:
+    """Settings for an mp4 film; its sides are made even, which H.264 wants."""
     settings = scene.render.image_settings
     if hasattr(settings, "media_type"):  # from 5.0 on it decides which formats there are
         settings.media_type = "VIDEO"
     settings.file_format = "FFMPEG"
     scene.render.ffmpeg.format, scene.render.ffmpeg.codec = "MPEG4", "H264"
     scene.render.ffmpeg.constant_rate_factor = "HIGH"
+    scene.render.resolution_x += scene.render.resolution_x % 2
+    scene.render.resolution_y += scene.render.resolution_y % 2
     scene.render.use_file_extension = False
     scene.render.filepath = str(path)
-    bpy.ops.render.render(animation=True, scene=scene.name)
+
+
+KEPT = ("filepath", "use_file_extension", "resolution_x", "resolution_y")
+
+
+def kept(scene) -> dict:
+    """Where and how the scene's own renders go; rendering a response changes it for a while."""
+    settings = scene.render.image_settings
+    form = {name: getattr(settings, name) for name in ("media_type", "file_format", "color_mode") if hasattr(settings, name)}
+    return {"render": {name: getattr(scene.render, name) for name in KEPT}, "form": form, "frame": scene.frame_current}
+
+
+def restore(scene, before: dict) -> None:
+    for name, value in before["form"].items():
+        setattr(scene.render.image_settings, name, value)
+    for name, value in before["render"].items():
+        setattr(scene.render, name, value)
+    scene.frame_set(before["frame"])
+
+
+def _check(path: Path, ending: str) -> None:
+    if path.suffix.lower() != ending:
+        raise RenderFault(f"{path}: the name must end in {ending}")
+    if not path.parent.is_dir():
+        raise RenderFault(f"{path}: there is no folder {path.parent}; make it first")
+
+
+def _rendered(path: Path, **what) -> Path:
+    """Renders; Blender itself is silent about files it could not write."""
+    path.unlink(missing_ok=True)
+    try:
+        bpy.ops.render.render(**what)
+    except RuntimeError as reason:
+        raise RenderFault(f"{path}: not written; Blender says: {str(reason).strip()}") from None
+    if not path.is_file() or path.stat().st_size == 0:
+        raise RenderFault(f"{path}: not written; see what Blender printed, and whether the disk has room")
     return path
 
 

@@ -34,7 +34,7 @@ class Sizes:
 
 def sizes_for(extent: float, travel: float) -> Sizes:
     """Sizes that show well for models of this extent, of which one travels so far (m)."""
-    return Sizes(point=0.006 * extent, line=0.003 * extent, plane=extent + travel)
+    return Sizes(point=0.012 * extent, line=0.006 * extent, plane=extent + travel)
 
 
 def load(path: Path) -> Model:
@@ -94,15 +94,35 @@ def shape(path: str, primitive: Primitive, rotation: np.ndarray, position: np.nd
     return Shape(path, primitive.kind, np.asarray(vertices) @ rotation.T + position, faces)
 
 
+def boxes_of(model: Model) -> dict[str, np.ndarray]:
+    """Path of each movable group -> low and high corner (2, 3) of its primitives in its frame, m.
+
+    Planes have no end: of them only the place nearest to the origin counts, and only where there is nothing else.
+    """
+    none = Sizes(0.0, 0.0, 0.0)
+    boxes = {}
+    for path, primitives in bodies_of(model).items():
+        solid = [listed for listed in primitives if listed[1].kind != "Plane"] or primitives
+        points = [shape(*listed, none).vertices for listed in solid]
+        if points:
+            joined = np.concatenate(points)
+            boxes[path] = np.array([joined.min(axis=0), joined.max(axis=0)])
+    return boxes
+
+
 def extent_of(model: Model) -> float:
-    """Roughly how large a model is, m, planes left aside; 0 if it holds nothing else."""
-    far = 0.0
-    for primitives in bodies_of(model).values():
-        for _, primitive, rotation, position in primitives:
-            if primitive.kind != "Plane":
-                vertices, _ = _DRAWN[primitive.kind](primitive.fields, Sizes(0.0, 0.0, 0.0))
-                far = max(far, float(np.abs(np.asarray(vertices) @ rotation.T + position).max(initial=0.0)))
-    return 2.0 * far
+    """Longest side of the largest of a model's bodies, m; 0 for planes and single points."""
+    return max((float((high - low).max()) for low, high in boxes_of(model).values()), default=0.0)
+
+
+FAR = 1000.0  # m; beyond, single precision leaves less than 0.1 mm
+
+
+def anchor_of(box: np.ndarray | None) -> np.ndarray:
+    """Place in a body's frame that its drawn shapes are told from: its origin unless the shapes are far from it."""
+    if box is None or np.linalg.norm(box.mean(axis=0)) < FAR:
+        return np.zeros(3)
+    return np.round(box.mean(axis=0))
 
 
 # --- one function for each kind -----------------------------------------------------------------------------------

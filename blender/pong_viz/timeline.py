@@ -23,6 +23,7 @@ def film(log: Log, fps: int = 30, speed: float = 1.0, start: float | None = None
     """Pictures at a steady rate; `speed` 0.1 is ten times slower than life."""
     first = log.times[0] if start is None else max(start, log.times[0])
     last = log.times[-1] if end is None else min(end, log.times[-1])
+    # Also false for NaN.
     if not last >= first:
         raise ValueError(f"nothing to show from {first} s to {last} s; the log runs from {log.times[0]} to {log.times[-1]} s")
     count = int(np.floor((last - first) * fps / speed + 1e-9)) + 1
@@ -47,6 +48,7 @@ class View:
 
     origins: np.ndarray  # (pictures, 3)
     turns: np.ndarray | None  # (pictures, 4), or None for the common axes
+    followed: int | None = None  # body that the view goes along with though nobody asked for it
 
     def point(self, points: np.ndarray, picture: int) -> np.ndarray:
         return self.direction(np.asarray(points) - self.origins[picture], picture)
@@ -57,23 +59,71 @@ class View:
         return turned(conjugate(self.turns[picture]), np.asarray(vectors, dtype=float))
 
 
-def view(log: Log, film: Film, body: int | None = None) -> View:
-    """Seen from the common frame, its origin moved to where the bodies start; or from a body that is held still."""
-    if body is None:
-        starts = np.asarray(log.states["position"][film.rows[0]])
-        starts = starts[np.isfinite(starts).all(axis=1)]
-        near = starts.mean(axis=0) if len(starts) else np.zeros(3)
-        # Whole metres, and nothing for scenes near the origin: coordinates on the screen stay those of the log.
-        origin = np.where(np.abs(near) > 100.0, np.round(near), 0.0)
-        return View(np.broadcast_to(origin, (len(film.times), 3)), None)
-    positions, orientations = interpolated(log, film, body)
-    return View(positions, orientations)
+FOLLOW_FROM = 20.0  # times what is looked at: further away nothing of it would be seen
 
 
-def track(log: Log, film: Film, body: int, seen: View) -> Track:
-    """A body's way; it stays where it is first known while its state is not set."""
+def view(log: Log, film: Film, body: int | None = None, extent: float = np.inf, anchors: np.ndarray | None = None) -> View:
+    """From a body that is held still; else from the common frame, its origin moved to where things happen.
+
+    Where all bodies rush through the common frame together, as in orbit, the view goes along with the first, without
+    turning. `extent` is the size of what is looked at, m; `anchors` as for `track`.
+    """
+    if body is not None:
+        if not is_known(log, body):
+            raise ValueError(f"body `{log.bodies[body].name}` has no state in the log: it cannot be held still; choose another")
+        return View(*interpolated(log, film, body))
+    known = [number for number in range(len(log.bodies)) if is_known(log, number)]
+    ways = [way_of(log, film, number, _anchor(anchors, number)) for number in known]
+    if _rush_together(ways, extent):
+        return View(ways[0], None, known[0])
+    near = _first_contact(log, film)
+    if near is None:
+        near = np.mean([way[0] for way in ways], axis=0) if ways else np.zeros(3)
+    # Whole metres, and nothing for scenes near the origin: coordinates on the screen stay those of the log.
+    origin = np.where(np.abs(near) > 100.0, np.round(near), 0.0)
+    return View(np.broadcast_to(origin, (len(film.times), 3)), None)
+
+
+def _rush_together(ways: list[np.ndarray], extent: float) -> bool:
+    if len(ways) < 2:
+        return False
+    far = [np.linalg.norm(way - way[0], axis=1).max() for way in ways]
+    apart = max(np.linalg.norm((way - ways[0]) - (way[0] - ways[0][0]), axis=1).max() for way in ways)
+    return bool(min(far) > FOLLOW_FROM * (extent + apart))
+
+
+def _first_contact(log: Log, film: Film) -> np.ndarray | None:
+    for row in film.rows:
+        contacts = log.contacts_of(int(row))
+        if len(contacts):
+            return np.array(contacts["point"][0])
+    return None
+
+
+def _anchor(anchors: np.ndarray | None, body: int) -> np.ndarray:
+    return np.zeros(3) if anchors is None else anchors[body]
+
+
+def is_known(log: Log, body: int) -> bool:
+    """Whether the state of a body is ever set in the log."""
+    return len(_known_rows(log.states[:, body])) > 0
+
+
+def _known_rows(states: np.ndarray) -> np.ndarray:
+    finite = np.isfinite(states["position"]).all(axis=1) & np.isfinite(states["orientation"]).all(axis=1)
+    return np.flatnonzero(finite)
+
+
+def way_of(log: Log, film: Film, body: int, anchor: np.ndarray) -> np.ndarray:
+    """Where a point of a body (`anchor`, in its frame) is in the common frame at each picture."""
     positions, orientations = interpolated(log, film, body)
-    positions = positions - seen.origins
+    return positions + turned(orientations, np.broadcast_to(anchor, positions.shape))
+
+
+def track(log: Log, film: Film, body: int, seen: View, anchor: np.ndarray = np.zeros(3)) -> Track:
+    """The way of a body's point `anchor` (in its frame) and its turns."""
+    _, orientations = interpolated(log, film, body)
+    positions = way_of(log, film, body, anchor) - seen.origins
     if seen.turns is not None:
         back = conjugate(seen.turns)
         positions, orientations = turned(back, positions), product(back, orientations)
@@ -81,22 +131,27 @@ def track(log: Log, film: Film, body: int, seen: View) -> Track:
 
 
 def interpolated(log: Log, film: Film, body: int) -> tuple[np.ndarray, np.ndarray]:
-    """Position and orientation at each picture: straight between two rows, at constant rate about a fixed axis."""
-    after = np.minimum(film.rows + 1, len(log.times) - 1)
-    span = log.times[after] - log.times[film.rows]
-    share = np.clip((film.times - log.times[film.rows]) / np.where(span > 0.0, span, 1.0), 0.0, 1.0)
+    """Position and orientation at each picture: straight between two rows, at constant rate about a fixed axis.
+
+    Rows in which the state is not set do not count: before the first that is, the body waits there. The origin for a body
+    whose state is never set.
+    """
     rows = log.states[:, body]
-    p0, p1 = rows["position"][film.rows], rows["position"][after]
-    q0, q1 = rows["orientation"][film.rows], rows["orientation"][after]
-    known = np.isfinite(p0).all(axis=1) & np.isfinite(p1).all(axis=1)
-    positions = np.where(known[:, None], p0 + share[:, None] * (p1 - p0), 0.0)
-    orientations = np.where(known[:, None], slerp(q0, q1, share), (1.0, 0.0, 0.0, 0.0))
-    return positions, orientations
+    known = _known_rows(rows)
+    if len(known) == 0:
+        return np.zeros((len(film.times), 3)), np.tile([1.0, 0.0, 0.0, 0.0], (len(film.times), 1))
+    behind = np.searchsorted(known, film.rows, side="right")
+    before, after = known[np.maximum(behind - 1, 0)], known[np.minimum(behind, len(known) - 1)]
+    span = log.times[after] - log.times[before]
+    share = np.clip((film.times - log.times[before]) / np.where(span > 0.0, span, 1.0), 0.0, 1.0)
+    p0, p1 = rows["position"][before], rows["position"][after]
+    return p0 + share[:, None] * (p1 - p0), slerp(rows["orientation"][before], rows["orientation"][after], share)
 
 
-def travel(log: Log, film: Film, seen: View) -> float:
-    """How far the origin of any body gets from the scene's, m."""
-    ways = [track(log, film, number, seen).positions for number in range(len(log.bodies))]
+def travel(log: Log, film: Film, seen: View, anchors: np.ndarray | None = None) -> float:
+    """How far the anchor of any body gets from the scene's origin, m."""
+    known = [number for number in range(len(log.bodies)) if is_known(log, number)]
+    ways = [track(log, film, number, seen, _anchor(anchors, number)).positions for number in known]
     return max((float(np.linalg.norm(way, axis=1).max()) for way in ways), default=0.0)
 
 
@@ -139,10 +194,10 @@ def continuous(q: np.ndarray) -> np.ndarray:
     return q * signs[:, None]
 
 
-def from_z(direction: np.ndarray) -> np.ndarray:
-    """The shortest turn that takes +z to a direction of any length but zero."""
-    d = direction / np.linalg.norm(direction)
-    if d[2] < -1.0 + 1e-12:
-        return np.array([0.0, 1.0, 0.0, 0.0])
-    q = np.array([1.0 + d[2], -d[1], d[0], 0.0])
-    return q / np.linalg.norm(q)
+def from_z(directions: np.ndarray) -> np.ndarray:
+    """The shortest turns that take +z to directions of any length but zero, axes (.., 3)."""
+    d = np.asarray(directions, dtype=float)
+    d = d / np.linalg.norm(d, axis=-1, keepdims=True)
+    q = np.stack([1.0 + d[..., 2], -d[..., 1], d[..., 0], np.zeros(d.shape[:-1])], axis=-1)
+    q = np.where(d[..., 2:] < -1.0 + 1e-12, (0.0, 1.0, 0.0, 0.0), q)
+    return q / np.linalg.norm(q, axis=-1, keepdims=True)

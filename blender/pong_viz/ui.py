@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""File > Import > Pong response log, and its panel."""
+"""File > Import > Pong response log, its panel, and pictures and films from there."""
 
 from pathlib import Path
 
@@ -7,7 +7,10 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
+from . import render
+from .graphics import PROPERTY
 from .log import Log, LogError
+from .scene import Options, show
 
 
 class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
@@ -21,42 +24,89 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
     filter_glob: StringProperty(default="run.json", options={"HIDDEN"})
     fps: IntProperty(name="Pictures per second", default=30, min=1)
     speed: FloatProperty(name="Speed", description="0.1: ten times slower than life", default=1.0, min=1e-6)
+    part: BoolProperty(name="A part of the run", description="Only from one instant to another", default=False)
+    start: FloatProperty(name="From", description="s in the log", default=0.0)
+    end: FloatProperty(name="To", description="s in the log", default=1.0)
     relative_to: StringProperty(name="Hold still", description="Body that the view follows; empty for the common frame")
     shapes: EnumProperty(name="Shapes", default="missing", items=(
         ("missing", "Where there are no graphics", "Draw the primitives of bodies without an object of their own"),
+        ("touched", "And those that touch", "As before and, over graphics, each primitive while it touches"),
         ("all", "All", "Draw the primitives of every body"),
         ("none", "None", "Draw no primitives"),
     ))
     arrow_length: FloatProperty(name="Arrow", description="Length for the largest force, m; 0 chooses", default=0.0, min=0.0)
     most_contacts: IntProperty(name="Contacts", description="Shown at once", default=64, min=1)
     alpha: FloatProperty(name="Opacity", default=0.55, min=0.0, max=1.0)
-    camera: BoolProperty(name="Camera and lights", default=True)
+    camera: BoolProperty(name="Camera and lights", description="Add a camera that has all in view, and two suns", default=True)
+    look: BoolProperty(name="Workbench", description="Render with Workbench, set so that colours and arrows are seen; "
+                       "else the scene's own settings stay", default=True)
 
     def execute(self, context):
-        from .render import Picture, prepare
-        from .scene import Options, show
-
-        given = Path(self.filepath)
-        options = Options(
-            fps=self.fps, speed=self.speed, relative_to=self.relative_to, shapes=self.shapes,
-            arrow_length=self.arrow_length, most_contacts=self.most_contacts, alpha=self.alpha, camera=self.camera,
-        )
+        scene = context.scene
+        if self.look:
+            render.prepare(scene, render.Picture(scene.render.resolution_x, scene.render.resolution_y))
         try:
-            log = Log(given.parent if given.name == "run.json" else given)
-            made = show(log, options, context.scene)
+            made = show(Log(self.filepath), self._options(), scene)
         except (LogError, ValueError, OSError) as fault:
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
-        if context.scene.render.engine == "BLENDER_WORKBENCH":
-            prepare(context.scene, Picture(context.scene.render.resolution_x, context.scene.render.resolution_y))
         for note in made.notes:
             self.report({"WARNING"}, note)
-        self.report({"INFO"}, f"{len(made.film.times)} pictures; 1 m of arrow is {_newtons(made):.4g} N")
+        scale = f"; 1 m of arrow is {1.0 / made.metres_per_newton:.4g} N" if made.metres_per_newton else "; nothing touches"
+        self.report({"INFO"}, f"{len(made.film.times)} pictures{scale}")
         return {"FINISHED"}
 
+    def _options(self) -> Options:
+        return Options(
+            fps=self.fps, speed=self.speed, start=self.start if self.part else None, end=self.end if self.part else None,
+            relative_to=self.relative_to, shapes=self.shapes, arrow_length=self.arrow_length,
+            most_contacts=self.most_contacts, alpha=self.alpha, camera=self.camera,
+        )
 
-def _newtons(made) -> float:
-    return 1.0 / made.metres_per_newton if made.metres_per_newton else 0.0
+
+class PONG_OT_render_response(bpy.types.Operator):
+    """Render the scene: a film, every picture, or the current picture"""
+
+    bl_idname = "pong.render_response"
+    bl_label = "Render response"
+
+    filepath: StringProperty(subtype="FILE_PATH")
+    check_existing: BoolProperty(default=True, options={"HIDDEN"})
+    form: EnumProperty(name="As", items=(
+        ("FILM", "Film", "One .mp4"),
+        ("FRAMES", "Pictures", "A folder with a .png of each picture"),
+        ("STILL", "Still", "One .png of the current picture"),
+    ))
+
+    @classmethod
+    def poll(cls, context):
+        cls.poll_message_set("The scene has no camera: import a response, or add one")
+        return context.scene.camera is not None
+
+    def invoke(self, context, _event):
+        name = {"FILM": "response.mp4", "FRAMES": "response_frames", "STILL": "response.png"}[self.form]
+        folder = Path(bpy.data.filepath).parent if bpy.data.filepath else Path.home()
+        self.filepath = str(folder / name)
+        context.window_manager.fileselect_add(self)
+        return {"RUNNING_MODAL"}
+
+    def execute(self, context):
+        scene, path = context.scene, Path(bpy.path.abspath(self.filepath))
+        settings = render.kept(scene)
+        try:
+            if self.form == "FILM":
+                render.movie(scene, path)
+            elif self.form == "FRAMES":
+                render.frames(scene, path)
+            else:
+                render.still(scene, path, scene.frame_current)
+        except (render.RenderFault, OSError) as fault:
+            self.report({"ERROR"}, str(fault))
+            return {"CANCELLED"}
+        finally:
+            render.restore(scene, settings)
+        self.report({"INFO"}, f"{path} written")
+        return {"FINISHED"}
 
 
 class PONG_PT_response(bpy.types.Panel):
@@ -66,30 +116,53 @@ class PONG_PT_response(bpy.types.Panel):
     def draw(self, context):
         column = self.layout.column()
         column.operator(PONG_OT_import_response.bl_idname, icon="IMPORT")
+        row = column.row(align=True)
+        for form, label in (("FILM", "Film"), ("FRAMES", "Pictures"), ("STILL", "Still")):
+            row.operator(PONG_OT_render_response.bl_idname, text=label).form = form
         moved = context.object
         if moved is not None:
             column.label(text="Body that moves this object:")
-            if "pong_body" in moved:
-                column.prop(moved, '["pong_body"]', text="")
+            if PROPERTY in moved:
+                column.prop(moved, f'["{PROPERTY}"]', text="")
+                column.operator(PONG_OT_free_object.bl_idname)
             else:
                 column.operator(PONG_OT_bind_body.bl_idname)
 
 
-class PONG_OT_bind_body(bpy.types.Operator):
+class _OfObject:
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context):
+        cls.poll_message_set("No object is active: choose one")
+        return context.object is not None
+
+
+class PONG_OT_bind_body(_OfObject, bpy.types.Operator):
     """Let a body of the response move this object: its name is that in the log"""
 
     bl_idname = "pong.bind_body"
     bl_label = "Bind to a body"
-    bl_options = {"REGISTER", "UNDO"}
 
     body: StringProperty(name="Body", description="`object`, or `object/path of the group`; empty takes the object's name")
 
-    @classmethod
-    def poll(cls, context):
-        return context.object is not None
+    def invoke(self, context, _event):
+        return context.window_manager.invoke_props_dialog(self)
 
     def execute(self, context):
-        context.object["pong_body"] = self.body or context.object.name
+        context.object[PROPERTY] = self.body or context.object.name
+        return {"FINISHED"}
+
+
+class PONG_OT_free_object(_OfObject, bpy.types.Operator):
+    """No body of the response is to move this object any more; what it was given stays until the log is shown again"""
+
+    bl_idname = "pong.free_object"
+    bl_label = "Free from the body"
+
+    def execute(self, context):
+        if PROPERTY in context.object:
+            del context.object[PROPERTY]
         return {"FINISHED"}
 
 
@@ -97,7 +170,7 @@ def _menu(self, _context):
     self.layout.operator(PONG_OT_import_response.bl_idname, text="Pong response log (run.json)")
 
 
-_CLASSES = (PONG_OT_import_response, PONG_OT_bind_body, PONG_PT_response)
+_CLASSES = (PONG_OT_import_response, PONG_OT_render_response, PONG_OT_bind_body, PONG_OT_free_object, PONG_PT_response)
 
 
 def register():

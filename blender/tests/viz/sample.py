@@ -14,7 +14,7 @@ ORIGIN = np.array([6.8e6, 0.0, 0.0])
 STATES = [("position", "<f8", 3), ("orientation", "<f8", 4), ("linear_velocity", "<f8", 3), ("angular_velocity", "<f8", 3)]
 WRENCHES = [("force", "<f8", 3), ("moment", "<f8", 3)]
 FRAMES = [("frame", "<u8"), ("time", "<f8"), ("first_contact", "<u8"), ("contacts", "<u4"), ("flags", "<u4"),
-          ("evaluate_ns", "<u8")]
+          ("evaluate_ns", "<u8"), ("committed", "<u4"), ("commits_missed", "<u4")]
 CONTACTS = [("frame", "<u8"), ("pair", "<u4"), ("primitive_a", "<u4"), ("primitive_b", "<u4"), ("element_a", "<u4"),
             ("element_b", "<u4"), ("feature_kind", "<u4"), ("feature_index", "<u4"), ("end", "<u4"), ("sticks", "<u4"),
             ("point", "<f8", 3), ("normal", "<f8", 3), ("depth", "<f8"), ("rate", "<f8"), ("weight", "<f8"),
@@ -100,3 +100,29 @@ def _run():
                        {"body": 1, "path": "ground/floor", "kind": "Plane", "surface": "rigid"}],
         "finished": True, "frames": 101, "lost": 0,
     }
+
+
+def change_run(folder: Path, **fields) -> None:
+    """Other values in run.json."""
+    path = folder / "run.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | fields))
+
+
+def without_contacts(folder: Path) -> None:
+    """Nothing touches."""
+    frames = np.load(folder / "frames.npy")
+    frames["first_contact"] = frames["contacts"] = 0
+    np.save(folder / "frames.npy", frames)
+    np.save(folder / "contacts.npy", np.zeros(0, dtype=CONTACTS))
+
+
+def many_contacts(folder: Path, count: int) -> None:
+    """Each contact becomes `count` of them along y, 1 mm apart, the k-th with 1 + k N."""
+    frames, contacts = np.load(folder / "frames.npy"), np.load(folder / "contacts.npy")
+    more, number = np.repeat(contacts, count), np.tile(np.arange(count), len(contacts))
+    more["point"][:, 1] += 1e-3 * number
+    more["normal_force"] = 1.0 + number
+    frames["contacts"] *= count
+    frames["first_contact"] *= count
+    np.save(folder / "frames.npy", frames)
+    np.save(folder / "contacts.npy", more)

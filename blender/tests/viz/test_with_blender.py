@@ -1,17 +1,21 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Playback in Blender: keyframes, colours, pictures and films, from the command line and from the interface."""
 
+import io
 import os
+import re
 import shutil
 import tempfile
 import unittest
+from contextlib import redirect_stderr
 from pathlib import Path
 
 import bpy
 import numpy as np
 
 import pong_viz
-from pong_viz.__main__ import main
+from pong_viz import render
+from pong_viz.cli import main
 from pong_viz.log import Log
 from pong_viz.marks import SLIP, STICK, TOUCHED
 from pong_viz.scene import Options, show
@@ -95,6 +99,64 @@ class Scenes(WithScene):
         np.testing.assert_allclose(place, (500.0, 0.0, 100.0), rtol=1e-6, atol=1e-3)
 
 
+class Odd(WithScene):
+    """Logs that are not as one would wish."""
+
+    def shown(self, **options):
+        return show(Log(self.log_folder), Options(fps=100, **options))
+
+    def test_nothing_touches(self):
+        sample.without_contacts(self.log_folder)
+        made = self.shown()
+        self.assertEqual((made.arrows, made.metres_per_newton), ([], 0.0))
+        still = self.folder / "still.png"
+        self.assertEqual(main([str(self.log_folder), "--still", str(still), "--size", "160x90"]), 0)
+        self.assertGreater(np.ptp(_pixels(still)[..., 0]), 0.1)
+
+    def test_hundreds_of_contacts_are_all_shown_when_asked_for(self):
+        sample.many_contacts(self.log_folder, 300)
+        made = self.shown(most_contacts=300)
+        self.assertEqual((len(made.arrows), made.notes), (300, []))
+        self.at(51)
+        self.assertFalse(any(arrow.hide_render for arrow in made.arrows))
+        lengths = [arrow.evaluated_get(self.at(51)).matrix_world.to_scale().z for arrow in made.arrows]
+        np.testing.assert_allclose(lengths, np.hypot(1.0 + np.arange(300), 2.0) * made.metres_per_newton, rtol=1e-5)
+        self.assertRegex(self.shown().notes[0], "12036 contacts are not shown")
+
+    def test_a_body_without_a_state_is_told_and_left_out(self):
+        states = np.load(self.log_folder / "states.npy")
+        states["position"][:, 1] = np.nan
+        np.save(self.log_folder / "states.npy", states)
+        made = self.shown()
+        self.assertEqual(list(made.objects), ["ball"])
+        self.assertIn("body `ground` has no state in the log: it is not shown", made.notes)
+
+    def test_a_planet_is_told_from_its_middle(self):
+        """The ground's shapes and its origin are 4.2e6 m apart: on the screen its floor is under the ball all the same."""
+        ground = self.log_folder / "models/ground/ground.ron"
+        ground.write_text(ground.read_text().replace("offset: 0.0", "offset: 4.2e6"))
+        states = np.load(self.log_folder / "states.npy")
+        states["position"][:, 1, 2] -= 4.2e6
+        np.save(self.log_folder / "states.npy", states)
+        self.shown()
+        floor = bpy.data.objects["ground/floor"].evaluated_get(self.at(30))
+        heights = [(floor.matrix_world @ vertex.co).z for vertex in floor.data.vertices]
+        np.testing.assert_allclose(heights, 0.0, atol=1e-6)
+        self.assertLess(np.linalg.norm(bpy.context.scene.camera.location), 10.0)
+
+    def test_the_camera_looks_at_what_touches_not_at_all_the_terrain(self):
+        ground = self.log_folder / "models/ground/ground.ron"
+        terrain = 'Triangle(name: "floor", vertices: ((-5e3, -5e3, 0.0), (5e3, -5e3, 0.0), (0.0, 5e3, 0.0)))'
+        ground.write_text(ground.read_text().replace('Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)', terrain))
+        made = self.shown()
+        self.assertLess(np.linalg.norm(bpy.context.scene.camera.location), 10.0)
+        self.assertLess(15.0 * made.metres_per_newton, 1.0)
+
+    def test_a_frame_rate_of_one_picture_and_a_run_of_one(self):
+        made = show(Log(self.log_folder), Options(fps=1, start=0.2, end=0.2))
+        self.assertEqual((len(made.film.times), bpy.context.scene.frame_end), (1, 1))
+
+
 class Graphics(WithScene):
     def own_graphics(self):
         bpy.ops.mesh.primitive_cube_add(size=0.2)
@@ -109,6 +171,65 @@ class Graphics(WithScene):
         self.assertIs(made.objects["ball"], cube)
         self.assertNotIn("ball/skin", bpy.data.objects)
         np.testing.assert_allclose(cube.evaluated_get(self.at(101)).matrix_world.translation, (0.5, 0.0, 0.1), atol=1e-6)
+
+    def test_an_object_with_the_name_of_a_body_moves(self):
+        self.own_graphics().name = "ball"
+        made = show(Log(self.log_folder), Options(fps=100))
+        self.assertEqual(made.objects["ball"].type, "MESH")
+
+    def test_what_else_moved_the_object_is_switched_off_and_told(self):
+        cube = self.own_graphics()
+        cube["pong_body"] = "ball"
+        cube.parent.scale = (2.0, 2.0, 2.0)
+        bpy.context.scene.collection.objects.link(cube.parent)
+        cube.constraints.new("LIMIT_LOCATION").use_max_x = True
+        cube.keyframe_insert("location", frame=1)
+        made = show(Log(self.log_folder), Options(fps=100))
+        matrix = np.array(cube.evaluated_get(self.at(101)).matrix_world)
+        np.testing.assert_allclose(matrix[:3, 3], (0.5, 0.0, 0.1), atol=1e-6)
+        np.testing.assert_allclose(np.linalg.norm(matrix[:3, :3], axis=0), 2.0, atol=1e-5)
+        for told in ("no more by its parent", "`Limit Location` is switched off", "its own animation is replaced"):
+            self.assertIn(told, " ".join(made.notes))
+        self.assertEqual(show(Log(self.log_folder), Options(fps=100)).notes, [])
+
+    def test_marks_that_cannot_be_meant_are_told(self):
+        self.own_graphics()["pong_body"] = "ball"
+        self.own_graphics()["pong_body"] = "ball"
+        with self.assertRaisesRegex(ValueError, "`ball` is to move `Pretty`, `Pretty.001`; parent them to one"):
+            show(Log(self.log_folder), Options())
+        bpy.data.objects["Pretty.001"]["pong_body"] = "moon"
+        self.assertRegex(show(Log(self.log_folder), Options()).notes[0], "`Pretty.001` is marked for body `moon`, which is not")
+        with self.assertRaisesRegex(ValueError, "both to move `Pretty`"):
+            show(Log(self.log_folder), Options(graphics={"ball": "Pretty", "ground": "Pretty"}))
+
+    def test_primitives_over_graphics_while_they_touch(self):
+        cube = self.own_graphics()
+        cube["pong_body"], cube.scale = "ball", (3.0, 3.0, 3.0)
+        show(Log(self.log_folder), Options(fps=100, shapes="touched"))
+        skin = bpy.data.objects["ball/skin"].evaluated_get(self.at(51))
+        np.testing.assert_allclose(skin.matrix_world.translation, (0.25, 0.0, 0.1), atol=1e-6)
+        np.testing.assert_allclose(skin.dimensions, 0.2, rtol=0.02)
+        self.assertFalse(skin.hide_render)
+        self.at(52)
+        self.assertTrue(bpy.data.objects["ball/skin"].hide_render)
+        self.assertNotIn("ball/mark", bpy.data.objects)
+
+    def test_the_authors_camera_and_settings_can_stay(self):
+        self.own_graphics()
+        scene = bpy.context.scene
+        scene.camera = bpy.data.objects.new("Mine", bpy.data.cameras.new("Mine"))
+        scene.collection.objects.link(scene.camera)
+        scene.render.resolution_x, scene.render.resolution_y = 96, 64
+        own, made = self.folder / "own.blend", self.folder / "made.blend"
+        bpy.ops.wm.save_as_mainfile(filepath=str(own))
+        before = own.read_bytes()
+        words = [str(self.log_folder), "--graphics", str(own), "--own-camera", "--engine", "scene", "--blend", str(made)]
+        self.assertEqual(main(words), 0)
+        bpy.ops.wm.open_mainfile(filepath=str(made))
+        scene = bpy.context.scene
+        self.assertEqual((scene.camera.name, scene.render.resolution_x), ("Mine", 96))
+        self.assertEqual(main([*words[:-1], str(own)]), 2)
+        self.assertEqual(own.read_bytes(), before)
 
     def test_an_object_named_on_the_command_line_moves(self):
         self.own_graphics()
@@ -145,11 +266,32 @@ class Renders(WithScene):
         clip = bpy.data.movieclips.load(str(film))
         self.assertEqual((tuple(clip.size), clip.frame_duration), ((160, 90), 6))
 
+    def test_odd_sizes_make_a_film_too_and_old_pictures_go(self):
+        frames, film = self.folder / "frames", self.folder / "film.mp4"
+        for fps, count in ((5, 6), (2, 3)):
+            words = [str(self.log_folder), "--frames", str(frames), "-o", str(film), "--size", "65x37", "--fps", str(fps)]
+            self.assertEqual(main(words), 0)
+            self.assertEqual(len(list(frames.iterdir())), count)
+        self.assertEqual(tuple(bpy.data.movieclips.load(str(film)).size), (66, 38))
+
+    def test_a_place_that_cannot_be_written_is_told(self):
+        (self.folder / "file").write_text("")
+        for words in (["-o", "nowhere/film.mp4"], ["--still", "nowhere/x.png"], ["--frames", "file"], ["--blend", "nowhere/a.blend"]):
+            with self.subTest(words), redirect_stderr(io.StringIO()) as told:
+                words = [words[0], str(self.folder / words[1])]
+                self.assertEqual(main([str(self.log_folder), *words, "--size", "16x16", "--fps", "2"]), 1)
+                self.assertRegex(told.getvalue(), "nowhere|file")
+
     def test_faults_are_told_and_nothing_is_written(self):
         still = self.folder / "still.png"
-        for words in ([str(self.folder)], [str(self.log_folder), "--from", "5"], [str(self.log_folder), "--size", "big"],
-                      [str(self.log_folder), "--relative-to", "moon"]):
-            self.assertEqual(main([*words, "--still", str(still)]), 1)
+        log = str(self.log_folder)
+        for code, words in ((1, [str(self.folder)]), (1, [log, "--from", "5"]), (1, [log, "--from", "nan"]),
+                            (1, [log, "--relative-to", "moon"]), (1, [log, "--own-camera"]), (1, [log, "--map", "moon=x"]),
+                            (2, [log, "--size", "big"]), (2, [log, "--speed", "nan"]), (2, [log, "--map", "ball"]),
+                            (2, [log, "-o", "film.avi"])):
+            with self.subTest(words), redirect_stderr(io.StringIO()) as told:
+                self.assertEqual(main([*words, "--still", str(still)]), code)
+                self.assertIn("pong_viz: ", told.getvalue())
         self.assertFalse(still.exists())
 
 
@@ -170,10 +312,43 @@ class Interface(WithScene):
         with self.assertRaisesRegex(RuntimeError, "states.npy: it is missing"):
             bpy.ops.pong.import_response(filepath=str(self.log_folder / "run.json"))
 
-    def test_binding_an_object(self):
+    def test_a_part_of_the_run_in_the_scenes_own_look(self):
+        engine = bpy.context.scene.render.engine
+        bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=100, part=True, start=0.2, end=0.4, look=False)
+        self.assertEqual((bpy.context.scene.frame_end, bpy.context.scene.render.engine), (21, engine))
+
+    def test_film_pictures_and_still(self):
+        with self.assertRaisesRegex(RuntimeError, "no camera"):
+            bpy.ops.pong.render_response(filepath=str(self.folder / "a.mp4"))
+        bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=4)
+        scene = bpy.context.scene
+        scene.render.resolution_x, scene.render.resolution_y, scene.render.filepath = 81, 45, "//mine"
+        scene.frame_set(2)
+        before = render.kept(scene)
+        film, frames, still = self.folder / "film.mp4", self.folder / "frames", self.folder / "still.png"
+        for form, path in (("FILM", film), ("FRAMES", frames), ("STILL", still)):
+            self.assertEqual(bpy.ops.pong.render_response(filepath=str(path), form=form), {"FINISHED"})
+        self.assertEqual(len(list(frames.glob("frame_*.png"))), 5)
+        self.assertEqual(bpy.data.movieclips.load(str(film)).frame_duration, 5)
+        self.assertEqual(_pixels(still).shape, (45, 81, 4))
+        np.testing.assert_array_equal(_pixels(still), _pixels(frames / "frame_0002.png"))
+        self.assertEqual(render.kept(scene), before)
+        with self.assertRaisesRegex(RuntimeError, "must end in .mp4"):
+            bpy.ops.pong.render_response(filepath=str(self.folder / "film.avi"))
+
+    def test_binding_and_freeing_an_object(self):
         bpy.ops.mesh.primitive_cube_add()
         bpy.ops.pong.bind_body(body="ball")
         self.assertEqual(bpy.context.object["pong_body"], "ball")
+        bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=100)
+        np.testing.assert_allclose(bpy.context.object.evaluated_get(self.at(101)).location, (0.5, 0.0, 0.1), atol=1e-6)
+        bpy.ops.pong.free_object()
+        self.assertNotIn("pong_body", bpy.context.object)
+
+    def test_the_panel_names_operators_that_exist(self):
+        source = Path(pong_viz.__file__).with_name("ui.py").read_text()
+        for name in re.findall(r'bl_idname = "pong\.(\w+)"', source):
+            self.assertTrue(hasattr(bpy.types, f"PONG_OT_{name}"), name)
 
 
 def _pixels(path: Path) -> np.ndarray:

@@ -25,13 +25,44 @@ class Logs(WithLog):
     def test_contacts_of_a_frame(self):
         self.assertEqual(self.log.contacts_of(50)["normal_force"].tolist(), [15.0])
         self.assertEqual(len(self.log.contacts_of(51)), 0)
-        self.assertEqual(self.log.touching(), {0, 2})
+        self.assertEqual(self.log.pairs_that_touch(), [(0, 1)])
 
     def test_a_log_that_was_cut_off_plays_as_far_as_all_tables_go(self):
         np.save(self.log.folder / "states.npy", np.array(self.log.states)[:40])
         self.assertEqual(len(Log(self.log.folder).times), 40)
         np.save(self.log.folder / "contacts.npy", np.array(self.log.contacts)[:20])
         self.assertEqual(len(Log(self.log.folder).times), 20)
+
+    def test_a_table_cut_in_the_middle_of_a_row_plays_as_far_as_it_goes(self):
+        for name, row in (("states", 2 * 13 * 8), ("contacts", self.log.contacts.dtype.itemsize), ("frames", self.log.frames.dtype.itemsize)):
+            folder = sample.write_log(self.folder / name)
+            path = folder / f"{name}.npy"
+            path.write_bytes(path.read_bytes()[:-row * 10 - 7])
+            log = Log(folder)
+            whole = 40 if name == "contacts" else 101 - 11  # contacts end at row 51
+            self.assertEqual(len(log.times), whole)
+            self.assertRegex(" ".join(log.notes), f"{name}.npy: it is cut off; .* rows are there")
+            np.testing.assert_array_equal(log.states[:whole], self.log.states[:whole])
+
+    def test_rows_behind_those_that_the_header_counts_are_not_read(self):
+        path = self.log.folder / "frames.npy"
+        path.write_bytes(path.read_bytes() + b"\1" * 4000)
+        self.assertEqual(len(Log(self.log.folder).times), 101)
+
+    def test_a_run_that_is_not_finished_is_told(self):
+        sample.change_run(self.log.folder, finished=False, lost=3)
+        self.assertRegex(" ".join(Log(self.log.folder).notes), "cut off, or still goes on; .* 1 s.*lost 3 frames")
+
+    def test_a_run_without_a_contact(self):
+        sample.without_contacts(self.log.folder)
+        log = Log(self.log.folder)
+        self.assertEqual((len(log.times), log.pairs_that_touch()), (101, []))
+        film = timeline.film(log)
+        self.assertEqual(marks.slots(log, film, timeline.view(log, film)).shown.shape, (31, 0))
+        self.assertEqual((marks.touched(log, film), marks.largest_force(log)), ({}, 0.0))
+
+    def test_the_run_json_may_be_named_itself(self):
+        self.assertEqual(len(Log(self.log.folder / "run.json").times), 101)
 
     def test_faults_name_the_file_and_the_cure(self):
         for damage, told in (
@@ -40,10 +71,14 @@ class Logs(WithLog):
             (lambda f: (f / "run.json").write_text("{"), "run.json: it is damaged"),
             (lambda f: (f / "run.json").write_text('{"format": "x"}'), "this is no response log"),
             (lambda f: (f / "run.json").unlink(), "there is no run.json"),
+            (lambda f: sample.change_run(f, pairs=3), "run.json: it is damaged"),
+            (lambda f: sample.change_run(f, version=9), "version 9 is not known"),
+            (lambda f: np.save(f / "contacts.npy", np.zeros(3)), "contacts.npy: it lacks friction_force"),
+            (lambda f: np.save(f / "states.npy", np.zeros((101, 3), sample.STATES)), "columns for 2 bodies"),
         ):
-            folder = self.folder / told.replace(" ", "_").replace("/", "_")
+            folder = Path(tempfile.mkdtemp(dir=self.folder))
             damage(sample.write_log(folder))
-            with self.assertRaisesRegex(LogError, told):
+            with self.subTest(told), self.assertRaisesRegex(LogError, told):
                 Log(folder)
 
 
@@ -87,6 +122,59 @@ class Films(WithLog):
         np.testing.assert_allclose(ground.positions, expected, atol=2e-9)
 
 
+    def test_a_body_waits_where_its_state_is_first_known(self):
+        states = np.array(self.log.states)
+        for name in ("position", "orientation"):
+            states[name][:30, 0] = np.nan
+            states[name][60:70, 0] = np.nan
+        np.save(self.log.folder / "states.npy", states)
+        log = Log(self.log.folder)
+        film = timeline.film(log, fps=100)
+        ways = timeline.track(log, film, 0, timeline.view(log, film)).positions[:, 0]
+        expected = 0.5 * np.maximum(film.times, 0.3)  # straight, at constant speed, across the gap
+        np.testing.assert_allclose(ways - ways[0], expected - expected[0], atol=2e-9)
+
+    def test_a_body_without_a_state_does_not_pull_the_view_to_the_origin(self):
+        states = np.array(self.log.states)
+        states["position"][:, 1] = np.nan
+        np.save(self.log.folder / "states.npy", states)
+        sample.without_contacts(self.log.folder)
+        log = Log(self.log.folder)
+        film = timeline.film(log)
+        self.assertFalse(timeline.is_known(log, 1))
+        self.assertLess(timeline.travel(log, film, timeline.view(log, film)), 1.0)
+        with self.assertRaisesRegex(ValueError, "`ground` has no state"):
+            timeline.view(log, film, body=1)
+
+    def test_bodies_that_rush_together_are_followed(self):
+        states = np.array(self.log.states)
+        states["position"][:, :, 1] += 7500.0 * self.log.times[:, None]
+        np.save(self.log.folder / "states.npy", states)
+        log = Log(self.log.folder)
+        film = timeline.film(log)
+        seen = timeline.view(log, film, extent=0.2)
+        self.assertEqual(seen.followed, 0)
+        way = timeline.track(log, film, 1, seen).positions
+        np.testing.assert_allclose(way[:, 0] - way[0, 0], -0.5 * film.times, atol=2e-9)
+        np.testing.assert_allclose(way[:, 1], 0.0, atol=2e-9)
+        still = Log(sample.write_log(self.folder / "still"))
+        self.assertIsNone(timeline.view(still, film, extent=0.2).followed)
+
+    def test_shapes_far_from_the_origin_of_their_body_are_exact(self):
+        """A terrain told from the middle of a planet: the anchor's way has the coordinates that the contacts have."""
+        middle = np.array([0.0, 0.0, 4.2e6])
+        anchor = shapes.anchor_of(np.array([middle - 1.0, middle + 1.0]))
+        np.testing.assert_array_equal(anchor, middle)
+        states = np.array(self.log.states)
+        states["position"][:, 1] -= middle
+        np.save(self.log.folder / "states.npy", states)
+        log = Log(self.log.folder)
+        film = timeline.film(log)
+        anchors = np.array([np.zeros(3), anchor])
+        seen = timeline.view(log, film, None, 0.2, anchors)
+        np.testing.assert_allclose(timeline.track(log, film, 1, seen, anchor).positions, 0.0, atol=2e-9)
+        self.assertLess(timeline.travel(log, film, seen, anchors), 1.0)
+
 class Marks(WithLog):
     def test_arrows_have_place_direction_and_size_of_the_force(self):
         film = timeline.film(self.log, fps=100)
@@ -117,8 +205,26 @@ class Marks(WithLog):
 
     def test_a_primitive_is_lit_while_it_touches(self):
         film = timeline.film(self.log, fps=100)
-        np.testing.assert_array_equal(marks.touched(self.log, film, 0), film.times <= 0.5)
-        self.assertFalse(marks.touched(self.log, film, 1).any())
+        lit = marks.touched(self.log, film)
+        self.assertEqual(set(lit), {0, 2})
+        np.testing.assert_array_equal(lit[0], film.times <= 0.5)
+
+    def test_marks_lie_in_the_tangent_plane_and_arrows_end_at_their_tips(self):
+        film = timeline.film(self.log, fps=100)
+        slots = marks.slots(self.log, film, timeline.view(self.log, film))
+        np.testing.assert_allclose(slots.tangents[:51, 0], np.tile([1.0, 0.0, 0.0, 0.0], (51, 1)), atol=1e-12)
+        t = film.times[:51]
+        forces = np.stack([np.full(51, -2.0), 0.0 * t, 10.0 * (1.0 + t)], axis=1)
+        np.testing.assert_allclose(slots.tips(0.01), slots.points[:51, 0] + 0.01 * forces, atol=1e-9)
+
+    def test_hundreds_of_contacts(self):
+        sample.many_contacts(self.log.folder, 300)
+        log = Log(self.log.folder)
+        film = timeline.film(log, fps=100)
+        slots = marks.slots(log, film, timeline.view(log, film), most=200)
+        self.assertEqual((slots.shown.shape, slots.left_out), ((101, 200), 51 * 100))
+        # Contact k has 1 + k N: the least hundred are those left out.
+        np.testing.assert_allclose(slots.forces[0], np.hypot(1.0 + np.arange(100, 300), 2.0))
 
     def test_shortest_turn_from_z(self):
         for direction in ((0, 0, 2), (0, 0, -3), (1, 0, 0), (-1, 2, -5)):
@@ -127,7 +233,13 @@ class Marks(WithLog):
             np.testing.assert_allclose(turned, direction / np.linalg.norm(direction), atol=1e-12)
 
 
-class Shapes(unittest.TestCase):
+class Shapes(WithLog):
+    def test_boxes_of_bodies(self):
+        ball, ground = (shapes.load(path) for path in self.log.models)
+        np.testing.assert_allclose(shapes.boxes_of(ball)["ball"], [[-0.1] * 3, [0.1] * 3], atol=1e-12)
+        self.assertAlmostEqual(shapes.extent_of(ball), 0.2)
+        self.assertEqual(shapes.extent_of(ground), 0.0)
+
     def test_balls_and_arrows_are_closed_and_face_outwards(self):
         for vertices, faces in (shapes.ball(12, 6), marks.arrow()):
             edges = [(f[i], f[(i + 1) % len(f)]) for f in faces for i in range(len(f))]

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How long playback takes. No test: run it on a quiet machine.
+
+    PYTHONPATH=blender python blender/tests/viz/timing.py LOG [PICTURES]
+
+Prints the seconds to make the scene, then for each engine and size the first picture (which compiles shaders) and the least
+and middle of those after it.
+"""
+
+import os
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import bpy
+import numpy as np
+from pong_viz.log import Log
+from pong_viz.render import Picture, prepare, still
+from pong_viz.scene import Options, show
+
+
+def timed(function, *arguments):
+    started = time.perf_counter()
+    function(*arguments)
+    return time.perf_counter() - started
+
+
+def main():
+    log, count = Log(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 10
+    scene = bpy.context.scene
+    made = min(timed(show, log, Options(fps=60)) for _ in range(3))
+    told = [f"{scene.frame_end} pictures, {len(scene.objects)} objects: scene made in {made:.2f} s"]
+    numbers = np.unique(np.linspace(1, scene.frame_end, count + 1).astype(int))
+    with tempfile.TemporaryDirectory() as folder:
+        for engine in ("workbench", "eevee"):
+            for width, height in ((640, 360), (1280, 720)):
+                prepare(scene, Picture(width, height, engine, 8))
+                seconds = [timed(still, scene, Path(folder) / "a.png", int(number)) for number in numbers]
+                told.append(f"{engine} {width}x{height}: first {seconds[0]:.2f} s, then least {min(seconds[1:]):.2f} s, "
+                            f"middle {np.median(seconds[1:]):.2f} s")
+    print("\n".join(told), flush=True)
+    os._exit(0)
+
+
+main()
