@@ -59,14 +59,15 @@ async function decode(base64) {
     return { width: image.width, height: image.height, text };
 }
 
+const RIM = 2;
 const far = (a, b) => Math.max(...a.map((x, i) => Math.abs(x - b[i])));
 
-/** Centre and number of the pixels that are not background. */
+/** Centre and number of the pixels that are not background; at the rim the page around it may show. */
 export function drawn(picture) {
     const background = picture.at(2, 2);
     let [count, x, y] = [0, 0, 0];
-    for (let row = 0; row < picture.height; row++) {
-        for (let column = 0; column < picture.width; column++) {
+    for (let row = RIM; row < picture.height - RIM; row++) {
+        for (let column = RIM; column < picture.width - RIM; column++) {
             if (far(picture.at(column, row), background) > 12) [count, x, y] = [count + 1, x + column, y + row];
         }
     }
