@@ -5,6 +5,7 @@
 use crate::model::Body;
 use crate::pieces::Sets;
 use crate::t_junctions;
+use pong_geometry::interference::triangle_features::mark_pushing;
 use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
 use std::collections::BTreeSet;
 
@@ -31,7 +32,7 @@ pub(crate) struct Findings {
 /// An edge of a triangle: the ends in rising order, then triangle and edge in one number.
 type HalfEdge = (u64, u32);
 
-/// Sets the neighbours of all triangles.
+/// Sets the neighbours of all triangles, and which of their features may push.
 pub(crate) fn knit(body: &mut Body) -> Findings {
     let mut findings =
         Findings { shell_leader: vec![0; body.triangles.triangles.len()], ..Findings::default() };
@@ -49,6 +50,7 @@ pub(crate) fn knit(body: &mut Body) -> Findings {
             findings.oddities = found.oddities;
         }
     }
+    mark_pushing(&mut body.triangles);
     findings
 }
 

@@ -6,7 +6,7 @@ use super::carried::Carried;
 use super::chunk::{Chunk, LaneBoxes};
 use super::input::{Block, FrameInput, PairContext};
 use super::lane::Lane;
-use super::testers::{Findings, Target};
+use super::testers::{Findings, Target, test_waiting};
 use super::{forces, sharing};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
@@ -115,7 +115,8 @@ fn chunks_in_reach<'a, S: Simd>(
     let first_chunk = block.first.saturating_sub(group * GROUP) / LANES as u32;
     let past_chunk = (block.end - group * GROUP).div_ceil(LANES as u32).min(LANES as u32);
     let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
-    let carried = batch_a.chunks.get(group as usize);
+    // An element by itself is asked when it is carried.
+    let carried = if batch_a.items.len() == 1 { None } else { batch_a.chunks.get(group as usize) };
     let carried = carried.map(|boxes| LaneBoxes::of_chunks(simd, boxes, &context.motion.x_ba));
     let mut any = 0;
     reach.clear();
@@ -166,21 +167,20 @@ fn test_chunk<S: Simd>(
             continue;
         }
         let mut boxes_a = None;
-        let mut around = boxes.lane(of_a.lane);
+        let (mut around, mut ball) = (boxes.lane(of_a.lane), None);
         if let (true, Some(chunk)) = (alone, &chunk) {
-            around = boxes_a.insert(chunk.boxes.narrowed(&batch.boxes)).around();
+            (around, ball) = chunk.first_narrowed(&batch.boxes);
         }
-        let looked_at = batch.boxes.visit(simd, &around, |node, met| {
+        let looked_at = batch.boxes.visit(simd, &around, ball.as_ref(), |node, met| {
             let chunk = chunk.get_or_insert_with(|| {
                 let carried = carry.take().expect("a chunk is carried once");
                 Chunk::new(simd, from, of_a.first, x_ba, meets_triangles, carried)
             });
-            let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
-            let met = if alone { met & chunk.first_reaches(simd, &batch.boxes, node) } else { met };
             for lane_b in lanes(met) {
                 let near = if alone {
                     1
                 } else {
+                    let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
                     chunk.reach(simd, boxes_a, &batch.boxes, &node.boxes.lane(lane_b))
                 };
                 let Child::Element(place) = node.child(lane_b) else { continue };
@@ -191,6 +191,11 @@ fn test_chunk<S: Simd>(
                 }
             }
         });
+        if let Some(chunk) = &chunk
+            && found.waits()
+        {
+            test_waiting(context, chunk, found, counts);
+        }
         counts.boxes_tested += u64::from(looked_at);
     }
 }

@@ -7,7 +7,7 @@ use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_geometry::{Transform, Vec3};
-use pong_model::box_tree::{BoxNode, BoxTree, NarrowBox, NarrowBoxes, round_down, round_up};
+use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes, round_down, round_up};
 use pong_model::{Batch, Body, ChunkBoxes, Item};
 
 /// The elements and where they are.
@@ -28,8 +28,8 @@ pub(super) struct Chunk<'a, 'l, 'm> {
 /// One ball per lane in B's frame: centres and radii, m.
 struct LaneBalls {
     centers: [[f64; LANES]; 3],
-    /// Squares of the radii, with room for rounding.
-    squares: [f64; LANES],
+    /// With room for rounding.
+    radii: [f64; LANES],
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
@@ -95,13 +95,12 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         }
     }
 
-    /// Which boxes of a node the first element reaches, as far as a ball around it tells.
+    /// The box around the first element, and the ball if there is one, as a tree sees them.
     #[inline(always)]
-    pub fn first_reaches<S: Simd>(&self, simd: S, tree: &BoxTree, node: &BoxNode) -> LaneBits {
-        match &self.balls {
-            Some(balls) => balls.first_reaches(simd, tree, &node.boxes),
-            None => LaneBits::MAX,
-        }
+    pub fn first_narrowed(&self, tree: &BoxTree) -> (NarrowBox, Option<NarrowBall>) {
+        let LaneBoxes { low: [x, y, z], high: [u, v, w] } = &self.boxes;
+        let around = tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]));
+        (around, self.balls.as_ref().map(|balls| balls.first_narrowed(tree)))
     }
 
     /// The lanes that hold elements.
@@ -110,12 +109,19 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         LaneBits::MAX >> (LANES - self.items.len())
     }
 
+    /// One sphere of a chunk of spheres.
+    #[inline]
+    pub fn sphere(&self, lane: usize) -> Sphere {
+        let center = Vec3::new(self.centers.x[lane], self.centers.y[lane], self.centers.z[lane]);
+        Sphere { center, radius: self.radii[lane] }
+    }
+
     /// One element; `None` for kinds that are never A in the table.
     pub fn carried(&self, lane: usize) -> Option<Carried> {
         let center = Vec3::new(self.centers.x[lane], self.centers.y[lane], self.centers.z[lane]);
         match self.kind {
             PrimitiveKind::Point => Some(Carried::Point(Point { position: center })),
-            PrimitiveKind::Sphere => Some(Carried::Sphere(Sphere { center, radius: self.radii[lane] })),
+            PrimitiveKind::Sphere => Some(Carried::Sphere(self.sphere(lane))),
             _ => self.carried.get(lane).copied(),
         }
     }
@@ -201,11 +207,10 @@ impl LaneBoxes {
 impl LaneBalls {
     #[inline(always)]
     fn new(centers: &Lanes, radii: &[f64; LANES]) -> Self {
-        let mut balls = Self { centers: [centers.x, centers.y, centers.z], squares: [0.0; LANES] };
-        for (lane, square) in balls.squares.iter_mut().enumerate() {
+        let mut balls = Self { centers: [centers.x, centers.y, centers.z], radii: *radii };
+        for (lane, radius) in balls.radii.iter_mut().enumerate() {
             let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
-            let radius = radii[lane] + margin(size + radii[lane]);
-            *square = radius * radius;
+            *radius += margin(size + *radius);
         }
         balls
     }
@@ -232,21 +237,15 @@ impl LaneBalls {
             let high = simd.splat(tree.origin[axis] + widened(one.high[axis]));
             distance = simd.add(distance, square_outside(simd, center, low, high));
         }
-        simd.bits(simd.at_least(simd.load(&self.squares), distance))
+        let radii = simd.load(&self.radii);
+        simd.bits(simd.at_least(simd.mul(radii, radii), distance))
     }
 
-    /// Which boxes of a node of a tree the first ball reaches.
+    /// The first ball, as a tree sees it.
     #[inline(always)]
-    fn first_reaches<S: Simd>(&self, simd: S, tree: &BoxTree, boxes: &NarrowBoxes) -> LaneBits {
-        let mut distance = simd.splat(0.0);
-        for axis in 0..3 {
-            let center = simd.splat(self.centers[axis][0]);
-            let origin = simd.splat(tree.origin[axis]);
-            let low = simd.add(origin, simd.load(&boxes.bounds[0][axis].map(widened)));
-            let high = simd.add(origin, simd.load(&boxes.bounds[1][axis].map(widened)));
-            distance = simd.add(distance, square_outside(simd, center, low, high));
-        }
-        simd.bits(simd.at_least(simd.splat(self.squares[0]), distance))
+    fn first_narrowed(&self, tree: &BoxTree) -> NarrowBall {
+        let [x, y, z] = &self.centers;
+        tree.narrowed_ball(&Vec3::new(x[0], y[0], z[0]), self.radii[0])
     }
 }
 

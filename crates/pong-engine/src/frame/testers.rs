@@ -21,11 +21,11 @@ use pong_geometry::interference::{
     ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
     ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
-    sphere_triangle::sphere_triangle,
+    sphere_triangle::sphere_triangle, sphere_triangle_pairs::SphereTrianglePairs,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
-use pong_geometry::simd::{LaneBits, Simd};
+use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::lanes;
 use pong_model::{Body, Item, PrimitiveInfo};
 
@@ -37,16 +37,33 @@ pub(super) struct Findings<'m> {
     /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
     /// less than a frame may keep.
     pub overflowed: bool,
+    /// Spheres that may touch triangles, until eight are together or the batch of B ends.
+    waiting: SphereTrianglePairs,
+    /// Of each of them the lane of A and the triangle.
+    waiting_for: [(u8, Item); LANES],
 }
 
 impl<'m> Findings<'m> {
     pub fn new(list: List<'m, Found>) -> Self {
-        Self { list, seen: 0, overflowed: false }
+        let nobody = Item { primitive: 0, element: 0 };
+        Self {
+            list,
+            seen: 0,
+            overflowed: false,
+            waiting: SphereTrianglePairs::default(),
+            waiting_for: [(0, nobody); LANES],
+        }
     }
 
     pub fn clear(&mut self) {
         self.list.clear();
         (self.seen, self.overflowed) = (0, false);
+    }
+
+    /// Whether anything waits to be tested.
+    #[inline]
+    pub fn waits(&self) -> bool {
+        self.waiting.count() > 0
     }
 
     fn add(&mut self, found: Found) {
@@ -81,6 +98,10 @@ impl<'a> Target<'a> {
         found: &mut Findings<'_>,
         counts: &mut FrameCounts,
     ) {
+        if (chunk.kind, self.kind_b) == (PrimitiveKind::Sphere, Triangle) {
+            counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
+            return self.let_wait(chunk, near, found, counts);
+        }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
         let before = found.seen;
@@ -88,6 +109,27 @@ impl<'a> Target<'a> {
             self.test_one(chunk, lane, found);
         }
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
+    }
+
+    /// Keeps spheres near a triangle until there are eight such pairs.
+    #[inline(always)]
+    fn let_wait(
+        &self,
+        chunk: &Chunk<'_, '_, '_>,
+        near: LaneBits,
+        found: &mut Findings<'_>,
+        counts: &mut FrameCounts,
+    ) {
+        let triangles = &self.context.body_b.triangles;
+        for lane in lanes(near) {
+            let sphere = chunk.sphere(lane);
+            let thickness = thickness_for(self.context, self.item_b, &sphere);
+            found.waiting_for[found.waiting.count()] = (lane as u8, self.item_b);
+            found.waiting.add(&sphere, triangles, self.item_b.element, thickness);
+            if found.waiting.count() == LANES {
+                test_waiting(self.context, chunk, found, counts);
+            }
+        }
     }
 
     /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
@@ -116,6 +158,30 @@ impl<'a> Target<'a> {
             _ => side.test_custom(found),
         }
     }
+}
+
+/// Tests the spheres of a chunk that wait for their triangles, in the order in which they came.
+#[inline(never)]
+pub(super) fn test_waiting(
+    context: &PairContext<'_>,
+    chunk: &Chunk<'_, '_, '_>,
+    found: &mut Findings<'_>,
+    counts: &mut FrameCounts,
+) {
+    let before = found.seen;
+    for place in lanes(found.waiting.take_those_near()) {
+        let (lane, item_b) = found.waiting_for[place];
+        let lane = usize::from(lane);
+        let side = Side { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
+        side.test_sphere_triangle(&chunk.sphere(lane), found);
+    }
+    counts.note_testers(PrimitiveKind::Sphere, Triangle, 0, (found.seen - before) as u32);
+}
+
+/// How far behind a triangle the centre of a sphere is still pushed to the front, m.
+#[inline]
+fn thickness_for(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
+    context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
 }
 
 /// One element as A against one element as B.
@@ -209,13 +275,15 @@ impl<'a> Side<'a> {
             Plane => self.whole(sphere_plane(sphere, &body.planes[b]), found),
             PrimitiveKind::Sphere => self.whole(sphere_sphere(sphere, &body.spheres[b]), found),
             Polyhedron => self.test_sphere_polyhedron(sphere, found),
-            _ => {
-                let local = self.body_a().spheres[self.item_a.element as usize].center;
-                let thickness = self.info_b().thickness.unwrap_or(sphere.radius);
-                let mut emit = |contact| self.on_triangle(&local, &sphere.center, contact, found);
-                sphere_triangle(sphere, &body.triangles, self.item_b.element, thickness, &mut emit);
-            }
+            _ => self.test_sphere_triangle(sphere, found),
         }
+    }
+
+    fn test_sphere_triangle(&self, sphere: &Sphere, found: &mut Findings<'_>) {
+        let local = self.body_a().spheres[self.item_a.element as usize].center;
+        let thickness = thickness_for(self.context, self.item_b, sphere);
+        let mut emit = |contact| self.on_triangle(&local, &sphere.center, contact, found);
+        sphere_triangle(sphere, &self.body_b().triangles, self.item_b.element, thickness, &mut emit);
     }
 
     fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Findings<'_>) {

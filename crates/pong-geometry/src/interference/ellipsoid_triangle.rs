@@ -237,7 +237,7 @@ impl Tester<'_> {
     }
 
     fn emit_edge(&self, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
-        if !self.view.owns_edge(self.set, k) {
+        if !self.view.pushes_with_edge(self.set, k) {
             return;
         }
         let feature = Feature::edge(3 * self.view.index as usize + k);

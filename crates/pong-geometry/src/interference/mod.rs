@@ -24,6 +24,7 @@ pub mod sphere_plane;
 pub mod sphere_polyhedron;
 pub mod sphere_sphere;
 pub mod sphere_triangle;
+pub mod sphere_triangle_pairs;
 pub mod triangle_features;
 mod triangle_reach;
 

@@ -90,7 +90,7 @@ fn emit_edge(
     emit: &mut dyn FnMut(TriangleContact),
 ) {
     let view = edges.view;
-    if !view.owns_edge(edges.set, k) {
+    if !view.pushes_with_edge(edges.set, k) {
         return;
     }
     let [first, second] = view.edge_ends(k);

@@ -14,7 +14,7 @@
 
 use super::Interference;
 use crate::Vec3;
-use crate::primitive::{NO_NEIGHBOR, TriangleSet};
+use crate::primitive::{MayPush, NO_NEIGHBOR, TriangleSet};
 use std::cell::OnceCell;
 
 /// Two faces count as convex only if the sine of the angle between them exceeds this: rounding in a unit normal
@@ -132,10 +132,18 @@ impl TriangleView {
         TriangleEdges::new(set, self).hold_foot(p)
     }
 
-    /// Whether this triangle can be the lowest of the fan around a corner, by the two that it shares edges with there.
+    /// Whether this triangle owns edge `k`, which may push.
+    #[inline]
+    pub(super) fn pushes_with_edge(&self, set: &TriangleSet, k: usize) -> bool {
+        set.triangles[self.index as usize].may_push.edge(k) && self.owns_edge(set, k)
+    }
+
+    /// Whether this triangle can be the lowest of the fan around a corner, by the two that it shares edges with there,
+    /// and the vertex may push.
     #[inline]
     pub(super) fn may_own_vertex(&self, set: &TriangleSet, corner: usize) -> bool {
-        self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
+        let may_push = set.triangles[self.index as usize].may_push.vertex(corner);
+        may_push && self.owns_edge(set, corner) && self.owns_edge(set, (corner + 2) % 3)
     }
 
     /// Whether this triangle is the owner of edge `k`: the lower of the two that share it.
@@ -144,6 +152,33 @@ impl TriangleView {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
         neighbor == NO_NEIGHBOR || self.index < neighbor
     }
+}
+
+/// Tells every triangle of a set which of its edges and vertices may push: the edges that it owns and that are not silent,
+/// and the vertices whose fans it is the lowest of. All others are tested for nothing.
+pub fn mark_pushing(set: &mut TriangleSet) {
+    for triangle in 0..set.triangles.len() as u32 {
+        set.triangles[triangle as usize].may_push = may_push(set, triangle);
+    }
+}
+
+fn may_push(set: &TriangleSet, triangle: u32) -> MayPush {
+    let view = TriangleView::new(set, triangle);
+    let mut bits = 0;
+    for k in 0..3 {
+        let silent = || matches!(view.classify_edge(set, k), EdgeClass::Silent { .. });
+        bits |= u8::from(view.owns_edge(set, k) && !silent()) << k;
+        let is_lowest = || {
+            let mut lowest = triangle;
+            walk_fan_while(set, triangle, k, |t, _| {
+                lowest = lowest.min(t);
+                lowest == triangle
+            });
+            lowest == triangle
+        };
+        bits |= u8::from(view.may_own_vertex(set, k) && is_lowest()) << (3 + k);
+    }
+    MayPush(bits)
 }
 
 /// The edges of a triangle, each worked out when it is first asked for.

@@ -20,10 +20,10 @@ pub(super) struct InReach {
 }
 
 /// Slack of what is called out of reach: far beyond rounding of depths and heights.
-const REACH_SLACK: f64 = 1e-9;
+pub(super) const REACH_SLACK: f64 = 1e-9;
 /// Slack of a side as a share of what is summed: far beyond rounding, of an outward vector from the unit normal too, and
 /// beyond what counts as flat between two faces.
-const SIDE_SLACK: f64 = 1e-10;
+pub(super) const SIDE_SLACK: f64 = 1e-10;
 
 impl InReach {
     /// `None` if the ball certainly touches no feature of the triangle, nor lies within `thickness` (m) behind its plane.

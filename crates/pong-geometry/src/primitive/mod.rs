@@ -16,7 +16,7 @@ pub use polyhedron::{
     EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
 };
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
-pub use triangles::{NO_NEIGHBOR, TriangleRecord, TriangleSet};
+pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
 use crate::Vec3;
 

@@ -1,7 +1,7 @@
 //! All triangles of one movable group, sharing vertices, with their neighbours.
 //!
-//! Forty bytes per triangle: normals and edge planes are computed when they are needed. Edge `k` of a triangle
-//! runs from its vertex `k` to its vertex `k + 1` (mod 3).
+//! Forty-four bytes per triangle: normals and edge planes are computed when they are needed; which edges and vertices
+//! may push at all is known. Edge `k` of a triangle runs from its vertex `k` to its vertex `k + 1` (mod 3).
 
 use crate::Vec3;
 
@@ -28,6 +28,33 @@ pub struct TriangleRecord {
     pub neighbors: [u32; 3],
     /// The connected surface this triangle belongs to (index among the movable group's shells).
     pub shell: u32,
+    /// Which of its edges and vertices may push.
+    pub may_push: MayPush,
+}
+
+/// Which edges and vertices of a triangle may push, as
+/// [`mark_pushing`](crate::interference::triangle_features::mark_pushing) tells. It decides no answer: where nothing is
+/// known every feature is tested.
+///
+/// Bit `k` is edge `k`, bit `3 + k` vertex `k`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MayPush(pub u8);
+
+impl MayPush {
+    /// Every feature: nothing is known yet.
+    pub const ALL: Self = Self(0b11_1111);
+
+    /// Edge `k`.
+    #[inline]
+    pub fn edge(self, k: usize) -> bool {
+        self.0 >> k & 1 == 1
+    }
+
+    /// Vertex `k`.
+    #[inline]
+    pub fn vertex(self, k: usize) -> bool {
+        self.0 >> (3 + k) & 1 == 1
+    }
 }
 
 impl TriangleSet {

@@ -2,7 +2,7 @@
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
 use pong_geometry::primitive::{
-    EdgePush, Ellipsoid, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts,
+    EdgePush, Ellipsoid, MayPush, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts,
     PolyhedronVertex, RimEdge, TriangleRecord, TriangleSet,
 };
 use pong_geometry::{Mat3, Quat, Transform, Vec3};
@@ -315,6 +315,7 @@ pub fn triangle_set(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet 
             vertices: *t,
             neighbors: [across(t[0], t[1]), across(t[1], t[2]), across(t[2], t[0])],
             shell: 0,
+            may_push: MayPush::ALL,
         })
         .collect();
     TriangleSet { vertices, triangles }

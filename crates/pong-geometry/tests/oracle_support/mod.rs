@@ -5,7 +5,9 @@ use crate::common::Random;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
-use pong_geometry::primitive::{EdgePush, NO_NEIGHBOR, Polyhedron, Sphere, TriangleRecord, TriangleSet};
+use pong_geometry::primitive::{
+    EdgePush, MayPush, NO_NEIGHBOR, Polyhedron, Sphere, TriangleRecord, TriangleSet,
+};
 use pong_geometry::{Transform, Vec3};
 
 /// Remembers the largest error seen under a name and prints it when dropped.
@@ -52,7 +54,8 @@ pub fn surface(vertices: Vec<Vec3>, triangles: &[[u32; 3]]) -> TriangleSet {
             let (a, b) = edge(t, k);
             owners.get(&(b, a)).copied().unwrap_or(NO_NEIGHBOR)
         };
-        set.triangles.push(TriangleRecord { vertices: *t, neighbors: [0, 1, 2].map(across), shell: 0 });
+        let neighbors = [0, 1, 2].map(across);
+        set.triangles.push(TriangleRecord { vertices: *t, neighbors, shell: 0, may_push: MayPush::ALL });
     }
     set
 }

@@ -27,6 +27,14 @@ pub struct NarrowBox {
     pub high: [f32; 3],
 }
 
+/// A ball in single precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NarrowBall {
+    center: [f32; 3],
+    /// Infinite where the ball is beyond what single precision tells apart.
+    square: f32,
+}
+
 /// Eight boxes, coordinate by coordinate; unused ones are empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NarrowBoxes {
@@ -95,6 +103,21 @@ impl NarrowBox {
     }
 }
 
+impl NarrowBall {
+    /// The ball about a place given from the tree's origin, with room for rounding.
+    #[inline]
+    fn outward(center: &Vec3, radius: f64) -> Self {
+        /// Places farther than this are near everything: their squares do not fit.
+        const FAR: f64 = 1e18;
+        /// More than the rounding of a place, and of a distance and its square.
+        const ROOM: f64 = 8.0 * f32::EPSILON as f64;
+        let size = center.x.abs() + center.y.abs() + center.z.abs();
+        let wide = (radius + ROOM * size) * (1.0 + ROOM);
+        let square = if size < FAR { wide * wide + f64::from(f32::MIN_POSITIVE) } else { f64::INFINITY };
+        Self { center: [center.x as f32, center.y as f32, center.z as f32], square: square as f32 }
+    }
+}
+
 /// A finite number of single precision that is not greater. What lies below them all becomes the least: every upper
 /// bound is at least as great, so two boxes are not taken for apart.
 #[inline(always)]
@@ -146,6 +169,12 @@ impl NarrowBoxes {
     #[inline(always)]
     pub fn met_by<S: Simd>(&self, simd: S, query: &NarrowBox) -> LaneBits {
         simd.boxes_met(&self.bounds, &query.low, &query.high)
+    }
+
+    /// Which of the boxes a ball may reach.
+    #[inline(always)]
+    fn near<S: Simd>(&self, simd: S, ball: &NarrowBall) -> LaneBits {
+        simd.boxes_near(&self.bounds, &ball.center, ball.square)
     }
 
     /// The box around all of them.
@@ -205,6 +234,12 @@ impl BoxTree {
         NarrowBox::outward(&(low - self.origin), &(high - self.origin))
     }
 
+    /// A ball of the movable group's frame, as this tree sees it.
+    #[inline]
+    pub fn narrowed_ball(&self, center: &Vec3, radius: f64) -> NarrowBall {
+        NarrowBall::outward(&(center - self.origin), radius)
+    }
+
     /// The box of an element in the movable group's frame, m; infinite where the element is unbounded.
     pub fn bounds(&self, element: u32) -> (Vec3, Vec3) {
         let (mut node, mut lane) = (&self.nodes[0], 0);
@@ -230,13 +265,14 @@ impl BoxTree {
         (self.origin + low, self.origin + high)
     }
 
-    /// Calls `visit` with every bottom node that has boxes which a box meets; answers how many nodes were looked
-    /// at.
+    /// Calls `visit` with every bottom node that has boxes which a box meets, and which a ball within that box reaches
+    /// if one is given; answers how many nodes were looked at.
     #[inline(always)]
     pub fn visit<S: Simd>(
         &self,
         simd: S,
         query: &NarrowBox,
+        ball: Option<&NarrowBall>,
         mut visit: impl FnMut(&BoxNode, LaneBits),
     ) -> u32 {
         /// A tree of 2³¹ elements has eleven levels; each leaves at most seven nodes waiting.
@@ -247,7 +283,10 @@ impl BoxTree {
         while waiting > 0 {
             waiting -= 1;
             let node = &self.nodes[stack[waiting] as usize];
-            let met = node.boxes.met_by(simd, query);
+            let mut met = node.boxes.met_by(simd, query);
+            if let Some(ball) = ball {
+                met &= node.boxes.near(simd, ball);
+            }
             looked_at += 1;
             if met == 0 {
                 continue;

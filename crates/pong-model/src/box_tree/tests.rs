@@ -52,7 +52,7 @@ fn nothing_that_a_box_touches_is_missed() {
             let low = around + Vec3::from_fn(|_, _| scatter(&mut seed));
             let high = low + Vec3::from_fn(|_, _| scatter(&mut seed) * 0.1);
             let mut found = BTreeSet::new();
-            tree.visit(Portable, &tree.narrowed(&low, &high), |node, met| {
+            tree.visit(Portable, &tree.narrowed(&low, &high), None, |node, met| {
                 for lane in lanes(met) {
                     let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
                     assert!(found.insert(elements[place as usize].item), "found twice");
@@ -65,6 +65,42 @@ fn nothing_that_a_box_touches_is_missed() {
             assert!(found.len() < 20 + count / 4, "the tree must also leave something out");
         }
     }
+}
+
+/// A ball within the box leaves out what it does not reach, and nothing else; places far from the origin too.
+#[test]
+fn nothing_that_a_ball_reaches_is_missed() {
+    let mut seed = 4;
+    let (mut reached, mut seen) = (0, 0);
+    for around in [Vec3::zeros(), Vec3::new(1e4, -3e3, 50.0), Vec3::repeat(1e25)] {
+        let mut elements = boxes(3000, &mut seed, &around);
+        let tree = BoxTree::build(&mut elements);
+        for round in 0..200 {
+            let center = around + Vec3::from_fn(|_, _| scatter(&mut seed));
+            // A radius that just reaches one of the boxes.
+            let element = &elements[round * 7];
+            let nearest = center.sup(&element.low).inf(&element.high);
+            let radius = (nearest - center).norm().min(0.3);
+            let half = Vec3::repeat(radius);
+            let query = tree.narrowed(&(center - half), &(center + half));
+            let ball = tree.narrowed_ball(&center, radius);
+            let mut found = BTreeSet::new();
+            tree.visit(Portable, &query, Some(&ball), |node, met| {
+                for lane in lanes(met) {
+                    let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
+                    found.insert(elements[place as usize].item);
+                }
+            });
+            for element in &elements {
+                let nearest = center.sup(&element.low).inf(&element.high);
+                let reaches = (nearest - center).norm() <= radius;
+                assert!(!reaches || found.contains(&element.item), "{center} {radius:e}");
+                reached += usize::from(reaches && around.x == 0.0);
+            }
+            seen += if around.x == 0.0 { found.len() } else { 0 };
+        }
+    }
+    assert!(reached > 1000 && seen <= reached + reached / 100, "{reached} {seen}");
 }
 
 /// Bottom nodes are full but for the last of a part, and every node bounds what is below it.
@@ -108,7 +144,7 @@ fn unbounded_elements_are_always_met() {
     let infinite = Vec3::repeat(f64::INFINITY);
     let tree = BoxTree::build(&mut [Boxed { item: 0_u32, low: -infinite, high: infinite }]);
     let mut met = 0;
-    tree.visit(Portable, &tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), |_, bits| {
+    tree.visit(Portable, &tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), None, |_, bits| {
         met += bits.count_ones()
     });
     assert_eq!(met, 1);

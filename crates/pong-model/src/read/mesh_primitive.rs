@@ -6,7 +6,7 @@ use crate::hull::{self, Hull};
 use crate::model::PrimitiveInfo;
 use crate::ron_tree::{Node, Value};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{NO_NEIGHBOR, TriangleRecord};
+use pong_geometry::primitive::{MayPush, NO_NEIGHBOR, TriangleRecord};
 
 /// A triangle whose smallest height is below this share of its longest edge is refused.
 const SLIVER: f64 = 1e-9;
@@ -102,7 +102,12 @@ fn add_triangles(
         match triangle_corners(mesh, face, &p.x) {
             Ok(corners) => {
                 let vertices = corners.map(|corner| p.draft.welder.weld(corner, &mut set.vertices));
-                set.triangles.push(TriangleRecord { vertices, neighbors: [NO_NEIGHBOR; 3], shell: 0 });
+                set.triangles.push(TriangleRecord {
+                    vertices,
+                    neighbors: [NO_NEIGHBOR; 3],
+                    shell: 0,
+                    may_push: MayPush::ALL,
+                });
             }
             Err((rule, cause, cure)) => {
                 let at = mesh.face_at(face).unwrap_or(p.at);

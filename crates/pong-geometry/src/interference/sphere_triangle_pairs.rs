@@ -1,0 +1,210 @@
+//! Pairs of a sphere and a triangle, eight at a time: which of them may touch at all.
+//!
+//! A ball near a surface meets the boxes of many triangles and touches few. Most of the others are told by products
+//! alone: too far from the plane, too far beyond an edge, or near features of which none may push. What is left goes
+//! through [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one, so nothing here decides an answer:
+//! every comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none
+//! rejects nothing.
+
+use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
+use crate::primitive::{Sphere, TriangleSet};
+use crate::simd::{LANES, LaneBits, Simd, run_at_level};
+
+/// Vectors, coordinate by coordinate.
+type EightVectors = [[f64; LANES]; 3];
+
+/// By how much a product of two vectors exceeds zero, as a share of their lengths, before it points along for certain:
+/// twice what the test of one pair takes, so that rounding of the roots there does not matter.
+const ALONG_SLACK: f64 = 2e-9;
+
+/// Up to eight pairs.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub struct SphereTrianglePairs {
+    corners: [EightVectors; 3],
+    centers: EightVectors,
+    radii: [f64; LANES],
+    thicknesses: [f64; LANES],
+    may_push: [u8; LANES],
+    count: usize,
+}
+
+impl Default for SphereTrianglePairs {
+    fn default() -> Self {
+        Self {
+            corners: [[[0.0; LANES]; 3]; 3],
+            centers: [[0.0; LANES]; 3],
+            radii: [0.0; LANES],
+            thicknesses: [0.0; LANES],
+            may_push: [0; LANES],
+            count: 0,
+        }
+    }
+}
+
+impl SphereTrianglePairs {
+    /// How many pairs there are.
+    #[inline]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Adds a pair, of which there may be eight. `thickness` as in
+    /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
+    #[inline(always)]
+    pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) {
+        let lane = self.count;
+        let record = &set.triangles[triangle as usize];
+        for (corner, &vertex) in self.corners.iter_mut().zip(&record.vertices) {
+            let vertex = &set.vertices[vertex as usize];
+            (corner[0][lane], corner[1][lane], corner[2][lane]) = (vertex.x, vertex.y, vertex.z);
+        }
+        let center = &sphere.center;
+        for axis in 0..3 {
+            self.centers[axis][lane] = center[axis];
+        }
+        self.radii[lane] = sphere.radius;
+        self.thicknesses[lane] = thickness;
+        self.may_push[lane] = record.may_push.0;
+        self.count += 1;
+    }
+
+    /// Which of the pairs may touch, by their order; then there are none.
+    #[inline]
+    pub fn take_those_near(&mut self) -> LaneBits {
+        let used = !(LaneBits::MAX.checked_shl(self.count as u32).unwrap_or(0));
+        self.count = 0;
+        near(self) & used
+    }
+}
+
+fn near(pairs: &SphereTrianglePairs) -> LaneBits {
+    run_at_level!(near_in(pairs: SphereTrianglePairs) -> LaneBits)
+}
+
+/// A vector in every lane.
+#[derive(Clone, Copy)]
+struct Vector<S: Simd> {
+    simd: S,
+    x: S::Eight,
+    y: S::Eight,
+    z: S::Eight,
+}
+
+impl<S: Simd> Vector<S> {
+    #[inline(always)]
+    fn load(simd: S, v: &EightVectors) -> Self {
+        Self { simd, x: simd.load(&v[0]), y: simd.load(&v[1]), z: simd.load(&v[2]) }
+    }
+
+    #[inline(always)]
+    fn less(&self, other: &Self) -> Self {
+        let simd = self.simd;
+        Self {
+            simd,
+            x: simd.sub(self.x, other.x),
+            y: simd.sub(self.y, other.y),
+            z: simd.sub(self.z, other.z),
+        }
+    }
+
+    /// In the bits of `Vec3::dot`.
+    #[inline(always)]
+    fn dot(&self, other: &Self) -> S::Eight {
+        let simd = self.simd;
+        let sum = simd.add(simd.mul(self.x, other.x), simd.mul(self.y, other.y));
+        simd.add(sum, simd.mul(self.z, other.z))
+    }
+
+    #[inline(always)]
+    fn cross(&self, other: &Self) -> Self {
+        let simd = self.simd;
+        Self {
+            simd,
+            x: simd.sub(simd.mul(self.y, other.z), simd.mul(self.z, other.y)),
+            y: simd.sub(simd.mul(self.z, other.x), simd.mul(self.x, other.z)),
+            z: simd.sub(simd.mul(self.x, other.y), simd.mul(self.y, other.x)),
+        }
+    }
+
+    /// Sum of the sizes of the components.
+    #[inline(always)]
+    fn taxicab(&self) -> S::Eight {
+        let simd = self.simd;
+        let sum = simd.add(size(simd, self.x), size(simd, self.y));
+        simd.add(sum, size(simd, self.z))
+    }
+}
+
+#[inline(always)]
+fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
+    simd.larger(x, simd.sub(simd.splat(0.0), x))
+}
+
+/// Bit `k` of each of eight bytes.
+#[inline(always)]
+fn bit_of_each(bytes: &[u8; LANES], k: usize) -> LaneBits {
+    // The product brings the bits, one in each byte, side by side into the highest byte.
+    let bits = u64::from_le_bytes(*bytes) >> k & 0x0101_0101_0101_0101;
+    (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as LaneBits
+}
+
+/// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.
+#[inline(always)]
+fn near_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> LaneBits {
+    let corners = [
+        Vector::load(simd, &pairs.corners[0]),
+        Vector::load(simd, &pairs.corners[1]),
+        Vector::load(simd, &pairs.corners[2]),
+    ];
+    let center = Vector::load(simd, &pairs.centers);
+    let radius = simd.load(&pairs.radii);
+    let edges = [corners[1].less(&corners[0]), corners[2].less(&corners[1]), corners[0].less(&corners[2])];
+    let arms = [center.less(&corners[0]), center.less(&corners[1]), center.less(&corners[2])];
+    let normal = edges[0].cross(&corners[2].less(&corners[0]));
+    let height = normal.dot(&arms[0]);
+    // At least as large as the size of any arm or edge.
+    let span = simd.add(arms[0].taxicab(), simd.add(edges[0].taxicab(), edges[1].taxicab()));
+    let normal_size = normal.taxicab();
+    let room = simd.add(radius, simd.add(span, center.taxicab()));
+    let slack = simd.mul(simd.splat(REACH_SLACK), room);
+    let in_front = simd.below(simd.mul(slack, normal_size), height);
+    let thickness = simd.load(&pairs.thicknesses);
+    let reach = simd.add(simd.select(in_front, radius, simd.larger(radius, thickness)), slack);
+    let reach_square = simd.mul(simd.mul(reach, reach), normal.dot(&normal));
+    let height_square = simd.mul(height, height);
+    let side_slack = simd.mul(simd.splat(2.0 * SIDE_SLACK), simd.mul(simd.mul(span, span), normal_size));
+    let within_slack = simd.sub(simd.splat(0.0), side_slack);
+
+    let in_front = simd.bits(in_front);
+    let mut far = simd.bits(simd.below(reach_square, height_square));
+    let (mut face, mut features) = (LaneBits::MAX, 0);
+    let radius_square = simd.mul(radius, radius);
+    let span_square = simd.mul(span, span);
+    let zero = simd.splat(0.0);
+    for k in 0..3 {
+        let (edge, arm, next_arm) = (&edges[k], &arms[k], &arms[(k + 1) % 3]);
+        let edge_square = edge.dot(edge);
+        let beyond = edge.cross(&normal).dot(arm);
+        let surely_beyond = simd.bits(simd.below(side_slack, beyond));
+        let surely_within = simd.bits(simd.below(beyond, within_slack));
+        let square = simd.add(simd.mul(height_square, edge_square), simd.mul(beyond, beyond));
+        far |= in_front & surely_beyond & simd.bits(simd.below(simd.mul(reach_square, edge_square), square));
+        face &= !surely_beyond;
+        // The foot on the edge's line lies before its start or after its end.
+        let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
+        let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
+        features |= bit_of_each(&pairs.may_push, k) & !surely_within & !beside;
+        // Vertex `k`, at the start of edge `k` and the end of the one before.
+        let before = &edges[(k + 2) % 3];
+        let arm_square = arm.dot(arm);
+        let past = arm.dot(before);
+        let least = simd.mul(simd.mul(simd.splat(ALONG_SLACK * ALONG_SLACK), arm_square), span_square);
+        let along = simd.bits(simd.below(zero, from_start))
+            & simd.bits(simd.below(least, simd.mul(from_start, from_start)))
+            | simd.bits(simd.below(past, zero)) & simd.bits(simd.below(least, simd.mul(past, past)));
+        let aside = simd.bits(simd.at_least(arm_square, radius_square)) | along;
+        features |= bit_of_each(&pairs.may_push, 3 + k) & !aside;
+    }
+    !far & (!in_front | face | features)
+}

@@ -1,0 +1,135 @@
+//! What is left out before a sphere is tested against a triangle would have found nothing: pairs of which eight at a
+//! time are told apart, and features that are marked as never pushing.
+
+mod common;
+mod oracle_support;
+
+use common::Random;
+use oracle_support::{all_contacts, dented_ball, fan_plate, hilly_sheet, regular_plate, shuffled, skin};
+use pong_geometry::Vec3;
+use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
+use pong_geometry::interference::sphere_triangle::sphere_triangle;
+use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
+use pong_geometry::interference::triangle_features::{TriangleContact, mark_pushing};
+use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
+use pong_geometry::simd::{LANES, Level, set_level};
+
+/// Surfaces of every sort, of about the size of one, by name.
+fn surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
+    let hull = common::stretched_hull(20, Vec3::new(1.0, 0.8, 0.6));
+    let sheet = hilly_sheet(6, 0.2, random);
+    vec![
+        ("plate", regular_plate(5)),
+        ("fans", fan_plate(random)),
+        ("hull", skin(&hull)),
+        ("dented ball", dented_ball(6, 9, 0.3, random)),
+        ("sheet", shuffled(&sheet, random)),
+    ]
+}
+
+/// A sphere somewhere about a surface: anywhere, or at a degenerate place of it.
+fn sphere(set: &TriangleSet, random: &mut Random) -> Sphere {
+    let count = set.triangles.len() as u64;
+    let [a, b, c] = set.corners((random.bits() % count) as u32);
+    let normal = set.normal((random.bits() % count) as u32);
+    let height = random.between(-0.1, 0.3);
+    let center = match random.bits() % 6 {
+        0 => a,
+        1 => (a + b) * 0.5,
+        2 => (a + b + c) / 3.0,
+        3 => a + normal * height,
+        4 => (a + b) * 0.5 + normal * height,
+        _ => Vec3::new(random.between(-1.3, 1.3), random.between(-1.3, 1.3), random.between(-0.5, 0.5)),
+    };
+    Sphere { center, radius: random.between(0.01, 0.4) }
+}
+
+fn contacts(sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -> Vec<TriangleContact> {
+    let mut found = Vec::new();
+    sphere_triangle(sphere, set, triangle, thickness, &mut |contact| found.push(contact));
+    found
+}
+
+/// No pair that is left out finds anything, at any level of instructions; most pairs without contacts are left out,
+/// though none whose centre is behind the triangle and near its plane.
+#[test]
+fn pairs_that_are_left_out_find_nothing() {
+    let mut random = Random(71);
+    let (mut left_out, mut idle, mut touching) = (0, 0, 0);
+    for round in 0..40 {
+        for (name, mut set) in surfaces(&mut random) {
+            if round % 2 == 0 {
+                mark_pushing(&mut set);
+            }
+            for _ in 0..20 {
+                let used = 1 + random.bits() as usize % LANES;
+                let drawn: Vec<(Sphere, u32, f64)> = (0..used)
+                    .map(|_| {
+                        let sphere = sphere(&set, &mut random);
+                        let triangle = (random.bits() % set.triangles.len() as u64) as u32;
+                        (sphere, triangle, sphere.radius * random.between(0.0, 2.0))
+                    })
+                    .collect();
+                for level in Level::available() {
+                    set_level(level);
+                    let mut pairs = SphereTrianglePairs::default();
+                    drawn.iter().for_each(|(sphere, t, thickness)| pairs.add(sphere, &set, *t, *thickness));
+                    let near = pairs.take_those_near();
+                    assert_eq!(pairs.count(), 0);
+                    assert!(used == LANES || near >> used == 0);
+                    for (lane, (sphere, t, thickness)) in drawn.iter().enumerate() {
+                        let found = contacts(sphere, &set, *t, *thickness);
+                        let is_near = near >> lane & 1 == 1;
+                        assert!(is_near || found.is_empty(), "{name} {level:?} {sphere:?} {t} {found:?}");
+                        left_out += u32::from(!is_near);
+                        idle += u32::from(found.is_empty());
+                        touching += u32::from(!found.is_empty());
+                    }
+                }
+            }
+        }
+    }
+    set_level(Level::best());
+    println!("{left_out} left out of {idle} without contact; {touching} with");
+    assert!(touching > 2000 && f64::from(left_out) > 0.6 * f64::from(idle));
+}
+
+/// A pair with a number that is none is tested.
+#[test]
+fn what_is_no_number_is_not_left_out() {
+    let set = regular_plate(2);
+    let mut pairs = SphereTrianglePairs::default();
+    pairs.add(&Sphere { center: Vec3::repeat(f64::NAN), radius: 0.1 }, &set, 0, 0.1);
+    pairs.add(&Sphere { center: Vec3::zeros(), radius: f64::NAN }, &set, 0, 0.1);
+    assert_eq!(pairs.take_those_near(), 3);
+}
+
+/// Marking which features may push changes no contact of any sphere or ellipsoid.
+#[test]
+fn marked_surfaces_push_as_unmarked_ones() {
+    let mut random = Random(72);
+    let mut compared = 0;
+    for (name, set) in (0..10).flat_map(|_| surfaces(&mut random)).collect::<Vec<_>>() {
+        assert!(set.triangles.iter().all(|triangle| triangle.may_push == MayPush::ALL));
+        let mut marked = set.clone();
+        mark_pushing(&mut marked);
+        assert!(marked.triangles.iter().any(|triangle| triangle.may_push != MayPush::ALL), "{name}");
+        for _ in 0..100 {
+            let sphere = sphere(&set, &mut random);
+            let expected = all_contacts(&sphere, &set, sphere.radius);
+            assert_eq!(all_contacts(&sphere, &marked, sphere.radius), expected, "{name} {sphere:?}");
+            let semi_axes = Vec3::new(1.0, 0.6, 0.4) * sphere.radius;
+            let e = Ellipsoid { center: sphere.center, axes: random.rotation(), semi_axes };
+            let of = |set: &TriangleSet| {
+                let mut found = Vec::new();
+                for t in 0..set.triangles.len() as u32 {
+                    ellipsoid_triangle(&e, set, t, semi_axes.z, &mut |contact| found.push(contact));
+                }
+                found
+            };
+            assert_eq!(of(&marked), of(&set), "{name} {e:?}");
+            compared += expected.len();
+        }
+    }
+    assert!(compared > 1000, "{compared}");
+}
