@@ -12,11 +12,12 @@ use pong_geometry::interference::{
     point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
     ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
-    sphere_triangle::sphere_triangle, triangle_features::TriangleContact,
+    sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
+    sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
-use pong_geometry::simd::{self, Kernel, Simd};
+use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Mat3, Transform, Vec3};
 use pong_model::{Body, Model};
 
@@ -94,7 +95,7 @@ impl Kernel for Pass<'_> {
             Mover::Point => self.points(simd),
             Mover::Segment => self.segments(),
             Mover::Ray => self.rays(),
-            Mover::Sphere => self.spheres(),
+            Mover::Sphere => self.spheres(simd),
             Mover::Ellipsoid => self.ellipsoids(),
         }
     }
@@ -137,16 +138,37 @@ impl Pass<'_> {
     }
 
     #[inline(always)]
-    fn spheres(self) {
+    fn spheres<S: Simd>(self, simd: S) {
         let (a, b) = (SPHERE, self.body);
         match self.kind {
             Hull => self.each(|x| sphere(&a.carried(x), &b.polyhedra[0])),
             Plane => self.each(|x| sphere_plane(&a.carried(x), &b.planes[0])),
             PrimitiveKind::Sphere => self.each(|x| sphere_sphere(&a.carried(x), &b.spheres[0])),
-            Triangle => {
-                self.each(|x| last(|emit| sphere_triangle(&a.carried(x), &b.triangles, 0, a.radius, emit)))
-            }
+            Triangle => self.spheres_on_triangle(simd),
             _ => self.no_tester(),
+        }
+    }
+
+    /// Each sphere is carried by itself; those near triangles wait until there are eight pairs, as in the engine.
+    #[inline(always)]
+    fn spheres_on_triangle<S: Simd>(self, simd: S) {
+        let b = &self.body.triangles;
+        let mut pairs = SphereTrianglePairs::default();
+        for (transforms, answers) in self.transforms.chunks(LANES).zip(self.answers.chunks_mut(LANES)) {
+            let mut spheres = [SPHERE; LANES];
+            for (sphere, transform) in spheres.iter_mut().zip(transforms) {
+                *sphere = SPHERE.carried(transform);
+                pairs.add(sphere, b, 0, RADIUS);
+            }
+            let told = pairs.take_in(simd);
+            for (lane, (a, answer)) in spheres.iter().zip(answers).enumerate() {
+                let found = match [told.near, told.over_face].map(|bits| bits >> lane & 1 == 1) {
+                    [false, _] => None,
+                    [true, true] => sphere_over_face(a, b, 0).map(|contact| contact.interference),
+                    [true, false] => last(|emit| sphere_triangle(a, b, 0, a.radius, emit)),
+                };
+                *answer = found.map(Answer::from).unwrap_or_default();
+            }
         }
     }
 

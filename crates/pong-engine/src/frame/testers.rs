@@ -21,7 +21,8 @@ use pong_geometry::interference::{
     ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
     ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
-    sphere_triangle::sphere_triangle, sphere_triangle_pairs::SphereTrianglePairs,
+    sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
+    sphere_triangle_pairs::SphereTrianglePairs,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
@@ -169,11 +170,12 @@ pub(super) fn test_waiting(
     counts: &mut FrameCounts,
 ) {
     let before = found.seen;
-    for place in lanes(found.waiting.take_those_near()) {
+    let told = found.waiting.take();
+    for place in lanes(told.near) {
         let (lane, item_b) = found.waiting_for[place];
         let lane = usize::from(lane);
         let side = Side { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
-        side.test_sphere_triangle(&chunk.sphere(lane), found);
+        side.test_sphere_triangle(&chunk.sphere(lane), told.over_face >> place & 1 == 1, found);
     }
     counts.note_testers(PrimitiveKind::Sphere, Triangle, 0, (found.seen - before) as u32);
 }
@@ -275,15 +277,21 @@ impl<'a> Side<'a> {
             Plane => self.whole(sphere_plane(sphere, &body.planes[b]), found),
             PrimitiveKind::Sphere => self.whole(sphere_sphere(sphere, &body.spheres[b]), found),
             Polyhedron => self.test_sphere_polyhedron(sphere, found),
-            _ => self.test_sphere_triangle(sphere, found),
+            _ => self.test_sphere_triangle(sphere, false, found),
         }
     }
 
-    fn test_sphere_triangle(&self, sphere: &Sphere, found: &mut Findings<'_>) {
+    /// `over_face`: whether the face alone may push.
+    fn test_sphere_triangle(&self, sphere: &Sphere, over_face: bool, found: &mut Findings<'_>) {
+        let (set, triangle) = (&self.body_b().triangles, self.item_b.element);
         let local = self.body_a().spheres[self.item_a.element as usize].center;
-        let thickness = thickness_for(self.context, self.item_b, sphere);
         let mut emit = |contact| self.on_triangle(&local, &sphere.center, contact, found);
-        sphere_triangle(sphere, &self.body_b().triangles, self.item_b.element, thickness, &mut emit);
+        if over_face {
+            sphere_over_face(sphere, set, triangle).into_iter().for_each(emit);
+        } else {
+            let thickness = thickness_for(self.context, self.item_b, sphere);
+            sphere_triangle(sphere, set, triangle, thickness, &mut emit);
+        }
     }
 
     fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Findings<'_>) {

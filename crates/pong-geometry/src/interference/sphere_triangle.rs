@@ -28,6 +28,14 @@ pub fn sphere_triangle(
     }
 }
 
+/// The contact of a sphere with a triangle of which the face alone may push, the centre in front.
+#[inline]
+pub fn sphere_over_face(sphere: &Sphere, set: &TriangleSet, triangle: u32) -> Option<TriangleContact> {
+    let view = TriangleView::new(set, triangle);
+    let height = view.height(&sphere.center);
+    (height < sphere.radius).then(|| face_contact(sphere, &view, height))
+}
+
 fn emit_features(
     sphere: &Sphere,
     set: &TriangleSet,
@@ -68,18 +76,22 @@ fn emit_face(
 ) {
     let depth = sphere.radius - height;
     let behind = height < 0.0;
-    if depth <= 0.0 || (behind && -height >= thickness) {
-        return;
+    if depth > 0.0 && !(behind && -height >= thickness) {
+        emit(face_contact(sphere, view, height));
     }
-    emit(TriangleContact {
+}
+
+#[inline]
+fn face_contact(sphere: &Sphere, view: &TriangleView, height: f64) -> TriangleContact {
+    TriangleContact {
         interference: Interference {
-            depth,
+            depth: sphere.radius - height,
             normal: view.normal,
             point_a: sphere.center - view.normal * sphere.radius,
             feature: Feature::face(view.index as usize),
         },
-        standing: if behind { Standing::Behind } else { Standing::Front },
-    });
+        standing: if height < 0.0 { Standing::Behind } else { Standing::Front },
+    }
 }
 
 fn emit_edge(

@@ -1,10 +1,11 @@
 //! Pairs of a sphere and a triangle, eight at a time: which of them may touch at all.
 //!
 //! A ball near a surface meets the boxes of many triangles and touches few. Most of the others are told by products
-//! alone: too far from the plane, too far beyond an edge, or near features of which none may push. What is left goes
-//! through [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one, so nothing here decides an answer:
-//! every comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none
-//! rejects nothing.
+//! alone: too far from the plane, too far beyond an edge, or near features of which none may push; or that only the face
+//! may push, which most of the rest do. What is left goes through
+//! [`sphere_triangle`](super::sphere_triangle::sphere_triangle) one by one. Nothing here decides an answer: every
+//! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
+//! nothing.
 
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Sphere, TriangleSet};
@@ -69,17 +70,35 @@ impl SphereTrianglePairs {
         self.count += 1;
     }
 
-    /// Which of the pairs may touch, by their order; then there are none.
+    /// Tells the pairs apart; then there are none.
     #[inline]
-    pub fn take_those_near(&mut self) -> LaneBits {
-        let used = !(LaneBits::MAX.checked_shl(self.count as u32).unwrap_or(0));
+    pub fn take(&mut self) -> PairsTold {
+        let told = tell(self);
         self.count = 0;
-        near(self) & used
+        told
+    }
+
+    /// [`take`](Self::take) within a kernel.
+    #[inline(always)]
+    pub fn take_in<S: Simd>(&mut self, simd: S) -> PairsTold {
+        let told = tell_in(simd, self);
+        self.count = 0;
+        told
     }
 }
 
-fn near(pairs: &SphereTrianglePairs) -> LaneBits {
-    run_at_level!(near_in(pairs: SphereTrianglePairs) -> LaneBits)
+/// What is told of pairs, a bit for each in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PairsTold {
+    /// Those that may touch.
+    pub near: LaneBits,
+    /// Those of them in which the face alone may push, to the front:
+    /// [`sphere_over_face`](super::sphere_triangle::sphere_over_face) is enough.
+    pub over_face: LaneBits,
+}
+
+fn tell(pairs: &SphereTrianglePairs) -> PairsTold {
+    run_at_level!(tell_in(pairs: SphereTrianglePairs) -> PairsTold)
 }
 
 /// A vector in every lane.
@@ -151,7 +170,8 @@ fn bit_of_each(bytes: &[u8; LANES], k: usize) -> LaneBits {
 
 /// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.
 #[inline(always)]
-fn near_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> LaneBits {
+fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
+    let used = !(LaneBits::MAX.checked_shl(pairs.count as u32).unwrap_or(0));
     let corners = [
         Vector::load(simd, &pairs.corners[0]),
         Vector::load(simd, &pairs.corners[1]),
@@ -178,7 +198,7 @@ fn near_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> LaneBits {
 
     let in_front = simd.bits(in_front);
     let mut far = simd.bits(simd.below(reach_square, height_square));
-    let (mut face, mut features) = (LaneBits::MAX, 0);
+    let (mut face, mut within, mut features) = (LaneBits::MAX, LaneBits::MAX, 0);
     let radius_square = simd.mul(radius, radius);
     let span_square = simd.mul(span, span);
     let zero = simd.splat(0.0);
@@ -191,6 +211,7 @@ fn near_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> LaneBits {
         let square = simd.add(simd.mul(height_square, edge_square), simd.mul(beyond, beyond));
         far |= in_front & surely_beyond & simd.bits(simd.below(simd.mul(reach_square, edge_square), square));
         face &= !surely_beyond;
+        within &= surely_within;
         // The foot on the edge's line lies before its start or after its end.
         let (from_start, from_end) = (arm.dot(edge), next_arm.dot(edge));
         let beside = simd.bits(simd.below(from_start, zero)) | simd.bits(simd.below(zero, from_end));
@@ -206,5 +227,6 @@ fn near_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> LaneBits {
         let aside = simd.bits(simd.at_least(arm_square, radius_square)) | along;
         features |= bit_of_each(&pairs.may_push, 3 + k) & !aside;
     }
-    !far & (!in_front | face | features)
+    let near = used & !far & (!in_front | face | features);
+    PairsTold { near, over_face: near & in_front & within & !features }
 }
