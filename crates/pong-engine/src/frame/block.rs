@@ -55,7 +55,7 @@ impl Kernel for BlockWork<'_> {
         let plan = &sealed.plans[block.plan as usize];
         let context = PairContext::new(scene, sealed, input, plan);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let Lane { arena, scratch, out } = lane;
+        let Lane { arena, scratch, waiting, out } = lane;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -63,7 +63,7 @@ impl Kernel for BlockWork<'_> {
         batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut carried = arena.list(LANES).expect(room);
-        let mut found = Findings::new(arena.list(sealed.limits.found).expect(room));
+        let mut found = Findings::new(arena.list(sealed.limits.found).expect(room), waiting);
         let custom = arena.slice(sealed.custom_stride, 0.0).expect(room);
         let mut sharers = arena.list(sealed.limits.found).expect(room);
         for group in block.first / GROUP..block.end.div_ceil(GROUP) {

@@ -1,6 +1,7 @@
 //! What one lane — the calling thread or a worker — writes while it works.
 
 use super::buffers::{FrameContact, Stance};
+use super::testers::Waiting;
 use crate::report::FrameCounts;
 use crate::sealed::Sealed;
 use crate::state::Role;
@@ -13,6 +14,7 @@ pub(crate) struct Lane {
     pub arena: Arena,
     /// For one solution among contacts of one key.
     pub scratch: Arena,
+    pub waiting: Waiting,
     pub out: Output,
 }
 
@@ -76,6 +78,7 @@ impl Lane {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
+            waiting: Waiting::default(),
             out: Output::new(sealed.custom_stride, contacts, ranks),
         }
     }

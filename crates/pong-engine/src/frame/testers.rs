@@ -38,22 +38,29 @@ pub(super) struct Findings<'m> {
     /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
     /// less than a frame may keep.
     pub overflowed: bool,
-    /// Spheres that may touch triangles, until eight are together or the batch of B ends.
-    waiting: SphereTrianglePairs,
-    /// Of each of them the lane of A and the triangle.
-    waiting_for: [(u8, Item); LANES],
+    waiting: &'m mut Waiting,
+}
+
+/// Spheres that may touch triangles, until eight are together or the batch of B ends.
+#[derive(Debug)]
+pub(crate) struct Waiting {
+    pairs: SphereTrianglePairs,
+    /// Of each pair the lane of A and the triangle.
+    from: [(u8, Item); LANES],
+}
+
+impl Default for Waiting {
+    fn default() -> Self {
+        let nobody = Item { primitive: 0, element: 0 };
+        Self { pairs: SphereTrianglePairs::default(), from: [(0, nobody); LANES] }
+    }
 }
 
 impl<'m> Findings<'m> {
-    pub fn new(list: List<'m, Found>) -> Self {
-        let nobody = Item { primitive: 0, element: 0 };
-        Self {
-            list,
-            seen: 0,
-            overflowed: false,
-            waiting: SphereTrianglePairs::default(),
-            waiting_for: [(0, nobody); LANES],
-        }
+    pub fn new(list: List<'m, Found>, waiting: &'m mut Waiting) -> Self {
+        // A panic may have left some.
+        waiting.pairs.clear();
+        Self { list, seen: 0, overflowed: false, waiting }
     }
 
     pub fn clear(&mut self) {
@@ -64,7 +71,7 @@ impl<'m> Findings<'m> {
     /// Whether anything waits to be tested.
     #[inline]
     pub fn waits(&self) -> bool {
-        self.waiting.count() > 0
+        self.waiting.pairs.count() > 0
     }
 
     fn add(&mut self, found: Found) {
@@ -125,9 +132,10 @@ impl<'a> Target<'a> {
         for lane in lanes(near) {
             let sphere = chunk.sphere(lane);
             let thickness = thickness_for(self.context, self.item_b, &sphere);
-            found.waiting_for[found.waiting.count()] = (lane as u8, self.item_b);
-            found.waiting.add(&sphere, triangles, self.item_b.element, thickness);
-            if found.waiting.count() == LANES {
+            let Waiting { pairs, from } = &mut *found.waiting;
+            from[pairs.count()] = (lane as u8, self.item_b);
+            pairs.add(&sphere, triangles, self.item_b.element, thickness);
+            if pairs.count() == LANES {
                 test_waiting(self.context, chunk, found, counts);
             }
         }
@@ -170,9 +178,9 @@ pub(super) fn test_waiting(
     counts: &mut FrameCounts,
 ) {
     let before = found.seen;
-    let told = found.waiting.take();
+    let told = found.waiting.pairs.take();
     for place in lanes(told.near) {
-        let (lane, item_b) = found.waiting_for[place];
+        let (lane, item_b) = found.waiting.from[place];
         let lane = usize::from(lane);
         let side = Side { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
         side.test_sphere_triangle(&chunk.sphere(lane), told.over_face >> place & 1 == 1, found);

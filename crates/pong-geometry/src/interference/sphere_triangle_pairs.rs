@@ -50,6 +50,12 @@ impl SphereTrianglePairs {
         self.count
     }
 
+    /// Forgets all pairs.
+    #[inline]
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
     /// Adds a pair, of which there may be eight. `thickness` as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
