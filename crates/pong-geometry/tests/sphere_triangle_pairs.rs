@@ -69,7 +69,7 @@ fn pairs_that_are_left_out_find_nothing() {
                     .map(|_| {
                         let (sphere, there) = sphere(&set, &mut random);
                         let any = (random.bits() % set.triangles.len() as u64) as u32;
-                        let triangle = if random.bits() % 4 == 0 { there } else { any };
+                        let triangle = if random.bits().is_multiple_of(4) { there } else { any };
                         (sphere, triangle, sphere.radius * random.between(0.0, 2.0))
                     })
                     .collect();
