@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xa1c49d0b70144f1bULL
+#define PONG_LAYOUT_HASH 0x6fa1ddd3fda9bc4dULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -50,6 +50,18 @@
 
 /// `stage_ns` of the contact state, if the frame was committed.
 #define PONG_STAGE_COMMIT 5
+
+/// `work_ns` of laying out the work, bounding volumes and boxes.
+#define PONG_WORK_BOUNDING 0
+
+/// `work_ns` of contact tests.
+#define PONG_WORK_TESTERS 1
+
+/// `work_ns` of which contacts count, and their weights.
+#define PONG_WORK_SHARING 2
+
+/// `work_ns` of normal and friction forces.
+#define PONG_WORK_FORCES 3
 
 /// `what` of a tally of tests of the bounding volumes that models give.
 #define PONG_TALLY_VOLUMES 0
@@ -400,6 +412,10 @@ typedef struct pong_report {
     uint64_t commit_ns;
     /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
     uint64_t stage_ns[8];
+    /// With report_times: processor time in each part of the work of PONG_STAGE_CONTACTS, ns, at PONG_WORK_..., the calling
+    /// thread's and the workers' together: with workers the sum may be more than the stage took. By thread:
+    /// pong_get_worker().
+    uint64_t work_ns[4];
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     uint64_t advised_capacity;
@@ -420,7 +436,7 @@ typedef struct pong_report {
     /// in time. The results are the same; the time is not.
     uint64_t rounds_done_alone;
     /// Zero in this version.
-    uint64_t reserved[7];
+    uint64_t reserved[3];
 } pong_report;
 
 /// Energies of all contacts of a world, at the last commit.
@@ -467,6 +483,9 @@ typedef struct pong_worker {
     uint32_t blocks;
     /// With report_times: time in them, ns; else 0.
     uint64_t busy_ns;
+    /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
+    /// rounds of the frame together; of lane 0 also what it did by itself.
+    uint64_t work_ns[4];
 } pong_worker;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
@@ -746,6 +765,10 @@ const char *pong_limit_name(uint32_t flag);
 /// Name of a stage, PONG_STAGE_...: "relative", "contacts", "order", "ledger", "reduce", "commit"; empty for a place
 /// of `stage_ns` that has no stage. Lives as long as the library.
 const char *pong_stage_name(size_t stage);
+
+/// Name of a part of the contacts' work, PONG_WORK_...: "bounding", "testers", "sharing", "forces"; empty for a place of
+/// `work_ns` that there is not. Lives as long as the library.
+const char *pong_work_name(size_t work);
 
 /// The energies; zero unless the configuration has keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);

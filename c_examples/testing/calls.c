@@ -224,6 +224,24 @@ static unsigned tested(const crowd *c, uint32_t what, const char *a, const char 
     return sum;
 }
 
+/* Time in every part of the work: the sum of the calling thread's and the workers'. */
+static void work_by_lane(const crowd *c, const pong_report *report, int timed)
+{
+    size_t lanes, lane, part;
+    OK(pong_worker_count(c->world, &lanes));
+    lanes += 1;
+    for (part = 0; part < 4; part += 1) {
+        uint64_t sum = 0;
+        for (lane = 0; lane < lanes; lane += 1) {
+            pong_worker worker;
+            OK(pong_get_worker(c->world, lane, &worker));
+            sum += worker.work_ns[part];
+        }
+        TEST(sum == report->work_ns[part] && pong_work_name(part)[0] != '\0');
+        TEST((sum > 0) == (timed != 0));
+    }
+}
+
 static void counts_and_times(const crowd *c, int timed)
 {
     pong_report report;
@@ -246,6 +264,8 @@ static void counts_and_times(const crowd *c, int timed)
     }
     TEST((report.stage_ns[PONG_STAGE_CONTACTS] > 0) == timed && (sum > 0) == timed);
     TEST(report.evaluate_ns > 0 && report.commit_ns > 0);
+    TEST(strcmp(pong_work_name(PONG_WORK_FORCES), "forces") == 0 && pong_work_name(4)[0] == '\0');
+    work_by_lane(c, &report, timed);
     TEST(strcmp(pong_stage_name(PONG_STAGE_COMMIT), "commit") == 0 && pong_stage_name(99)[0] == '\0');
 }
 

@@ -90,7 +90,7 @@ impl Kernel for Descent<'_> {
     fn run<S: Simd>(self, simd: S) -> u32 {
         let mut found = 0;
         for query in self.boxes {
-            self.tree.visit(simd, query, None, |_, met| found += met.count_ones());
+            self.tree.visit(simd, query, |_, met| found += met.count_ones());
         }
         found
     }

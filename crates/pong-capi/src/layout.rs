@@ -66,11 +66,11 @@ layouts! {
     }
     pong_report {
         flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, boxes_tested,
-        primitives_tested, evaluations, commits, evaluate_ns, commit_ns, stage_ns, advised_capacity, contacts_peak,
+        primitives_tested, evaluations, commits, evaluate_ns, commit_ns, stage_ns, work_ns, advised_capacity, contacts_peak,
         contacts_capacity, arena_peak, arena_capacity, scratch_peak, scratch_capacity, rounds_done_alone, reserved,
     }
     pong_tally { what, tested, met, reserved, kind_a, kind_b }
-    pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns }
+    pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns, work_ns }
     pong_ledger { stored, work, dissipated }
     pong_surface_values {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,

@@ -5,7 +5,7 @@ use crate::guard::with_world;
 use crate::pointers::Out;
 use crate::status::pong_status;
 use crate::world::pong_world;
-use pong_engine::{FrameReport, Stage, StageTimes, StatusBits};
+use pong_engine::{FrameReport, Stage, StageTimes, StatusBits, Work, WorkTimes};
 use std::ffi::{CStr, c_char};
 
 /// The frame had more contacts than the world's capacity: the deepest were kept.
@@ -25,6 +25,15 @@ pub const PONG_STAGE_LEDGER: usize = 3;
 pub const PONG_STAGE_REDUCE: usize = 4;
 /// `stage_ns` of the contact state, if the frame was committed.
 pub const PONG_STAGE_COMMIT: usize = 5;
+
+/// `work_ns` of laying out the work, bounding volumes and boxes.
+pub const PONG_WORK_BOUNDING: usize = 0;
+/// `work_ns` of contact tests.
+pub const PONG_WORK_TESTERS: usize = 1;
+/// `work_ns` of which contacts count, and their weights.
+pub const PONG_WORK_SHARING: usize = 2;
+/// `work_ns` of normal and friction forces.
+pub const PONG_WORK_FORCES: usize = 3;
 
 /// Room for stages in pong_report.
 const STAGES: usize = 8;
@@ -59,6 +68,10 @@ pub struct pong_report {
     pub commit_ns: u64,
     /// With report_times: duration of each stage of the last frame, ns, at PONG_STAGE_...; else zero.
     pub stage_ns: [u64; 8],
+    /// With report_times: processor time in each part of the work of PONG_STAGE_CONTACTS, ns, at PONG_WORK_..., the calling
+    /// thread's and the workers' together: with workers the sum may be more than the stage took. By thread:
+    /// pong_get_worker().
+    pub work_ns: [u64; 4],
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
     /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     pub advised_capacity: u64,
@@ -79,7 +92,7 @@ pub struct pong_report {
     /// in time. The results are the same; the time is not.
     pub rounds_done_alone: u64,
     /// Zero in this version.
-    pub reserved: [u64; 7],
+    pub reserved: [u64; 3],
 }
 
 /// Counts, times, memory and flags of the last frame; all zero before the first.
@@ -110,6 +123,7 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         evaluate_ns: counters.evaluate_ns,
         commit_ns: counters.commit_ns,
         stage_ns: by_stage(&world.stage_times()),
+        work_ns: by_work(&world.stage_times().work),
         advised_capacity: advised_capacity(&frame, counters.contact_capacity),
         contacts_peak: memory.contacts_peak as u64,
         contacts_capacity: memory.contacts_capacity as u64,
@@ -118,7 +132,7 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         scratch_peak: memory.scratch_peak as u64,
         scratch_capacity: memory.scratch_capacity as u64,
         rounds_done_alone: world.rounds_done_alone(),
-        reserved: [0; 7],
+        reserved: [0; 3],
     }
 }
 
@@ -128,6 +142,11 @@ fn by_stage(times: &StageTimes) -> [u64; STAGES] {
         all[stage as usize] = times.of(stage);
     }
     all
+}
+
+/// The parts of a lane's work, or of all lanes', in order.
+pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
+    Work::ALL.map(|work| times.of(work))
 }
 
 fn advised_capacity(frame: &FrameReport, capacity: u64) -> u64 {
@@ -159,6 +178,20 @@ pub extern "C" fn pong_stage_name(stage: usize) -> *const c_char {
         PONG_STAGE_LEDGER => c"ledger",
         PONG_STAGE_REDUCE => c"reduce",
         PONG_STAGE_COMMIT => c"commit",
+        _ => c"",
+    };
+    name.as_ptr()
+}
+
+/// Name of a part of the contacts' work, PONG_WORK_...: "bounding", "testers", "sharing", "forces"; empty for a place of
+/// `work_ns` that there is not. Lives as long as the library.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_work_name(work: usize) -> *const c_char {
+    let name: &CStr = match work {
+        PONG_WORK_BOUNDING => c"bounding",
+        PONG_WORK_TESTERS => c"testers",
+        PONG_WORK_SHARING => c"sharing",
+        PONG_WORK_FORCES => c"forces",
         _ => c"",
     };
     name.as_ptr()
@@ -209,6 +242,15 @@ mod tests {
             // SAFETY: the name ends with a zero byte and lives as long as the library.
             let name = unsafe { CStr::from_ptr(pong_stage_name(stage as usize)) };
             assert_eq!(name.to_str(), Ok(stage.name()));
+        }
+    }
+
+    #[test]
+    fn parts_of_the_work_are_those_of_the_engine() {
+        for work in Work::ALL {
+            // SAFETY: the name ends with a zero byte and lives as long as the library.
+            let name = unsafe { CStr::from_ptr(pong_work_name(work as usize)) };
+            assert_eq!(name.to_str(), Ok(work.name()));
         }
     }
 

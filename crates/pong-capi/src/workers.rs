@@ -3,6 +3,7 @@
 use crate::guard::{Failure, Outcome, with_world};
 use crate::names::c_text;
 use crate::pointers::Out;
+use crate::report::by_work;
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
 use pong_engine::{EngineError, LaneWork, WorkerStart};
@@ -36,6 +37,9 @@ pub struct pong_worker {
     pub blocks: u32,
     /// With report_times: time in them, ns; else 0.
     pub busy_ns: u64,
+    /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
+    /// rounds of the frame together; of lane 0 also what it did by itself.
+    pub work_ns: [u64; 4],
 }
 
 /// Workers as they were started: what does not change.
@@ -102,7 +106,8 @@ pub unsafe extern "C" fn pong_get_worker(
             inner.started("ask for a worker")?;
             let asked = if lane == 0 { pong_worker::default() } else { inner.worker(lane)?.asked };
             let LaneWork { blocks, busy_ns } = inner.world.lane_work().nth(lane).unwrap_or_default();
-            out.set(pong_worker { blocks, busy_ns, ..asked });
+            let work_ns = inner.world.lane_times().nth(lane).map_or([0; 4], |times| by_work(&times));
+            out.set(pong_worker { blocks, busy_ns, work_ns, ..asked });
             Ok(())
         })
     }

@@ -44,7 +44,9 @@ pub use law::{
 };
 pub use pong_threads::{LaneWork, WorkerStart};
 pub use registry::Laws;
-pub use report::{FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally};
+pub use report::{
+    FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
+};
 pub use scene::{Config, State, WorkerSettings};
 pub use sealed::{SealReport, SetupWarning};
 pub use state::StateError;

@@ -181,14 +181,70 @@ impl Stage {
     }
 }
 
+/// A part of the work of [`Stage::Contacts`], which all hands share. The engine asks the clock between groups of 64
+/// elements, not between tests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(usize)]
+pub enum Work {
+    /// Laying out the work, bounding volumes, boxes.
+    Bounding = 0,
+    /// Contact tests.
+    Testers = 1,
+    /// Which contacts count, and their weights.
+    Sharing = 2,
+    /// Normal and friction forces.
+    Forces = 3,
+}
+
+impl Work {
+    /// All parts in order.
+    pub const ALL: [Self; 4] = [Self::Bounding, Self::Testers, Self::Sharing, Self::Forces];
+
+    /// A name for reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bounding => "bounding",
+            Self::Testers => "testers",
+            Self::Sharing => "sharing",
+            Self::Forces => "forces",
+        }
+    }
+}
+
+/// Time of a lane, or of all lanes together, in the parts of the contacts' work, ns; all zero unless the host has given a
+/// clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WorkTimes([u64; Work::ALL.len()]);
+
+impl WorkTimes {
+    /// Time of one part, ns.
+    pub fn of(&self, work: Work) -> u64 {
+        self.0[work as usize]
+    }
+
+    /// Time of all parts, ns.
+    pub fn sum(&self) -> u64 {
+        self.0.iter().sum()
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.0.iter_mut().zip(other.0).for_each(|(own, more)| *own += more);
+    }
+}
+
 /// Time per stage of the last frame, ns; all zero unless the host has given a clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StageTimes([u64; Stage::ALL.len()]);
+pub struct StageTimes {
+    stages: [u64; Stage::ALL.len()],
+    /// Time in each part of the work of [`Stage::Contacts`]: the sum of all lanes. With workers the parts together may
+    /// take longer than the stage; on the calling thread alone hardly anything of the stage is in none of them.
+    pub work: WorkTimes,
+}
 
 impl StageTimes {
-    /// Time of one stage, ns.
+    /// Time of one stage, ns, as the caller waits for it.
     pub fn of(&self, stage: Stage) -> u64 {
-        self.0[stage as usize]
+        self.stages[stage as usize]
     }
 }
 
@@ -213,9 +269,54 @@ impl Watch {
     pub fn lap(&mut self, stage: Stage, times: &mut StageTimes) {
         if let Some(now) = self.clock.0 {
             let now = now();
-            times.0[stage as usize] = now.saturating_sub(self.last);
+            times.stages[stage as usize] = now.saturating_sub(self.last);
             self.last = now;
         }
+    }
+
+    /// The time since the last lap belongs to a part of the work as well.
+    pub fn lap_work(&mut self, work: Work, times: &mut WorkTimes) {
+        if let Some(now) = self.clock.0 {
+            let now = now();
+            times.0[work as usize] += now.saturating_sub(self.last);
+            self.last = now;
+        }
+    }
+}
+
+/// Measures the parts of a lane's work one after another, or does not.
+pub(crate) trait Laps {
+    /// The time since the last lap belongs to a part.
+    fn lap(&mut self, work: Work, times: &mut WorkTimes);
+}
+
+/// No clock was lent.
+pub(crate) struct Untimed;
+
+impl Laps for Untimed {
+    #[inline(always)]
+    fn lap(&mut self, _: Work, _: &mut WorkTimes) {}
+}
+
+/// By the host's clock.
+pub(crate) struct Timed {
+    now: fn() -> u64,
+    last: u64,
+}
+
+impl Timed {
+    /// Begins now.
+    pub fn start(now: fn() -> u64) -> Self {
+        Self { now, last: now() }
+    }
+}
+
+impl Laps for Timed {
+    #[inline(always)]
+    fn lap(&mut self, work: Work, times: &mut WorkTimes) {
+        let now = (self.now)();
+        times.0[work as usize] += now.saturating_sub(self.last);
+        self.last = now;
     }
 }
 

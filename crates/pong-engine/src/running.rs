@@ -2,7 +2,7 @@
 
 use crate::error::EngineError;
 use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
-use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits};
+use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{ContactMemory, Remembered, StateError, block_len, read_block, write_block};
@@ -50,6 +50,7 @@ impl Running {
             memory: Arc::clone(&nothing),
             tables: Arc::clone(&tables),
             blocks: Vec::with_capacity(ROUND),
+            clock,
         };
         let crew = match &scene.config.workers {
             None => None,
@@ -194,6 +195,14 @@ impl Running {
 
     pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         self.crew.iter().flat_map(|crew| crew.pool().work())
+    }
+
+    /// Lane by lane, the caller's first: what it did alone, and its part of what was shared.
+    pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
+        let mut shared = self.crew.iter().flat_map(Crew::times);
+        let mut caller = self.frame.lane.out.times;
+        shared.next().into_iter().for_each(|shared| caller.add(shared));
+        std::iter::once(caller).chain(shared.copied())
     }
 
     pub fn rounds_done_alone(&self) -> u64 {

@@ -4,7 +4,7 @@ use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::registry::Laws;
-use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes};
+use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes, WorkTimes};
 use crate::running::Running;
 use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
 use crate::sealed::{self, SealReport};
@@ -313,6 +313,12 @@ impl World {
     /// workers.
     pub fn lane_work(&self) -> impl Iterator<Item = pong_threads::LaneWork> + '_ {
         self.running.iter().flat_map(Running::lane_work)
+    }
+
+    /// Where the time of the last frame's contacts went on the calling thread (first) and on each worker. Zero without a
+    /// clock; empty before the seal. Rounds that the calling thread did again by itself count for it alone.
+    pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
+        self.running.iter().flat_map(Running::lane_times)
     }
 
     /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come

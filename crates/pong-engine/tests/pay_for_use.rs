@@ -159,6 +159,7 @@ fn what_nobody_asked_for_is_not_measured() {
     stage.step(0);
     assert_eq!(stage.world.stage_times(), StageTimes::default());
     assert_eq!(stage.world.lane_work().count(), 0);
+    assert_eq!(stage.world.lane_times().collect::<Vec<_>>(), [WorkTimes::default()]);
 }
 
 /// Memory follows what may meet, not what is there: a model that no pair needs takes none.

@@ -431,7 +431,7 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
 /// Every ball lies in the box that its batch has for it, and in the lane that its place says.
 fn check_batch(body: &Body, batch: &pong_model::Batch) {
     let balls = batch.balls.as_ref().expect("spheres have lanes");
-    batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, None, |node, met| {
+    batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, |node, met| {
         for lane in lanes(met) {
             let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
             let item = body.tree.items[(batch.items.start + place) as usize];

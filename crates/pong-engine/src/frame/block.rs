@@ -3,12 +3,13 @@
 use super::bounding::batches_of_b;
 use super::buffers::Found;
 use super::carried::Carried;
-use super::chunk::{Chunk, LaneBoxes};
+use super::chunk::Chunk;
 use super::input::{Block, FrameInput, PairContext};
 use super::lane::Lane;
+use super::reach::{GROUP, Meetings, Reach, Way, chunks_in_reach};
 use super::testers::{Findings, Target, test_waiting};
 use super::{forces, sharing};
-use crate::report::FrameCounts;
+use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::sharing::Sharer;
@@ -16,7 +17,7 @@ use pong_arena::List;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::{Child, NarrowBoxes, lanes};
+use pong_model::box_tree::lanes;
 
 /// Bytes of a lane's arena that a block asks for: against trees of so many nodes and batches, with room for so many
 /// interferences of one chunk, and laws of so many numbers per contact.
@@ -32,30 +33,35 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_str
         + PIECES * GRAIN
 }
 
-/// Works off one block; what it finds goes to the lane.
+/// Works off one block; what it finds goes to the lane. Where no clock was lent, there is no trace of one either.
 pub(super) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
     lane.arena.reset();
-    simd::run(BlockWork { scene, sealed, input, block: input.blocks[block], lane });
+    let block = input.blocks[block];
+    match input.clock.0 {
+        None => simd::run(BlockWork { scene, sealed, input, block, lane, laps: Untimed }),
+        Some(now) => simd::run(BlockWork { scene, sealed, input, block, lane, laps: Timed::start(now) }),
+    }
 }
 
-struct BlockWork<'a> {
+struct BlockWork<'a, L> {
     scene: &'a Scene,
     sealed: &'a Sealed,
     input: &'a FrameInput,
     block: Block,
     lane: &'a mut Lane,
+    laps: L,
 }
 
-impl Kernel for BlockWork<'_> {
+impl<L: Laps> Kernel for BlockWork<'_, L> {
     type Output = ();
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { scene, sealed, input, block, lane } = self;
+        let Self { scene, sealed, input, block, lane, mut laps } = self;
         let plan = &sealed.plans[block.plan as usize];
         let context = PairContext::new(scene, sealed, input, plan);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let Lane { arena, scratch, waiting, out } = lane;
+        let Lane { arena, scratch, meetings, waiting, out } = lane;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -69,10 +75,27 @@ impl Kernel for BlockWork<'_> {
         for group in block.first / GROUP..block.end.div_ceil(GROUP) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
+            let alone = near & lone_chunk(batch_a, group);
+            let whole = meetings.gather(simd, &reach, near & !alone, &mut out.counts);
+            let near = if whole { meetings.chunks() | alone } else { near };
+            laps.lap(Work::Bounding, &mut out.times);
             for lane in lanes(near) {
+                let alone = alone >> lane & 1 == 1;
+                let way = (alone || !whole).then(|| Way::new(lane, alone));
                 let first = group * GROUP + (lane * LANES) as u32;
-                let chunk = ChunkOfA { context: &context, batch: batch_a, first, lane };
-                test_chunk(simd, &chunk, &reach, &mut carried, &mut found, &mut out.counts);
+                let of_a = ChunkOfA { context: &context, batch: batch_a, first, lane };
+                let mut watch = Watched { laps: &mut laps, times: &mut out.times };
+                let counts = &mut out.counts;
+                test_chunk(
+                    simd,
+                    &of_a,
+                    &reach,
+                    (way, meetings),
+                    &mut carried,
+                    &mut found,
+                    counts,
+                    &mut watch,
+                );
                 if found.overflowed {
                     out.wants.overflowed = true;
                     out.wants.at_once = out.wants.at_once.max(found.seen);
@@ -80,55 +103,30 @@ impl Kernel for BlockWork<'_> {
                 if !found.list.is_empty() {
                     let shared = sharing::settle(&context, &mut found.list, &mut sharers, scratch);
                     out.wants.unshared |= shared.is_err();
+                    laps.lap(Work::Sharing, &mut out.times);
                     forces::press_found(&context, sealed, &found.list, custom, out);
                     found.clear();
+                    laps.lap(Work::Forces, &mut out.times);
                 }
             }
         }
+        laps.lap(Work::Bounding, &mut out.times);
     }
 }
 
-/// Elements whose boxes are carried together: eight chunks of eight.
-const GROUP: u32 = (LANES * LANES) as u32;
-
-/// A batch of B, and the boxes around eight chunks of A as its tree sees them.
-#[derive(Clone, Copy)]
-struct Reach<'a> {
-    batch: &'a Batch,
-    boxes: NarrowBoxes,
-    /// The chunks that reach the batch at all.
-    met: LaneBits,
-}
-
-/// Which chunks of a group reach any batch of B.
+/// The chunk of a group that is one element by itself: its own box in B's frame is much tighter than its turned one. It
+/// is the last of its batch.
 #[inline(always)]
-fn chunks_in_reach<'a, S: Simd>(
-    simd: S,
-    context: &PairContext<'_>,
-    block: &Block,
-    group: u32,
-    batches_b: &[&'a Batch],
-    reach: &mut List<'_, Reach<'a>>,
-    counts: &mut FrameCounts,
-) -> LaneBits {
-    let batch_a = &context.body_a.tree.batches[block.batch as usize];
-    let first_chunk = block.first.saturating_sub(group * GROUP) / LANES as u32;
-    let past_chunk = (block.end - group * GROUP).div_ceil(LANES as u32).min(LANES as u32);
-    let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
-    // An element by itself is asked when it is carried.
-    let carried = if batch_a.items.len() == 1 { None } else { batch_a.chunks.get(group as usize) };
-    let carried = carried.map(|boxes| LaneBoxes::of_chunks(simd, boxes, &context.motion.x_ba));
-    let mut any = 0;
-    reach.clear();
-    for &batch in batches_b {
-        let boxes =
-            carried.as_ref().map_or(NarrowBoxes::EVERYTHING, |carried| carried.narrowed(&batch.boxes));
-        let met = boxes.met_by(simd, &batch.boxes.around) & in_block;
-        any |= met;
-        reach.push(Reach { batch, boxes, met }).expect("as much room as for batches");
-    }
-    counts.boxes_tested += batches_b.len() as u64;
-    any
+fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
+    let last = batch.items.end - batch.items.start - 1;
+    let is_one = last.is_multiple_of(LANES as u32) && last / GROUP == group;
+    LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
+}
+
+/// Times of the parts of a block's work, and where they are added up.
+struct Watched<'a, L> {
+    laps: &'a mut L,
+    times: &'a mut WorkTimes,
 }
 
 /// Which chunk of A, before it is carried.
@@ -140,62 +138,49 @@ struct ChunkOfA<'a> {
     lane: usize,
 }
 
-/// Tests a chunk of A against all batches of B in reach. It is carried into B's frame when the first box of an element
-/// is met; an element by itself at once, because its own box in B's frame is much tighter than its turned one.
+/// Carries a chunk of A into B's frame and tests it against the elements of B that it may touch: those that were
+/// gathered for its group, or those on its own way through the trees.
 #[inline(always)]
-fn test_chunk<S: Simd>(
+#[allow(clippy::too_many_arguments, reason = "a loop's body, apart for reading only")]
+fn test_chunk<S: Simd, L: Laps>(
     simd: S,
     of_a: &ChunkOfA<'_>,
     reach: &[Reach<'_>],
+    (mut way, meetings): (Option<Way>, &mut Meetings),
     carried: &mut List<'_, Carried>,
     found: &mut Findings<'_>,
     counts: &mut FrameCounts,
+    watch: &mut Watched<'_, L>,
 ) {
     let context = of_a.context;
-    let from = (context.body_a, of_a.batch);
-    let x_ba = &context.motion.x_ba;
     let meets_triangles = reach.iter().any(|reach| reach.batch.kind == PrimitiveKind::Triangle);
-    let mut carry = Some(carried);
-    let mut chunk = None;
-    let alone = of_a.first + 1 == of_a.batch.items.end - of_a.batch.items.start;
-    if alone {
-        chunk =
-            carry.take().map(|carried| Chunk::new(simd, from, of_a.first, x_ba, meets_triangles, carried));
-    }
-    for Reach { batch, boxes, met } in reach {
-        if met >> of_a.lane & 1 == 0 {
-            continue;
+    let from = (context.body_a, of_a.batch);
+    let chunk = Chunk::new(simd, from, of_a.first, &context.motion.x_ba, meets_triangles, carried);
+    loop {
+        let mut through = true;
+        if let Some(way) = &mut way {
+            through = meetings.go_on(simd, way, reach, &chunk, counts);
+            watch.laps.lap(Work::Bounding, watch.times);
         }
-        let mut boxes_a = None;
-        let (mut around, mut ball) = (boxes.lane(of_a.lane), None);
-        if let (true, Some(chunk)) = (alone, &chunk) {
-            (around, ball) = chunk.first_narrowed(&batch.boxes);
-        }
-        let looked_at = batch.boxes.visit(simd, &around, ball.as_ref(), |node, met| {
-            let chunk = chunk.get_or_insert_with(|| {
-                let carried = carry.take().expect("a chunk is carried once");
-                Chunk::new(simd, from, of_a.first, x_ba, meets_triangles, carried)
-            });
-            for lane_b in lanes(met) {
-                let near = if alone {
-                    1
-                } else {
-                    let boxes_a = boxes_a.get_or_insert_with(|| chunk.boxes.narrowed(&batch.boxes));
-                    chunk.reach(simd, boxes_a, &batch.boxes, &node.boxes.lane(lane_b))
-                };
-                let Child::Element(place) = node.child(lane_b) else { continue };
-                if near != 0 {
-                    let item_b = context.body_b.tree.items[(batch.items.start + place) as usize];
-                    let target = Target { context, item_b, kind_b: batch.kind };
-                    target.test_lanes(simd, chunk, near, found, counts);
-                }
+        for number in meetings.of(of_a.lane) {
+            let meeting = meetings.meeting(number);
+            let batch = reach[meeting.reach as usize].batch;
+            let mut near = 1;
+            if chunk.items.len() > 1 {
+                near = chunk.reach(simd, meetings.box_b(number));
             }
-        });
-        if let Some(chunk) = &chunk
-            && found.waits()
-        {
-            test_waiting(context, chunk, found, counts);
+            if near != 0 {
+                let item_b = context.body_b.tree.items[(batch.items.start + meeting.place) as usize];
+                let target = Target { context, item_b, kind_b: batch.kind };
+                target.test_lanes(simd, &chunk, near, found, counts);
+            }
         }
-        counts.boxes_tested += u64::from(looked_at);
+        if found.waits() {
+            test_waiting(context, &chunk, found, counts);
+        }
+        watch.laps.lap(Work::Testers, watch.times);
+        if through {
+            return;
+        }
     }
 }

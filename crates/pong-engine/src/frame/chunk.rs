@@ -7,7 +7,7 @@ use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_geometry::{Transform, Vec3};
-use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes, round_down, round_up};
+use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, Body, ChunkBoxes, Item};
 
 /// The elements and where they are.
@@ -23,6 +23,13 @@ pub(super) struct Chunk<'a, 'l, 'm> {
     pub boxes: LaneBoxes,
     /// Balls around spheres and ellipsoids that may meet triangles.
     balls: Option<LaneBalls>,
+}
+
+/// A box of a tree in B's frame, m; infinite where it has no bound.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WideBox {
+    low: [f64; 3],
+    high: [f64; 3],
 }
 
 /// One ball per lane in B's frame: centres and radii, m.
@@ -79,18 +86,12 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }
     }
 
-    /// Which elements reach a box of a tree.
+    /// Which elements reach an element of B.
     #[inline(always)]
-    pub fn reach<S: Simd>(
-        &self,
-        simd: S,
-        boxes: &NarrowBoxes,
-        tree: &BoxTree,
-        box_b: &NarrowBox,
-    ) -> LaneBits {
-        let near = boxes.met_by(simd, box_b) & self.used();
+    pub fn reach<S: Simd>(&self, simd: S, box_b: &WideBox) -> LaneBits {
+        let near = self.boxes.met_by(simd, box_b) & self.used();
         match &self.balls {
-            Some(balls) if near != 0 => near & balls.reach(simd, tree, box_b),
+            Some(balls) if near != 0 => near & balls.reach(simd, box_b),
             _ => near,
         }
     }
@@ -146,6 +147,22 @@ fn carried_box(boxes: &BoxTree, element: u32, x_ba: &Transform) -> (Vec3, Vec3) 
     (center - half, center + half)
 }
 
+impl WideBox {
+    /// Something to fill memory with.
+    pub const NOTHING: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+
+    /// Of a tree.
+    #[inline(always)]
+    pub fn new(tree: &BoxTree, narrow: &NarrowBox) -> Self {
+        let mut wide = Self { low: [0.0; 3], high: [0.0; 3] };
+        for axis in 0..3 {
+            wide.low[axis] = tree.origin[axis] + widened(narrow.low[axis]);
+            wide.high[axis] = tree.origin[axis] + widened(narrow.high[axis]);
+        }
+        wide
+    }
+}
+
 impl LaneBoxes {
     #[inline(always)]
     fn of_balls(centers: &Lanes, radii: &[f64; LANES]) -> Self {
@@ -190,14 +207,40 @@ impl LaneBoxes {
         boxes
     }
 
-    /// All boxes, as a tree sees them.
+    /// Which of the boxes a box of a tree meets.
     #[inline(always)]
-    pub fn narrowed(&self, tree: &BoxTree) -> NarrowBoxes {
-        let mut narrow = NarrowBoxes::NOTHING;
+    fn met_by<S: Simd>(&self, simd: S, one: &WideBox) -> LaneBits {
+        let mut met = simd.mask(LaneBits::MAX);
         for axis in 0..3 {
-            for lane in 0..LANES {
-                narrow.bounds[0][axis][lane] = round_down(self.low[axis][lane] - tree.origin[axis]);
-                narrow.bounds[1][axis][lane] = round_up(self.high[axis][lane] - tree.origin[axis]);
+            let (low, high) = (simd.load(&self.low[axis]), simd.load(&self.high[axis]));
+            met = simd.and(met, simd.at_least(high, simd.splat(one.low[axis])));
+            met = simd.and(met, simd.at_least(simd.splat(one.high[axis]), low));
+        }
+        simd.bits(met)
+    }
+
+    /// All boxes, as a tree sees them: rounded outward as [`BoxTree::narrowed`] does, eight at a time. What is no number
+    /// becomes the least, or the greatest.
+    #[inline(always)]
+    #[allow(clippy::manual_clamp, reason = "what is no number has to become one")]
+    pub fn narrowed<S: Simd>(&self, simd: S, tree: &BoxTree) -> NarrowBoxes {
+        let mut narrow = NarrowBoxes::NOTHING;
+        let zero = simd.splat(0.0);
+        let relative = simd.splat(1.01 * f64::from(f32::EPSILON));
+        let absolute = simd.splat(f64::from(f32::MIN_POSITIVE));
+        for axis in 0..3 {
+            let origin = simd.splat(tree.origin[axis]);
+            let low = simd.sub(simd.load(&self.low[axis]), origin);
+            let room = simd.add(simd.mul(simd.larger(low, simd.sub(zero, low)), relative), absolute);
+            let below = simd.store(simd.sub(low, room));
+            let high = simd.sub(simd.load(&self.high[axis]), origin);
+            let room = simd.add(simd.mul(simd.larger(high, simd.sub(zero, high)), relative), absolute);
+            let above = simd.store(simd.add(high, room));
+            for (narrow, below) in narrow.bounds[0][axis].iter_mut().zip(below) {
+                *narrow = (below as f32).max(-f32::MAX).min(f32::MAX);
+            }
+            for (narrow, above) in narrow.bounds[1][axis].iter_mut().zip(above) {
+                *narrow = (above as f32).min(f32::MAX).max(-f32::MAX);
             }
         }
         narrow
@@ -229,12 +272,11 @@ impl LaneBalls {
 
     /// Which of the balls reach a box of a tree.
     #[inline(always)]
-    fn reach<S: Simd>(&self, simd: S, tree: &BoxTree, one: &NarrowBox) -> LaneBits {
+    fn reach<S: Simd>(&self, simd: S, one: &WideBox) -> LaneBits {
         let mut distance = simd.splat(0.0);
         for axis in 0..3 {
             let center = simd.load(&self.centers[axis]);
-            let low = simd.splat(tree.origin[axis] + widened(one.low[axis]));
-            let high = simd.splat(tree.origin[axis] + widened(one.high[axis]));
+            let (low, high) = (simd.splat(one.low[axis]), simd.splat(one.high[axis]));
             distance = simd.add(distance, square_outside(simd, center, low, high));
         }
         let radii = simd.load(&self.radii);

@@ -7,6 +7,7 @@
 use super::block;
 use super::input::FrameInput;
 use super::lane::Lane;
+use crate::report::WorkTimes;
 use crate::scene::Scene;
 use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
@@ -23,6 +24,8 @@ pub(crate) struct Crew {
     shared: Arc<Shared>,
     /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
     pub done_alone: u64,
+    /// Where the time of this frame's rounds went, lane by lane, the caller's first; zero without a clock.
+    times: Vec<WorkTimes>,
 }
 
 struct Shared {
@@ -66,7 +69,8 @@ impl Crew {
             lanes: (0..lanes).map(|_| Mutex::new(Lane::new(sealed, contacts, false))).collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
-        Ok(Self { pool, shared, done_alone: 0 })
+        let times = vec![WorkTimes::default(); lanes];
+        Ok(Self { pool, shared, done_alone: 0, times })
     }
 
     /// Works off the blocks of `input` with all hands and gathers in `lane` what was found; whether that is whole.
@@ -87,10 +91,29 @@ impl Crew {
             self.done_alone += 1;
             return false;
         }
-        self.shared.lanes.iter().all(|other| {
+        let took_part = |other: &Lane| other.out.phase == input.phase;
+        let whole = self.shared.lanes.iter().all(|other| {
             let other = locked(other);
-            other.out.phase != input.phase || lane.out.absorb(&other.out)
-        })
+            !took_part(&other) || lane.out.absorb(&other.out)
+        });
+        if whole {
+            let lanes = self.times.iter_mut().zip(&self.shared.lanes);
+            lanes
+                .map(|(times, other)| (times, locked(other)))
+                .filter(|(_, other)| took_part(other))
+                .for_each(|(times, other)| times.add(&other.out.times));
+        }
+        whole
+    }
+
+    /// No time has been spent yet.
+    pub fn begin_frame(&mut self) {
+        self.times.fill(WorkTimes::default());
+    }
+
+    /// Where the time of the rounds that were shared out went, lane by lane, the caller's first.
+    pub fn times(&self) -> impl Iterator<Item = &WorkTimes> {
+        self.times.iter()
     }
 
     /// Lets go of the contact state that the workers were given, unless one still reads it.

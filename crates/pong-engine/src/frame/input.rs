@@ -1,6 +1,7 @@
 //! What the stages that are spread over workers read, and nobody writes while they run.
 
 use super::relative::Motion;
+use crate::report::Clock;
 use crate::scene::Scene;
 use crate::sealed::{Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
@@ -23,6 +24,8 @@ pub(crate) struct FrameInput {
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The work of this phase.
     pub blocks: Vec<Block>,
+    /// The host's, if it has lent one.
+    pub clock: Clock,
 }
 
 /// A piece of work: some elements of one leaf as A, against everything of one movable group as B. All contacts of
@@ -43,6 +46,7 @@ impl FrameInput {
     /// Takes over another frame's input without asking for memory.
     pub fn copy_from(&mut self, other: &Self) {
         self.phase = other.phase;
+        self.clock = other.clock;
         self.motions.copy_from_slice(&other.motions);
         self.memory = Arc::clone(&other.memory);
         self.tables = Arc::clone(&other.tables);

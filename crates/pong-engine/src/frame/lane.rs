@@ -1,8 +1,9 @@
 //! What one lane — the calling thread or a worker — writes while it works.
 
 use super::buffers::{FrameContact, Stance};
+use super::reach::Meetings;
 use super::testers::Waiting;
-use crate::report::FrameCounts;
+use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
 use crate::state::Role;
 use pong_arena::{Arena, Table};
@@ -14,7 +15,8 @@ pub(crate) struct Lane {
     pub arena: Arena,
     /// For one solution among contacts of one key.
     pub scratch: Arena,
-    pub waiting: Waiting,
+    pub(super) meetings: Meetings,
+    pub(super) waiting: Waiting,
     pub out: Output,
 }
 
@@ -32,6 +34,8 @@ pub(crate) struct Output {
     ranked: Table<u32>,
     pub wants: Wants,
     pub counts: FrameCounts,
+    /// Where the time went; zero without a clock.
+    pub times: WorkTimes,
 }
 
 /// What a frame would need room for, found or not.
@@ -78,6 +82,7 @@ impl Lane {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
+            meetings: Meetings::new(),
             waiting: Waiting::default(),
             out: Output::new(sealed.custom_stride, contacts, ranks),
         }
@@ -94,6 +99,7 @@ impl Output {
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
             wants: Wants::default(),
             counts: FrameCounts::default(),
+            times: WorkTimes::default(),
         }
     }
 
@@ -104,6 +110,7 @@ impl Output {
         self.custom.clear();
         self.wants = Wants::default();
         self.counts = FrameCounts::default();
+        self.times = WorkTimes::default();
     }
 
     /// The custom numbers of a contact.

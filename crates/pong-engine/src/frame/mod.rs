@@ -12,6 +12,7 @@ mod lane;
 mod ledger;
 mod listing;
 mod order;
+mod reach;
 mod reduce;
 mod relative;
 mod sharing;
@@ -27,7 +28,7 @@ pub(crate) use input::FrameInput;
 pub(crate) use relative::Motion;
 pub(crate) use state_in::require_states;
 
-use crate::report::{Clock, Stage};
+use crate::report::{Clock, Stage, Work, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 use crate::state::ContactMemory;
@@ -63,10 +64,16 @@ pub(crate) fn evaluate(given: &Given<'_>, crew: Option<&mut Crew>, frame: &mut F
 
 /// Bounding, testers, sharing and forces: block by block, by all hands or by the caller alone.
 fn find_contacts(given: &Given<'_>, mut crew: Option<&mut Crew>, frame: &mut Frame) {
-    let Given { scene, sealed, states, memory, .. } = *given;
-    let Frame { input, lane, counts, .. } = frame;
-    input.memory = Arc::clone(memory);
+    let Given { scene, sealed, states, memory, clock } = *given;
+    let Frame { input, lane, counts, times, .. } = frame;
+    (input.memory, input.clock) = (Arc::clone(memory), clock);
+    if let Some(crew) = &mut crew {
+        crew.begin_frame();
+    }
+    // What is between the rounds is the caller's.
+    let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
     bounding::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
+        laps.lap_work(Work::Bounding, &mut layout);
         input.phase += 1;
         let shared = crew.as_mut().is_some_and(|crew| share_out(crew, input, cost_ns, lane));
         if !shared {
@@ -74,8 +81,15 @@ fn find_contacts(given: &Given<'_>, mut crew: Option<&mut Crew>, frame: &mut Fra
                 block::work_off(scene, sealed, input, block, lane);
             }
         }
+        laps = clock.start();
     });
+    laps.lap_work(Work::Bounding, &mut layout);
+    lane.out.times.add(&layout);
     counts.add(&lane.out.counts);
+    times.work = lane.out.times;
+    if let Some(crew) = crew {
+        crew.times().for_each(|lane| times.work.add(lane));
+    }
 }
 
 /// Whether the crew has done this round. If it could not, the lane is as it was before.

@@ -183,7 +183,7 @@ impl TriangleEntry<'_> {
     fn visit_triangles(&self, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(u32)) {
         let tree = &self.body.tree;
         for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
-            batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), None, |node, met| {
+            batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {
                 for lane in lanes(met) {
                     if let Child::Element(place) = node.child(lane) {
                         visit(tree.items[(batch.items.start + place) as usize].element);

@@ -173,7 +173,7 @@ impl NarrowBoxes {
 
     /// Which of the boxes a ball may reach.
     #[inline(always)]
-    fn near<S: Simd>(&self, simd: S, ball: &NarrowBall) -> LaneBits {
+    pub fn near<S: Simd>(&self, simd: S, ball: &NarrowBall) -> LaneBits {
         simd.boxes_near(&self.bounds, &ball.center, ball.square)
     }
 
@@ -265,14 +265,13 @@ impl BoxTree {
         (self.origin + low, self.origin + high)
     }
 
-    /// Calls `visit` with every bottom node that has boxes which a box meets, and which a ball within that box reaches
-    /// if one is given; answers how many nodes were looked at.
+    /// Calls `visit` with every bottom node that has boxes which a box meets; answers how many nodes were looked
+    /// at.
     #[inline(always)]
     pub fn visit<S: Simd>(
         &self,
         simd: S,
         query: &NarrowBox,
-        ball: Option<&NarrowBall>,
         mut visit: impl FnMut(&BoxNode, LaneBits),
     ) -> u32 {
         /// A tree of 2³¹ elements has eleven levels; each leaves at most seven nodes waiting.
@@ -283,10 +282,7 @@ impl BoxTree {
         while waiting > 0 {
             waiting -= 1;
             let node = &self.nodes[stack[waiting] as usize];
-            let mut met = node.boxes.met_by(simd, query);
-            if let Some(ball) = ball {
-                met &= node.boxes.near(simd, ball);
-            }
+            let met = node.boxes.met_by(simd, query);
             looked_at += 1;
             if met == 0 {
                 continue;

@@ -52,7 +52,7 @@ fn nothing_that_a_box_touches_is_missed() {
             let low = around + Vec3::from_fn(|_, _| scatter(&mut seed));
             let high = low + Vec3::from_fn(|_, _| scatter(&mut seed) * 0.1);
             let mut found = BTreeSet::new();
-            tree.visit(Portable, &tree.narrowed(&low, &high), None, |node, met| {
+            tree.visit(Portable, &tree.narrowed(&low, &high), |node, met| {
                 for lane in lanes(met) {
                     let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
                     assert!(found.insert(elements[place as usize].item), "found twice");
@@ -85,8 +85,8 @@ fn nothing_that_a_ball_reaches_is_missed() {
             let query = tree.narrowed(&(center - half), &(center + half));
             let ball = tree.narrowed_ball(&center, radius);
             let mut found = BTreeSet::new();
-            tree.visit(Portable, &query, Some(&ball), |node, met| {
-                for lane in lanes(met) {
+            tree.visit(Portable, &query, |node, met| {
+                for lane in lanes(met & node.boxes.near(Portable, &ball)) {
                     let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
                     found.insert(elements[place as usize].item);
                 }
@@ -144,7 +144,7 @@ fn unbounded_elements_are_always_met() {
     let infinite = Vec3::repeat(f64::INFINITY);
     let tree = BoxTree::build(&mut [Boxed { item: 0_u32, low: -infinite, high: infinite }]);
     let mut met = 0;
-    tree.visit(Portable, &tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), None, |_, bits| {
+    tree.visit(Portable, &tree.narrowed(&Vec3::repeat(1e90), &Vec3::repeat(2e90)), |_, bits| {
         met += bits.count_ones()
     });
     assert_eq!(met, 1);

@@ -1,0 +1,303 @@
+//! Which elements of B the chunks of A may touch: B's trees are asked for eight chunks at once.
+
+use super::chunk::{Chunk, LaneBoxes, WideBox};
+use super::input::{Block, PairContext};
+use crate::report::FrameCounts;
+use pong_arena::{List, Table};
+use pong_geometry::simd::{LANES, LaneBits, Simd};
+use pong_model::Batch;
+use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
+
+/// Elements whose boxes are carried together: eight chunks of eight.
+pub(super) const GROUP: u32 = (LANES * LANES) as u32;
+
+/// Meetings that there is room for; beyond them the chunks of a group go through the trees one by one.
+const MEETINGS_MAX: usize = 1024;
+
+/// Nodes that can wait at once: a tree of 2³¹ elements has eleven levels, each leaves at most seven waiting.
+const DEPTH_MAX: usize = 80;
+
+/// A batch of B, and the boxes around eight chunks of A as its tree sees them.
+#[derive(Clone, Copy)]
+pub(super) struct Reach<'a> {
+    pub batch: &'a Batch,
+    boxes: NarrowBoxes,
+    /// The chunks that reach the batch at all.
+    met: LaneBits,
+}
+
+/// Which chunks of a group reach any batch of B.
+#[inline(always)]
+#[allow(
+    clippy::manual_map,
+    reason = "instructions of a level are used only in what is inlined: a closure may not be"
+)]
+pub(super) fn chunks_in_reach<'a, S: Simd>(
+    simd: S,
+    context: &PairContext<'_>,
+    block: &Block,
+    group: u32,
+    batches_b: &[&'a Batch],
+    reach: &mut List<'_, Reach<'a>>,
+    counts: &mut FrameCounts,
+) -> LaneBits {
+    let batch_a = &context.body_a.tree.batches[block.batch as usize];
+    let first_chunk = block.first.saturating_sub(group * GROUP) / LANES as u32;
+    let past_chunk = (block.end - group * GROUP).div_ceil(LANES as u32).min(LANES as u32);
+    let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
+    let carried = match batch_a.chunks.get(group as usize) {
+        // An element by itself is asked when it is carried.
+        _ if batch_a.items.len() == 1 => None,
+        Some(boxes) => Some(LaneBoxes::of_chunks(simd, boxes, &context.motion.x_ba)),
+        None => None,
+    };
+    let mut any = 0;
+    reach.clear();
+    for &batch in batches_b {
+        let boxes = match &carried {
+            Some(carried) => carried.narrowed(simd, &batch.boxes),
+            None => NarrowBoxes::EVERYTHING,
+        };
+        let met = boxes.met_by(simd, &batch.boxes.around) & in_block;
+        any |= met;
+        reach.push(Reach { batch, boxes, met }).expect("as much room as for batches");
+    }
+    counts.boxes_tested += batches_b.len() as u64;
+    any
+}
+
+/// An element of B that chunks of A may touch.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// Which batch in reach it is in.
+    pub reach: u32,
+    /// Its place in the batch.
+    pub place: u32,
+}
+
+/// A node of the tree in hand that waits, and the chunks that reach it.
+#[derive(Clone, Copy, Debug)]
+struct Ahead {
+    node: u32,
+    chunks: LaneBits,
+}
+
+/// Meetings of the chunks of a group, in the order in which they are tested: for every chunk that in which it alone
+/// would find them. Empty between blocks.
+#[derive(Debug)]
+pub(super) struct Meetings {
+    list: Table<Meeting>,
+    /// The elements' boxes; none for the meetings of an element by itself.
+    boxes: Table<WideBox>,
+    /// For every meeting a bit for every chunk, eight meetings to a word.
+    chunks: Table<[LaneBits; LANES]>,
+    waiting: Table<Ahead>,
+    any: LaneBits,
+}
+
+impl Meetings {
+    /// Room for a few.
+    pub fn new() -> Self {
+        Self {
+            list: Table::with_capacity(MEETINGS_MAX, Meeting { reach: 0, place: 0 }),
+            boxes: Table::with_capacity(MEETINGS_MAX, WideBox::NOTHING),
+            chunks: Table::with_capacity(MEETINGS_MAX / LANES, [0; LANES]),
+            waiting: Table::with_capacity(DEPTH_MAX, Ahead { node: 0, chunks: 0 }),
+            any: 0,
+        }
+    }
+
+    /// The chunks that meet anything.
+    pub fn chunks(&self) -> LaneBits {
+        self.any
+    }
+
+    /// Numbers of the meetings of a chunk.
+    #[inline(always)]
+    pub fn of(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
+        /// The lowest bit of every meeting in a word.
+        const LOWEST: u64 = 0x0101_0101_0101_0101;
+        let of_word = move |word: &[LaneBits; LANES]| u64::from_le_bytes(*word) >> chunk & LOWEST;
+        self.chunks.iter().enumerate().flat_map(move |(place, word)| {
+            let mut bits = of_word(word);
+            std::iter::from_fn(move || {
+                let bit = bits.trailing_zeros() as usize;
+                bits &= bits.wrapping_sub(1);
+                (bit < u64::BITS as usize).then_some(place * LANES + bit / 8)
+            })
+        })
+    }
+
+    /// A meeting.
+    #[inline(always)]
+    pub fn meeting(&self, number: usize) -> Meeting {
+        self.list[number]
+    }
+
+    /// The box of B's element in a meeting, unless it is one of an element by itself.
+    #[inline(always)]
+    pub fn box_b(&self, number: usize) -> &WideBox {
+        &self.boxes[number]
+    }
+
+    fn clear(&mut self) {
+        self.list.clear();
+        self.boxes.clear();
+        self.chunks.clear();
+        self.any = 0;
+    }
+
+    fn has_room_for_a_node(&self) -> bool {
+        self.list.len() + LANES <= MEETINGS_MAX
+    }
+
+    #[inline(always)]
+    fn add(&mut self, meeting: Meeting, chunks: LaneBits) {
+        let index = self.list.len();
+        self.list.push(meeting).expect("room was asked for");
+        if index.is_multiple_of(LANES) {
+            self.chunks.push([0; LANES]).expect("room for as many");
+        }
+        self.chunks[index / LANES][index % LANES] = chunks;
+        self.any |= chunks;
+    }
+
+    /// Gathers the meetings of some chunks of a group; whether there was room for all.
+    #[inline(always)]
+    pub fn gather<S: Simd>(
+        &mut self,
+        simd: S,
+        reach: &[Reach<'_>],
+        chunks: LaneBits,
+        counts: &mut FrameCounts,
+    ) -> bool {
+        self.clear();
+        for (index, Reach { batch, boxes, met }) in reach.iter().enumerate() {
+            let chunks = met & chunks;
+            if chunks == 0 || batch.boxes.nodes.is_empty() {
+                continue;
+            }
+            let around = if chunks.is_power_of_two() { NarrowBox::NOTHING } else { boxes.around() };
+            self.wait(0, chunks);
+            while let Some(Ahead { node, chunks }) = self.next_waiting() {
+                let node = &batch.boxes.nodes[node as usize];
+                if !self.has_room_for_a_node() {
+                    self.waiting.clear();
+                    return false;
+                }
+                // One chunk's box is asked itself; of several, first the box around all, then each box of B that it meets.
+                let lone = chunks.is_power_of_two();
+                let lone_box;
+                let query = if lone {
+                    lone_box = boxes.lane(chunks.trailing_zeros() as usize);
+                    &lone_box
+                } else {
+                    &around
+                };
+                let met = node.boxes.met_by(simd, query);
+                counts.boxes_tested += 1;
+                for lane_b in lanes(met) {
+                    let (mut chunks, box_b) = (chunks, node.boxes.lane(lane_b));
+                    if !lone {
+                        chunks &= boxes.met_by(simd, &box_b);
+                        counts.boxes_tested += 1;
+                    }
+                    if chunks != 0 && self.note(index, node.child(lane_b), chunks) {
+                        self.keep_box(&batch.boxes, &box_b);
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// A child that chunks reach: an element is a meeting, a node waits. Answers whether it is an element.
+    #[inline(always)]
+    fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> bool {
+        match child {
+            Child::Element(place) => self.add(Meeting { reach: reach as u32, place }, chunks),
+            Child::Node(node) => self.wait(node, chunks),
+        }
+        matches!(child, Child::Element(_))
+    }
+
+    #[inline(always)]
+    fn keep_box(&mut self, tree: &BoxTree, box_b: &NarrowBox) {
+        self.boxes.push(WideBox::new(tree, box_b)).expect("as much room as for meetings");
+    }
+
+    #[inline(always)]
+    fn wait(&mut self, node: u32, chunks: LaneBits) {
+        self.waiting.push(Ahead { node, chunks }).expect("room for the deepest tree");
+    }
+
+    #[inline(always)]
+    fn next_waiting(&mut self) -> Option<Ahead> {
+        let last = self.waiting.last().copied();
+        self.waiting.truncate(self.waiting.len().saturating_sub(1));
+        last
+    }
+
+    /// Goes on with the way of one chunk through the trees until it is through or there is no more room; whether it
+    /// is through. What was there before is gone.
+    #[inline(always)]
+    pub fn go_on<S: Simd>(
+        &mut self,
+        simd: S,
+        way: &mut Way,
+        reach: &[Reach<'_>],
+        chunk: &Chunk<'_, '_, '_>,
+        counts: &mut FrameCounts,
+    ) -> bool {
+        self.clear();
+        loop {
+            if !self.has_room_for_a_node() {
+                return false;
+            }
+            let Some(Ahead { node, chunks }) = self.next_waiting() else {
+                let Some(next) = reach.get(way.next) else { return true };
+                way.next += 1;
+                if next.met >> way.lane & 1 == 1 && !next.batch.boxes.nodes.is_empty() {
+                    (way.query, way.ball) = if way.alone {
+                        chunk.first_narrowed(&next.batch.boxes)
+                    } else {
+                        (next.boxes.lane(way.lane), None)
+                    };
+                    self.wait(0, 1 << way.lane);
+                }
+                continue;
+            };
+            let tree = &reach[way.next - 1].batch.boxes;
+            let node: &BoxNode = &tree.nodes[node as usize];
+            let mut met = node.boxes.met_by(simd, &way.query);
+            if let Some(ball) = &way.ball {
+                met &= node.boxes.near(simd, ball);
+            }
+            counts.boxes_tested += 1;
+            for lane_b in lanes(met) {
+                if self.note(way.next - 1, node.child(lane_b), chunks) && !way.alone {
+                    self.keep_box(tree, &node.boxes.lane(lane_b));
+                }
+            }
+        }
+    }
+}
+
+/// How far one chunk has got through the trees of B.
+pub(super) struct Way {
+    lane: usize,
+    /// Whether the chunk is one element, whose own box in B's frame is much tighter than its turned one.
+    alone: bool,
+    /// The batch that comes next.
+    next: usize,
+    query: NarrowBox,
+    /// Around a ball, which lies within the box.
+    ball: Option<NarrowBall>,
+}
+
+impl Way {
+    /// From the start, for the chunk of a group.
+    pub fn new(lane: usize, alone: bool) -> Self {
+        Self { lane, alone, next: 0, query: NarrowBox::NOTHING, ball: None }
+    }
+}
