@@ -110,7 +110,7 @@ impl Running {
     /// contact state.
     fn let_go_of_memory(&mut self) {
         self.frame.input.memory = Arc::clone(&self.nothing);
-        if let Some(crew) = &self.crew {
+        if let Some(crew) = &mut self.crew {
             crew.release(&self.nothing);
         }
     }

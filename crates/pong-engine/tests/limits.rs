@@ -329,3 +329,30 @@ fn ten_thousand_contacts_of_one_ball() {
         assert_eq!(answers(&alone), answers(&crew));
     }
 }
+
+/// Room that no machine should be asked for is refused before any of it is taken; the message says how much it would be
+/// and how much may be had. More workers need more room.
+#[test]
+fn a_capacity_that_takes_too_much_memory_is_refused() {
+    let refusal = |wanted: usize, workers: Option<WorkerSettings>| {
+        let scene = brush(10);
+        let mut world = World::new(Config { contact_capacity: Some(wanted), workers, ..Config::default() });
+        let mut object = |text: &String| {
+            let model = pong_model::parse(text, "scene.ron", None, world.extensions()).unwrap();
+            let model = world.add_model(std::sync::Arc::new(model)).unwrap();
+            world.create_object(model, "object").or_else(|_| world.create_object(model, "other")).unwrap()
+        };
+        let objects: Vec<_> = scene.models.iter().map(&mut object).collect();
+        world.pair(objects[0], objects[1]).unwrap();
+        let refused = world.seal().err()?.to_string();
+        assert!(refused.contains("contact capacity") && refused.contains("GiB"), "{refused}");
+        let most = refused.split("give at most ").nth(1).unwrap().split(' ').next().unwrap();
+        Some(most.parse::<usize>().unwrap())
+    };
+    assert_eq!(refusal(1 << 12, None), None);
+    let most = refusal(1 << 24, None).unwrap();
+    assert!((1 << 20..1 << 24).contains(&most), "{most}");
+    assert_eq!(refusal(most + 1, None), Some(most));
+    assert_eq!(refusal(usize::MAX, None), Some(most));
+    assert!(refusal(usize::MAX, workers(3)).unwrap() < most);
+}

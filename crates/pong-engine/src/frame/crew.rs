@@ -24,6 +24,8 @@ pub(crate) struct Crew {
     shared: Arc<Shared>,
     /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
     pub done_alone: u64,
+    /// Whether the workers were given a frame's input since it was last taken back.
+    lent: bool,
     /// Where the time of this frame's rounds went, lane by lane, the caller's first; zero without a clock.
     times: Vec<WorkTimes>,
 }
@@ -70,7 +72,7 @@ impl Crew {
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); lanes];
-        Ok(Self { pool, shared, done_alone: 0, times })
+        Ok(Self { pool, shared, done_alone: 0, lent: false, times })
     }
 
     /// Works off the blocks of `input` with all hands and gathers in `lane` what was found; whether that is whole.
@@ -79,6 +81,7 @@ impl Crew {
         if cost_ns < WORTH_SHARING_NS || input.blocks.len() < 2 || self.pool.workers() == 0 {
             return false;
         }
+        self.lent = true;
         match self.shared.input.try_write() {
             Ok(mut shared) => shared.copy_from(input),
             Err(TryLockError::Poisoned(shared)) => shared.into_inner().copy_from(input),
@@ -117,9 +120,12 @@ impl Crew {
     }
 
     /// Lets go of the contact state that the workers were given, unless one still reads it.
-    pub fn release(&self, nothing: &Arc<ContactMemory>) {
-        if let Ok(mut shared) = self.shared.input.try_write() {
+    pub fn release(&mut self, nothing: &Arc<ContactMemory>) {
+        if self.lent
+            && let Ok(mut shared) = self.shared.input.try_write()
+        {
             shared.memory = Arc::clone(nothing);
+            self.lent = false;
         }
     }
 

@@ -22,7 +22,7 @@ mod testers;
 
 pub(crate) use block::arena_bytes;
 pub(crate) use bounding::ROUND;
-pub(crate) use buffers::Frame;
+pub(crate) use buffers::{Frame, FrameContact, Place};
 pub(crate) use crew::Crew;
 pub(crate) use input::FrameInput;
 pub(crate) use relative::Motion;

@@ -1,11 +1,13 @@
 //! How much memory the frames of a scene get.
 
 use super::GroupPair;
-use crate::frame::arena_bytes;
+use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
 use crate::sharing::scratch_bytes;
+use crate::state::ContactRecord;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Tree;
+use pong_threads::MAX_WORKERS;
 
 /// The most contacts of a frame where the scene's worst case is larger and the host names no limit.
 const DEFAULT_CAPACITY_MAX: usize = 65_536;
@@ -61,6 +63,41 @@ impl Limits {
     pub fn worker_contacts(&self, lanes: usize) -> usize {
         self.lane_contacts.min((2 * self.lane_contacts / lanes).max(4096))
     }
+}
+
+/// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
+const ROOM_BYTES_MAX: usize = 8 << 30;
+
+/// What is wrong with a capacity that asks for more memory than that, if it does.
+pub(super) fn too_large(scene: &Scene, wanted: usize, custom_stride: usize) -> Option<String> {
+    let lanes = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
+    let each = bytes_per_contact(lanes, custom_stride);
+    let most = ROOM_BYTES_MAX / each;
+    (wanted > most).then(|| {
+        let gib = wanted as f64 * each as f64 / (1 << 30) as f64;
+        format!(
+            "contact capacity: room for {wanted} contacts takes {gib:.1} GiB, {each} bytes each; give at most {most} \
+             ({} GiB), or leave it out",
+            ROOM_BYTES_MAX >> 30
+        )
+    })
+}
+
+/// Memory that one contact of the capacity takes in all buffers, with so many lanes beside the caller's own, bytes.
+fn bytes_per_contact(lanes: usize, custom_stride: usize) -> usize {
+    /// There is room to remember as many contacts as may push.
+    const RECORDS: usize = 2;
+    let numbers = custom_stride * size_of::<f64>();
+    // The committed contact state, the next one, and one that a stuck worker may still read.
+    let states = if lanes > 0 { 3 } else { 2 };
+    let remembered = states * (size_of::<ContactRecord>() + numbers);
+    // The lane's contacts, an eighth more than records, their ranks and order, and what rays and the ledger ask for.
+    let per_contact = size_of::<((usize, u32, usize, usize), f64)>() + size_of::<Place>() + size_of::<u32>();
+    let lane = size_of::<FrameContact>() + numbers + per_contact;
+    let found = arena_bytes(0, 0, 1, 0) - arena_bytes(0, 0, 0, 0);
+    // The workers' lanes together hold twice what the caller's does.
+    let shared = if lanes > 0 { 2 * (lane + lane / 8) + lanes * found } else { 0 };
+    RECORDS * (remembered + lane + lane / 8 + found + shared)
 }
 
 /// Contacts if everything that can touch did: points and rays 1 per opposing shell, segments 2, balls 4.

@@ -14,7 +14,7 @@ use crate::dispatch::has_tester;
 use crate::error::EngineError;
 use crate::scene::Scene;
 use crate::state::{ContactKey, fnv1a};
-use limits::worst_case;
+use limits::{too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
 use pong_geometry::extension::Extensions;
@@ -81,9 +81,6 @@ pub struct SealReport {
     pub warnings: Vec<SetupWarning>,
 }
 
-/// Beyond this a slip of the pen is likelier than a scene.
-const CONTACTS_MAX: usize = 1 << 24;
-
 pub(crate) fn seal(
     scene: &Scene,
     surfaces: &[Vec<Surface>],
@@ -99,11 +96,9 @@ pub(crate) fn seal(
     if let Some(0) = scene.config.contact_capacity {
         problems.push("contact capacity: 0 leaves no contact; give at least 1 or leave it out".to_owned());
     }
-    if let Some(wanted) = scene.config.contact_capacity.filter(|wanted| *wanted > CONTACTS_MAX) {
-        problems.push(format!(
-            "contact capacity: {wanted} is more than memory could hold; give at most {CONTACTS_MAX} or leave it out"
-        ));
-    }
+    problems.extend(
+        scene.config.contact_capacity.and_then(|wanted| too_large(scene, wanted, custom_stride(&tables))),
+    );
     if !problems.is_empty() {
         return Err(EngineError::Seal { problems });
     }
