@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +104,21 @@ void look(pong::World& world) {
     require(std::string(world.worker_text(1)).find("worker 1") == 0, "it tells how it started");
 }
 
+void record(pong::World& world) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() / ("cpp_smoke_log_" + std::to_string(std::random_device{}()));
+    world.start_log(folder.string());
+    for (int frame = 0; frame < 5; ++frame) {
+        world.step();
+        world.log_frame(0.1 * frame);
+    }
+    require(world.log_report().frames == 5, "the log counts frames");
+    const pong::LogReport closed = world.stop_log();
+    require(closed.flushed == 5 && closed.lost == 0, "every frame is in the log");
+    require(std::filesystem::exists(folder / "wrenches.npy"), "the log has its tables");
+    std::filesystem::remove_all(folder);
+}
+
 } // namespace
 
 int main() {
@@ -112,6 +129,7 @@ int main() {
         refuse(world);
         list_and_restore(world);
         look(world);
+        record(world);
     } catch (const pong::Error& error) {
         std::fprintf(stderr, "%s\n", error.what());
         return 1;

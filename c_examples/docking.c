@@ -6,6 +6,7 @@
  *     docking                          one docking in real time, 1 kHz
  *     docking --fast                   the same, as fast as it goes
  *     docking --fast --all-corners     every corner of the standard's box of misalignments, as a table
+ *     docking --fast --log FOLDER      the same with a response log (docs/response_logs.md)
  *     docking --fast --no-latches      the latches stay retracted: the vehicles must part again
  *
  * Exit code: 0 if it went as it must (captured; parted with --no-latches), 1 if not, 2 for a wrong option, 3 if the
@@ -126,7 +127,7 @@ static void watch(history *h, docking *d, const contact_scene *scene, size_t con
 /* --- a run ---------------------------------------------------------------------------------------------------------- */
 
 typedef struct {
-    const char *models, *csv;
+    const char *models, *csv, *log;
     int fast, all_corners, rates;
     double seconds;
 } options;
@@ -154,6 +155,33 @@ static FILE *open_csv(const char *path)
     return csv;
 }
 
+static void open_log(contact_scene *scene, const options *o, const docking_case *c)
+{
+    pong_log_options log = pong_default_log_options();
+    if (o->log == NULL) {
+        return;
+    }
+    log.name = c->name;
+    log.step = FRAME_S;
+    log.commits_per_frame = 1;
+    log.when_full = o->fast ? PONG_LOG_WAIT : PONG_LOG_LOSE;
+    CHECK(pong_start_log(scene->world, o->log, &log));
+}
+
+static void close_log(contact_scene *scene, const options *o, durations *logging)
+{
+    pong_log_report report;
+    if (o->log == NULL) {
+        return;
+    }
+    CHECK(pong_stop_log(scene->world, &report));
+    printf("log:     %u frames in %s, %u lost; %.0f bytes per frame, at most %u kB waited for the disk\n",
+           (unsigned)report.flushed, o->log, (unsigned)report.lost, (double)report.bytes / (double)report.flushed,
+           (unsigned)(report.buffer_peak / 1000));
+    print_durations("pong_log_frame", logging);
+    free(logging->us);
+}
+
 static history fresh_history(const docking *d, int quiet)
 {
     history h;
@@ -171,9 +199,14 @@ static history run(contact_scene *scene, docking *d, const docking_case *c, cons
     double gap = first_contact_gap(scene, d, c);
     long frames = (long)(o->seconds / FRAME_S + 0.5), n;
     FILE *csv = open_csv(o->csv);
+    durations logging = { 0 };
     history h;
     long long release;
 
+    if (o->log != NULL) {
+        logging = make_durations((size_t)frames + 1);
+    }
+    open_log(scene, o, c);
     /* A new run: what the engine remembers of the last one does not count. */
     CHECK(pong_forget_object(scene->world, scene->chaser));
     approach(d, c, gap + 0.002, 1);
@@ -190,6 +223,11 @@ static history run(contact_scene *scene, docking *d, const docking_case *c, cons
         stepped = now_ns();
         contact = fetch_wrenches(scene);
         CHECK(pong_contact_count(scene->world, &contacts));
+        if (o->log != NULL) {
+            long long before = now_ns();
+            CHECK(pong_log_frame(scene->world, (double)n * FRAME_S));
+            note(&logging, now_ns() - before);
+        }
         watch(&h, d, scene, contacts, (double)n * FRAME_S);
         docking_step(d, &contact, FRAME_S);
         end = now_ns();
@@ -213,6 +251,7 @@ static history run(contact_scene *scene, docking *d, const docking_case *c, cons
     if (csv != NULL) {
         fclose(csv);
     }
+    close_log(scene, o, &logging);
     return h;
 }
 
@@ -296,7 +335,7 @@ static int run_corners(contact_scene *scene, docking *d, const options *o)
 
 static void usage(FILE *to)
 {
-    fprintf(to, "docking [--models FOLDER] [--fast] [--seconds S] [--csv FILE] [--no-latches]\n"
+    fprintf(to, "docking [--models FOLDER] [--fast] [--seconds S] [--csv FILE] [--log FOLDER] [--no-latches]\n"
                 "        [--all-corners] [--rates] [--case NAME]\n"
                 "        [--speed M/S] [--lateral X Y] [--pitch DEG] [--yaw DEG] [--roll DEG]\n"
                 "cases: aligned, slow, and corners as slow,x+,roll-,pitch+ or fast,y-,roll+,yaw-\n");
@@ -349,6 +388,8 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
             o->seconds = number(argc, argv, &i);
         } else if (strcmp(a, "--csv") == 0) {
             o->csv = text(argc, argv, &i);
+        } else if (strcmp(a, "--log") == 0) {
+            o->log = text(argc, argv, &i);
         } else if (strcmp(a, "--no-latches") == 0) {
             d->latches_locked = 1;
         } else if (strcmp(a, "--all-corners") == 0) {
@@ -380,6 +421,9 @@ static void read_options(int argc, char **argv, options *o, docking_case *c, doc
     if (o->rates) {
         c->lateral_rate = 0.04;
         c->turn_rate = 0.2;
+    }
+    if (o->log != NULL && o->all_corners) {
+        refuse("--log", "holds one run, not all corners");
     }
     if (!(o->seconds > 0.0 && o->seconds < 1e5)) {
         refuse("--seconds", "needs more than 0 and less than 1e5");

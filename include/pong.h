@@ -102,6 +102,12 @@
 /// A law of the user's; its parameters stay as the model gives them.
 #define PONG_FRICTION_CUSTOM 3
 
+/// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
+#define PONG_LOG_LOSE 0
+
+/// `when_full`: pong_log_frame() waits until there is room: for runs that nobody watches.
+#define PONG_LOG_WAIT 1
+
 /// What became of a call. The numbers never change and are never used again for something else.
 ///
 /// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
@@ -146,6 +152,8 @@ enum pong_status
     /// A law given by callback returned a number that is not finite; the message names the law. The frame does
     /// not count: it is not committed.
     PONG_STATUS_LAW_FAILED = 16,
+    /// A response log cannot be written; the message names file and cause.
+    PONG_STATUS_LOG_FAILED = 17,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -515,6 +523,57 @@ typedef struct pong_surface_values {
     double friction_slip_speed;
 } pong_surface_values;
 
+/// How a log is written. Make it with pong_default_log_options(), change what you like, hand it to pong_start_log().
+typedef struct pong_log_options {
+    /// Set by pong_default_log_options(): size of this struct, bytes.
+    uint32_t struct_size;
+    /// Set by pong_default_log_options(): PONG_ABI_VERSION of the library.
+    uint32_t abi_version;
+    /// Set by pong_default_log_options(): checked by pong_start_log().
+    uint64_t cookie;
+    /// Name of the run, UTF-8; NULL (default) for the name of the folder. Read during pong_start_log() only.
+    const char *name;
+    /// Step of the host's integrator, s, for readers of the log; 0 (default) if it varies.
+    double step;
+    /// Bytes that may wait for the disk; raised to what the largest frame takes. 0 (default) for 16 MiB.
+    uint64_t buffer_bytes;
+    /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
+    /// flushed.
+    uint32_t flush_ms;
+    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT.
+    uint32_t when_full;
+    /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
+    uint32_t overwrite;
+    /// How many commits each logged frame stands for, for readers of the log; 0 (default) if that varies.
+    uint32_t commits_per_frame;
+    /// Zero.
+    uint64_t reserved[8];
+} pong_log_options;
+
+/// How a log stands.
+typedef struct pong_log_report {
+    /// Frames logged, lost ones included.
+    uint64_t frames;
+    /// Frames in the files that count: a run that is cut off now keeps them.
+    uint64_t flushed;
+    /// Frames that are not and will not be in the log.
+    uint64_t lost;
+    /// Changes between frames that are not in the log; it cannot be replayed exactly beyond them.
+    uint64_t events_lost;
+    /// Bytes of the rows that count.
+    uint64_t bytes;
+    /// Most bytes that waited for the disk.
+    uint64_t buffer_peak;
+    /// Bytes that may wait for it.
+    uint64_t buffer_size;
+    /// 1 if the files cannot be written any more: every frame from then on is lost. pong_stop_log() tells why.
+    uint32_t failed;
+    /// Zero in this version.
+    uint32_t reserved_flags;
+    /// Zero in this version.
+    uint64_t reserved[4];
+} pong_log_report;
+
 /// Along the axes of the movable group.
 #define PONG_FRAME_GROUP 0
 
@@ -845,6 +904,34 @@ pong_status pong_set_surface(struct pong_world *world,
                              struct pong_model_id model,
                              const char *surface,
                              const struct pong_surface_values *values);
+
+/// The default options.
+struct pong_log_options pong_default_log_options(void);
+
+/// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is made if it is not
+/// there. `options` may be NULL for the defaults. The log may begin at any time: what the world remembers goes into it.
+/// Model files are copied; they must be as they were when they were loaded. Takes memory, files and a thread.
+/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed.
+pong_status pong_start_log(struct pong_world *world,
+                           const char *folder,
+                           const struct pong_log_options *options);
+
+/// Logs the frame last evaluated, of this time (s): states, wrenches and contacts. Call it after the commit of the frame
+/// (pong_step() or pong_commit()) and before states change: once per commit, if the log is to be replayed exactly. Takes
+/// no memory, touches no file and waits for nobody, unless `when_full` says so. A frame that is lost succeeds and
+/// is counted: see pong_get_log_report(). PONG_STATUS_WRONG_PHASE: there is no log, or the states, pairs or surfaces
+/// are not those of the frame any more.
+pong_status pong_log_frame(struct pong_world *world,
+                           double time);
+
+/// How the log stands.
+pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_report *report);
+
+/// Writes what is left and closes the log; waits for the disk. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
+/// could not be written to the end; the message tells why, and where the log ends. It is closed all the same.
+/// pong_destroy_world() closes a log too, and tells nothing.
+pong_status pong_stop_log(struct pong_world *world,
+                          struct pong_log_report *report);
 
 /// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
 pong_status pong_set_object_user_data(struct pong_world *world,

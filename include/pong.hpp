@@ -48,6 +48,8 @@ using Ledger = pong_ledger;
 using SurfaceValues = pong_surface_values;
 using Tally = pong_tally;
 using Worker = pong_worker;
+using LogOptions = pong_log_options;
+using LogReport = pong_log_report;
 using Vec3 = std::array<double, 3>;
 
 /// State of a movable group; see pong_state for frames and units. Begins at rest at the common origin.
@@ -243,6 +245,20 @@ public:
     }
     void set_surface(ModelId model, const std::string& name, const SurfaceValues& values) {
         check(pong_set_surface(get(), model, name.c_str(), &values));
+    }
+
+    // Response logs.
+
+    void start_log(const std::string& folder, const LogOptions& options = pong_default_log_options()) {
+        check(pong_start_log(get(), folder.c_str(), &options));
+    }
+    /// After the commit of a frame and before states change; the time in s.
+    void log_frame(double time) { check(pong_log_frame(get(), time)); }
+    LogReport log_report() const {
+        return result<LogReport>([&](LogReport* out) { return pong_get_log_report(get(), out); });
+    }
+    LogReport stop_log() {
+        return result<LogReport>([&](LogReport* out) { return pong_stop_log(get(), out); });
     }
 
 private:

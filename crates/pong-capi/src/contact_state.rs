@@ -54,7 +54,9 @@ pub unsafe extern "C" fn pong_restore_contact_state(
     unsafe {
         with_world(world, |inner| {
             let block = array(buffer.cast::<u8>(), size, "buffer")?;
-            Ok(inner.world.restore_state(block)?)
+            inner.world.restore_state(block)?;
+            inner.tell_log(|log| log.restored(block));
+            Ok(())
         })
     }
 }

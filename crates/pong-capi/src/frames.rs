@@ -5,6 +5,7 @@ use crate::ids::pong_pair_id;
 use crate::pointers::array;
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
+use pong_record::Recorder;
 use std::time::Instant;
 
 /// What the C side counts.
@@ -33,7 +34,7 @@ pub unsafe extern "C" fn pong_evaluate(world: *mut pong_world) -> pong_status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_commit(world: *mut pong_world) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe { with_world(world, |inner| inner.commit(|world| world.commit())) }
+    unsafe { with_world(world, Inner::commit_all) }
 }
 
 /// As pong_commit(), for some pairs only: the others keep their last committed state. For executives that run
@@ -52,6 +53,9 @@ pub unsafe extern "C" fn pong_commit_pairs(
             ids.clear();
             ids.extend(pairs.iter().map(|id| id.id()));
             let outcome = inner.commit(|world| world.commit_pairs(&ids));
+            if outcome.is_ok() {
+                inner.tell_log(|log| log.committed_some(&ids));
+            }
             inner.pairs = ids;
             outcome
         })
@@ -65,7 +69,7 @@ pub unsafe extern "C" fn pong_step(world: *mut pong_world) -> pong_status {
     unsafe {
         with_world(world, |inner| {
             inner.evaluate()?;
-            inner.commit(|world| world.commit())
+            inner.commit_all()
         })
     }
 }
@@ -74,11 +78,18 @@ impl Inner {
     fn evaluate(&mut self) -> Outcome {
         let start = Instant::now();
         let report = self.world.evaluate()?;
+        self.tell_log(Recorder::evaluated);
         self.counters.evaluate_ns = elapsed_ns(start);
         self.counters.evaluations += 1;
         self.counters.peak_contacts_wanted = self.counters.peak_contacts_wanted.max(report.contacts_wanted);
         self.law_faults.collect();
         self.law_faults.check()
+    }
+
+    fn commit_all(&mut self) -> Outcome {
+        self.commit(|world| world.commit())?;
+        self.tell_log(Recorder::committed);
+        Ok(())
     }
 
     /// Evaluates first where the engine would, so that a law's fault is seen before anything is accepted.

@@ -4,6 +4,7 @@ use crate::config::pong_config;
 use crate::contacts::{pong_contact, pong_contact_side};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input};
+use crate::log::{pong_log_options, pong_log_report};
 use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::states::pong_state;
@@ -71,6 +72,13 @@ layouts! {
     }
     pong_tally { what, tested, met, reserved, kind_a, kind_b }
     pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns, work_ns }
+    pong_log_options {
+        struct_size, abi_version, cookie, name, step, buffer_bytes, flush_ms, when_full, overwrite, commits_per_frame,
+        reserved,
+    }
+    pong_log_report {
+        frames, flushed, lost, events_lost, bytes, buffer_peak, buffer_size, failed, reserved_flags, reserved,
+    }
     pong_ledger { stored, work, dissipated }
     pong_surface_values {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,

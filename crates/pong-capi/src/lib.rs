@@ -14,6 +14,7 @@
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `tally.rs` | frames |
 //! | `workers.rs` | workers, around frames |
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
+//! | `log.rs` | response logs |
 //!
 //! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C. Pointers are
 //! touched in `pointers.rs` alone.
@@ -39,6 +40,7 @@ mod law_adapters;
 pub mod law_types;
 pub mod laws;
 pub mod layout;
+pub mod log;
 mod message;
 pub mod models;
 mod names;

@@ -8,8 +8,9 @@ use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
 use pong_model::Model;
+use pong_record::ModelSource;
 use std::ffi::c_char;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
@@ -25,7 +26,7 @@ pub unsafe extern "C" fn pong_load_model(
         with_world(world, |inner| {
             let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
             let loaded = pong_model::load(Path::new(path), inner.world.extensions())?;
-            out.set(inner.add_model(loaded)?);
+            out.set(inner.add_model(loaded, ModelSource::File(Path::new(path).to_owned()))?);
             Ok(())
         })
     }
@@ -62,17 +63,19 @@ pub unsafe extern "C" fn pong_load_model_text(
                 return Err(Failure::new(pong_status::ModelError, message));
             };
             let loaded = pong_model::parse(text, name, mesh_dir.map(Path::new), inner.world.extensions())?;
-            out.set(inner.add_model(loaded)?);
+            let source = ModelSource::Text { text: text.to_owned(), mesh_dir: mesh_dir.map(PathBuf::from) };
+            out.set(inner.add_model(loaded, source)?);
             Ok(())
         })
     }
 }
 
 impl Inner {
-    fn add_model(&mut self, model: Model) -> Outcome<pong_model_id> {
+    fn add_model(&mut self, model: Model, source: ModelSource) -> Outcome<pong_model_id> {
         let model = Arc::new(model);
         let id = self.world.add_model(Arc::clone(&model))?;
         self.names.add_model(id, &model);
+        self.sources.push(source);
         Ok(id.into())
     }
 }

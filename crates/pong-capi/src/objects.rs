@@ -66,5 +66,11 @@ pub unsafe extern "C" fn pong_object_name(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_forget_object(world: *mut pong_world, object: pong_object_id) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe { with_world(world, |inner| Ok(inner.world.forget(object.id())?)) }
+    unsafe {
+        with_world(world, |inner| {
+            inner.world.forget(object.id())?;
+            inner.tell_log(|log| log.forgot(object.id()));
+            Ok(())
+        })
+    }
 }

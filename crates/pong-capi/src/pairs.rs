@@ -62,7 +62,14 @@ pub unsafe extern "C" fn pong_set_pair_enabled(
     enabled: i32,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe { with_world(world, |inner| Ok(inner.world.set_pair_enabled(pair.id(), yes_or_no(enabled)?)?)) }
+    unsafe {
+        with_world(world, |inner| {
+            let enabled = yes_or_no(enabled)?;
+            inner.world.set_pair_enabled(pair.id(), enabled)?;
+            inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
+            Ok(())
+        })
+    }
 }
 
 fn yes_or_no(value: i32) -> Outcome<bool> {

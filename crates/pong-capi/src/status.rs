@@ -44,11 +44,13 @@ pub enum pong_status {
     /// A law given by callback returned a number that is not finite; the message names the law. The frame does
     /// not count: it is not committed.
     LawFailed = 16,
+    /// A response log cannot be written; the message names file and cause.
+    LogFailed = 17,
 }
 
 impl pong_status {
     /// All of them, in order of their numbers.
-    pub(crate) const ALL: [Self; 17] = [
+    pub(crate) const ALL: [Self; 18] = [
         Self::Ok,
         Self::NullArgument,
         Self::UnknownId,
@@ -66,6 +68,7 @@ impl pong_status {
         Self::Panic,
         Self::Busy,
         Self::LawFailed,
+        Self::LogFailed,
     ];
 
     fn name(self) -> &'static std::ffi::CStr {
@@ -87,6 +90,7 @@ impl pong_status {
             Self::Panic => c"PONG_STATUS_PANIC",
             Self::Busy => c"PONG_STATUS_BUSY",
             Self::LawFailed => c"PONG_STATUS_LAW_FAILED",
+            Self::LogFailed => c"PONG_STATUS_LOG_FAILED",
         }
     }
 }

@@ -124,7 +124,9 @@ pub unsafe extern "C" fn pong_set_surface(
             let (name, values) = (text(surface, "surface")?, one(values, "values")?);
             let old = inner.world.surface(model.id(), name)?;
             let new = values.applied_to(old)?;
-            Ok(inner.world.set_surface(model.id(), &new)?)
+            inner.world.set_surface(model.id(), &new)?;
+            inner.tell_log(|log| log.surface_set(model.id(), &new));
+            Ok(())
         })
     }
 }

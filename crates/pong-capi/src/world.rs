@@ -11,6 +11,7 @@ use crate::status::pong_status;
 use crate::user_data::UserData;
 use crate::workers::Started;
 use pong_engine::{InterfaceId, PairId, State, World};
+use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
 use std::sync::Mutex;
 
@@ -40,6 +41,9 @@ pub(crate) struct Inner {
     pub law_faults: LawFaults,
     /// Names of the registered laws: of the normal force and of friction.
     pub law_names: [Vec<String>; 2],
+    /// Where each model came from.
+    pub sources: Vec<ModelSource>,
+    pub log: Option<Recorder>,
 }
 
 /// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
@@ -71,6 +75,8 @@ pub unsafe extern "C" fn pong_create_world(
             counters: Counters::default(),
             law_faults: LawFaults::default(),
             law_names: [Vec::new(), Vec::new()],
+            sources: Vec::new(),
+            log: None,
         };
         out.set(Box::into_raw(Box::new(pong_world { inner: Mutex::new(inner) })));
         Ok(())

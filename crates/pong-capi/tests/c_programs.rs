@@ -22,7 +22,33 @@ fn the_programs_build_and_run() {
     }
 }
 
-const PROGRAMS: [&str; 5] = ["minimal", "misuse", "laws", "calls", "cpp_smoke"];
+const PROGRAMS: [&str; 6] = ["minimal", "misuse", "laws", "calls", "response_log", "cpp_smoke"];
+
+/// What a C host logged goes through the engine again and comes out with the same bits: forgotten Objects, switched
+/// pairs, commits of some pairs and frames without a commit included.
+#[test]
+fn the_log_of_a_c_host_can_be_replayed() {
+    let out = out_dir("response_log");
+    run(Command::new("make")
+        .arg("-C")
+        .arg(root().join("c_examples"))
+        .arg(format!("LIB_DIR={}", lib_dir().display()))
+        .arg(format!("OUT={}", out.display()))
+        .arg("PROGRAMS=response_log"));
+    let folder = out.join("logs");
+    let _ = std::fs::remove_dir_all(&folder);
+    run(Command::new(out.join("shared/response_log"))
+        .env("LD_LIBRARY_PATH", out.join("shared"))
+        .arg(&folder));
+    let mut log = pong_record::Log::open(&folder.join("frames")).unwrap();
+    let report = pong_record::replay(&mut log, &pong_record::ReplayOptions::default(), &mut |_| {}).unwrap();
+    assert!(report.agrees() && report.compared == 3000 && report.contacts > 700, "{report:?}");
+    let kinds =
+        |kind| log.events().iter().filter(|event| std::mem::discriminant(&event.event) == kind).count();
+    let forgotten = std::mem::discriminant(&pong_record::Event::Forget { object: 0 });
+    let some = std::mem::discriminant(&pong_record::Event::Commit { pairs: Vec::new() });
+    assert_eq!((kinds(forgotten), kinds(some)), (6, 1200));
+}
 
 #[test]
 fn the_shared_library_has_a_soname_and_exports_nothing_else() {

@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 22] = [
+const FILES: [&str; 23] = [
     "status",
     "version",
     "config",
@@ -28,6 +28,7 @@ const FILES: [&str; 22] = [
     "workers",
     "contact_state",
     "surfaces",
+    "log",
 ];
 const LAST_FILE: &str = "user_data";
 

@@ -42,6 +42,7 @@ pub struct Recorder {
     /// For lines of events. Its memory stays.
     line: Vec<u8>,
     peak: usize,
+    size: usize,
 }
 
 /// How a log stands.
@@ -127,6 +128,7 @@ impl Recorder {
             blocks: 0,
             line: Vec::with_capacity(line),
             peak: 0,
+            size: wanted,
         };
         recorder.tell_how_it_begins(world, state_size)?;
         Ok(recorder)
@@ -259,7 +261,7 @@ impl Recorder {
             events_lost: self.events_lost_ever,
             bytes: shared.bytes.load(Ordering::Relaxed),
             buffer_peak: self.peak,
-            buffer_size: self.producer.as_ref().map_or(0, |producer| producer.buffer().capacity()),
+            buffer_size: self.size,
             error,
         }
     }
@@ -269,16 +271,16 @@ impl Recorder {
     /// # Errors
     /// What kept the files from being written, now or earlier; the log ends where it says.
     pub fn finish(mut self) -> Result<RecordStatus, LogError> {
-        let before = self.status();
         self.close();
-        let status = RecordStatus { buffer_size: before.buffer_size, ..self.status() };
+        let status = self.status();
         match status.error {
             None => Ok(status),
             Some(text) => Err(LogError::Ended { text }),
         }
     }
 
-    fn close(&mut self) {
+    /// Writes what is left and closes the log; [`status`](Self::status) tells how it went. Nothing is recorded any more.
+    pub fn close(&mut self) {
         self.when_full = WhenFull::Wait;
         self.tell_lost();
         self.producer = None;

@@ -112,8 +112,8 @@ impl Writer {
 
     /// Events first: those of a frame that counts are there.
     fn flush(&mut self) -> Result<(), LogError> {
-        let path = self.folder.join(event::FILE);
-        self.events.flush().map_err(|reason| LogError::unwritable(&path, &reason))?;
+        let flushed = self.events.flush();
+        flushed.map_err(|reason| LogError::unwritable(&self.folder.join(event::FILE), &reason))?;
         self.tables.flush()
     }
 
