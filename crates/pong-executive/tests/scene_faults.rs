@@ -55,7 +55,7 @@ fn each_fault_is_told_by_name() {
         (
             "pairs: [],",
             "pairs: [], contact_capacity: 18446744073709551615,",
-            "contact capacity: 18446744073709551615 is more than",
+            "contact capacity: room for 18446744073709551615 contacts takes",
         ),
         ("ball.ron", "none.ron", "models/ball: "),
         ("ball.ron", "bad.ron", "[not-positive]"),
