@@ -18,16 +18,16 @@ OVERTRAVEL = 0.150  # of the arm below the seated payload: 600 N
 LOWERED = 26.0  # s; the arm holds from here
 KEEL_CLOSING = (28.0, 32.0)  # s: the keel latch centres the payload first
 CLOSING = (34.0, 44.0)  # of the claws
-CLAW_ROWS = 20
 LIMP = (46.0, 50.0)  # the arm gives way to where the payload sits
 BERTHED = 58.0
+STEPS = 20  # of each of these, joined smoothly
 
 # --- wedge: pushed down on the aft flares, held back along x by a force that fades away ----------------------------
 PUSH = 2000.0
 WEDGE_OFFSET = 0.150
-WEDGE_RATIOS = (0.80, 0.55)  # of the holding force over the push, at the times below
-WEDGE_TIMES = (4.0, 104.0)
-WEDGE_END = 62.0
+WEDGE_RATIOS = (0.72, 0.60)  # of the holding force over the push, at the times below
+WEDGE_TIMES = (4.0, 52.0)
+WEDGE_END = 32.0
 
 # --- loads on the latched payload, one after the other --------------------------------------------------------------
 LOAD_X, LOAD_Y, LOAD_Z = 20e3, 10e3, 8e3
@@ -82,27 +82,33 @@ def table(rows):
     return ", ".join(f"(time: {time!r}, position: {numbers(p)}, orientation: {numbers(q)})" for time, p, q in rows)
 
 
+def smooth(t):
+    return t**3 * (10 - 15 * t + 6 * t**2)
+
+
+def glide(times, row, steps=STEPS):
+    """Rows between two times; `row` gives place and attitude from 0 to 1. It stands still for a second around them."""
+    start, end = times
+    rows = [(round(start + i / steps * (end - start), 9), *row(smooth(i / steps))) for i in range(steps + 1)]
+    return [(start - 1.0, *row(0.0)), *rows, (end + 1.0, *row(1.0))]
+
+
 def claw(name, closing):
-    """Rows of a claw that closes between two times, with a gentle end; None: it is closed."""
+    """Rows of a claw that closes between two times; None: it is closed."""
     place = rounded(hinge(name))
     if closing is None:
         return [(0.0, place, UPRIGHT)]
-    start, end = closing
-    rows = [(0.0, place, about_axis(1, OPEN_DEG))]
-    for i in range(CLAW_ROWS + 1):
-        t = i / CLAW_ROWS
-        closed = t**3 * (10 - 15 * t + 6 * t**2)
-        rows.append((round(start + t * (end - start), 9), place, about_axis(1, OPEN_DEG * (1 - closed))))
-    return [*rows, (end + 1.0, place, UPRIGHT)]
+    return glide(closing, lambda share: (place, about_axis(1, OPEN_DEG * (1 - share))))
 
 
 def keel_jaw_rows(side, closing):
     open_ = rounded(keel_jaw(side))
-    closed = (open_[0], open_[1] - side * (KEEL_OPEN_GAP - KEEL_CLOSED_GAP), open_[2])
-    if closing is None:
-        return [(0.0, closed, UPRIGHT)]
-    start, end = closing
-    return [(0.0, open_, UPRIGHT), (start, open_, UPRIGHT), (end, closed, UPRIGHT), (end + 1.0, closed, UPRIGHT)]
+    travel = KEEL_OPEN_GAP - KEEL_CLOSED_GAP
+
+    def row(share):
+        return ((open_[0], open_[1] - side * share * travel, open_[2]), UPRIGHT)
+
+    return [(0.0, *row(1.0))] if closing is None else glide(closing, row)
 
 
 def bay(claws, keel):
@@ -147,14 +153,19 @@ def arm_rows():
     grip = turned(q, GRAPPLE)
     travel = START[2] + OVERTRAVEL
 
-    def row(time, down):
-        return (time, tuple(s + g for s, g in zip((START[0], START[1], START[2] - down), grip)), q)
+    def place(down):
+        return tuple(s + g for s, g in zip((START[0], START[1], START[2] - down), grip))
 
     even = (travel - 4 * SPEED) / SPEED
-    rows = [row(0.0, 0.0), row(1.0, 0.0), row(3.0, SPEED), row(4.0, 2 * SPEED), row(4.0 + even, travel - 2 * SPEED)]
-    rows += [row(5.0 + even, travel - SPEED), row(7.0 + even, travel), row(LIMP[0], travel)]
-    seated = (LIMP[1], GRAPPLE, UPRIGHT)
-    return [(round(time, 9), p, q) for time, p, q in rows] + [seated, (LIMP[1] + 1.0, *seated[1:])]
+    stops = ((0.0, 0.0), (1.0, 0.0), (3.0, SPEED), (4.0, 2 * SPEED), (4.0 + even, travel - 2 * SPEED))
+    stops += ((5.0 + even, travel - SPEED), (7.0 + even, travel), (8.0 + even, travel))
+    rows = [(round(time, 9), place(down), q) for time, down in stops]
+    held = place(travel)
+
+    def limp(share):
+        return (tuple(h + share * (g - h) for h, g in zip(held, GRAPPLE)), UPRIGHT if share > 0.0 else q)
+
+    return rows + glide(LIMP, limp)
 
 
 def berthing():
@@ -176,13 +187,13 @@ def berthing():
 
 
 def open_claw(name):
-    return claw(name, (1e3, 1e3 + 8.0))[:1]
+    return claw(name, (0.0, 1.0))[:1]
 
 
 def wedge():
     about = [
         "With its pins on the aft flares, the payload is pushed down by 2 kN and held back by a force along x that fades",
-        "from 0.80 to 0.55 of the push. It sticks until the ratio falls below cot(flare + friction angle) = 0.667.",
+        "from 0.72 to 0.60 of the push. It sticks until the ratio falls below cot(flare + friction angle) = 0.667.",
         "Written by build.py.",
     ]
     touch = PIN_RADIUS / math.sin(math.radians(FLARE_DEG)) + flare_z(WEDGE_OFFSET)  # 45°: straight above the flare
@@ -190,7 +201,7 @@ def wedge():
     rows += [(WEDGE_TIMES[1], WEDGE_RATIOS[1], 1.0)]
     steps = ", ".join(f"(time: {t!r}, force: {numbers((PUSH * h, 0.0, -PUSH * v))})" for t, h, v in rows)
     objects = [
-        *bay(open_claw, lambda side: keel_jaw_rows(side, (1e3, 1e3 + 1.0))[:1]),
+        *bay(open_claw, lambda side: keel_jaw_rows(side, (0.0, 1.0))[:1]),
         *payload((WEDGE_OFFSET, 0.0, touch), UPRIGHT),
     ]
     return scene("wedge", about, objects, WEDGE_END, 50, loads=[f'(body: "payload", table: [{steps}]),'])
