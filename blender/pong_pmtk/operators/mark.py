@@ -7,7 +7,7 @@ from ..core.marks import VERSION, Part
 from ..scene import proposal
 from ..store import elements, marks
 from ..store.marks import KIND_ITEMS
-from ..store.references import unique_name
+from ..store.references import siblings, unique_name
 from .targets import Edited, OnPart, Selection, active_mesh, edited_meshes, selected
 
 PROPOSE = ("PROPOSE", "As Proposed", "What the geometry suggests")
@@ -82,7 +82,7 @@ class PONG_OT_mark_elements(Edited, bpy.types.Operator):
         chosen = elements.selected(obj.data, sort)
         if not chosen:
             return None
-        taken = {part.name for part in obj.pong.parts}
+        taken = {part.name for sibling in siblings(obj, context.scene) for part in sibling.pong.parts}
         part = Part(name=unique_name(self.name or kind.lower(), taken), kind=kind, surface=self.surface)
         setattr(part, sort, chosen)
         if obj.pong.role == "none":

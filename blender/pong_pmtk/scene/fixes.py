@@ -14,7 +14,7 @@ from mathutils import Matrix
 from ..core.exact import meant, meant_rows
 from ..core.transforms import frame_of, local_transform, matrix_quaternion
 from ..store import exact, marks
-from ..store.references import select_only, unique_name
+from ..store.references import select_only, siblings, unique_name
 from . import extract, meshes, proposal
 
 MERGE_SHARE = 1e-6  # of the mesh's diameter: as far as the engine takes places to be the same
@@ -201,9 +201,13 @@ def fit(kind):
 
 
 def rename(_context, obj):
-    """A name of its own among its siblings."""
-    siblings = obj.parent.children if obj.parent else bpy.context.scene.objects
-    taken = {other.pong.label or other.name for other in siblings if other != obj}
+    """A name of its own among its siblings, and one for each of its parts."""
+    others = [other for other in siblings(obj, bpy.context.scene) if other != obj]
+    taken = {part.name for other in others for part in other.pong.parts}
+    for part in obj.pong.parts:
+        part.name = unique_name(part.name, taken)
+        taken.add(part.name)
+    taken = {other.pong.label or other.name for other in others}
     wanted = (obj.pong.label or obj.name).replace("/", "_") or obj.pong.role
     obj.pong.label = unique_name(wanted, taken)
 

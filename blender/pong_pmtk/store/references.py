@@ -32,6 +32,11 @@ def tree(root):
     return [root, *root.children_recursive]
 
 
+def siblings(obj, scene):
+    """What hangs below the same object, itself included: names in the model are unique among these."""
+    return list(obj.parent.children) if obj.parent else [other for other in scene.objects if other.parent is None]
+
+
 def rename_surface(root, old, new):
     """Makes everything of a model that names a surface use its new name."""
     for obj in tree(root):

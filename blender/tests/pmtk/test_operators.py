@@ -8,6 +8,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from pong_pmtk.core.finding import FIXES
+from pong_pmtk.core.marks import Part
 from pong_pmtk.scene import fixes
 from pong_pmtk.store import elements, marks
 from pong_pmtk.store.state import state
@@ -63,6 +64,18 @@ class Marking(InBlender):
         self.assertEqual(obj.mode, "EDIT")
         self.assertEqual(sorted(primitive.kind for primitive in self.primitives().values()),
                          ["LineSegment", "Point", "Point", "TriangleMesh"])
+
+    def test_parts_of_objects_that_are_edited_together_have_names_of_their_own(self):
+        top = root()
+        pair = [new(name, mesh(CUBE), top) for name in "ab"]
+        activate(*pair)
+        bpy.ops.object.mode_set(mode="EDIT")
+        for obj in pair:
+            elements.select(obj.data, {"vertices": [0, 3]})
+        bpy.ops.pong.mark_elements(kind="Point", name="foot")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        self.assertEqual([part.name for obj in pair for part in obj.pong.parts], ["foot", "foot_2"])
+        self.assertEqual(self.rules(), set())
 
     def test_parts_grow_shrink_select_and_go(self):
         obj = new("a", mesh(CUBE))
@@ -214,6 +227,13 @@ class Findings(InBlender):
         for name in ("a", "b"):
             obj = mark(new(name, parent=top), kind="Point", name="tip")
         self.fixed(obj, "repeated-name")
+
+    def test_repeated_names_of_parts(self):
+        top = root()
+        part = Part(name="foot", kind="Point", vertices=[0])
+        for name in "ab":
+            mark(new(name, mesh(CUBE), top), parts=[part])
+        self.fixed(top, "repeated-name")
 
     def test_sheared_group(self):
         squeezed = new("squeezed", parent=root(), scale=(3, 1, 1))
