@@ -29,7 +29,7 @@ KIND_TIPS = {
 }
 KIND_ITEMS = [("NONE", "None", "Nothing")] + [(kind, kind, KIND_TIPS.get(kind, "")) for kind in KINDS]
 BOUND_ITEMS = [
-    ("Aabb", "Box", "Box along the axes of the group"),
+    ("Aabb", "Box", "Box along the axes of the movable group"),
     ("Sphere", "Sphere", "Ball"),
     ("Obb", "Oriented Box", "Box that fits best"),
 ]

@@ -33,6 +33,7 @@ class PONG_PT_model(Panel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("pong.check", icon="CHECKMARK")
         row.operator("pong.export_ron", text="Export", icon="EXPORT")
+        layout.operator("pong.root_new", icon="ADD")  # for another model in the same file
 
 
 class PONG_PT_tree(Panel, bpy.types.Panel):
