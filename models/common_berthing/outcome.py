@@ -67,7 +67,7 @@ def roll(run):
     ratio = MOMENT_RATIOS[0] + share * (MOMENT_RATIOS[1] - MOMENT_RATIOS[0])
     limit = 1 / math.tan(FLARE + math.atan(FRICTION))
     yield "moment over push × radius when it slides, over cot(flare + friction angle)", ratio / limit, 0.975, 1.01
-    middle = next(r for r in rows if r["z_m"] < ROLL_GAP - 0.010)
+    middle = [*(r for r in rows if r["z_m"] < ROLL_GAP - 0.010), rows[-1]][0]
     turned = math.radians(roll_deg(start) - roll_deg(middle)) * RING_MIDDLE
     yield "way round over way in, over tan(flare)", turned / (start["z_m"] - middle["z_m"]) / math.tan(FLARE), 0.99, 1.01
     yield "off the middle, mm", lateral(rows[-1]) * 1e3, 0.0, 1e-6

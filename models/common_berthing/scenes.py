@@ -3,10 +3,14 @@
 import math
 
 from dimensions import *  # noqa: F403
-from geometry import rounded
+from scene_text import (
+    UPRIGHT, about_axis, glide, joined, numbers, on, product, scene, spring, stroke, table, turned,
+)
 
-UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 MODELS = ("active", "passive", "indicator")
+PAIRS = [(name, "passive") for name in ("active", "indicator_0", "indicator_1", "indicator_2", "indicator_3")]
+HINGE_STIFFNESS = (1e5, 1e5, 1e5, 50.0, PADDLE_SPRING, 50.0)  # N/m, N·m/rad
+HINGE_DAMPING = (80.0, 80.0, 80.0, 0.05, 0.05, 0.05)
 
 # --- berthing --------------------------------------------------------------------------------------------------------
 ARM_STIFFNESS = (4e3, 4e3, 4e3, 1.5e4, 1.5e4, 1.5e4)  # N/m, N·m/rad
@@ -44,31 +48,6 @@ def texts():
     return {"scene_berthing.ron": berthing(), "scene_press.ron": press(), "scene_roll.ron": roll()}
 
 
-# --- numbers ----------------------------------------------------------------------------------------------------------
-
-def numbers(values):
-    return "(" + ", ".join(repr(round(float(x), 12) + 0.0) for x in values) + ")"
-
-
-def about_axis(axis, angle_deg):
-    half = math.radians(angle_deg) / 2
-    return (math.cos(half), *(math.sin(half) * float(i == axis) for i in range(3)))
-
-
-def product(p, q):
-    return (
-        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
-    )
-
-
-def turned(q, v):
-    inverse = (q[0], -q[1], -q[2], -q[3])
-    return product(product(q, (0.0, *v)), inverse)[1:]
-
-
 def attitude():
     """Roll about z after pitch about y after yaw about x."""
     return product(about_axis(2, ROLL_DEG), product(about_axis(1, PITCH_DEG), about_axis(0, YAW_DEG)))
@@ -79,41 +58,19 @@ def paddle_attitude(raised_deg):
     return about_axis(1, -raised_deg)
 
 
-def smooth(t):
-    return t**3 * (10 - 15 * t + 6 * t**2)
-
-
 # --- bodies ------------------------------------------------------------------------------------------------------------
-
-def table(rows):
-    return ", ".join(f"(time: {time!r}, position: {numbers(p)}, orientation: {numbers(q)})" for time, p, q in rows)
-
-
-def glide(times, first, last, orientation, steps=STEPS):
-    """Rows of a straight way between two times that begins and ends gently; it stands still for a second around it."""
-    start, end = times
-    rows = [(start - 1.0, first, orientation)]
-    for i in range(steps + 1):
-        share = smooth(i / steps)
-        place = tuple(f + share * (e - f) for f, e in zip(first, last))
-        rows.append((round(start + i / steps * (end - start), 9), place, orientation))
-    return [*rows, (end + 1.0, last, orientation)]
-
-
-def joined(*ways):
-    """Ways one after the other; where one ends as the next begins, neither stands still."""
-    rows = []
-    for way in ways:
-        rows = [row for row in rows if row[0] < way[1][0]] + (way if not rows or rows[-1][0] < way[0][0] else way[1:])
-    return rows
-
 
 def tip_rows(azimuth_deg):
     """The way of a latch's tip: up, over the fitting, down onto it."""
     corners = ((STOWED_RADIUS, STOWED_Z), (STOWED_RADIUS, REACH_Z), (CLOSED_RADIUS, REACH_Z), (CLOSED_RADIUS, CLOSED_Z))
     places = [radial(radius, azimuth_deg, z) for radius, z in corners]
     q = about_axis(2, azimuth_deg)
-    return joined(*(glide(times, *places[i : i + 2], q) for i, times in enumerate((RISE, SWING, PULL))))
+
+    def way(first, last):
+        return lambda share: (tuple(f + share * (e - f) for f, e in zip(first, last)), q)
+
+    legs = zip((RISE, SWING, PULL), places, places[1:])
+    return joined(*(glide(times, way(first, last), STEPS) for times, first, last in legs))
 
 
 def latches(moving):
@@ -166,30 +123,11 @@ def arm(rows):
 def hinges():
     """Stiff but about y, about which the paddle's spring raises it."""
     for i in range(len(LATCH_AZIMUTHS)):
-        yield (
-            f'(first: On(body: "indicator_{i}", position: {numbers(HINGE)}, '
-            f"orientation: {numbers(paddle_attitude(PADDLE_DEG))}), "
-            f'second: On(body: "indicator_{i}/paddle"), '
-            f"stiffness: {numbers((1e5, 1e5, 1e5, 50.0, PADDLE_SPRING, 50.0))}, "
-            f"damping: {numbers((80.0, 80.0, 80.0, 0.05, 0.05, 0.05))}),"
-        )
+        fixed = on(f"indicator_{i}", HINGE, paddle_attitude(PADDLE_DEG))
+        yield spring(fixed, on(f"indicator_{i}/paddle"), HINGE_STIFFNESS, HINGE_DAMPING)
 
 
 # --- scenes ------------------------------------------------------------------------------------------------------------
-
-def scene(name, about, objects, duration, record_every, loads=(), springs=(), models=()):
-    lines = [f"// {line}" for line in about]
-    lines += ["(", '    format: "pong-scene",', "    version: 1,", f'    name: "{name}",']
-    lines += ["    models: { " + ", ".join(f'"{model}": "{model}.ron"' for model in MODELS + models) + " },"]
-    lines += ["    objects: ["] + ["        " + line for line in objects] + ["    ],"]
-    pairs = ["active"] + [f"indicator_{i}" for i in range(len(LATCH_AZIMUTHS))]
-    lines += ["    pairs: [" + ", ".join(f'("{name}", "passive")' for name in pairs) + "],"]
-    lines += ["    loads: ["] + ["        " + line for line in loads] + ["    ],"] if loads else []
-    lines += ["    springs: ["] + ["        " + line for line in springs] + ["    ],"] if springs else []
-    lines += ["    integrator: RungeKutta4,", "    step: 1e-3,", f"    duration: {duration!r},"]
-    lines += [f"    record_every: {record_every},", "    ledger: true,", ")"]
-    return "\n".join(lines) + "\n"
-
 
 def arm_rows():
     """Where the arm's tip goes: in at one speed to the hand-over, holds against the latches, then gives way."""
@@ -200,12 +138,12 @@ def arm_rows():
     def place(way):
         return tuple(s + g for s, g in zip((*OFFSET, START_GAP - way), grip))
 
-    even = (travel - 4 * SPEED) / SPEED
-    stops = ((0.0, 0.0), (1.0, 0.0), (3.0, SPEED), (4.0, 2 * SPEED), (4.0 + even, travel - 2 * SPEED))
-    stops += ((5.0 + even, travel - SPEED), (7.0 + even, travel), (8.0 + even, travel))
-    rows = [(round(time, 9), place(way), q) for time, way in stops]
-    limp = glide(LIMP, place(travel), GRAPPLE, UPRIGHT)
-    return rows + [(limp[0][0], limp[0][1], q), (*limp[1][:2], q), *limp[2:]]
+    held = place(travel)
+
+    def limp(share):
+        return (tuple(h + share * (g - h) for h, g in zip(held, GRAPPLE)), UPRIGHT if share > 0.0 else q)
+
+    return stroke(place, q, travel, SPEED) + glide(LIMP, limp, STEPS)
 
 
 def berthing():
@@ -221,13 +159,8 @@ def berthing():
         *passive(MODULE_MASS, MODULE_INERTIA, MODULE_CENTER, start, attitude()),
         *arm(arm_rows()),
     ]
-    hold = (
-        f'(first: On(body: "arm"), second: On(body: "passive", position: {numbers(GRAPPLE)}), '
-        f"stiffness: {numbers(ARM_STIFFNESS)}, damping: {numbers(ARM_DAMPING)}),"
-    )
-    return scene(
-        "berthing", about, objects, BERTHED, 50, springs=[*hinges(), hold], models=("arm",)
-    )
+    hold = spring(on("arm"), on("passive", GRAPPLE), ARM_STIFFNESS, ARM_DAMPING)
+    return scene("berthing", about, (*MODELS, "arm"), objects, PAIRS, BERTHED, 50, springs=[*hinges(), hold])
 
 
 def press():
@@ -243,7 +176,7 @@ def press():
     push = numbers((0.0, 0.0, -PRESS_FORCE))
     load = f'(body: "passive", point: {numbers((PRESS_X, 0.0, 0.0))}, table: [(time: 0.0), (time: {PRESS_RAMP!r}, force: {push})]),'
     rest = f'(body: "passive", force: {numbers((0.0, 0.0, -REST))}),'
-    return scene("press", about, objects, PRESSED, 20, loads=[rest, load])
+    return scene("press", about, MODELS, objects, PAIRS, PRESSED, 20, loads=[rest, load])
 
 
 def roll_touch():
@@ -272,4 +205,4 @@ def roll():
         f"(time: {t!r}, force: {numbers((0.0, 0.0, -PUSH * p))}, moment: {numbers((0.0, 0.0, lever * m))})"
         for t, m, p in rows
     )
-    return scene("roll", about, objects, ROLL_END, 50, loads=[f'(body: "passive", table: [{steps}]),'])
+    return scene("roll", about, MODELS, objects, PAIRS, ROLL_END, 50, loads=[f'(body: "passive", table: [{steps}]),'])

@@ -4,9 +4,10 @@ import math
 
 from dimensions import *  # noqa: F403
 from geometry import rounded
+from scene_text import UPRIGHT, about_axis, glide, numbers, on, product, scene, spring, stroke, table, turned
 
-UPRIGHT = (1.0, 0.0, 0.0, 0.0)
-STILL = [(0.0, 0.0)]
+
+PAIRS = [("bay", "payload")]
 
 # --- berthing --------------------------------------------------------------------------------------------------------
 ARM_STIFFNESS = (4e3, 4e3, 4e3, 5e4, 5e4, 5e4)  # N/m, N·m/rad
@@ -39,34 +40,9 @@ def texts():
     return {"scene_wedge.ron": wedge(), "scene_berthing.ron": berthing(), "scene_loads.ron": loads()}
 
 
-# --- numbers ----------------------------------------------------------------------------------------------------------
-
-def numbers(values):
-    return "(" + ", ".join(repr(round(float(x), 12) + 0.0) for x in values) + ")"
-
-
-def about_axis(axis, angle_deg):
-    half = math.radians(angle_deg) / 2
-    return (math.cos(half), *(math.sin(half) * float(i == axis) for i in range(3)))
-
-
-def product(p, q):
-    return (
-        p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
-        p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
-        p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1],
-        p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0],
-    )
-
-
 def attitude():
     """Yaw about z after pitch about y after roll about x."""
     return product(about_axis(2, YAW_DEG), product(about_axis(1, PITCH_DEG), about_axis(0, ROLL_DEG)))
-
-
-def turned(q, v):
-    inverse = (q[0], -q[1], -q[2], -q[3])
-    return product(product(q, (0.0, *v)), inverse)[1:]
 
 
 # --- bodies ------------------------------------------------------------------------------------------------------------
@@ -78,27 +54,12 @@ def body(group, rows):
     return f'(group: "{group}", motion: Prescribed(Table([{table(rows)}]))),'
 
 
-def table(rows):
-    return ", ".join(f"(time: {time!r}, position: {numbers(p)}, orientation: {numbers(q)})" for time, p, q in rows)
-
-
-def smooth(t):
-    return t**3 * (10 - 15 * t + 6 * t**2)
-
-
-def glide(times, row, steps=STEPS):
-    """Rows between two times; `row` gives place and attitude from 0 to 1. It stands still for a second around them."""
-    start, end = times
-    rows = [(round(start + i / steps * (end - start), 9), *row(smooth(i / steps))) for i in range(steps + 1)]
-    return [(start - 1.0, *row(0.0)), *rows, (end + 1.0, *row(1.0))]
-
-
 def claw(name, closing):
     """Rows of a claw that closes between two times; None: it is closed."""
     place = rounded(hinge(name))
     if closing is None:
         return [(0.0, place, UPRIGHT)]
-    return glide(closing, lambda share: (place, about_axis(1, OPEN_DEG * (1 - share))))
+    return glide(closing, lambda share: (place, about_axis(1, OPEN_DEG * (1 - share))), STEPS)
 
 
 def keel_jaw_rows(side, closing):
@@ -108,7 +69,7 @@ def keel_jaw_rows(side, closing):
     def row(share):
         return ((open_[0], open_[1] - side * share * travel, open_[2]), UPRIGHT)
 
-    return [(0.0, *row(1.0))] if closing is None else glide(closing, row)
+    return [(0.0, *row(1.0))] if closing is None else glide(closing, row, STEPS)
 
 
 def bay(claws, keel):
@@ -134,19 +95,6 @@ def arm(rows):
 
 # --- scenes ------------------------------------------------------------------------------------------------------------
 
-def scene(name, about, objects, duration, record_every, loads=(), springs=(), models=("bay", "payload")):
-    lines = [f"// {line}" for line in about]
-    lines += ["(", '    format: "pong-scene",', "    version: 1,", f'    name: "{name}",']
-    lines += ["    models: { " + ", ".join(f'"{model}": "{model}.ron"' for model in models) + " },"]
-    lines += ["    objects: ["] + ["        " + line for line in objects] + ["    ],"]
-    lines += ['    pairs: [("bay", "payload")],']
-    lines += ["    loads: ["] + ["        " + line for line in loads] + ["    ],"] if loads else []
-    lines += ["    springs: ["] + ["        " + line for line in springs] + ["    ],"] if springs else []
-    lines += ["    integrator: RungeKutta4,", "    step: 1e-3,", f"    duration: {duration!r},"]
-    lines += [f"    record_every: {record_every},", "    ledger: true,", ")"]
-    return "\n".join(lines) + "\n"
-
-
 def arm_rows():
     """Where the arm's tip goes: down at one speed past the seat, holds, then gives way to the seated payload's place."""
     q = attitude()
@@ -156,16 +104,12 @@ def arm_rows():
     def place(down):
         return tuple(s + g for s, g in zip((START[0], START[1], START[2] - down), grip))
 
-    even = (travel - 4 * SPEED) / SPEED
-    stops = ((0.0, 0.0), (1.0, 0.0), (3.0, SPEED), (4.0, 2 * SPEED), (4.0 + even, travel - 2 * SPEED))
-    stops += ((5.0 + even, travel - SPEED), (7.0 + even, travel), (8.0 + even, travel))
-    rows = [(round(time, 9), place(down), q) for time, down in stops]
     held = place(travel)
 
     def limp(share):
         return (tuple(h + share * (g - h) for h, g in zip(held, GRAPPLE)), UPRIGHT if share > 0.0 else q)
 
-    return rows + glide(LIMP, limp)
+    return stroke(place, q, travel, SPEED) + glide(LIMP, limp, STEPS)
 
 
 def berthing():
@@ -179,11 +123,8 @@ def berthing():
         *payload(START, attitude()),
         *arm(arm_rows()),
     ]
-    spring = (
-        f'(first: On(body: "arm"), second: On(body: "payload", position: {numbers(GRAPPLE)}), '
-        f"stiffness: {numbers(ARM_STIFFNESS)}, damping: {numbers(ARM_DAMPING)}),"
-    )
-    return scene("berthing", about, objects, BERTHED, 50, springs=[spring], models=("bay", "payload", "arm"))
+    hold = spring(on("arm"), on("payload", GRAPPLE), ARM_STIFFNESS, ARM_DAMPING)
+    return scene("berthing", about, ("bay", "payload", "arm"), objects, PAIRS, BERTHED, 50, springs=[hold])
 
 
 def open_claw(name):
@@ -204,7 +145,7 @@ def wedge():
         *bay(open_claw, lambda side: keel_jaw_rows(side, (0.0, 1.0))[:1]),
         *payload((WEDGE_OFFSET, 0.0, touch), UPRIGHT),
     ]
-    return scene("wedge", about, objects, WEDGE_END, 50, loads=[f'(body: "payload", table: [{steps}]),'])
+    return scene("wedge", about, ("bay", "payload"), objects, PAIRS, WEDGE_END, 50, loads=[f'(body: "payload", table: [{steps}]),'])
 
 
 def loads():
@@ -227,4 +168,5 @@ def loads():
         lines.append(f'(body: "payload", point: {numbers(place)}, table: [{steps}]),')
     objects = [*bay(lambda name: claw(name, None), lambda side: keel_jaw_rows(side, None))]
     objects += payload((0.0, 0.0, -CLAW_BITE / 2), UPRIGHT)
-    return scene("loads", about, objects, 1.0 + 3 * (2 * LOAD_RAMP + LOAD_HOLD + 1.0), 20, loads=lines)
+    duration = 1.0 + 3 * (2 * LOAD_RAMP + LOAD_HOLD + 1.0)
+    return scene("loads", about, ("bay", "payload"), objects, PAIRS, duration, 20, loads=lines)
