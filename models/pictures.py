@@ -27,12 +27,22 @@ def main(folder, scene, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as log:
         subprocess.run([given.pong, "run", "--quiet", "--log", log, str(folder / scene)], check=True)
-        _show(log, at_s, size, arrow_m, alpha)
-        _look(eye, target, lens_mm)
-        _shoot(given.output.resolve())
-    print(f"{given.output}: {given.output.stat().st_size / 1e3:.0f} kB")
+        take(log, given.output, at_s, eye, target, lens_mm, size, arrow_m, alpha)
+    leave()
+
+
+def take(log, output, at_s, eye, target, lens_mm=50.0, size=(800, 450), arrow_m=0.3, alpha=0.9):
+    """The same of a response log that is there."""
+    _show(log, at_s, size, arrow_m, alpha)
+    _look(eye, target, lens_mm)
+    _shoot(output.resolve())
+    print(f"{output}: {output.stat().st_size / 1e3:.0f} kB")
+
+
+def leave():
+    """Blender as a module may crash or hang in its own exit."""
     sys.stdout.flush()
-    os._exit(0)  # Blender as a module may crash or hang in its own exit
+    os._exit(0)
 
 
 def _show(log, at_s, size, arrow_m, alpha):
