@@ -39,7 +39,10 @@ def sizes_for(extent: float, travel: float) -> Sizes:
 
 def load(path: Path) -> Model:
     """A model file, its mesh files put in their places."""
-    model = read_file(path)
+    try:
+        model = read_file(path)
+    except OSError as reason:
+        raise OSError(f"{path}: the model cannot be read ({reason.strerror}); copy the whole folder of the log") from None
     _fill_meshes(model.root, path.parent)
     return model
 

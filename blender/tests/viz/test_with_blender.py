@@ -134,9 +134,9 @@ class Odd(WithScene):
     def test_a_planet_is_told_from_its_middle(self):
         """The ground's shapes and its origin are 4.2e6 m apart: on the screen its floor is under the ball all the same."""
         ground = self.log_folder / "models/ground/ground.ron"
-        ground.write_text(ground.read_text().replace("offset: 0.0", "offset: 4.2e6"))
+        ground.write_text(ground.read_text().replace("offset: 0.0", "offset: 4200000.3"))
         states = np.load(self.log_folder / "states.npy")
-        states["position"][:, 1, 2] -= 4.2e6
+        states["position"][:, 1, 2] -= 4200000.3
         np.save(self.log_folder / "states.npy", states)
         self.shown()
         floor = bpy.data.objects["ground/floor"].evaluated_get(self.at(30))

@@ -240,6 +240,10 @@ class Shapes(WithLog):
         self.assertAlmostEqual(shapes.extent_of(ball), 0.2)
         self.assertEqual(shapes.extent_of(ground), 0.0)
 
+    def test_a_model_that_is_missing_is_told(self):
+        with self.assertRaisesRegex(OSError, "none.ron: the model cannot be read .*; copy the whole folder of the log"):
+            shapes.load(self.folder / "none.ron")
+
     def test_balls_and_arrows_are_closed_and_face_outwards(self):
         for vertices, faces in (shapes.ball(12, 6), marks.arrow()):
             edges = [(f[i], f[(i + 1) % len(f)]) for f in faces for i in range(len(f))]
