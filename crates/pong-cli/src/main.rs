@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod decompose;
 mod import;
 mod log;
 mod replay;
@@ -27,6 +28,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Check(check::Arguments),
+    Decompose(decompose::Arguments),
     Import(import::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
@@ -38,6 +40,7 @@ enum Command {
 fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Check(arguments) => check::main(&arguments),
+        Command::Decompose(arguments) => decompose::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),

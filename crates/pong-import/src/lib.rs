@@ -2,12 +2,14 @@
 //!
 //! The way of a file: `source` (any format to a tree of nodes with geometry), `marks` (what `extras.pong` says),
 //! `mesh` (cleaning, parts, planar faces, convexity), `build` (nodes to a model), `write` (a model to text),
-//! `files` (read back by the engine's loader, then put in place). The commands are described in `docs/importing.md`.
+//! `files` (read back by the engine's loader, then put in place). `decompose` makes convex pieces of what was read.
+//! The commands are described in `docs/importing.md`.
 
 #![forbid(unsafe_code)]
 
 mod affine;
 mod build;
+mod decompose;
 mod files;
 mod findings;
 mod import;
@@ -20,6 +22,7 @@ mod source;
 mod write;
 
 pub use affine::Up;
+pub use decompose::{DecomposeOptions, Decomposed, Deviation, Distances, Method, Report, decompose};
 pub use findings::{Finding, Findings};
 pub use import::{Imported, Options, import};
 pub use laws::DefaultSurface;

@@ -5,7 +5,7 @@ mod frames;
 mod kinds;
 mod marked;
 mod mesh_files;
-mod meshes;
+pub(crate) mod meshes;
 mod names;
 
 use crate::findings::Findings;
@@ -111,7 +111,7 @@ fn settle(model: &mut Model, settings: Settings, building: &Building<'_>, findin
 }
 
 /// Gives the root a surface if something below has none.
-fn default_surface(model: &mut Model, building: &Building<'_>, findings: &mut Findings) {
+pub(crate) fn default_surface(model: &mut Model, building: &Building<'_>, findings: &mut Findings) {
     if !lacks_surface(&model.root) {
         if let (Some(surface), true) = (&building.surface, findings.faults.is_empty()) {
             let cause =

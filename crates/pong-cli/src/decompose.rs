@@ -1,0 +1,146 @@
+//! `pong decompose`: a closed mesh becomes convex pieces.
+
+use crate::import::{Axis, Surface, length_m, spinner};
+use crate::text::{count, number, print, table};
+use pong_import::{DecomposeOptions, Decomposed, Method, Report, Up};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf), OBJ or STL.
+///
+/// Walls between the pieces are marked inactive. Prints how far the pieces protrude from the mesh and what of it they
+/// leave uncovered. docs/importing.md tells what the figures mean and when to model by hand instead.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The mesh file.
+    #[arg(value_name = "MESH")]
+    input: PathBuf,
+    /// The model file to write.
+    #[arg(short, long, value_name = "MODEL.ron")]
+    output: PathBuf,
+    /// Refuses a result that protrudes, or leaves uncovered, more than this: 0.5mm.
+    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
+    within: Option<f64>,
+    /// Most pieces.
+    #[arg(long, value_name = "PIECES", default_value_t = 64, value_parser = at_least_one)]
+    pieces_max: usize,
+    /// By how much pieces may exceed what they hold, as a share of the whole hull's volume [default: 0.005]; with
+    /// CoACD its threshold [default: 0.05].
+    #[arg(long, value_name = "SHARE")]
+    concavity: Option<f64>,
+    /// Voxels along the longest side [default: 100]; with CoACD samples on the surface [default: 2000].
+    #[arg(long, value_name = "COUNT")]
+    resolution: Option<u32>,
+    /// What finds the cuts: VHACD is built in, CoACD is a Python package.
+    #[arg(long, value_enum, default_value = "vhacd")]
+    method: Finder,
+    /// The Python interpreter that has CoACD.
+    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
+    python: String,
+    /// Places measured on each surface, and in the volume.
+    #[arg(long, value_name = "COUNT", default_value_t = 30_000, value_parser = at_least_one)]
+    samples: usize,
+    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    up: Option<Axis>,
+    /// Length of one unit of the file: 0.001, 1mm, 1in.
+    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
+    unit: f64,
+    /// Name of the model; that of the file unless given.
+    #[arg(long)]
+    name: Option<String>,
+    /// glTF: the scene to read.
+    #[arg(long)]
+    scene: Option<String>,
+    #[command(flatten)]
+    surface: Surface,
+    /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
+    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
+    weld: Option<f64>,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Finder {
+    Vhacd,
+    Coacd,
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(0) | Err(_) => Err("it must be a whole number above zero".to_owned()),
+        Ok(number) => Ok(number),
+    }
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    let options = DecomposeOptions {
+        up: arguments.up.map(Up::from),
+        unit_m: arguments.unit,
+        scene: arguments.scene.clone(),
+        name: arguments.name.clone(),
+        surface: arguments.surface.chosen(),
+        weld_m: arguments.weld,
+        method: match arguments.method {
+            Finder::Vhacd => Method::Vhacd,
+            Finder::Coacd => Method::Coacd(arguments.python.clone()),
+        },
+        resolution: arguments.resolution,
+        concavity: arguments.concavity,
+        pieces_max: arguments.pieces_max,
+        within_m: arguments.within,
+        samples: arguments.samples,
+    };
+    let bar = spinner();
+    let done = pong_import::decompose(&arguments.input, &arguments.output, &options, &mut |what| {
+        bar.set_message(what.to_owned())
+    });
+    bar.finish_and_clear();
+    let Decomposed { report, files, findings } = done;
+    if let Some(report) = &report {
+        print(&summary(report));
+    }
+    if findings.faults.is_empty() {
+        findings.notes.iter().for_each(|note| eprintln!("note: {note}"));
+        files.iter().for_each(|file| print(&format!("written: {}\n", file.display())));
+        ExitCode::SUCCESS
+    } else {
+        eprintln!("{findings}");
+        eprintln!("{}; nothing was written", count(findings.faults.len(), "fault", "faults"));
+        ExitCode::FAILURE
+    }
+}
+
+fn summary(report: &Report) -> String {
+    let deviation = &report.deviation;
+    let exactly = if report.exact { ", exact: the source is convex" } else { "" };
+    let counts = format!(
+        "{} and {} read: {}{exactly}\n{}, {} of them inactive\n",
+        count(report.vertices, "vertex", "vertices"),
+        count(report.triangles, "triangle", "triangles"),
+        count(report.pieces, "piece", "pieces"),
+        count(report.faces, "face", "faces"),
+        report.inactive_faces,
+    );
+    let percent = |share: f64| format!("{} %", number(100.0 * share));
+    let volume = format!(
+        "volume: {} m³, {} of the source's {} m³\n",
+        number(report.volume_m3),
+        percent(report.volume_m3 / report.source_volume_m3),
+        number(report.source_volume_m3)
+    );
+    let row = |name: &str, side: &pong_import::Distances, inner_m: f64, share: f64| {
+        vec![
+            name.to_owned(),
+            number(side.max_m.max(inner_m)),
+            number(side.bound_m.max(inner_m)),
+            number(side.mean_m),
+            percent(side.area_share),
+            percent(share),
+        ]
+    };
+    let rows = [
+        row("protrusion", &deviation.protrusion, 0.0, deviation.protruding_share),
+        row("deficit", &deviation.deficit, deviation.inner_deficit_m, deviation.deficit_share),
+    ];
+    counts + &volume + &table(&["", "max m", "at most m", "mean m", "of area", "of volume"], &rows)
+}

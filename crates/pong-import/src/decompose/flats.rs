@@ -1,0 +1,87 @@
+//! Cuts along flat faces of the mesh: what is built of boxes and prisms falls apart exactly there.
+//!
+//! VHACD judges a cut by what it gains at once. Of a frame or a cup no single cut gains anything, so its first ones are
+//! arbitrary; a cut along a flat face that ends in the material is right even if the gain comes with the next one.
+
+use super::cells::Features;
+use super::content::{Cell, content};
+use super::inside::Solid;
+use super::piece::hull;
+use crate::mesh::{Mesh, bounds};
+
+/// Most planes tried in a cell, those of the largest faces.
+const TRIED: usize = 12;
+/// Most cells.
+const CELLS_MAX: usize = 256;
+
+/// A cell, and the volume by which the hull of its content exceeds it.
+#[derive(Clone, Copy)]
+pub(super) struct Judged {
+    pub(super) cell: Cell,
+    excess_m3: f64,
+}
+
+/// A solid with the planes to cut it by.
+pub(super) struct Cutting<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) solid: &'a Solid,
+    pub(super) features: &'a Features,
+    /// An excess up to this is none, m³.
+    pub(super) allowed_m3: f64,
+}
+
+impl Cutting<'_> {
+    /// Cells whose walls are planes of flat faces, until what they hold is convex or has no such plane left.
+    pub(super) fn cells(&self) -> Vec<Judged> {
+        let (low, high) = bounds(&self.mesh.vertices);
+        let mut open = vec![self.judged(Cell { low, high })];
+        let mut done = Vec::new();
+        while let Some(next) = open.pop() {
+            let room = open.len() + done.len() + 2 <= CELLS_MAX;
+            match self.best_halves(&next).filter(|_| room && !self.is_convex(&next)) {
+                Some([lower, upper]) => open.extend([upper, lower]),
+                None => done.push(next),
+            }
+        }
+        done
+    }
+
+    /// Whether what it holds fills its hull.
+    pub(super) fn is_convex(&self, cell: &Judged) -> bool {
+        cell.excess_m3 <= self.allowed_m3
+    }
+
+    fn judged(&self, cell: Cell) -> Judged {
+        let content = content(self.mesh, self.solid, &cell);
+        let hull_m3 = hull(&content.points).map_or(content.volume_m3, |piece| piece.volume_m3);
+        Judged { cell, excess_m3: hull_m3 - content.volume_m3 }
+    }
+
+    /// The halves of least excess; ties go to the largest flat face.
+    fn best_halves(&self, judged: &Judged) -> Option<[Judged; 2]> {
+        if self.is_convex(judged) {
+            return None;
+        }
+        let Cell { low, high } = judged.cell;
+        let mut planes: Vec<(f64, usize, f64)> = Vec::new();
+        for axis in 0..3 {
+            let margin = 1e-6 * (high[axis] - low[axis]);
+            let inside = |at: f64| at > low[axis] + margin && at < high[axis] - margin;
+            let flat = self.features.0[axis].iter().filter(|(at, area)| *area > 0.0 && inside(*at));
+            planes.extend(flat.map(|&(at, area)| (area, axis, at)));
+        }
+        planes.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+        let mut best: Option<(f64, [Judged; 2])> = None;
+        for (_, axis, at) in planes.into_iter().take(TRIED) {
+            let halves = judged.cell.cut(axis, at).map(|half| self.judged(half));
+            let excess = halves[0].excess_m3 + halves[1].excess_m3;
+            if best
+                .as_ref()
+                .is_none_or(|(least, _)| excess < *least - 1e-9 * self.allowed_m3.max(judged.excess_m3))
+            {
+                best = Some((excess, halves));
+            }
+        }
+        best.map(|(_, halves)| halves)
+    }
+}

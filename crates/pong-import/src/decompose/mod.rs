@@ -1,0 +1,450 @@
+//! From a closed mesh to a group of convex polyhedra, with figures of what that costs.
+//!
+//! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them) or `coacd`,
+//! `piece` (hulls), `join`, `walls` with `regions` and `seams` (inner walls), `measure` (how far off it is).
+
+mod by_vhacd;
+mod cells;
+mod coacd;
+mod content;
+mod flats;
+mod inside;
+mod join;
+mod measure;
+mod piece;
+mod polygon;
+mod regions;
+mod seams;
+mod solids;
+mod sound;
+mod walls;
+
+pub use measure::{Deviation, Distances};
+
+use crate::affine::Up;
+use crate::build::{self, Building};
+use crate::files;
+use crate::findings::{Finding, Findings};
+use crate::laws::DefaultSurface;
+use crate::mesh::{self, Mesh};
+use crate::model::{Field, Group, Model, Primitive, field};
+use crate::source::{self, Reading};
+use crate::write;
+use inside::Solid;
+use nalgebra::Vector3;
+use piece::{NoHull, Piece, hull};
+use pong_geometry::extension::Extensions;
+use seams::Pool;
+use solids::SolidMesh;
+use std::path::{Path, PathBuf};
+
+/// Pieces this close to each other (in sizes of the whole) are neighbours; overlaps below it count as none.
+const NEAR_SHARE: f64 = 1e-7;
+/// CoACD's vertices within this share of the size are one.
+const SETTLED_SHARE: f64 = 3e-4;
+
+/// Which program finds the cuts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// VHACD of the parry3d crate, built in.
+    Vhacd,
+    /// The Python package CoACD, run by this interpreter.
+    Coacd(String),
+}
+
+/// How a mesh is to be decomposed.
+#[derive(Clone, Debug)]
+pub struct DecomposeOptions {
+    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL.
+    pub up: Option<Up>,
+    /// Metres in one unit of the file.
+    pub unit_m: f64,
+    /// glTF: name of the scene; `None` for the default one.
+    pub scene: Option<String>,
+    /// Name of the model; `None` for the file's own.
+    pub name: Option<String>,
+    /// Surface of the pieces; `None` puts a placeholder there.
+    pub surface: Option<DefaultSurface>,
+    /// Vertices within this distance of each other are one, m; `None` for bit-equal ones only.
+    pub weld_m: Option<f64>,
+    /// What finds the cuts.
+    pub method: Method,
+    /// VHACD: voxels along the longest side. CoACD: samples on the surface. `None` for 100 and 2000.
+    pub resolution: Option<u32>,
+    /// VHACD: share of the whole hull's volume by which a piece may exceed what it holds. CoACD: its threshold.
+    /// `None` for 0.005 and 0.05.
+    pub concavity: Option<f64>,
+    /// Most pieces.
+    pub pieces_max: usize,
+    /// Largest protrusion and deficit that are accepted, m.
+    pub within_m: Option<f64>,
+    /// Places measured on each surface and in the volume.
+    pub samples: usize,
+}
+
+impl Default for DecomposeOptions {
+    fn default() -> Self {
+        Self {
+            up: None,
+            unit_m: 1.0,
+            scene: None,
+            name: None,
+            surface: None,
+            weld_m: None,
+            method: Method::Vhacd,
+            resolution: None,
+            concavity: None,
+            pieces_max: 64,
+            within_m: None,
+            samples: 30_000,
+        }
+    }
+}
+
+/// The figures of a decomposition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Distinct vertices read.
+    pub vertices: usize,
+    /// Triangles read.
+    pub triangles: usize,
+    /// Convex pieces.
+    pub pieces: usize,
+    /// Whether every connected part was convex and became one piece.
+    pub exact: bool,
+    /// Faces of all pieces.
+    pub faces: usize,
+    /// Inner walls among them.
+    pub inactive_faces: usize,
+    /// Sum of the pieces' volumes, m³.
+    pub volume_m3: f64,
+    /// Volume of the source, m³.
+    pub source_volume_m3: f64,
+    /// Length of the source's diagonal, m.
+    pub size_m: f64,
+    /// How far pieces and source lie apart.
+    pub deviation: Deviation,
+}
+
+/// What came of a decomposition.
+#[derive(Clone, Debug)]
+pub struct Decomposed {
+    /// The figures, if it came as far as that.
+    pub report: Option<Report>,
+    /// The model file; nothing if there are faults.
+    pub files: Vec<PathBuf>,
+    /// Faults and notes; the loader's warnings are among them.
+    pub findings: Findings,
+}
+
+/// Decomposes a mesh file into convex pieces and writes them as a model to `output`.
+///
+/// `progress` is called with what is being done. The model is read back by the engine's loader before it is put in
+/// its place; after a fault nothing is written. Bad input, a decomposer that gives up and a protrusion or deficit
+/// above `within_m` are faults.
+pub fn decompose(
+    input: &Path,
+    output: &Path,
+    options: &DecomposeOptions,
+    progress: &mut dyn FnMut(&str),
+) -> Decomposed {
+    let mut findings = Findings::default();
+    let mut report = None;
+    let files = attempt(input, output, options, progress, &mut report, &mut findings).unwrap_or_default();
+    Decomposed { report, files, findings }
+}
+
+fn attempt(
+    input: &Path,
+    output: &Path,
+    options: &DecomposeOptions,
+    progress: &mut dyn FnMut(&str),
+    report: &mut Option<Report>,
+    findings: &mut Findings,
+) -> Option<Vec<PathBuf>> {
+    let file = input.display().to_string();
+    check_options(options, &file, findings)?;
+    progress("reading");
+    let reading = Reading { up: options.up, unit_m: options.unit_m, scene: options.scene.clone() };
+    let source = source::read(input, &reading, findings)?;
+    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let building = Building {
+        file,
+        name: options.name.clone().unwrap_or(stem),
+        root: None,
+        weld_m: options.weld_m,
+        unit_m: options.unit_m,
+        surface: options.surface.clone(),
+        faces_max: usize::MAX,
+        inline_max: usize::MAX,
+        progress,
+    };
+    let shape = solids::flatten(source, &building, findings);
+    let (vertices, triangles) = (shape.vertices.len(), shape.triangles.len());
+    let solids = solids::solids(shape, &building, findings)?;
+    let whole = whole(&solids);
+    let (pieces, exact) = pieces(&solids, options, &building.file, building.progress, findings)?;
+    (building.progress)("measuring");
+    let solid = Solid::new(&whole)?;
+    let deviation = measure::deviation(&whole, &solid, &pieces, options.samples)?;
+    let figures = Report {
+        vertices,
+        triangles,
+        pieces: pieces.len(),
+        exact,
+        faces: pieces.iter().map(|piece| piece.faces.len()).sum(),
+        inactive_faces: pieces.iter().flat_map(|piece| &piece.inactive).filter(|inactive| **inactive).count(),
+        volume_m3: pieces.iter().map(|piece| piece.volume_m3).sum(),
+        source_volume_m3: mesh::volume_m3(&whole),
+        size_m: whole.size_m(),
+        deviation,
+    };
+    *report = Some(figures.clone());
+    within(&figures, options, &building.file, findings)?;
+    (building.progress)("writing");
+    let mut model = model(pieces, &building, &figures);
+    build::default_surface(&mut model, &building, findings);
+    files::write_checked(output, write::text(&model), Vec::new(), findings)
+}
+
+fn check_options(options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
+    let mut refuse = |bad: bool, what: String, cure: &str| {
+        if bad {
+            findings.fault(file, "option", what, cure);
+        }
+    };
+    let above_zero = |x: f64| x > 0.0 && x.is_finite();
+    refuse(!above_zero(options.unit_m), format!("a unit of {} m", options.unit_m), "give metres above zero");
+    if let Some(concavity) = options.concavity {
+        refuse(!(0.0..=1.0).contains(&concavity), format!("a concavity of {concavity}"), "give 0 to 1");
+    }
+    if let (Some(voxels), Method::Vhacd) = (options.resolution, &options.method) {
+        refuse(!(8..=1000).contains(&voxels), format!("a resolution of {voxels} voxels"), "give 8 to 1000");
+    }
+    if let (Some(concavity), Method::Coacd(_)) = (options.concavity, &options.method) {
+        refuse(concavity < 0.01, format!("a CoACD threshold of {concavity}"), "give 0.01 to 1");
+    }
+    refuse(options.pieces_max == 0, "no pieces at all".to_owned(), "allow one piece or more");
+    refuse(options.samples == 0, "no samples at all".to_owned(), "allow some thousands");
+    if let Some(within_m) = options.within_m {
+        refuse(!above_zero(within_m), format!("a limit of {within_m} m"), "give metres above zero");
+    }
+    findings.faults.is_empty().then_some(())
+}
+
+fn whole(solids: &[SolidMesh]) -> Mesh {
+    let mut whole = Mesh::default();
+    for SolidMesh { mesh, .. } in solids {
+        let first = whole.vertices.len() as u32;
+        whole.vertices.extend(&mesh.vertices);
+        whole.triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
+        whole.look_of.extend(&mesh.look_of);
+    }
+    whole
+}
+
+/// The pieces of all solids with their inner walls, and whether all solids were convex.
+fn pieces(
+    solids: &[SolidMesh],
+    options: &DecomposeOptions,
+    file: &str,
+    progress: &mut dyn FnMut(&str),
+    findings: &mut Findings,
+) -> Option<(Vec<Piece>, bool)> {
+    let size_m = whole(solids).size_m();
+    let mut pool = Pool::new(size_m);
+    let mut all = Vec::new();
+    let mut exact = true;
+    let share = (options.pieces_max / solids.len()).max(1);
+    for (number, solid) in solids.iter().enumerate() {
+        let convex = if solid.hollow { None } else { mesh::polyhedron(&solid.mesh, usize::MAX).ok() };
+        if let Some(polyhedron) = convex {
+            all.push(pool.canonical(Piece::new(polyhedron)));
+            continue;
+        }
+        exact = false;
+        progress(&format!("cutting solid {} of {}", number + 1, solids.len()));
+        solid.mesh.vertices.iter().for_each(|place| _ = pool.place(*place));
+        let near_m = NEAR_SHARE * size_m;
+        let (parts, forced) = match &options.method {
+            Method::Vhacd => by_vhacd::pieces(solid, options, share, near_m, &mut pool, file, findings)?,
+            Method::Coacd(python) => {
+                let calling = coacd::Calling {
+                    python,
+                    threshold: options.concavity.unwrap_or(0.05),
+                    pieces_max: share,
+                    resolution: options.resolution.unwrap_or(2000),
+                };
+                let hulls = coacd::hulls(&solid.mesh, &calling, file, findings)?;
+                let hulls = settled(hulls, &solid.mesh, size_m);
+                let (mut parts, flat) = findings.ok(hulls_of(hulls, &mut pool, file))?;
+                tell_flat(flat, file, findings);
+                let forced = join::join(&mut parts, share, near_m);
+                (parts, forced)
+            }
+        };
+        if forced > 0 {
+            let cause = format!("pieces were joined {forced} times to keep to {} pieces", options.pieces_max);
+            findings.note(file, "joined", cause, "--pieces-max allows more");
+        }
+        all.extend(parts);
+    }
+    if all.len() > options.pieces_max {
+        let cause = format!("{} pieces: fewer would have to overlap", all.len());
+        findings.note(file, "many-pieces", cause, "a larger --concavity gives fewer");
+    }
+    tell_changes(sound::make(&mut all, size_m, &is_accepted), file, findings);
+    progress("finding inner walls");
+    let walls = walls::mark(&mut all, options.pieces_max, size_m, &is_accepted);
+    tell_walls(&walls, &all, size_m, file, findings);
+    Some((all, exact))
+}
+
+/// CoACD moves vertices by about 1e-4 of the size: back to those of the mesh, and neighbours to common places.
+fn settled(hulls: Vec<Vec<Vector3<f64>>>, mesh: &Mesh, size_m: f64) -> Vec<Vec<Vector3<f64>>> {
+    let mut pool = Pool::within(SETTLED_SHARE * size_m);
+    mesh.vertices.iter().for_each(|place| pool.add(*place));
+    hulls.into_iter().map(|hull| hull.into_iter().map(|place| pool.place(place)).collect()).collect()
+}
+
+/// The hulls of sets of points, and how many sets have no thickness.
+fn hulls_of(
+    found: Vec<Vec<Vector3<f64>>>,
+    pool: &mut Pool,
+    file: &str,
+) -> Result<(Vec<Piece>, usize), Finding> {
+    let (mut parts, mut flat) = (Vec::new(), 0);
+    let failed = |cause: String| Finding {
+        path: file.to_owned(),
+        rule: "decomposer-failed",
+        cause,
+        cure: "try another --resolution or --concavity, or keep a TriangleMesh".to_owned(),
+    };
+    for points in found {
+        let points: Vec<Vector3<f64>> = points.into_iter().map(|place| pool.place(place)).collect();
+        match hull(&points) {
+            Ok(piece) => parts.push(piece),
+            Err(NoHull::Flat) => flat += 1,
+            Err(NoHull::Failed) => {
+                let at = solids::named(&points[0]);
+                return Err(failed(format!(
+                    "no hull was found around the {} points of the piece at {at}",
+                    points.len()
+                )));
+            }
+        }
+    }
+    if parts.is_empty() { Err(failed("no piece has a thickness".to_owned())) } else { Ok((parts, flat)) }
+}
+
+fn tell_flat(flat: usize, file: &str, findings: &mut Findings) {
+    if flat > 0 {
+        let cause = format!("{flat} pieces without thickness were left out");
+        findings.note(file, "thin-piece", cause, "what that leaves uncovered is in the deficit");
+    }
+}
+
+fn tell_changes(changes: sound::Changes, file: &str, findings: &mut Findings) {
+    let sound::Changes { flat, welded, welded_m } = changes;
+    if flat > 0 {
+        let cause = format!("{flat} vertices that stand out by next to nothing were left out");
+        findings.note(file, "simplified", cause, "");
+    }
+    if welded > 0 {
+        let cause = format!("vertices of {welded} pieces within {welded_m:.1e} m of each other became one");
+        findings.note(file, "simplified", cause, "another --resolution may do without");
+    }
+}
+
+fn tell_walls(walls: &walls::Walls, pieces: &[Piece], size_m: f64, file: &str, findings: &mut Findings) {
+    if walls.part_covered > 0 {
+        let cause = format!("{} faces are covered in part and stay active as a whole", walls.part_covered);
+        let cure = "a seam may be felt there: --pieces-max allows more cuts, or author these pieces by hand";
+        findings.note(file, "part-covered", cause, cure);
+    }
+    let deep = |a: usize, b: usize| pieces[a].overlaps(&pieces[b], 1e-6 * size_m);
+    let overlaps = (0..pieces.len()).flat_map(|a| (a + 1..pieces.len()).map(move |b| (a, b)));
+    let overlaps: Vec<(usize, usize)> = overlaps.filter(|&(a, b)| deep(a, b)).collect();
+    if let Some((a, b)) = overlaps.first() {
+        let cause = format!("{} pairs of pieces overlap, the first piece_{a} and piece_{b}", overlaps.len());
+        findings.note(file, "overlap", cause, "what touches both there is pushed twice");
+    }
+}
+
+/// Refuses what is farther off than allowed.
+fn within(report: &Report, options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
+    let Some(limit_m) = options.within_m else { return Some(()) };
+    let Deviation { protrusion, deficit, inner_deficit_m, .. } = &report.deviation;
+    let at = |place: &[f64; 3]| solids::named(&Vector3::from(*place));
+    if protrusion.max_m > limit_m {
+        let cause = format!(
+            "the pieces protrude by {:.3e} m at {}, more than {limit_m} m",
+            protrusion.max_m,
+            at(&protrusion.at)
+        );
+        let cure = "lower --concavity, raise --resolution and --pieces-max, or author the pieces by hand";
+        findings.fault(file, "protrusion", cause, cure);
+    }
+    let missing_m = deficit.max_m.max(*inner_deficit_m);
+    if missing_m > limit_m {
+        let cause = format!(
+            "{missing_m:.3e} m of the source are uncovered near {}, more than {limit_m} m",
+            at(&deficit.at)
+        );
+        let cure =
+            "raise --resolution and --pieces-max, or use --method vhacd, which leaves next to nothing out";
+        findings.fault(file, "deficit", cause, cure);
+    }
+    let bound_m = protrusion.bound_m.max(deficit.bound_m);
+    if findings.faults.is_empty() && bound_m > limit_m {
+        let cause =
+            format!("nothing beyond {limit_m} m was found, but up to {bound_m:.3e} m cannot be ruled out");
+        findings.note(file, "not-ruled-out", cause, "--samples looks closer");
+    }
+    findings.faults.is_empty().then_some(())
+}
+
+fn model(pieces: Vec<Piece>, building: &Building<'_>, report: &Report) -> Model {
+    let mut root = Group { name: building.name.clone(), ..Group::default() };
+    for (number, piece) in pieces.into_iter().enumerate() {
+        root.primitives.push(primitive(format!("piece_{number}"), piece));
+    }
+    let Deviation { protrusion, deficit, inner_deficit_m, .. } = &report.deviation;
+    let comment = format!(
+        "Convex pieces of a mesh: they protrude by up to {:.2e} m and leave up to {:.2e} m uncovered.",
+        protrusion.max_m,
+        deficit.max_m.max(*inner_deficit_m)
+    );
+    Model {
+        comment: vec![comment],
+        name: building.name.clone(),
+        entry_memory: true,
+        root,
+        ..Model::default()
+    }
+}
+
+fn primitive(name: String, piece: Piece) -> Primitive {
+    let inactive: Vec<usize> = (0..piece.faces.len()).filter(|&face| piece.inactive[face]).collect();
+    let mut fields = Vec::new();
+    if !inactive.is_empty() {
+        fields.push(field("inactive_faces", Field::Indices(inactive)));
+    }
+    fields.push(field("vertices", Field::Vertices(piece.vertices)));
+    fields.push(field("faces", Field::Faces(piece.faces)));
+    Primitive { kind: "Polyhedron", name, surface: None, fields }
+}
+
+/// Whether the engine's loader takes a piece as it is.
+fn is_accepted(piece: &Piece) -> bool {
+    let surface = DefaultSurface { name: "any".to_owned(), stiffness: 1.0, damping: 0.0, mu: 0.0 };
+    let root = Group {
+        name: "piece".to_owned(),
+        surface: Some(surface.name.clone()),
+        primitives: vec![primitive("piece".to_owned(), piece.clone())],
+        ..Group::default()
+    };
+    let surfaces = vec![(surface.name.clone(), surface.record())];
+    let model = Model { name: "piece".to_owned(), entry_memory: true, surfaces, root, ..Model::default() };
+    pong_model::parse(&write::text(&model), "piece", None, &Extensions::new()).is_ok()
+}

@@ -1,0 +1,258 @@
+//! `pong decompose`: shapes with known pieces, figures with known values, bad input.
+
+mod common;
+
+use common::{blocks, cube, folder, obj, torus};
+use pong_geometry::Vec3;
+use pong_geometry::extension::Extensions;
+use pong_geometry::primitive::{Polyhedron, RimEdge};
+use pong_import::{DecomposeOptions, Decomposed, DefaultSurface, Method, Report};
+use pong_model::Model;
+use std::path::PathBuf;
+
+type Triangles = Vec<[[f64; 3]; 3]>;
+
+fn options() -> DecomposeOptions {
+    let surface = DefaultSurface { name: "steel".to_owned(), stiffness: 1e6, damping: 0.0, mu: 0.0 };
+    DecomposeOptions {
+        surface: Some(surface),
+        resolution: Some(40),
+        samples: 5000,
+        ..DecomposeOptions::default()
+    }
+}
+
+fn save(test: &str, triangles: &Triangles) -> PathBuf {
+    let path = folder(&format!("decompose_{test}")).join("shape.obj");
+    std::fs::write(&path, obj(triangles)).unwrap();
+    path
+}
+
+fn attempt(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> Decomposed {
+    let path = save(test, triangles);
+    pong_import::decompose(&path, &path.with_extension("ron"), options, &mut |_| ())
+}
+
+/// The figures and the model as the engine reads it.
+fn run(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> (Report, Model, Vec<&'static str>) {
+    let Decomposed { report, files, findings } = attempt(test, triangles, options);
+    assert!(findings.faults.is_empty(), "{findings}");
+    let model = pong_model::load(&files[0], &Extensions::new()).unwrap();
+    (report.unwrap(), model, findings.notes.iter().map(|note| note.rule).collect())
+}
+
+fn faults(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> Vec<&'static str> {
+    let done = attempt(test, triangles, options);
+    assert!(done.files.is_empty());
+    assert!(!save_path(test).exists(), "nothing is written");
+    done.findings.faults.iter().map(|fault| fault.rule).collect()
+}
+
+fn save_path(test: &str) -> PathBuf {
+    std::path::Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join("import")
+        .join(format!("decompose_{test}"))
+        .join("shape.ron")
+}
+
+fn ell() -> Triangles {
+    blocks(&[[0, 0, 0], [1, 0, 0], [0, 0, 1]], 1.0)
+}
+
+fn tee() -> Triangles {
+    blocks(&[[0, 0, 2], [1, 0, 2], [2, 0, 2], [3, 0, 2], [4, 0, 2], [2, 0, 0], [2, 0, 1]], 1.0)
+}
+
+fn cup() -> Triangles {
+    let is_wall = |x: i32, y: i32, z: i32| z == 0 || [0, 4].contains(&x) || [0, 4].contains(&y);
+    let all = (0..100).map(|k| [k % 5, k / 5 % 5, k / 25]);
+    blocks(&all.filter(|&[x, y, z]| is_wall(x, y, z)).collect::<Vec<_>>(), 0.1)
+}
+
+fn assert_close(a: f64, b: f64, share: f64) {
+    assert!((a - b).abs() <= share * b.abs(), "{a} is not {b}");
+}
+
+fn assert_exact(report: &Report, volume_m3: f64) {
+    assert_close(report.volume_m3, volume_m3, 1e-12);
+    assert_close(report.source_volume_m3, volume_m3, 1e-12);
+    let pong_import::Deviation {
+        protrusion, deficit, inner_deficit_m, deficit_share, protruding_share, ..
+    } = report.deviation;
+    assert_eq!((protrusion.max_m, deficit.max_m, inner_deficit_m), (0.0, 0.0, 0.0));
+    assert_eq!((deficit_share, protruding_share), (0.0, 0.0));
+}
+
+fn inactive(model: &Model) -> usize {
+    let faces = model.bodies[0].polyhedra.iter().flat_map(|polyhedron| &polyhedron.faces);
+    faces.filter(|face| !face.active).count()
+}
+
+#[test]
+fn a_cube_is_one_exact_piece() {
+    let (report, model, notes) = run("cube", &cube(), &options());
+    assert!(report.exact && notes.is_empty(), "{notes:?}");
+    assert_eq!((report.pieces, report.faces, report.inactive_faces), (1, 6, 0));
+    assert_exact(&report, 8.0);
+    assert_eq!(model.bodies[0].polyhedra.len(), 1);
+}
+
+#[test]
+fn an_l_is_two_pieces_with_one_wall_between() {
+    let (report, model, notes) = run("ell", &ell(), &options());
+    assert!(!report.exact && notes.is_empty(), "{notes:?}");
+    assert_eq!((report.pieces, report.inactive_faces), (2, 2));
+    assert_exact(&report, 3.0);
+    assert_eq!((model.bodies[0].polyhedra.len(), inactive(&model)), (2, 2));
+    assert_eq!(model.bodies[0].shell_count, 1, "both are one surface");
+}
+
+#[test]
+fn a_face_that_is_covered_in_part_is_split() {
+    // The bar's lower face is covered by the stem in its middle: open, covered, open.
+    let (report, model, notes) = run("tee", &tee(), &options());
+    assert!(notes.is_empty(), "{notes:?}");
+    assert_eq!((report.pieces, report.faces, report.inactive_faces), (2, 6 + 2 + 6, 2));
+    assert_exact(&report, 7.0);
+    assert_eq!((inactive(&model), model.bodies[0].shell_count), (2, 1));
+}
+
+#[test]
+fn a_knob_within_a_plate_leaves_a_ring_and_one_at_its_corner_cuts_it() {
+    let plate = |knob: [i32; 2]| {
+        let mut cubes: Vec<[i32; 3]> = (0..9).map(|k| [k % 3, k / 3, 0]).collect();
+        cubes.push([knob[0], knob[1], 1]);
+        blocks(&cubes, 1.0)
+    };
+    let (report, model, notes) = run("knob", &plate([1, 1]), &options());
+    assert_eq!((report.pieces, report.inactive_faces, notes.len()), (2, 2, 0), "{notes:?}");
+    assert_eq!(model.bodies[0].shell_count, 1);
+    assert_exact(&report, 10.0);
+    // An L of what is open would be one face with a dent: the plate is cut in two.
+    let (report, model, notes) = run("corner", &plate([2, 2]), &options());
+    assert_eq!((report.pieces, report.inactive_faces, notes.len()), (3, 4, 0), "{notes:?}");
+    assert_eq!(model.bodies[0].shell_count, 1);
+    assert_exact(&report, 10.0);
+    // Where no more pieces are allowed the plate's face stays active, and that is told.
+    let few = DecomposeOptions { pieces_max: 2, ..options() };
+    let (report, _, notes) = run("few", &plate([2, 2]), &few);
+    assert_eq!(report.pieces, 2);
+    assert!(notes.contains(&"part-covered"), "{notes:?}");
+}
+
+#[test]
+fn a_cup_and_a_hollow_box_keep_their_cavities() {
+    let (report, model, notes) = run("cup", &cup(), &options());
+    assert!(notes.is_empty(), "{notes:?}");
+    assert_exact(&report, 0.073);
+    assert_eq!(model.bodies[0].shell_count, 1);
+    let cubes: Vec<[i32; 3]> =
+        (0..27).map(|k| [k % 3, k / 3 % 3, k / 9]).filter(|cube| *cube != [1, 1, 1]).collect();
+    let (report, _, notes) = run("hollow", &blocks(&cubes, 1.0), &options());
+    assert_eq!((report.pieces, notes.len()), (6, 0), "{notes:?}");
+    assert_exact(&report, 26.0);
+}
+
+#[test]
+fn a_torus_protrudes_as_far_as_its_true_distance_says() {
+    let (radius, thickness) = (1.0, 0.3);
+    let (report, model, _) = run("torus", &torus(radius, thickness, 32, 16), &options());
+    let deviation = &report.deviation;
+    assert!(report.pieces > 5 && report.pieces <= 64);
+    assert_eq!((deviation.deficit.max_m, deviation.inner_deficit_m), (0.0, 0.0), "hulls hold all of it");
+    // Disjoint pieces: what their volumes exceed the source by is what protrudes.
+    let excess = report.volume_m3 / report.source_volume_m3 - 1.0;
+    assert!((deviation.protruding_share - excess).abs() < 0.01, "{excess} {deviation:?}");
+    // The distance from a torus in closed form; the mesh lies inside it by its sagitta at most.
+    let sagitta = (radius + thickness) * (1.0 - (std::f64::consts::PI / 32.0).cos())
+        + thickness * (1.0 - (std::f64::consts::PI / 16.0).cos());
+    let away = |place: Vec3| (place.x.hypot(place.y) - radius).hypot(place.z) - thickness;
+    let farthest = model.bodies[0].polyhedra.iter().flat_map(places_on_faces).map(away).fold(0.0, f64::max);
+    let found = &deviation.protrusion;
+    assert!(farthest <= found.bound_m && found.bound_m < 0.2, "{farthest} {found:?}");
+    assert!((farthest - found.max_m).abs() < sagitta, "{farthest} {found:?}");
+}
+
+/// Places spread over the active faces.
+fn places_on_faces(polyhedron: &Polyhedron) -> Vec<Vec3> {
+    let mut places = Vec::new();
+    for number in (0..polyhedron.faces.len()).filter(|&number| polyhedron.faces[number].active) {
+        let corner = |rim: &RimEdge| polyhedron.vertices[rim.start as usize].position;
+        let corners: Vec<Vec3> = polyhedron.rim(number).iter().map(corner).collect();
+        for pair in corners.windows(2).skip(1) {
+            for (i, j) in (0..=20).flat_map(|i| (0..=20 - i).map(move |j| (f64::from(i), f64::from(j)))) {
+                places.push(corners[0] + ((pair[0] - corners[0]) * i + (pair[1] - corners[0]) * j) / 20.0);
+            }
+        }
+    }
+    places
+}
+
+#[test]
+fn too_few_pieces_protrude_and_a_limit_refuses_them() {
+    let one = DecomposeOptions { pieces_max: 1, ..options() };
+    let (report, _, notes) = run("one", &ell(), &one);
+    assert_eq!(report.pieces, 1);
+    assert!(notes.contains(&"joined"), "{notes:?}");
+    assert_close(report.volume_m3, 3.5, 1e-12);
+    let found = &report.deviation.protrusion;
+    // The middle of the slope is ½ away from both inner walls.
+    assert!(found.max_m <= 0.5 && found.max_m > 0.499 && found.bound_m >= 0.5, "{found:?}");
+    assert!((report.deviation.protruding_share - 0.5 / 3.0).abs() < 0.01);
+    let limited = DecomposeOptions { within_m: Some(0.4), ..one.clone() };
+    assert_eq!(faults("limit", &ell(), &limited), ["protrusion"]);
+    let wide = DecomposeOptions { within_m: Some(0.6), ..one };
+    assert!(attempt("wide", &ell(), &wide).findings.faults.is_empty());
+}
+
+#[test]
+fn the_same_file_gives_the_same_bytes() {
+    let write = |test: &str| {
+        let done = attempt(test, &torus(1.0, 0.3, 24, 12), &options());
+        (std::fs::read(&done.files[0]).unwrap(), done.report)
+    };
+    assert_eq!(write("bytes"), write("bytes_again"));
+}
+
+#[test]
+fn parts_are_pieces_of_their_own() {
+    let apart = blocks(&[[0, 0, 0], [5, 0, 0]], 1.0);
+    let (report, model, notes) = run("parts", &apart, &options());
+    assert!(report.exact && notes.is_empty());
+    assert_eq!((report.pieces, report.inactive_faces, model.bodies[0].shell_count), (2, 0, 2));
+    assert_exact(&report, 2.0);
+}
+
+#[test]
+fn what_has_no_inside_is_refused() {
+    let mut open = cube();
+    open.pop();
+    assert_eq!(faults("open", &open, &options()), ["open-mesh"]);
+    let mut wound = cube();
+    wound[0].swap(1, 2);
+    assert_eq!(faults("wound", &wound, &options()), ["winding"]);
+    let turned: Triangles = cube().into_iter().map(|[a, b, c]| [a, c, b]).collect();
+    assert_eq!(faults("turned", &turned, &options()), ["inside-out"]);
+    let touching = blocks(&[[0, 0, 0], [1, 1, 0]], 1.0);
+    assert_eq!(faults("edge", &touching, &options()), ["non-manifold"]);
+    let both: Triangles = cube().into_iter().flat_map(|[a, b, c]| [[a, b, c], [a, c, b]]).collect();
+    assert_eq!(faults("both", &both, &options()), ["open-mesh"]);
+    let none = DecomposeOptions { pieces_max: 0, concavity: Some(2.0), ..options() };
+    assert_eq!(faults("options", &cube(), &none), ["option", "option"]);
+}
+
+#[test]
+fn what_passes_through_itself_is_told() {
+    let mut crossing = ell();
+    let moved = |[x, y, z]: [f64; 3]| [x * 0.5 + 0.713, y * 0.5 + 0.717, z * 0.5 + 0.719];
+    crossing.extend(cube().into_iter().map(|triangle| triangle.map(moved)));
+    let done = attempt("crossing", &crossing, &options());
+    assert!(done.findings.notes.iter().any(|note| note.rule == "self-intersecting"), "{}", done.findings);
+}
+
+#[test]
+fn a_missing_coacd_is_named_with_its_cure() {
+    let method = Method::Coacd("no-such-python-here".to_owned());
+    let coacd = DecomposeOptions { method, resolution: None, ..options() };
+    assert_eq!(faults("coacd", &ell(), &coacd), ["coacd-missing"]);
+}
