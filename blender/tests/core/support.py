@@ -42,6 +42,12 @@ def models():
     return [path for path in paths if '"pong-model"' in path.read_text()]
 
 
+def mesh_files(path):
+    """The mesh files that a model file names, as they stand beside it: name -> bytes."""
+    names = re.findall(r'\bfile: "([^"]*)"', path.read_text(encoding="utf-8"))
+    return {name: (path.parent / name).read_bytes() for name in names}
+
+
 def check(path):
     """What the engine says of a model file: its hash, or `None` and the text of its faults."""
     result = subprocess.run([PONG, "check", "--alone", str(path)], capture_output=True, text=True)

@@ -8,7 +8,7 @@ import re
 import tempfile
 import unittest
 
-from support import PONG, ROOT, check, models, np
+from support import PONG, ROOT, check, mesh_files, models, np
 from core import mesh_file
 from core.model import Group, Model, Primitive, Tagged
 from core.read import read_file, read_text
@@ -286,7 +286,7 @@ class TheEngine(unittest.TestCase):
         for path in models():
             with self.subTest(path.name), tempfile.TemporaryDirectory() as folder:
                 other = pathlib.Path(folder) / "m.ron"
-                write_files(other, read_file(path))
+                write_files(other, read_file(path), mesh_files(path))
                 hash_before, _ = check(path)
                 self.assertIsNotNone(hash_before)
                 self.assertEqual(check(other)[0], hash_before)

@@ -6,7 +6,7 @@ import random
 import tempfile
 import unittest
 
-from support import PONG, author, build, built, check_model, in_single_precision, models, np, scene
+from support import PONG, author, build, built, check, check_model, in_single_precision, models, np, scene
 from core import mesh_file
 from core.model import Group, Model, Primitive, Tagged
 from core.read import read_file
@@ -136,7 +136,7 @@ class Models(unittest.TestCase):
                 back = self.back(model, path.parent)
                 hash_back, text = check_model(back.model, back.files)
                 self.assertIsNotNone(hash_back, text)
-                self.assertEqual(hash_back, check_model(model)[0])
+                self.assertEqual(hash_back, check(path)[0])
 
 
 class AfterTheAuthorTouchesIt(unittest.TestCase):
