@@ -1,9 +1,8 @@
 //! `pong decompose`: a closed mesh becomes convex pieces.
 
-use crate::import::{Axis, Surface, length_m, spinner};
+use crate::import::{Mesh, length_m, spinner};
 use crate::text::{count, number, print, table};
 use pong_import::{DecomposeOptions, Decomposed, Method, Report, Up};
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf), OBJ or STL.
@@ -12,12 +11,8 @@ use std::process::ExitCode;
 /// leave uncovered. docs/importing.md tells what the figures mean and when to model by hand instead.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The mesh file.
-    #[arg(value_name = "MESH")]
-    input: PathBuf,
-    /// The model file to write.
-    #[arg(short, long, value_name = "MODEL.ron")]
-    output: PathBuf,
+    #[command(flatten)]
+    mesh: Mesh,
     /// Refuses a result that protrudes, or leaves uncovered, more than this: 0.5mm.
     #[arg(long, value_name = "LENGTH", value_parser = length_m)]
     within: Option<f64>,
@@ -40,23 +35,6 @@ pub(crate) struct Arguments {
     /// Places measured on each surface, and in the volume.
     #[arg(long, value_name = "COUNT", default_value_t = 30_000, value_parser = at_least_one)]
     samples: usize,
-    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
-    #[arg(long, value_enum, value_name = "AXIS")]
-    up: Option<Axis>,
-    /// Length of one unit of the file: 0.001, 1mm, 1in.
-    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
-    unit: f64,
-    /// Name of the model; that of the file unless given.
-    #[arg(long)]
-    name: Option<String>,
-    /// glTF: the scene to read.
-    #[arg(long)]
-    scene: Option<String>,
-    #[command(flatten)]
-    surface: Surface,
-    /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
-    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
-    weld: Option<f64>,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -74,12 +52,12 @@ fn at_least_one(text: &str) -> Result<usize, String> {
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let options = DecomposeOptions {
-        up: arguments.up.map(Up::from),
-        unit_m: arguments.unit,
-        scene: arguments.scene.clone(),
-        name: arguments.name.clone(),
-        surface: arguments.surface.chosen(),
-        weld_m: arguments.weld,
+        up: arguments.mesh.up.map(Up::from),
+        unit_m: arguments.mesh.unit,
+        scene: arguments.mesh.scene.clone(),
+        name: arguments.mesh.name.clone(),
+        surface: arguments.mesh.surface.chosen(),
+        weld_m: arguments.mesh.weld,
         method: match arguments.method {
             Finder::Vhacd => Method::Vhacd,
             Finder::Coacd => Method::Coacd(arguments.python.clone()),
@@ -91,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         samples: arguments.samples,
     };
     let bar = spinner();
-    let done = pong_import::decompose(&arguments.input, &arguments.output, &options, &mut |what| {
+    let done = pong_import::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
         bar.set_message(what.to_owned())
     });
     bar.finish_and_clear();

@@ -14,38 +14,45 @@ use std::time::Duration;
 /// docs/importing.md has the whole of it.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The mesh file.
-    #[arg(value_name = "MESH")]
-    input: PathBuf,
-    /// The model file to write.
-    #[arg(short, long, value_name = "MODEL.ron")]
-    output: PathBuf,
-    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
-    #[arg(long, value_enum, value_name = "AXIS")]
-    up: Option<Axis>,
-    /// Length of one unit of the file: 0.001, 1mm, 1in.
-    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
-    unit: f64,
-    /// Name of the model; that of the file unless given.
-    #[arg(long)]
-    name: Option<String>,
-    /// glTF: the scene to import.
-    #[arg(long)]
-    scene: Option<String>,
+    #[command(flatten)]
+    mesh: Mesh,
     /// glTF: the node to take where several are marked as roots.
     #[arg(long, value_name = "NODE")]
     root: Option<String>,
-    #[command(flatten)]
-    surface: Surface,
-    /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
-    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
-    weld: Option<f64>,
     /// Unmarked convex solids of more faces become surfaces of triangles.
     #[arg(long, value_name = "FACES", default_value_t = 1000)]
     faces_max: usize,
     /// Puts meshes of more than this many faces into OBJ files beside the model.
     #[arg(long, value_name = "FACES", num_args = 0..=1, default_missing_value = "1000")]
     mesh_files: Option<usize>,
+}
+
+/// The mesh file, the model file, and how the one becomes the other.
+#[derive(clap::Args)]
+pub(crate) struct Mesh {
+    /// The mesh file.
+    #[arg(value_name = "MESH")]
+    pub(crate) input: PathBuf,
+    /// The model file to write.
+    #[arg(short, long, value_name = "MODEL.ron")]
+    pub(crate) output: PathBuf,
+    /// Axis of the file that points up; y in glTF and z in OBJ and STL unless given.
+    #[arg(long, value_enum, value_name = "AXIS")]
+    pub(crate) up: Option<Axis>,
+    /// Length of one unit of the file: 0.001, 1mm, 1in.
+    #[arg(long, value_name = "LENGTH", default_value = "1m", value_parser = length_m)]
+    pub(crate) unit: f64,
+    /// Name of the model; that of the file unless given.
+    #[arg(long)]
+    pub(crate) name: Option<String>,
+    /// glTF: the scene to read.
+    #[arg(long)]
+    pub(crate) scene: Option<String>,
+    #[command(flatten)]
+    pub(crate) surface: Surface,
+    /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
+    #[arg(long, value_name = "LENGTH", value_parser = length_m)]
+    pub(crate) weld: Option<f64>,
 }
 
 /// The surface of whatever the file gives none.
@@ -130,18 +137,18 @@ fn not_negative(text: &str) -> Result<f64, String> {
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let options = Options {
-        up: arguments.up.map(Up::from),
-        unit_m: arguments.unit,
-        scene: arguments.scene.clone(),
+        up: arguments.mesh.up.map(Up::from),
+        unit_m: arguments.mesh.unit,
+        scene: arguments.mesh.scene.clone(),
         root: arguments.root.clone(),
-        name: arguments.name.clone(),
-        surface: arguments.surface.chosen(),
-        weld_m: arguments.weld,
+        name: arguments.mesh.name.clone(),
+        surface: arguments.mesh.surface.chosen(),
+        weld_m: arguments.mesh.weld,
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
     };
     let bar = spinner();
-    let result = pong_import::import(&arguments.input, &arguments.output, &options, &mut |what| {
+    let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
         bar.set_message(what.to_owned())
     });
     bar.finish_and_clear();

@@ -1,7 +1,9 @@
 //! `pong decompose` as a terminal user meets it.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+mod common;
+
+use common::pong;
+use std::path::PathBuf;
 
 /// An L of 3 m³: outlines at y = 0 and y = 1, and the sides between.
 const ELL: &str = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 1 0 1\nv 1 0 2\nv 0 0 2\n\
@@ -10,18 +12,7 @@ const ELL: &str = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 1 0 1\nv 1 0 2\nv 0 0 2\n\
                    f 1 7 8 2\nf 2 8 9 3\nf 3 9 10 4\nf 4 10 11 5\nf 5 11 12 6\nf 6 12 7 1\n";
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("decompose").join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("ell.obj"), ELL).unwrap();
-    folder
-}
-
-fn pong(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_pong")).args(arguments).current_dir(folder).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    common::folder(&format!("decompose/{test}"), "ell.obj", ELL)
 }
 
 #[test]

@@ -1,23 +1,14 @@
 //! `pong import` as a terminal user meets it.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
+mod common;
+
+use common::pong;
+use std::path::PathBuf;
 
 const TETRAHEDRON: &str = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("import").join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    std::fs::write(folder.join("part.obj"), TETRAHEDRON).unwrap();
-    folder
-}
-
-fn pong(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_pong")).args(arguments).current_dir(folder).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    common::folder(&format!("import/{test}"), "part.obj", TETRAHEDRON)
 }
 
 #[test]
