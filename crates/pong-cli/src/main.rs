@@ -4,6 +4,7 @@
 
 #![forbid(unsafe_code)]
 
+mod advise;
 mod check;
 mod decompose;
 mod import;
@@ -27,6 +28,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
+    Advise(advise::Arguments),
     Check(check::Arguments),
     Decompose(decompose::Arguments),
     Import(import::Arguments),
@@ -39,6 +41,7 @@ enum Command {
 
 fn main() -> ExitCode {
     match Cli::parse().command {
+        Command::Advise(arguments) => advise::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),

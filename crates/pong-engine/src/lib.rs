@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 mod contact;
 mod dispatch;
 mod error;
@@ -50,4 +51,4 @@ pub use report::{
 pub use scene::{Config, State, WorkerSettings};
 pub use sealed::{SealReport, SetupWarning};
 pub use state::StateError;
-pub use world::{StiffestContact, World};
+pub use world::World;

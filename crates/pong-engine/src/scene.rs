@@ -1,5 +1,6 @@
 //! Everything that set-up decides, and the states that the host sets.
 
+use crate::advice::{GroupMass, StepPlan};
 use crate::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
@@ -63,6 +64,10 @@ pub(crate) struct Scene {
     pub objects: Vec<Object>,
     pub bodies: Vec<BodyInstance>,
     pub pairs: Vec<ObjectPair>,
+    /// Of every movable group, where the host told it: for the step adviser alone.
+    pub masses: Vec<Option<GroupMass>>,
+    /// What the step adviser checks at the seal.
+    pub step_plan: Option<StepPlan>,
 }
 
 impl Scene {

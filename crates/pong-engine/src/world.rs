@@ -1,5 +1,6 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
+use crate::advice::{self, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
@@ -7,22 +8,11 @@ use crate::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes, WorkTimes};
 use crate::running::Running;
 use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
-use crate::sealed::{self, SealReport};
+use crate::sealed::{self, SealReport, SetupWarning};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_model::{Model, Surface};
 use std::sync::Arc;
-
-/// The stiffest single contact between two movable groups.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StiffestContact {
-    /// The two movable groups.
-    pub interfaces: [InterfaceId; 2],
-    /// Stiffness k of a whole contact, N/m.
-    pub stiffness: f64,
-    /// Its damping c, N·s/m; 0 for laws whose damping follows the load.
-    pub damping: f64,
-}
 
 /// A contact world: Objects, pairs and everything remembered between frames.
 ///
@@ -56,6 +46,8 @@ impl World {
             objects: Vec::new(),
             bodies: Vec::new(),
             pairs: Vec::new(),
+            masses: Vec::new(),
+            step_plan: None,
         };
         Self {
             stamp: WorldStamp::fresh(),
@@ -102,6 +94,7 @@ impl World {
         scene.objects.push(Object { name: name.to_owned(), model, first_body });
         let bodies = scene.models[model].bodies.len();
         scene.bodies.extend((0..bodies).map(|body| BodyInstance { object, body }));
+        scene.masses.resize(first_body + bodies, None);
         self.states.bodies.resize(first_body + bodies, None);
         Ok(ObjectId::new(self.stamp, object))
     }
@@ -165,11 +158,35 @@ impl World {
         Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
     }
 
+    /// Tells the mass properties of a movable group. They serve the step adviser alone ([`plan_step`](Self::plan_step),
+    /// [`step_report`](Self::step_report)); no frame reads them.
+    pub fn set_mass(&mut self, interface: InterfaceId, mass: &GroupMass) -> Result<(), EngineError> {
+        self.must_not_be_sealed("set a mass")?;
+        let index = self.interface_index(interface)?;
+        mass.check(&self.scene.body_name(index))?;
+        self.set_up("set a mass")?.masses[index] = Some(*mass);
+        Ok(())
+    }
+
+    /// Tells the host's step and how it uses the wrench: sealing then warns of contacts that the step is too long for.
+    pub fn plan_step(&mut self, plan: &StepPlan) -> Result<(), EngineError> {
+        self.must_not_be_sealed("plan the step")?;
+        plan.check()?;
+        self.set_up("plan the step")?.step_plan = Some(*plan);
+        Ok(())
+    }
+
     /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
     /// and takes it, and starts the workers. From here on frames take no memory and give none back.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.must_not_be_sealed("seal")?;
         let (sealed, tables, mut report) = sealed::seal(&self.scene, &self.surfaces)?;
+        if let Some(plan) = &self.scene.step_plan {
+            let (scene, masses) = (&*self.scene, &self.scene.masses);
+            let setting =
+                advice::Setting { scene, group_pairs: &sealed.group_pairs, tables: &tables, masses };
+            report.warnings.extend(advice::warnings(&setting.report(plan), plan));
+        }
         let running = Running::start(&self.scene, sealed, tables, self.clock)?;
         report.workers = running.worker_starts().to_vec();
         self.running = Some(running);
@@ -508,18 +525,26 @@ impl World {
         Ok(self.states.bodies[self.interface_index(interface)?].as_ref())
     }
 
-    /// The stiffest single contact that each pair of movable groups can have, as far as it does not depend on the
-    /// depth (Hertz contacts and registered laws do): what a step must be short enough for.
-    pub fn stiffest_contacts(&self) -> Result<Vec<StiffestContact>, EngineError> {
-        let running = self.running("ask for the stiffest contacts")?;
-        let of_pair = |pair: &sealed::GroupPair| {
-            let tables = pair.tables.iter().map(|&table| &running.tables[table]);
-            let stiffest =
-                tables.filter_map(sealed::SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))?;
-            let interfaces = [pair.first, pair.second].map(|body| InterfaceId::new(self.stamp, body));
-            Some(StiffestContact { interfaces, stiffness: stiffest.0, damping: stiffest.1 })
-        };
-        Ok(running.sealed.group_pairs.iter().filter_map(of_pair).collect())
+    /// What a step can hold in this scene, by the masses given before the seal and those given here (which go first),
+    /// and the warnings that it makes.
+    pub fn step_report(
+        &self,
+        plan: &StepPlan,
+        masses: &[(InterfaceId, GroupMass)],
+    ) -> Result<(StepReport, Vec<SetupWarning>), EngineError> {
+        let running = self.running("ask what a step can hold")?;
+        plan.check()?;
+        let mut all = self.scene.masses.clone();
+        for (interface, mass) in masses {
+            let index = self.interface_index(*interface)?;
+            mass.check(&self.scene.body_name(index))?;
+            all[index] = Some(*mass);
+        }
+        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
+        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
+        let report = setting.report(plan);
+        let warnings = advice::warnings(&report, plan);
+        Ok((report, warnings))
     }
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.

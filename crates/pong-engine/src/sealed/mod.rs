@@ -204,7 +204,11 @@ fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
     }
 }
 
-fn can_be_tested(extensions: &Extensions, a: (&Body, &PrimitiveInfo), b: (&Body, &PrimitiveInfo)) -> bool {
+pub(crate) fn can_be_tested(
+    extensions: &Extensions,
+    a: (&Body, &PrimitiveInfo),
+    b: (&Body, &PrimitiveInfo),
+) -> bool {
     has_tester(a.1.kind, b.1.kind)
         || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()
 }

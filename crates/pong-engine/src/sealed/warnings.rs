@@ -20,6 +20,21 @@ pub enum SetupWarning {
         /// Names of the two Objects.
         objects: [String; 2],
     },
+    /// A contact gains energy at the planned step ([`World::plan_step`](crate::World::plan_step)).
+    StepTooLong {
+        /// The movable groups, the contact and the longest stable step.
+        told: String,
+    },
+    /// A bounce is not followed as exactly as was asked.
+    StepTooCoarse {
+        /// The movable groups, the error and the longest step without it.
+        told: String,
+    },
+    /// Something that the planned step could not be held against.
+    StepNotJudged {
+        /// What and why.
+        told: String,
+    },
 }
 
 impl std::fmt::Display for SetupWarning {
@@ -31,6 +46,8 @@ impl std::fmt::Display for SetupWarning {
             Self::NothingToTest { objects: [a, b] } => {
                 write!(f, "`{a}` and `{b}` are paired but nothing of one can touch anything of the other")
             }
+            Self::StepTooLong { told } | Self::StepTooCoarse { told } => f.write_str(told),
+            Self::StepNotJudged { told } => write!(f, "step not judged: {told}"),
         }
     }
 }

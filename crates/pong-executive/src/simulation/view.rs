@@ -3,10 +3,12 @@
 use super::Simulation;
 use crate::body::{BodyId, RigidBody};
 use crate::energy::Energy;
+use crate::error::ExecutiveError;
 use crate::integrate::Integrator;
-use crate::stability::longest_stable_step;
+use crate::stability::{coupling, group_mass};
 use crate::state::FreeState;
-use pong_engine::{StiffestContact, World};
+use pong_engine::advice::{StepPlan, StepReport};
+use pong_engine::{SetupWarning, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 impl Simulation {
@@ -25,41 +27,24 @@ impl Simulation {
         self.integrator
     }
 
-    /// Warnings about contacts for which the step is too long, each with the longest stable one (see
-    /// [`longest_stable_step`]). Empty if none is certain; Hertz contacts and registered laws are not judged.
+    /// Warnings about contacts that gain energy at the step, each with the longest stable one
+    /// ([`World::step_report`]). What cannot be judged is left out.
     pub fn step_warnings(&self) -> Vec<String> {
-        let Ok(stiffest) = self.world().stiffest_contacts() else { return Vec::new() };
-        stiffest.iter().filter_map(|contact| self.step_warning(contact)).collect()
+        let plan = StepPlan { accuracy: None, ..self.step_plan() };
+        let Ok((_, warnings)) = self.step_report(&plan) else { return Vec::new() };
+        let judged = warnings.iter().filter(|warning| !matches!(warning, SetupWarning::StepNotJudged { .. }));
+        judged.map(ToString::to_string).collect()
     }
 
-    fn step_warning(&self, contact: &StiffestContact) -> Option<String> {
-        let touching =
-            |interface| self.bodies().map(|(_, body)| body).find(|b| b.interface == Some(interface));
-        let bodies = [touching(contact.interfaces[0])?, touching(contact.interfaces[1])?];
-        // Fixed and prescribed bodies have no mass: they do not yield.
-        let inverse: f64 = bodies.iter().filter_map(|body| body.mass()).map(|mass| 1.0 / mass.mass).sum();
-        if inverse == 0.0 {
-            return None;
-        }
-        let (k, c) = (contact.stiffness, contact.damping);
-        let longest = longest_stable_step(self.integrator, k, c, 1.0 / inverse);
-        // An undamped wrench held over a frame gains a little at any step; short ones are the user's choice.
-        let held_undamped = longest == 0.0 && self.step * (k * inverse).sqrt() < 0.1;
-        if self.step < longest || held_undamped {
-            return None;
-        }
-        let cure = if longest > 0.0 {
-            format!("the longest stable step is {longest:.3e} s, less where several touch at once")
-        } else {
-            "no step is stable without damping; give the surfaces some".to_owned()
-        };
-        Some(format!(
-            "`{}` and `{}`: a contact of {k:.3e} N/m and {c:.3e} N·s/m on {:.3e} kg gains energy at a step of {:.3e} s; {cure}",
-            bodies[0].name,
-            bodies[1].name,
-            1.0 / inverse,
-            self.step
-        ))
+    /// Step and integrator as the step adviser knows them; the closing speed is not known.
+    pub fn step_plan(&self) -> StepPlan {
+        StepPlan::new(self.step, coupling(self.integrator))
+    }
+
+    /// What a step can hold with the bodies at hand, and the warnings that it makes.
+    pub fn step_report(&self, plan: &StepPlan) -> Result<(StepReport, Vec<SetupWarning>), ExecutiveError> {
+        let touching = self.bodies().filter_map(|(_, body)| Some((body.interface?, group_mass(body))));
+        Ok(self.world().step_report(plan, &touching.collect::<Vec<_>>())?)
     }
 
     /// The world: contacts, wrenches and counts of the present instant.

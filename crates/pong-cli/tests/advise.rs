@@ -1,0 +1,118 @@
+//! `pong advise` as a terminal user meets it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
+    surfaces: { "rigid": (stiffness: inf) },
+    root: (name: "ground", surface: "rigid", primitives: [
+        Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
+
+fn folder(test: &str, surface: &str, integrator: &str, step: f64) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let point = format!(
+        r#"(format: "pong-model", version: 1, name: "point", surfaces: {{ {surface} }},
+            root: (name: "point", surface: "advised", primitives: [Point(name: "tip", position: (0, 0, 0))]))"#
+    );
+    let scene = format!(
+        r#"(format: "pong-scene", version: 1, name: "drop", models: {{ "point": "point.ron", "ground": "ground.ron" }},
+            objects: [
+                (name: "point", model: "point", bodies: [(motion: Free, mass: 4.0, inertia: Diagonal(1, 1, 1),
+                    position: (0, 0, 0.001), linear_velocity: (0, 0, -0.5))]),
+                (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
+            pairs: [("point", "ground")], integrator: {integrator}, step: {step:?}, duration: 1)"#
+    );
+    for (name, text) in [("point", point.as_str()), ("ground", GROUND), ("scene", scene.as_str())] {
+        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
+    }
+    folder
+}
+
+fn pong(folder: &Path, arguments: &str) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pong"));
+    let output = command.args(arguments.split(' ')).current_dir(folder).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+/// The number after a word at the start of a line.
+fn value(text: &str, name: &str) -> f64 {
+    let line = text.lines().find_map(|line| line.trim().strip_prefix(name));
+    let line = line.unwrap_or_else(|| panic!("no `{name}` in:\n{text}"));
+    line.split_whitespace().next().unwrap().parse().unwrap()
+}
+
+/// A wish without loss: k = m·(v/δ)² = 4 kg·(0.5 m/s / 1 mm)² = 1 MN/m.
+#[test]
+fn an_elastic_wish_has_the_stiffness_that_stores_its_energy() {
+    let here = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let wish = "advise --mass 4 --coupling stages --speed 0.5 --depth 0.001 --restitution 1";
+    let (code, out, err) = pong(here, wish);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!((value(&out, "stiffness") / 1e6 - 1.0).abs() < 1e-6, "{out}");
+    assert_eq!(value(&out, "damping"), 0.0);
+    // Two bodies of 8 kg are 4 kg at the contact; two contacts carry half each.
+    let (_, both, _) = pong(here, &format!("{} --mass 8 --contacts 2", wish.replace("--mass 4", "--mass 8")));
+    assert!(both.starts_with("Effective mass 4 kg") && both.contains("(stiffness: 500000.0,"), "{both}");
+}
+
+/// The line that is printed is a surface; with it the scene bounces as wished, is found in order at the advised step and
+/// warned of at three times it.
+#[test]
+fn the_advised_surface_does_in_a_scene_what_was_wished() {
+    let wish = "advise --mass 4 --coupling step --speed 0.5 --depth 0.001 --restitution 0.4";
+    let (_, out, _) = pong(Path::new(env!("CARGO_TARGET_TMPDIR")), wish);
+    let surface = out.lines().find(|line| line.contains("\"advised\"")).unwrap().trim();
+    let step = value(&out, "accurate to");
+    let here = folder("advised_surface", surface, "SemiImplicitEuler", step * 0.9999);
+    let (code, out, err) = pong(&here, "advise scene.ron");
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert!(out.contains("closing at 0.5 m/s (the scene's start)") && !out.contains("warning"), "{out}");
+    let (_, out, err) = pong(&here, "run scene.ron --csv");
+    assert_eq!(err, "", "{out}");
+    let states = std::fs::read_to_string(here.join("scene_out/states.csv")).unwrap();
+    let (head, last) = (states.lines().next().unwrap(), states.lines().rfind(|line| line.contains("point")));
+    let column = head.split(',').position(|name| name.starts_with("vz")).unwrap_or_else(|| panic!("{head}"));
+    let rebound: f64 = last.unwrap().split(',').nth(column).unwrap().parse().unwrap();
+    assert!((rebound / 0.2 - 1.0).abs() < 0.02, "{rebound}");
+    let three = format!("advise scene.ron --step {:?}", 3.0 * step);
+    let (_, out, _) = pong(&here, &three);
+    assert!(out.contains("warning: `point/point` and `ground/ground`: a bounce is off by up to"), "{out}");
+}
+
+/// Held over a frame, k·T/2 < c: 1e4 N/m and 5 N·s/m end at 1 ms, and that is said to go wrong first.
+#[test]
+fn what_goes_wrong_first_is_told() {
+    let surface = r#""advised": (stiffness: 1e4, normal: Linear(damping: 5))"#;
+    let here = folder("first_wrong", surface, "ZeroOrderHold(substeps: 1, delay: 0)", 2e-3);
+    let (_, out, _) = pong(&here, "advise scene.ron");
+    let row = out.lines().find(|line| line.contains("·") && line.contains("10000")).unwrap();
+    assert!(row.contains("0.001"), "{out}");
+    assert!(out.contains("First to go wrong: contact between `point/point` and `ground/ground`"), "{out}");
+    assert!(
+        out.contains("gains energy at a step of 2.000e-3 s; the longest stable step is 1.000e-3 s"),
+        "{out}"
+    );
+    // A model by itself has its surfaces judged against a rigid partner, with the same answer.
+    let (_, out, _) = pong(&here, "advise point.ron --mass 4 --rate 500");
+    assert!(out.contains("advised · rigid") && out.contains("0.001"), "{out}");
+}
+
+#[test]
+fn wrong_wishes_are_refused() {
+    let here = folder("wrong_wishes", r#""advised": (stiffness: 1e4)"#, "RungeKutta4", 1e-3);
+    for (arguments, told) in [
+        ("advise --mass 0 --speed 1 --depth 1 --restitution 1", "--mass: it is 0 kg"),
+        ("advise --mass 1 --depth 1 --restitution 1", "--speed:"),
+        ("advise --mass 1 --speed 1 --depth 1 --restitution 2", "restitution: it is 2"),
+        ("advise scene.ron --mass 1", "--mass: a scene has masses of its own"),
+        ("advise scene.ron --rate=-5", "the step is -0.2 s"),
+        ("advise point.ron --rate 100", "--mass: 0 are given"),
+        ("advise none.ron --mass 1 --rate 100", "none.ron"),
+    ] {
+        let (code, out, err) = pong(&here, arguments);
+        assert!(code != 0 && out.is_empty() && err.contains(told), "{arguments}: {out}{err}");
+    }
+}

@@ -1,0 +1,223 @@
+//! Every pair of movable groups against the host's step: single contacts.
+
+use super::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
+use super::coupling::{Coupling, longest_stable_step};
+use super::mass::{GroupMass, StepPlan};
+use super::spring::{ContactSprings, Spring, springs};
+use crate::law::PairProps;
+use crate::scene::Scene;
+use crate::sealed::{GroupPair, SurfaceTable, can_be_tested};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What the adviser looks at.
+pub(crate) struct Setting<'s> {
+    pub scene: &'s Scene,
+    pub group_pairs: &'s [GroupPair],
+    pub tables: &'s [SurfaceTable],
+    /// Of every movable group, where it is known.
+    pub masses: &'s [Option<GroupMass>],
+}
+
+/// One spring on one mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringLimit {
+    /// The spring and damper of a whole contact.
+    pub spring: Spring,
+    /// The longest step at which it is stable, s; 0 if no step is.
+    pub stable_step: f64,
+}
+
+/// How well the host's step follows a bounce.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BounceLimit {
+    /// ω = √(k/m), rad/s.
+    pub frequency: f64,
+    /// c/(2mω) less what the lag of the coupling takes; below zero the contact gives more than it takes.
+    pub damping_ratio: f64,
+    /// How far a bounce may be from its closed form at the host's step.
+    pub error: BounceError,
+}
+
+/// Single contacts between two movable groups.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairLimits {
+    /// `object/path` of the two.
+    pub groups: [String; 2],
+    /// Effective mass at a contact that is not off the mass centres, kg.
+    pub mass: f64,
+    /// The normal spring that bears the least step.
+    pub normal: SpringLimit,
+    /// The friction spring that bears the least step, if there is friction.
+    pub friction: Option<SpringLimit>,
+    /// The bounce that is followed worst; `None` if no accuracy is asked, or for laws without a closed form.
+    pub bounce: Option<BounceLimit>,
+}
+
+/// What the adviser found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepReport {
+    /// Pairs of movable groups, one of which at least yields.
+    pub pairs: Vec<PairLimits>,
+    /// What could not be judged, and why.
+    pub not_judged: Vec<String>,
+}
+
+impl StepReport {
+    /// The least of the stable steps of single contacts, s; infinite if there are none.
+    pub fn stable_step(&self) -> f64 {
+        let friction = self.pairs.iter().filter_map(|pair| pair.friction);
+        let all = self.pairs.iter().map(|pair| pair.normal).chain(friction);
+        all.map(|limit| limit.stable_step).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Setting<'_> {
+    pub fn report(&self, plan: &StepPlan) -> StepReport {
+        let mut report = StepReport::default();
+        let mut untold = BTreeSet::new();
+        for pair in self.group_pairs {
+            let names = [pair.first, pair.second].map(|body| self.scene.body_name(body));
+            let met = self.met(pair);
+            if met.is_empty() {
+                continue;
+            }
+            let unknown = [pair.first, pair.second].map(|body| self.masses[body].is_none());
+            if unknown != [false, false] {
+                untold.extend(
+                    names.into_iter().zip(unknown).filter(|(_, unknown)| *unknown).map(|(name, _)| name),
+                );
+                continue;
+            }
+            let Some(mass) = self.effective_mass(pair) else { continue };
+            let mut known = Vec::new();
+            for props in met {
+                match springs(props, mass, plan.closing_speed) {
+                    Ok(made) => known.push(made),
+                    Err(cause) => {
+                        report.not_judged.push(format!("`{}` and `{}`: {cause}", names[0], names[1]));
+                    }
+                }
+            }
+            report.pairs.extend(pair_limits(names, mass, &known, plan));
+        }
+        report.not_judged.dedup();
+        report.not_judged.extend(untold.iter().map(|name| format!("`{name}`: no mass is given")));
+        report
+    }
+
+    /// 1/(1/m₁ + 1/m₂); `None` if neither yields.
+    fn effective_mass(&self, pair: &GroupPair) -> Option<f64> {
+        let inverse = |body: usize| self.masses[body].map_or(0.0, |known| 1.0 / known.mass);
+        let sum = inverse(pair.first) + inverse(pair.second);
+        (sum > 0.0).then(|| 1.0 / sum)
+    }
+
+    /// Values of all pairs of surfaces that can meet between two movable groups, each once.
+    fn met(&self, pair: &GroupPair) -> Vec<&PairProps> {
+        let mut met = BTreeMap::new();
+        for (table, (a, b)) in pair.tables.iter().zip([(pair.first, pair.second), (pair.second, pair.first)])
+        {
+            for (surfaces, props) in self.met_in_direction(*table, a, b) {
+                met.insert((*table, surfaces), props);
+            }
+        }
+        met.into_values().collect()
+    }
+
+    fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &PairProps> {
+        let (body_a, body_b) = (self.scene.body(a), self.scene.body(b));
+        let mut met = BTreeMap::new();
+        let [in_a, in_b] = [body_a, body_b].map(|body| {
+            let mut seen = BTreeSet::new();
+            let new = body.primitives.iter().filter(move |info| {
+                // Kinds of the host's share one number; each is looked at.
+                info.kind == pong_geometry::primitive::PrimitiveKind::Custom
+                    || seen.insert((info.kind, info.surface))
+            });
+            new.collect::<Vec<_>>()
+        });
+        for info_a in in_a {
+            for info_b in &in_b {
+                if can_be_tested(&self.scene.extensions, (body_a, info_a), (body_b, info_b)) {
+                    let surfaces = (info_a.surface, info_b.surface);
+                    met.insert(surfaces, self.tables[table].props(surfaces.0, surfaces.1));
+                }
+            }
+        }
+        met
+    }
+}
+
+/// What a step can hold of one contact with these values on an effective mass (kg); `groups` is what the two are
+/// called.
+///
+/// # Errors
+/// Why it cannot be judged.
+pub fn judge_contact(
+    groups: [String; 2],
+    props: &PairProps,
+    mass: f64,
+    plan: &StepPlan,
+) -> Result<PairLimits, &'static str> {
+    let known = [springs(props, mass, plan.closing_speed)?];
+    Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
+}
+
+fn pair_limits(
+    groups: [String; 2],
+    mass: f64,
+    known: &[ContactSprings],
+    plan: &StepPlan,
+) -> Option<PairLimits> {
+    let limit = |spring: Spring| {
+        let (k, c) = (spring.stiffness, spring.damping);
+        SpringLimit { spring, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
+    };
+    let least = |limits: Vec<SpringLimit>| {
+        // Of two that are equally bad the stiffer.
+        let order = |x: &SpringLimit, y: &SpringLimit| {
+            let by_step = x.stable_step.total_cmp(&y.stable_step);
+            by_step.then(y.spring.stiffness.total_cmp(&x.spring.stiffness))
+        };
+        limits.into_iter().min_by(order)
+    };
+    let normal = least(known.iter().map(|made| limit(made.normal)).collect())?;
+    let friction = least(known.iter().filter_map(|made| made.friction).map(limit).collect());
+    let by_formula = known.iter().filter(|made| made.bounces_by_formula);
+    let bounces = by_formula.filter_map(|made| bounce_limit(made.normal, mass, plan));
+    let bounce = bounces.max_by(|x, y| x.error.rebound.total_cmp(&y.error.rebound));
+    Some(PairLimits { groups, mass, normal, friction, bounce })
+}
+
+/// Beyond this damping ratio (restitution 0.01) hardly anything bounces.
+const ZETA_MAX: f64 = 5.0;
+
+/// Steps of ω·dt below this follow every bounce.
+const SURELY_FINE: f64 = 1e-4;
+
+fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimit> {
+    plan.accuracy?;
+    let frequency = (spring.stiffness / mass).sqrt();
+    let omega_step = frequency * plan.step;
+    let damping_ratio = 0.5 * (spring.damping / (mass * frequency) - omega_step * plan.coupling.lag());
+    if damping_ratio > ZETA_MAX {
+        return None;
+    }
+    let error = if damping_ratio < 0.0 {
+        // A negative damping: the rebound is exp(π|ζ|), and so is the energy's root (V28).
+        let gain = libm::expm1(-std::f64::consts::PI * damping_ratio);
+        BounceError { depth: gain, rebound: gain }
+    } else if omega_step < SURELY_FINE {
+        BounceError { depth: 0.0, rebound: 0.0 }
+    } else {
+        bounce_error(plan.coupling, damping_ratio, omega_step)
+    };
+    Some(BounceLimit { frequency, damping_ratio, error })
+}
+
+impl BounceLimit {
+    /// The longest step that keeps to an accuracy, s.
+    pub fn accurate_step(&self, coupling: Coupling, accuracy: &Accuracy) -> f64 {
+        resolved_step(coupling, self.damping_ratio.max(0.0), accuracy) / self.frequency
+    }
+}

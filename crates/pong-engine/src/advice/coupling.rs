@@ -1,0 +1,202 @@
+//! The longest stable step of a spring and a damper on a mass (linear stability).
+//!
+//! With m the effective mass, κ = k·dt²/m and γ = c·dt/m:
+//!
+//! | how the force is used | stable if and only if |
+//! |---|---|
+//! | at every stage of Runge-Kutta 4 | both roots z of z² + γz + κ have \|1 + z + z²/2 + z³/6 + z⁴/24\| ≤ 1: ω·dt ≤ 2.828 undamped, γ ≤ 2.785 without spring |
+//! | once a step, semi-implicit Euler | κ + 2γ < 4 |
+//! | held over a frame | κ/2 < γ < 2 |
+//! | held, n whole frames late | all roots of (z − 1)²·zⁿ + ½κ(z + 1) + γ(z − 1) lie in the unit circle; needs γ > κ(½ + n) |
+//!
+//! The last polynomial is that of the exact motion of a mass under a force that changes once a frame.
+
+/// How a host uses the contact wrench.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupling {
+    /// Evaluated at every stage of an integrator of higher order (Runge-Kutta 4 is meant).
+    StageWise,
+    /// Evaluated once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
+    OncePerStep,
+    /// Held over a frame.
+    Held {
+        /// How many whole frames it comes late.
+        late: u32,
+    },
+}
+
+impl Coupling {
+    /// How late the force acts on average, in steps: holding it makes it half a frame old.
+    pub fn lag(self) -> f64 {
+        match self {
+            Self::StageWise | Self::OncePerStep => 0.0,
+            Self::Held { late } => 0.5 + f64::from(late),
+        }
+    }
+}
+
+impl std::fmt::Display for Coupling {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::StageWise => write!(f, "evaluated at every stage"),
+            Self::OncePerStep => write!(f, "evaluated once a step"),
+            Self::Held { late: 0 } => write!(f, "held over a frame"),
+            Self::Held { late } => write!(f, "held over a frame, {late} late"),
+        }
+    }
+}
+
+/// The longest step (s) at which a contact of stiffness `k` (N/m) and damping `c` (N·s/m) on an effective mass `m`
+/// (kg) is stable; 0 if no step is.
+pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
+    match coupling {
+        // Where |z| = dt·√(k/m) of underdamped roots is least, 2.62, and −γ of the faster real one.
+        Coupling::StageWise => {
+            let surely = (2.6 / (k / m).sqrt()).min(2.78 * m / c.max(f64::MIN_POSITIVE));
+            last_within(surely, 2.0, |step| stage_wise_holds(k * step * step / m, c * step / m))
+        }
+        // The positive root of k·dt² + 2c·dt − 4m.
+        Coupling::OncePerStep => 4.0 * m / ((c * c + 4.0 * k * m).sqrt() + c),
+        Coupling::Held { .. } if c <= 0.0 => 0.0,
+        Coupling::Held { late } => {
+            let at_most = (c / (k * coupling.lag())).min(2.0 * m / c);
+            if late == 0 {
+                return at_most;
+            }
+            last_below(at_most, |frame| late_hold_is_stable(k * frame * frame / m, c * frame / m, late))
+        }
+    }
+}
+
+/// Whether the classic Runge-Kutta method keeps both roots of z² + γz + κ from growing.
+fn stage_wise_holds(kappa: f64, gamma: f64) -> bool {
+    let under = kappa - 0.25 * gamma * gamma;
+    if under >= 0.0 {
+        return grown((-0.5 * gamma, under.sqrt())) <= 1.0 + 1e-12;
+    }
+    let fast = 0.5 * gamma + (-under).sqrt();
+    grown((-fast, 0.0)).max(grown((-kappa / fast, 0.0))) <= 1.0 + 1e-12
+}
+
+/// |1 + z + z²/2 + z³/6 + z⁴/24|.
+fn grown((x, y): (f64, f64)) -> f64 {
+    let (mut re, mut im) = (1.0, 0.0);
+    for divisor in [4.0, 3.0, 2.0, 1.0] {
+        (re, im) = (1.0 + (re * x - im * y) / divisor, (re * y + im * x) / divisor);
+    }
+    (re * re + im * im).sqrt()
+}
+
+/// Whether a force that is held, and `late` frames late, leaves all roots within the unit circle (Schur and Cohn's
+/// recursion).
+fn late_hold_is_stable(kappa: f64, gamma: f64, late: u32) -> bool {
+    let n = late as usize;
+    let mut p = vec![0.0; n + 3];
+    for (power, coefficient) in
+        [(0, 0.5 * kappa - gamma), (1, 0.5 * kappa + gamma), (n, 1.0), (n + 1, -2.0), (n + 2, 1.0)]
+    {
+        p[power] += coefficient;
+    }
+    while p.len() > 1 {
+        let last = p.len() - 1;
+        let reflection = p[0] / p[last];
+        // The negated comparison refuses NaN too.
+        if !(reflection.abs() < 1.0) {
+            return false;
+        }
+        p = (0..last).map(|i| p[i + 1] - reflection * p[last - 1 - i]).collect();
+    }
+    true
+}
+
+/// Halvings of an interval of doubles until it cannot shrink any more.
+const HALVINGS: usize = 100;
+
+/// The last step that holds, between one that surely does and `factor` times as much.
+fn last_within(surely: f64, factor: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    // Beside the real axis the region is not convex: walk out of it before the end is cut down.
+    let (walk, mut inside) = (1.005, surely);
+    while inside * walk < surely * factor && holds(inside * walk) {
+        inside *= walk;
+    }
+    bisect(inside, inside * walk, holds)
+}
+
+/// The last step that holds below one that may not; 0 if none down to a millionth of it does.
+fn last_below(at_most: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    if holds(at_most) {
+        return at_most;
+    }
+    let mut inside = at_most;
+    while !holds(inside) {
+        inside *= 0.9;
+        if inside < 1e-6 * at_most {
+            return 0.0;
+        }
+    }
+    bisect(inside, inside / 0.9, holds)
+}
+
+fn bisect(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (inside + outside);
+        if holds(middle) {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    inside
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HELD: Coupling = Coupling::Held { late: 0 };
+
+    /// Known answers: dt = 2√(m/k) undamped; κ + 2γ = 4 with damping; kT/2 = c and c = 2m/T for a held wrench; 2√2 and
+    /// 2.785293563 for Runge-Kutta.
+    #[test]
+    fn limits_are_those_of_the_stability_table() {
+        let euler = Coupling::OncePerStep;
+        assert!((longest_stable_step(euler, 1e4, 0.0, 1.0) - 0.02).abs() < 1e-15);
+        let step = longest_stable_step(euler, 3e4, 70.0, 2.0);
+        assert!((3e4 * step * step / 2.0 + 2.0 * 70.0 * step / 2.0 - 4.0).abs() < 1e-12);
+        assert_eq!(longest_stable_step(HELD, 1e4, 5.0, 1.0), 1e-3);
+        assert_eq!(longest_stable_step(HELD, 1e-9, 5.0, 1.0), 0.4);
+        assert_eq!(longest_stable_step(HELD, 1e4, 0.0, 1.0), 0.0);
+        let stages = |k, c| longest_stable_step(Coupling::StageWise, k, c, 1.0);
+        assert!((stages(1e4, 0.0) * 100.0 - 8_f64.sqrt()).abs() < 1e-5);
+        assert!((stages(1e-9, 10.0) * 10.0 - 2.785293563).abs() < 1e-6);
+        // Half of critical damping: the region is narrower there than on either axis.
+        assert!((stages(1.0, 1.0) - 2.623).abs() < 1e-3, "{}", stages(1.0, 1.0));
+    }
+
+    /// The least damping of a late wrench, found elsewhere by iteration of the map: 1.515·kT one frame late at κ = 0.01,
+    /// and no damping at all one frame late at κ = 0.5, two frames late at κ = 0.1.
+    #[test]
+    fn a_late_wrench_needs_more_damping_until_none_helps() {
+        let stable = |kappa: f64, gamma: f64, late| late_hold_is_stable(kappa, gamma, late);
+        assert!(stable(0.01, 0.01 * 1.52, 1) && !stable(0.01, 0.01 * 1.51, 1));
+        let any = |kappa, late| (1..2000).any(|i| stable(kappa, 1e-3 * f64::from(i), late));
+        assert!(!any(0.5, 1) && any(0.05, 1));
+        assert!(!any(0.1, 2) && any(0.02, 2));
+        let step = longest_stable_step(Coupling::Held { late: 1 }, 1e4, 15.0, 1.0);
+        assert!(step < 1e-3 && step > 0.97e-3, "{step}");
+        // Damping alone, one frame late: z² − z + γ has its roots on the circle at γ = 1.
+        let step = longest_stable_step(Coupling::Held { late: 1 }, 1e-9, 10.0, 1.0);
+        assert!((step * 10.0 - 1.0).abs() < 1e-6, "{step}");
+    }
+
+    /// The polynomial without delay is Jury's: κ/2 < γ < 2.
+    #[test]
+    fn the_recursion_agrees_with_the_closed_form_without_delay() {
+        for i in 1..60 {
+            for j in 1..60 {
+                let (kappa, gamma) = (0.083 * f64::from(i), 0.041 * f64::from(j));
+                assert_eq!(late_hold_is_stable(kappa, gamma, 0), 0.5 * kappa < gamma && gamma < 2.0);
+            }
+        }
+    }
+}

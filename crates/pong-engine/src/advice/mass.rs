@@ -1,0 +1,110 @@
+//! What the adviser is told of a movable group and of the host's step.
+
+use super::bounce::Accuracy;
+use super::coupling::Coupling;
+use crate::error::EngineError;
+use pong_geometry::Mat3;
+
+/// Mass properties of a movable group, for the step adviser alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroupMass {
+    /// Mass, kg; infinite for a group that does not yield (fixed, or on a prescribed path).
+    pub mass: f64,
+    /// Inertia about the mass centre along the axes of the group frame, kg·m²: Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the
+    /// products those of the tensor itself (Ixy = −∫xy dm). All zero if it is not known: lever arms are then left out.
+    pub inertia: [f64; 6],
+    /// The mass centre in the group frame, m.
+    pub mass_center: [f64; 3],
+}
+
+impl GroupMass {
+    /// A group that does not yield.
+    pub fn immovable() -> Self {
+        Self::point(f64::INFINITY)
+    }
+
+    /// A mass whose inertia is not known, its centre at the group's origin.
+    pub fn point(mass: f64) -> Self {
+        Self { mass, inertia: [0.0; 6], mass_center: [0.0; 3] }
+    }
+
+    /// The inertia tensor, kg·m²; `None` if it is not known or the group does not yield.
+    pub(super) fn tensor(&self) -> Option<Mat3> {
+        let [xx, yy, zz, xy, xz, yz] = self.inertia;
+        let known = self.mass.is_finite() && self.inertia != [0.0; 6];
+        known.then(|| Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
+    }
+
+    /// Refuses values that no group can have.
+    pub(crate) fn check(&self, group: &str) -> Result<(), EngineError> {
+        let bad = |cause: String| Err(EngineError::BadValue { what: format!("mass of `{group}`"), cause });
+        if self.mass.is_nan() || self.mass <= 0.0 {
+            return bad(format!(
+                "it is {} kg; give a mass above zero, or infinity for what does not yield",
+                self.mass
+            ));
+        }
+        if self.mass_center.iter().any(|x| !x.is_finite()) {
+            return bad("the mass centre is not finite; give three finite coordinates".to_owned());
+        }
+        if self.inertia.iter().any(|x| !x.is_finite()) {
+            return bad(
+                "the inertia is not finite; give finite moments, or zeros if they are not known".to_owned()
+            );
+        }
+        if self.tensor().is_some_and(|tensor| tensor.cholesky().is_none()) {
+            let cause = "no body has this inertia; its principal moments must be above zero, or all values zero if \
+                         they are not known";
+            return bad(cause.to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// The host's step and what it does with the wrench.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepPlan {
+    /// The step or frame, s.
+    pub step: f64,
+    /// How the wrench is used.
+    pub coupling: Coupling,
+    /// Speed at which things touch, m/s; `None` if it is not known. Laws whose stiffness or damping follows the depth
+    /// are judged at the depth that this speed makes, and not at all without it.
+    pub closing_speed: Option<f64>,
+    /// How near a bounce must come to its closed form; `None` to be warned of instability alone.
+    pub accuracy: Option<Accuracy>,
+}
+
+impl StepPlan {
+    /// A plan that asks for depth within 5 % and rebound within 2 %.
+    pub fn new(step: f64, coupling: Coupling) -> Self {
+        Self { step, coupling, closing_speed: None, accuracy: Some(Accuracy::default()) }
+    }
+
+    /// Refuses values that no host can have.
+    pub(crate) fn check(&self) -> Result<(), EngineError> {
+        /// Wrenches that are later than this are likelier a slip of the pen.
+        const LATE_MAX: u32 = 1000;
+        let bad = |cause: String| Err(EngineError::BadValue { what: "step plan".to_owned(), cause });
+        let positive = |value: f64| value > 0.0 && value.is_finite();
+        if !positive(self.step) {
+            return bad(format!("the step is {} s; give a finite time above zero", self.step));
+        }
+        if self.closing_speed.is_some_and(|speed| !positive(speed)) {
+            return bad(
+                "the closing speed must be finite and above zero; leave it out if it is not known".to_owned()
+            );
+        }
+        if self.accuracy.is_some_and(|wanted| !positive(wanted.depth) || !positive(wanted.rebound)) {
+            return bad(
+                "both accuracies must be finite and above zero; leave them out to ask for none".to_owned()
+            );
+        }
+        match self.coupling {
+            Coupling::Held { late } if late > LATE_MAX => {
+                bad(format!("the wrench comes {late} frames late; give at most {LATE_MAX}"))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What a contact between two surfaces is to a step: springs and dampers, at the depth that is expected.
+
+use crate::law::{FrictionProps, NormalProps, PairProps};
+use pong_model::Exponent;
+
+/// A spring and its damper.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spring {
+    /// N/m.
+    pub stiffness: f64,
+    /// N·s/m.
+    pub damping: f64,
+}
+
+/// A whole contact of two surfaces.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactSprings {
+    /// Along the normal; for laws that follow the depth, the tangent there.
+    pub normal: Spring,
+    /// In the contact plane, while it sticks.
+    pub friction: Option<Spring>,
+    /// Whether the closed forms of `bounce.rs` are those of the law.
+    pub bounces_by_formula: bool,
+}
+
+/// The springs of a pair of surfaces on an effective mass (kg), or why they are not known.
+pub(super) fn springs(
+    props: &PairProps,
+    mass: f64,
+    speed: Option<f64>,
+) -> Result<ContactSprings, &'static str> {
+    let k = props.stiffness;
+    let plain = |damping| Spring { stiffness: k, damping };
+    let (normal, bounces_by_formula) = match &props.normal {
+        NormalProps::Linear { damping, ramp } => (plain(*damping), *ramp == 0.0),
+        NormalProps::HuntCrossley { dissipation, exponent: Exponent::One } => {
+            // Without a speed the damping is what it is at touch.
+            let depth = speed.map_or(0.0, |speed| speed * (mass / k).sqrt());
+            (plain(k * depth * dissipation), false)
+        }
+        NormalProps::HuntCrossley { dissipation, exponent: Exponent::ThreeHalves } => {
+            let speed = speed.ok_or(
+                "a contact of exponent 3/2 is as stiff as it is deep, and no closing speed is given",
+            )?;
+            let root = hertz_depth(k, mass, speed).sqrt();
+            let damping = k * root * root * root * dissipation;
+            (Spring { stiffness: 1.5 * k * root, damping }, false)
+        }
+        NormalProps::Custom { .. } => return Err("a normal law of the host's is not known here"),
+    };
+    let friction = match &props.friction {
+        FrictionProps::None => None,
+        FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => {
+            let grips = *mu_kinetic > 0.0 || *mu_static > 0.0;
+            grips.then_some(Spring { stiffness: *stiffness, damping: *damping })
+        }
+        // μN/v_ε up to the slip speed; N that of a bounce, unknown without a speed.
+        FrictionProps::Coulomb { mu, slip_speed } => speed.map(|speed| {
+            let load = speed * (normal.stiffness * mass).sqrt().max(normal.damping);
+            Spring { stiffness: 0.0, damping: mu * load / slip_speed }
+        }),
+        FrictionProps::Custom { .. } => return Err("a friction law of the host's is not known here"),
+    };
+    Ok(ContactSprings { normal, friction, bounces_by_formula })
+}
+
+/// ½mv² = ⅖·k·δ^(5/2).
+fn hertz_depth(k: f64, mass: f64, speed: f64) -> f64 {
+    libm::pow(1.25 * mass * speed * speed / k, 0.4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn props(normal: NormalProps, friction: FrictionProps) -> PairProps {
+        PairProps { share_a: 0.5, stiffness: 1e7, normal, friction }
+    }
+
+    /// The tangent of k·δ^(3/2) where all of ½mv² is stored.
+    #[test]
+    fn a_hertz_contact_is_judged_where_the_speed_takes_it() {
+        let law = NormalProps::HuntCrossley { dissipation: 0.5, exponent: Exponent::ThreeHalves };
+        let hertz = props(law, FrictionProps::None);
+        assert!(springs(&hertz, 2.0, None).is_err());
+        let made = springs(&hertz, 2.0, Some(0.3)).unwrap().normal;
+        let depth = (made.stiffness / 1.5e7) * (made.stiffness / 1.5e7);
+        assert!((0.4 * 1e7 * libm::pow(depth, 2.5) / (0.5 * 2.0 * 0.09) - 1.0).abs() < 1e-12);
+        let force = |d: f64, v: f64| 1e7 * libm::pow(d, 1.5) * (1.0 + 0.5 * v);
+        let slope = (force(depth * (1.0 + 1e-6), 0.0) - force(depth * (1.0 - 1e-6), 0.0)) / (2e-6 * depth);
+        assert!((made.stiffness / slope - 1.0).abs() < 1e-8);
+        assert!((made.damping / (force(depth, 1.0) - force(depth, 0.0)) - 1.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn regularised_friction_is_a_damper_below_the_slip_speed() {
+        let law = NormalProps::Linear { damping: 10.0, ramp: 0.0 };
+        let rough = props(law, FrictionProps::Coulomb { mu: 0.3, slip_speed: 1e-3 });
+        let made = springs(&rough, 0.1, Some(0.2)).unwrap();
+        // Peak load of an elastic bounce: v·√(km) = 200 N.
+        assert!((made.friction.unwrap().damping / (0.3 * 200.0 / 1e-3) - 1.0).abs() < 1e-12);
+    }
+}

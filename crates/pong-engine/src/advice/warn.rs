@@ -1,0 +1,82 @@
+//! What the step check tells before the first frame.
+
+use super::check::{PairLimits, SpringLimit, StepReport};
+use super::coupling::Coupling;
+use super::mass::StepPlan;
+use crate::sealed::SetupWarning;
+
+/// An undamped wrench that is held gains a little at any step: below this ω·dt that is left to the host.
+const HELD_UNDAMPED: f64 = 0.1;
+
+/// All warnings of a report, those of instability first.
+pub(crate) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning> {
+    let mut told = Vec::new();
+    for pair in &report.pairs {
+        told.extend(unstable(pair, plan).map(|told| SetupWarning::StepTooLong { told }));
+    }
+    for pair in report.pairs.iter().filter(|pair| unstable(pair, plan).is_none()) {
+        told.extend(coarse(pair, plan).map(|told| SetupWarning::StepTooCoarse { told }));
+    }
+    told.extend(report.not_judged.iter().map(|cause| SetupWarning::StepNotJudged { told: cause.clone() }));
+    told
+}
+
+fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
+    let [a, b] = &pair.groups;
+    let (step, mass) = (plan.step, pair.mass);
+    if grows(&pair.normal, mass, plan) {
+        let (k, c) = (pair.normal.spring.stiffness, pair.normal.spring.damping);
+        let cure = cure(pair.normal.stable_step, "give the surfaces some");
+        return Some(format!(
+            "`{a}` and `{b}`: a contact of {k:.3e} N/m and {c:.3e} N·s/m on {mass:.3e} kg gains energy at a step of \
+             {step:.3e} s; {cure}"
+        ));
+    }
+    let friction = pair.friction.filter(|friction| grows(friction, mass, plan))?;
+    let (k, c) = (friction.spring.stiffness, friction.spring.damping);
+    let cure = cure(friction.stable_step, "give the friction some");
+    Some(format!(
+        "`{a}` and `{b}`: friction of {k:.3e} N/m and {c:.3e} N·s/m on {mass:.3e} kg gains energy at a step of \
+         {step:.3e} s; {cure}"
+    ))
+}
+
+fn grows(limit: &SpringLimit, mass: f64, plan: &StepPlan) -> bool {
+    if plan.step < limit.stable_step {
+        return false;
+    }
+    let frequency = (limit.spring.stiffness / mass).sqrt();
+    let held_undamped = matches!(plan.coupling, Coupling::Held { .. }) && limit.spring.damping == 0.0;
+    !(held_undamped && plan.step * frequency < HELD_UNDAMPED)
+}
+
+fn cure(longest: f64, undamped: &str) -> String {
+    if longest > 0.0 {
+        format!("the longest stable step is {longest:.3e} s, less where several touch at once")
+    } else {
+        format!("no step is stable without damping; {undamped}")
+    }
+}
+
+fn coarse(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
+    let (bounce, wanted) = (pair.bounce?, plan.accuracy?);
+    let error = &bounce.error;
+    if error.is_within(&wanted) {
+        return None;
+    }
+    let [a, b] = &pair.groups;
+    let longest = bounce.accurate_step(plan.coupling, &wanted);
+    Some(format!(
+        "`{a}` and `{b}`: a bounce is off by up to {} of its depth and {} of its rebound at a step of {:.3e} s; for {} and \
+         {} give at most {longest:.3e} s",
+        percent(error.depth),
+        percent(error.rebound),
+        plan.step,
+        percent(wanted.depth),
+        percent(wanted.rebound),
+    ))
+}
+
+fn percent(share: f64) -> String {
+    if share > 10.0 { "more than 1000 %".to_owned() } else { format!("{:.2} %", 100.0 * share) }
+}

@@ -1,0 +1,181 @@
+//! The step adviser's promises, kept by the engine and the executive: a hundred random contacts, every coupling.
+
+use pong_engine::advice::{
+    Accuracy, ContactAdvice, ContactWish, Coupling, GroupMass, StepPlan, advise_contact,
+};
+use pong_engine::{Config, SetupWarning, World};
+use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
+    surfaces: { "rigid": (stiffness: inf, friction: Bristle(mu: 0.5)) },
+    root: (name: "ground", surface: "rigid", primitives: [
+        Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#;
+
+const COUPLINGS: [Coupling; 5] = [
+    Coupling::StageWise,
+    Coupling::OncePerStep,
+    Coupling::Held { late: 0 },
+    Coupling::Held { late: 1 },
+    Coupling::Held { late: 2 },
+];
+
+/// Numbers that look random and are the same everywhere (Marsaglia's xorshift).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        for (left, by) in [(true, 13), (false, 7), (true, 17)] {
+            self.0 ^= if left { self.0 << by } else { self.0 >> by };
+        }
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn of_magnitudes(&mut self, low: f64, high: f64) -> f64 {
+        low * (high / low).powf(self.next())
+    }
+}
+
+/// One contact of a mass of points on a plane.
+struct Case {
+    stiffness: f64,
+    wish: ContactWish,
+}
+
+impl Case {
+    /// Mass, stiffness, restitution and speed at random; the depth that the stiffness makes, by the closed form.
+    fn new(random: &mut Random, coupling: Coupling) -> Self {
+        let mass = random.of_magnitudes(1e-2, 1e5);
+        let stiffness = random.of_magnitudes(1e2, 1e9);
+        let restitution = random.between(0.1, 1.0);
+        let speed = random.of_magnitudes(1e-3, 10.0);
+        let zeta = zeta_of(restitution);
+        let depth = speed / (stiffness / mass).sqrt() * depth_over(zeta);
+        let accuracy = Accuracy::default();
+        Self {
+            stiffness,
+            wish: ContactWish { mass, speed, depth, restitution, coupling, step: None, accuracy },
+        }
+    }
+}
+
+/// The inverse of V3's formula, by a search of this test's own.
+fn zeta_of(restitution: f64) -> f64 {
+    let rebound = |zeta: f64| {
+        let s = (1.0 - zeta * zeta).abs().sqrt();
+        if zeta < 1.0 {
+            (-(zeta / s) * (2.0 * zeta * s).atan2(2.0 * zeta * zeta - 1.0)).exp()
+        } else {
+            (-(zeta / s) * ((zeta + s) / (zeta - s)).ln()).exp()
+        }
+    };
+    let (mut low, mut high) = (0.0, 10.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if rebound(middle) > restitution { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Greatest depth over v/ω.
+fn depth_over(zeta: f64) -> f64 {
+    let s = (1.0 - zeta * zeta).abs().sqrt();
+    let time = if zeta < 1.0 { s.atan2(zeta) / s } else { (zeta + s).ln() / s };
+    (-zeta * time).exp()
+}
+
+fn integrator(coupling: Coupling) -> Integrator {
+    match coupling {
+        Coupling::StageWise => Integrator::RungeKutta4,
+        Coupling::OncePerStep => Integrator::SemiImplicitEuler,
+        Coupling::Held { late } => Integrator::ZeroOrderHold { substeps: 1, delay: late },
+    }
+}
+
+/// A world with the advised surface, and what sealing it with mass and step told.
+fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<SetupWarning>) {
+    let ContactAdvice { stiffness, damping, friction_stiffness, friction_damping, .. } = advice;
+    let point = format!(
+        r#"(format: "pong-model", version: 1, name: "point",
+            surfaces: {{ "soft": (stiffness: {stiffness:?}, normal: Linear(damping: {damping:?}),
+                friction: Bristle(mu: 0.5, stiffness: {friction_stiffness:?}, damping: {friction_damping:?})) }},
+            root: (name: "point", surface: "soft", primitives: [Point(name: "tip", position: (0.0, 0.0, 0.0))]))"#
+    );
+    let mut world = World::new(Config::default());
+    let mut objects = Vec::new();
+    for (name, text) in [("point", point.as_str()), ("ground", GROUND)] {
+        let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
+        let model = world.add_model(Arc::new(model)).unwrap();
+        objects.push(world.create_object(model, name).unwrap());
+    }
+    world.pair(objects[0], objects[1]).unwrap();
+    let masses = [GroupMass::point(wish.mass), GroupMass::immovable()];
+    for (object, mass) in objects.iter().zip(masses) {
+        let interface = world.interface(*object, "").unwrap();
+        world.set_mass(interface, &mass).unwrap();
+    }
+    world.plan_step(&StepPlan::new(step, wish.coupling)).unwrap();
+    let warnings = world.seal().unwrap().warnings;
+    (world, warnings)
+}
+
+/// Greatest depth and rebound speed of a mass that touches at a phase of the step.
+fn bounce(world: World, wish: &ContactWish, step: f64, phase: f64) -> (f64, f64) {
+    let interfaces: Vec<_> = world.objects().map(|object| world.interface(object, "").unwrap()).collect();
+    let mut simulation = Simulation::new(world, integrator(wish.coupling), step).unwrap();
+    let start = Pose { position: Vec3::z() * (wish.speed * step * phase), ..Pose::identity() };
+    let falling = Twist { linear: Vec3::z() * -wish.speed, angular: Vec3::zeros() };
+    let body = RigidBody::free("point", MassProperties::sphere(wish.mass, 1.0));
+    let body = simulation.add_body(body.at(start).moving(falling).touching(interfaces[0])).unwrap();
+    simulation.add_body(RigidBody::fixed("ground").touching(interfaces[1])).unwrap();
+    let (mut deepest, mut before) = (0.0_f64, [wish.speed; 4]);
+    // It is off when it rises above the plane and even a late wrench changes its speed no more.
+    for _ in 0..1_000_000 {
+        simulation.step().unwrap();
+        let (height, speed) = (simulation.pose(body).position.z, simulation.twist(body).linear.z);
+        deepest = deepest.max(-height);
+        before.rotate_left(1);
+        before[3] = speed;
+        if height > 0.0 && speed > 0.0 && before.iter().all(|earlier| *earlier == speed) {
+            return (deepest, speed);
+        }
+    }
+    panic!("the mass does not come back");
+}
+
+#[test]
+fn advised_contacts_keep_their_promises_at_the_advised_step_and_warn_at_three_times_it() {
+    let mut random = Random(0x5eed_0bad_cafe_f00d);
+    let mut worst = [(0.0_f64, 0.0_f64); COUPLINGS.len()];
+    for number in 0..100 {
+        for (index, coupling) in COUPLINGS.into_iter().enumerate() {
+            let Case { stiffness, wish } = Case::new(&mut random, coupling);
+            let advice = advise_contact(&wish).unwrap();
+            // A held wrench is never advised without any loss.
+            let tolerance = if coupling.lag() > 0.0 { 5e-3 } else { 1e-6 };
+            assert!((advice.stiffness / stiffness - 1.0).abs() < tolerance, "case {number}: {advice:?}");
+            assert!(advice.step < advice.stable_step, "case {number}: {advice:?}");
+            let (made, warnings) = world(&wish, &advice, advice.step);
+            assert_eq!(warnings, [], "case {number}, {coupling:?}: {wish:?}");
+            let (depth, speed) = bounce(made, &wish, advice.step, 3.0 + random.next());
+            let depth_error = (depth / wish.depth - 1.0).abs();
+            let rebound_error = (speed / (wish.restitution * wish.speed) - 1.0).abs();
+            assert!(depth_error < 0.05, "case {number}: {depth_error} of the depth; {wish:?} {advice:?}");
+            assert!(
+                rebound_error < 0.02,
+                "case {number}: {rebound_error} of the rebound; {wish:?} {advice:?}"
+            );
+            worst[index] = (worst[index].0.max(depth_error), worst[index].1.max(rebound_error));
+            let (_, warnings) = world(&wish, &advice, 3.0 * advice.step);
+            assert!(!warnings.is_empty(), "case {number}: no warning; {wish:?} {advice:?}");
+        }
+    }
+    for (coupling, (depth, rebound)) in COUPLINGS.iter().zip(worst) {
+        println!("{coupling}: depth within {:.2} %, rebound within {:.2} %", 100.0 * depth, 100.0 * rebound);
+    }
+}
