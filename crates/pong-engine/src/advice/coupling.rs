@@ -100,8 +100,7 @@ fn late_hold_is_stable(kappa: f64, gamma: f64, late: u32) -> bool {
     while p.len() > 1 {
         let last = p.len() - 1;
         let reflection = p[0] / p[last];
-        // The negated comparison refuses NaN too.
-        if !(reflection.abs() < 1.0) {
+        if reflection.is_nan() || reflection.abs() >= 1.0 {
             return false;
         }
         p = (0..last).map(|i| p[i + 1] - reflection * p[last - 1 - i]).collect();
