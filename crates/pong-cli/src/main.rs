@@ -12,6 +12,7 @@ mod log;
 mod replay;
 mod run;
 mod text;
+mod trade;
 mod verify;
 mod view;
 
@@ -35,6 +36,7 @@ enum Command {
     Run(run::Arguments),
     Log(log::Arguments),
     Replay(replay::Arguments),
+    Trade(trade::Arguments),
     Verify(verify::Arguments),
     View(view::Arguments),
 }
@@ -48,6 +50,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
+        Command::Trade(arguments) => trade::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),
     }

@@ -91,6 +91,31 @@ fn each_fault_is_told_by_name() {
         ("duration: 1.0", "duration: -1.0", "duration: it is -1 s"),
         ("duration: 1.0", "duration: 1.0, record_every: 0", "record_every: it is 0"),
         ("RungeKutta4", "ZeroOrderHold(substeps: 0)", "integrator: 0 substeps"),
+        (
+            "pairs: []",
+            "pairs: [], alternatives: [(name: \"x\", models: { \"bell\": \"ball.ron\" })]",
+            "alternatives/x: there is no model `bell`; name one from `models`: ball",
+        ),
+        (
+            "pairs: []",
+            "pairs: [], alternatives: [(name: \"x\", models: {})]",
+            "alternatives/x: it replaces no model",
+        ),
+        (
+            "pairs: []",
+            "pairs: [], alternatives: [(name: \"x\", models: { \"ball\": \"a\" }), (name: \"x\", models: { \"ball\": \"b\" })]",
+            "alternatives/x: the name is given twice",
+        ),
+        (
+            "pairs: []",
+            "pairs: [], alternatives: [(name: \"\", models: { \"ball\": \"a\" })]",
+            "alternatives/: it has no name",
+        ),
+        (
+            "pairs: []",
+            "pairs: [], alternatives: [(name: \"x\", models: { \"ball\": \"a\", \"ball\": \"b\" })]",
+            "alternatives/x: model `ball` is replaced twice",
+        ),
     ];
     for (replace, by, expected) in cases {
         let told = errors(&scene(replace, by), &folder);

@@ -1,6 +1,7 @@
 //! Every example of docs/scene_format.md is read and run.
 
-use pong_executive::scene::{BuiltScene, Scene};
+use pong_executive::Integrator;
+use pong_executive::scene::{BuiltScene, Scene, Variation};
 use std::path::{Path, PathBuf};
 
 const DOCUMENT: &str = include_str!("../../../docs/scene_format.md");
@@ -53,16 +54,50 @@ fn every_example_builds_and_runs() {
     let objects: Vec<&str> = find("objects").collect();
     let with_bodies = objects[0].to_owned() + objects[1];
     let mut scenes: Vec<String> = objects.iter().map(|text| around(text, "", RUNGE_KUTTA)).collect();
-    for section in ["loads", "springs"] {
+    for section in ["loads", "springs", "alternatives"] {
         let sections = find(section).map(|text| format!("{section}: [{text}],"));
         scenes.extend(sections.map(|text| around(&with_bodies, &text, RUNGE_KUTTA)));
     }
     scenes.extend(find("field").map(|text| around(&with_bodies, "", text)));
-    assert_eq!(scenes.len(), 8, "3 of objects, loads, springs, 3 integrators");
+    assert_eq!(scenes.len(), 9, "3 of objects, loads, springs, alternatives, 3 integrators");
     for text in &scenes {
         let mut built = build(text, &folder);
         built.simulation.run_for(2e-3).unwrap_or_else(|e| panic!("{e}\n{text}"));
     }
+}
+
+/// The alternative's models are in place of the scene's, and what a variation says holds in place of what the file does.
+#[test]
+fn a_scene_is_built_with_something_else_than_it_says() {
+    let folder = model_folder("varied");
+    let find = |kind: &str| blocks().into_iter().find(|(head, _)| *head == kind).unwrap().1;
+    let section = format!("alternatives: [{}],", find("alternatives"));
+    let whole = find("scene").replacen("pairs:", &format!("{section} pairs:"), 1);
+    let scene = Scene::parse(&whole, "example.ron", &folder).unwrap();
+    assert_eq!(scene.alternatives().collect::<Vec<_>>(), ["point"]);
+    assert_eq!(scene.model_files().len(), 3);
+    let rename = |mut model: pong_model::Model| {
+        model.name.push_str(" again");
+        Ok(model)
+    };
+    let variation = Variation {
+        integrator: Some(Integrator::SemiImplicitEuler),
+        step: Some(3e-4),
+        alternative: Some("point"),
+        rewrite: Some(&rename),
+        ..Variation::default()
+    };
+    let built = scene.build_varied(&variation).unwrap();
+    let names: Vec<&str> = built.simulation.world().models().map(|(_, model)| model.name.as_str()).collect();
+    assert_eq!(names, ["tip again", "ground again"]);
+    assert_eq!(built.simulation.integrator(), Integrator::SemiImplicitEuler);
+    assert_eq!((built.simulation.step_length(), built.steps), (3e-4, 1000));
+    let plain = scene.build().unwrap();
+    let ball = plain.simulation.world().models().next().unwrap().1.name.clone();
+    assert_eq!((ball.as_str(), plain.simulation.step_length()), ("ball", 1e-4));
+    let unknown = scene.build_varied(&Variation { alternative: Some("line"), ..Variation::default() });
+    let told = unknown.err().unwrap().to_string();
+    assert!(told.contains("there is no alternative `line`") && told.contains("point"), "{told}");
 }
 
 #[test]

@@ -17,6 +17,7 @@ pub mod model;
 mod pieces;
 mod polyhedra;
 mod read;
+mod regroup;
 pub mod restitution;
 mod ron_tree;
 pub mod surface;

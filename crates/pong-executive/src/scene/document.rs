@@ -34,6 +34,17 @@ pub(crate) struct Document {
     #[serde(default)]
     pub ledger: bool,
     pub contact_capacity: Option<usize>,
+    #[serde(default)]
+    pub alternatives: Vec<AlternativeEntry>,
+}
+
+/// Other files for some of the models.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "alternative")]
+pub(crate) struct AlternativeEntry {
+    pub name: String,
+    #[serde(deserialize_with = "pairs_of_map")]
+    pub models: Vec<(String, String)>,
 }
 
 fn one() -> u64 {

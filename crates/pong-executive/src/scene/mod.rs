@@ -6,8 +6,10 @@ mod effects;
 mod error;
 mod poses;
 mod setting;
+mod variation;
 
 pub use error::{SceneError, SceneErrors};
+pub use variation::Variation;
 
 use crate::body::BodyId;
 use crate::simulation::Simulation;
@@ -91,10 +93,17 @@ impl Scene {
 
     /// Loads the models and sets everything up, or tells everything that is wrong.
     pub fn build(&self) -> Result<BuiltScene, SceneErrors> {
+        self.build_varied(&Variation::default())
+    }
+
+    /// As [`build`](Self::build), with something else than the file says.
+    pub fn build_varied(&self, variation: &Variation<'_>) -> Result<BuiltScene, SceneErrors> {
         let mut faults = Faults::new(&self.file);
-        let document = &self.document;
+        let document = &variation.document(&self.document, &mut faults);
         check_head(document, &mut faults);
-        let mut setting = setting::Setting::new(document, &self.folder, &Extensions::new(), &mut faults);
+        variation::check_alternatives(document, &mut faults);
+        let extensions = Extensions::new();
+        let mut setting = setting::Setting::new(document, &self.folder, &extensions, variation, &mut faults);
         let bodies = bodies::bodies(document, &setting, &mut faults);
         let loads = effects::loads(document, &setting, &bodies, &mut faults);
         let springs = effects::springs(document, &setting, &bodies, &mut faults);

@@ -2,6 +2,7 @@
 
 use super::document::Document;
 use super::error::Faults;
+use super::variation::Variation;
 use pong_engine::{Config, EngineError, InterfaceId, ObjectId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
@@ -23,11 +24,17 @@ pub(crate) struct Setting {
 type Named<'a> = (&'a str, Option<Arc<Model>>);
 
 impl Setting {
-    pub fn new(document: &Document, folder: &Path, extensions: &Extensions, faults: &mut Faults<'_>) -> Self {
+    pub fn new(
+        document: &Document,
+        folder: &Path,
+        extensions: &Extensions,
+        variation: &Variation<'_>,
+        faults: &mut Faults<'_>,
+    ) -> Self {
         let config = Config {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,
-            ..Config::default()
+            workers: variation.workers.clone(),
         };
         let mut setting = Self {
             world: World::new(config),
@@ -36,7 +43,7 @@ impl Setting {
             model_files: Vec::new(),
             warnings: Vec::new(),
         };
-        let named = load_models(document, folder, extensions, faults);
+        let named = load_models(document, folder, extensions, variation, faults);
         setting.warnings =
             named.iter().flat_map(|(_, model)| model.iter().flat_map(|m| m.warnings.clone())).collect();
         setting.create_objects(document, &named, faults);
@@ -138,6 +145,7 @@ fn load_models<'a>(
     document: &'a Document,
     folder: &Path,
     extensions: &Extensions,
+    variation: &Variation<'_>,
     faults: &mut Faults<'_>,
 ) -> Vec<Named<'a>> {
     let mut named: Vec<Named<'a>> = Vec::new();
@@ -148,13 +156,17 @@ fn load_models<'a>(
             continue;
         }
         let model = match pong_model::load(&folder.join(file), extensions) {
-            Ok(model) => Some(Arc::new(model)),
+            Ok(model) => Some(model),
             Err(errors) => {
                 errors.0.iter().for_each(|error| faults.note(&thing, error.to_string(), ""));
                 None
             }
         };
-        named.push((name, model));
+        let model = model.and_then(|model| match variation.rewrite {
+            None => Some(model),
+            Some(rewrite) => rewrite(model).map_err(|line| faults.note_line(&thing, &line)).ok(),
+        });
+        named.push((name, model.map(Arc::new)));
     }
     named
 }

@@ -1,0 +1,168 @@
+//! `pong trade`: what speed costs in accuracy, measured on the user's scene.
+
+use crate::text::print;
+use indicatif::{ProgressBar, ProgressStyle};
+use pong_trade::{Lever, PlanSettings, Progress, Quantity, Settings, Study, report, study};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Runs a scene over the levers that buy speed, and tells frame time against error to a reference (docs/trade.md).
+///
+/// Writes trade.md, trade.csv, errors.csv and trade.svg. What is finished is kept beside them: a study that was stopped
+/// goes on where it was.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file.
+    #[arg(value_name = "SCENE.ron")]
+    scene: PathBuf,
+    /// Folder for the results; `<scene>_trade` unless given.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// The error that is allowed: names the cheapest level within it.
+    #[arg(long, value_name = "ERROR", default_value = "2%", value_parser = share)]
+    within: f64,
+    /// What must be within: any of wrench, impulse, peak, energy, pose.
+    #[arg(long, value_name = "QUANTITIES", value_delimiter = ',', value_parser = quantity)]
+    of: Vec<Quantity>,
+    /// Length of a frame, s: the longest step. 16 steps of the scene unless given, fewer if that leaves less than 64 frames.
+    #[arg(long, value_name = "SECONDS")]
+    frame: Option<f64>,
+    /// How often the frame is halved for the shortest step; down to half the scene's step unless given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=16))]
+    halvings: Option<u32>,
+    /// Another duration than the scene's, s.
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+    /// Only these levers: any of step, integrator, friction, alternatives, bounds, leaves, workers.
+    #[arg(long, value_name = "LEVERS", value_delimiter = ',', value_parser = lever)]
+    levers: Vec<Lever>,
+    /// Elements of a leaf to try.
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "8,32,128")]
+    leaves: Vec<usize>,
+    /// Workers to try.
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "1")]
+    workers: Vec<usize>,
+    /// How often every level is timed.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    rounds: u32,
+    /// How often the step of the reference may be halved again until it has converged.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=8))]
+    refinements: u32,
+    /// Begins anew, whatever was kept.
+    #[arg(long)]
+    fresh: bool,
+    /// No progress bar and no page; errors stay.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = text.strip_suffix('%').map_or((text, 1.0), |number| (number, 0.01));
+    let value =
+        number.trim().parse::<f64>().map_err(|_| "give a share such as 2% or 0.02".to_owned())? * unit;
+    if value > 0.0 && value < 1.0 {
+        Ok(value)
+    } else {
+        Err("give a share above 0 and below 100 %".to_owned())
+    }
+}
+
+fn quantity(text: &str) -> Result<Quantity, String> {
+    let known: Vec<&str> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
+    let found = Quantity::ALL.into_iter().find(|quantity| quantity.name() == text.trim());
+    found.ok_or_else(|| format!("give any of {}", known.join(", ")))
+}
+
+fn lever(text: &str) -> Result<Lever, String> {
+    let known: Vec<&str> = Lever::ALL.iter().map(|lever| lever.name()).collect();
+    let found = Lever::ALL.into_iter().find(|lever| lever.name() == text.trim());
+    found.ok_or_else(|| format!("give any of {}", known.join(", ")))
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match run(arguments) {
+        Ok(study) => finish(arguments, &study),
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
+    if !arguments.quiet {
+        print(&report::markdown(study));
+        print(&format!(
+            "\nwritten: trade.md, trade.csv, errors.csv and trade.svg in {}\n",
+            output(arguments).display()
+        ));
+    }
+    let changed: Vec<&str> = study
+        .rows
+        .iter()
+        .filter(|row| study.same_bits(row) == Some(false))
+        .map(|row| row.name.as_str())
+        .collect();
+    for name in &changed {
+        eprintln!(
+            "{name}: the answer is not the same bits as without this lever; that is a fault of the engine"
+        );
+    }
+    if !study.converged {
+        eprintln!("warning: the reference has not converged; no level is named");
+    }
+    if changed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn output(arguments: &Arguments) -> PathBuf {
+    let stem = arguments.scene.file_stem().unwrap_or_default().to_string_lossy();
+    arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}_trade")))
+}
+
+fn run(arguments: &Arguments) -> Result<Study, pong_trade::TradeError> {
+    let bar = progress_bar(arguments.quiet);
+    let mut watch = |progress: &Progress<'_>| {
+        bar.set_length(progress.of);
+        bar.set_position(progress.done);
+        bar.set_message(progress.doing.to_owned());
+        ControlFlow::Continue(())
+    };
+    let study = study(&arguments.scene, &output(arguments), &settings(arguments), &mut watch);
+    bar.finish_and_clear();
+    let study = study?;
+    report::write(&study, &output(arguments))?;
+    Ok(study)
+}
+
+fn settings(arguments: &Arguments) -> Settings {
+    let all_if_none =
+        |chosen: &[Quantity]| if chosen.is_empty() { Quantity::ALL.to_vec() } else { chosen.to_vec() };
+    Settings {
+        plan: PlanSettings {
+            frame_s: arguments.frame,
+            halvings: arguments.halvings,
+            duration_s: arguments.duration,
+            levers: if arguments.levers.is_empty() { Lever::ALL.to_vec() } else { arguments.levers.clone() },
+            leaves: arguments.leaves.clone(),
+            workers: arguments.workers.clone(),
+        },
+        within: arguments.within,
+        of: all_if_none(&arguments.of),
+        rounds: arguments.rounds,
+        refinements: arguments.refinements,
+        fresh: arguments.fresh,
+    }
+}
+
+/// A bar on standard error, if that is a terminal.
+fn progress_bar(quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(1);
+    let template = "{bar:30} {percent:>3} %, {eta} left: {msg}";
+    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
+    bar
+}

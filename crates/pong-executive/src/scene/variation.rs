@@ -1,0 +1,123 @@
+//! A scene with something else than its file says: another step, another integrator, other models.
+
+use super::Scene;
+use super::document::{Document, IntegratorEntry};
+use super::error::Faults;
+use crate::integrate::Integrator;
+use pong_engine::WorkerSettings;
+use pong_model::Model;
+use std::path::PathBuf;
+
+/// What a rewritten model is made by; an error is a line of cause and cure.
+type Rewrite<'a> = &'a dyn Fn(Model) -> Result<Model, String>;
+
+/// What is to differ from a scene file; by default nothing is.
+#[derive(Clone, Default)]
+pub struct Variation<'a> {
+    /// Another integrator.
+    pub integrator: Option<Integrator>,
+    /// Another step, s.
+    pub step: Option<f64>,
+    /// Workers of the world; the results are the same bits.
+    pub workers: Option<WorkerSettings>,
+    /// The models that this entry of the scene's `alternatives` names, in place of the others.
+    pub alternative: Option<&'a str>,
+    /// Every model, once loaded, is replaced by what this makes of it.
+    pub rewrite: Option<Rewrite<'a>>,
+}
+
+impl Variation<'_> {
+    /// The document with the changes that its fields can express.
+    pub(super) fn document(&self, document: &Document, faults: &mut Faults<'_>) -> Document {
+        let mut varied = document.clone();
+        varied.step = self.step.unwrap_or(document.step);
+        varied.integrator = self.integrator.map_or(document.integrator, entry);
+        if let Some(wanted) = self.alternative {
+            match document.alternatives.iter().find(|alternative| alternative.name == wanted) {
+                Some(found) => take_models(&mut varied, &found.models),
+                None => {
+                    let known: Vec<&str> = document.alternatives.iter().map(|a| a.name.as_str()).collect();
+                    let cure = format!("name one of those that the scene has: {}", known.join(", "));
+                    faults.note("alternatives", format!("there is no alternative `{wanted}`"), cure);
+                }
+            }
+        }
+        varied
+    }
+}
+
+fn take_models(document: &mut Document, instead: &[(String, String)]) {
+    for (name, file) in &mut document.models {
+        if let Some((_, other)) = instead.iter().find(|(other, _)| other == name) {
+            file.clone_from(other);
+        }
+    }
+}
+
+fn entry(integrator: Integrator) -> IntegratorEntry {
+    match integrator {
+        Integrator::SemiImplicitEuler => IntegratorEntry::SemiImplicitEuler,
+        Integrator::RungeKutta4 => IntegratorEntry::RungeKutta4,
+        Integrator::ZeroOrderHold { substeps, delay } => IntegratorEntry::ZeroOrderHold { substeps, delay },
+    }
+}
+
+/// Alternatives are told apart by name and replace models that are there. Their files are read when they are asked for.
+pub(super) fn check_alternatives(document: &Document, faults: &mut Faults<'_>) {
+    for (index, alternative) in document.alternatives.iter().enumerate() {
+        let thing = format!("alternatives/{}", alternative.name);
+        if alternative.name.trim().is_empty() {
+            faults.note(&thing, "it has no name", "name it");
+        }
+        if document.alternatives[..index].iter().any(|earlier| earlier.name == alternative.name) {
+            faults.note(&thing, "the name is given twice", "rename one of them");
+        }
+        if alternative.models.is_empty() {
+            faults.note(&thing, "it replaces no model", "give `models` the name and the other file of one");
+        }
+        for (place, (name, _)) in alternative.models.iter().enumerate() {
+            if !document.models.iter().any(|(known, _)| known == name) {
+                let known: Vec<&str> = document.models.iter().map(|(known, _)| known.as_str()).collect();
+                let cure = format!("name one from `models`: {}", known.join(", "));
+                faults.note(&thing, format!("there is no model `{name}`"), cure);
+            }
+            if alternative.models[..place].iter().any(|(earlier, _)| earlier == name) {
+                faults.note(&thing, format!("model `{name}` is replaced twice"), "keep one of the files");
+            }
+        }
+    }
+}
+
+impl Scene {
+    /// Name as given in the file.
+    pub fn name(&self) -> &str {
+        &self.document.name
+    }
+
+    /// The step, s.
+    pub fn step(&self) -> f64 {
+        self.document.step
+    }
+
+    /// The duration, s.
+    pub fn duration(&self) -> f64 {
+        self.document.duration
+    }
+
+    /// The integrator.
+    pub fn integrator(&self) -> Integrator {
+        super::effects::integrator(&self.document)
+    }
+
+    /// Names of the alternatives, in the order of the file.
+    pub fn alternatives(&self) -> impl Iterator<Item = &str> {
+        self.document.alternatives.iter().map(|alternative| alternative.name.as_str())
+    }
+
+    /// Every model file that the scene names, those of its alternatives included, in the order of the file.
+    pub fn model_files(&self) -> Vec<PathBuf> {
+        let alternatives = self.document.alternatives.iter().flat_map(|alternative| &alternative.models);
+        let files = self.document.models.iter().chain(alternatives);
+        files.map(|(_, file)| self.folder.join(file)).collect()
+    }
+}

@@ -1,0 +1,208 @@
+//! The same model with other bounding volumes or other leaves: other times, the same answers.
+
+use crate::draft::GroupDraft;
+use crate::element::Element;
+use crate::model::{Body, Item, Model};
+use crate::tree;
+use pong_geometry::Vec3;
+use pong_geometry::bounding::{BoundKind, Volume};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+impl Model {
+    /// The model with the bounding volumes of all its groups fitted anew in one kind.
+    ///
+    /// # Errors
+    /// Cause and cure, if a volume cannot be fitted.
+    pub fn with_bounds(&self, kind: &BoundKind, ext: &Extensions) -> Result<Self, String> {
+        self.regrouped(ext, |body| {
+            let mut groups = groups_of(body);
+            groups.iter_mut().for_each(|group| group.bound = kind.clone());
+            groups
+        })
+    }
+
+    /// The model with leaves of at most so many elements each: the authored groups give way to halves of halves, cut
+    /// across the longest side, in volumes of the kind of the authored root (boxes along the axes where that is
+    /// unbounded). Unbounded elements get a leaf of their own.
+    ///
+    /// # Errors
+    /// Cause and cure, if a volume cannot be fitted, or if there is to be nothing in a leaf.
+    pub fn with_leaves(&self, most: usize, ext: &Extensions) -> Result<Self, String> {
+        if most == 0 {
+            return Err("leaves are to hold 0 elements; give at least 1".to_owned());
+        }
+        self.regrouped(ext, |body| {
+            let root = &body.tree.nodes[0];
+            let template = GroupDraft { bound: kind_of(&root.volume), ..group(&root.group) };
+            let mut groups = vec![template];
+            let (bounded, unbounded): (Vec<Item>, Vec<Item>) =
+                body.tree.items.iter().partition(|item| center(body, **item).is_some());
+            if unbounded.is_empty() {
+                halve(body, bounded, most, 0, &mut groups);
+            } else {
+                let parts = [bounded, unbounded].into_iter().filter(|part| !part.is_empty());
+                for part in parts {
+                    let child = push(&mut groups, 0);
+                    let most = if center(body, part[0]).is_some() { most } else { part.len() };
+                    halve(body, part, most, child, &mut groups);
+                }
+            }
+            groups
+        })
+    }
+
+    fn regrouped(&self, ext: &Extensions, groups: impl Fn(&Body) -> Vec<GroupDraft>) -> Result<Self, String> {
+        let mut model = self.clone();
+        for body in &mut model.bodies {
+            body.tree = tree::build(body, &groups(body), ext).map_err(|faults| {
+                let reason = faults.into_iter().next().map_or(String::new(), |(_, reason)| reason);
+                format!(
+                    "the bounding volumes of {} cannot be fitted: {reason}; choose another kind",
+                    body.path
+                )
+            })?;
+        }
+        Ok(model)
+    }
+}
+
+/// The groups that the nodes of a body's tree came from.
+fn groups_of(body: &Body) -> Vec<GroupDraft> {
+    let nodes = body.tree.nodes.iter();
+    nodes
+        .map(|node| GroupDraft {
+            bound: kind_of(&node.volume),
+            children: node.children.clone().map(|child| child as usize).collect(),
+            items: body.tree.items[node.items.start as usize..node.items.end as usize].to_vec(),
+            ..group(&node.group)
+        })
+        .collect()
+}
+
+fn group(path: &Arc<str>) -> GroupDraft {
+    GroupDraft {
+        path: Arc::clone(path),
+        at: 0,
+        bound: BoundKind::Aabb,
+        children: Vec::new(),
+        items: Vec::new(),
+    }
+}
+
+fn kind_of(volume: &Volume) -> BoundKind {
+    match volume {
+        Volume::Sphere { .. } => BoundKind::Sphere,
+        Volume::Obb { .. } => BoundKind::Obb,
+        Volume::Custom(volume) => BoundKind::Custom(volume.kind_name().to_owned()),
+        Volume::Aabb { .. } | Volume::Unbounded => BoundKind::Aabb,
+    }
+}
+
+/// A new group below another, of its kind.
+fn push(groups: &mut Vec<GroupDraft>, above: usize) -> usize {
+    let mut child = group(&groups[above].path);
+    child.bound = groups[above].bound.clone();
+    groups.push(child);
+    let index = groups.len() - 1;
+    groups[above].children.push(index);
+    index
+}
+
+/// Puts items into a group, or halves of them into two below it.
+fn halve(body: &Body, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
+    if items.len() <= most {
+        groups[into].items = items;
+        return;
+    }
+    let centers: Vec<Vec3> = items.iter().filter_map(|item| center(body, *item)).collect();
+    let Some(first) = centers.first() else { return };
+    let (low, high) = centers.iter().fold((*first, *first), |(low, high), c| (low.inf(c), high.sup(c)));
+    let axis = (high - low).imax();
+    let along = |item: &Item| center(body, *item).map_or(0.0, |center| center[axis]);
+    // Equal places keep the order of the items: the same tree every time.
+    items.sort_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
+    let rest = items.split_off(items.len() / 2);
+    for half in [items, rest] {
+        let child = push(groups, into);
+        halve(body, half, most, child, groups);
+    }
+}
+
+/// The middle of an element's box, m; `None` if it is unbounded.
+fn center(body: &Body, item: Item) -> Option<Vec3> {
+    let (low, high) = Element::new(body, item).extent();
+    let middle = 0.5 * (low + high);
+    middle.iter().all(|x| x.is_finite()).then_some(middle)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parse;
+
+    fn model() -> Model {
+        let points: Vec<String> = (0..40)
+            .map(|k| {
+                let (x, y) = (f64::from(k % 8), f64::from(k / 8) * 0.5);
+                format!("Point(name: \"p{k}\", position: ({x:?}, {y:?}, 0.0))")
+            })
+            .collect();
+        let text = format!(
+            "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1e5) }}, root: (name: \"m\", \
+             surface: \"s\", groups: [(name: \"a\", bound: Sphere, primitives: [{}]), (name: \"b\", primitives: \
+             [Plane(name: \"floor\", normal: (0.0, 0.0, 1.0), offset: 0.0)])]))",
+            points.join(",")
+        );
+        parse(&text, "m.ron", None, &Extensions::new()).unwrap()
+    }
+
+    fn items(model: &Model) -> Vec<Item> {
+        let mut items = model.bodies[0].tree.items.clone();
+        items.sort_unstable();
+        items
+    }
+
+    /// Nothing is lost or doubled, leaves hold what they may, and the hash, which leaves volumes out, is the same.
+    #[test]
+    fn leaves_hold_every_element_once() {
+        let model = model();
+        for most in [1, 7, 8, 40, 1000] {
+            let other = model.with_leaves(most, &Extensions::new()).unwrap();
+            let tree = &other.bodies[0].tree;
+            assert_eq!(items(&other), items(&model), "{most}");
+            assert!(tree.nodes.iter().all(|node| node.items.len() <= most), "{most}");
+            assert!(
+                tree.nodes.iter().all(|node| node.items.is_empty() || node.children.is_empty()),
+                "{most}"
+            );
+            let leaves = tree.nodes.iter().filter(|node| !node.items.is_empty()).count();
+            assert!(leaves > 40 / most, "{most}: {leaves} leaves");
+            assert_eq!(other.hash, model.hash);
+        }
+        assert!(model.with_leaves(0, &Extensions::new()).unwrap_err().contains("at least 1"));
+    }
+
+    #[test]
+    fn bounds_take_the_kind_that_is_asked_for() {
+        let model = model();
+        for (kind, name) in
+            [(BoundKind::Aabb, "Aabb"), (BoundKind::Sphere, "Sphere"), (BoundKind::Obb, "Obb")]
+        {
+            let other = model.with_bounds(&kind, &Extensions::new()).unwrap();
+            let (old, new) = (&model.bodies[0].tree, &other.bodies[0].tree);
+            assert_eq!(new.nodes.len(), old.nodes.len());
+            for (node, before) in new.nodes.iter().zip(&old.nodes) {
+                assert_eq!(node.group, before.group);
+                let unbounded = matches!(before.volume, Volume::Unbounded);
+                assert!(
+                    unbounded || kind_of(&node.volume) == kind,
+                    "{name}: {:?} at {}",
+                    node.volume,
+                    node.group
+                );
+            }
+            assert_eq!(items(&other), items(&model));
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! A level: one setting of every lever.
+
+use pong_executive::Integrator;
+use pong_geometry::bounding::BoundKind;
+use std::fmt::Write as _;
+
+/// One setting of every lever. What is `None` or 0 is as the scene and its models say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Level {
+    /// Steps in a frame: the step is frame / steps.
+    pub steps_per_frame: u32,
+    /// The integrator.
+    pub integrator: Integrator,
+    /// Whether friction is left out of every surface.
+    pub frictionless: bool,
+    /// The scene's alternative whose models are taken.
+    pub alternative: Option<String>,
+    /// The kind that every bounding volume is made.
+    pub bounds: Option<BoundKind>,
+    /// Most elements of a leaf; the trees are built anew.
+    pub leaf: Option<usize>,
+    /// Workers beside the calling thread.
+    pub workers: usize,
+}
+
+/// What can be set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Lever {
+    /// The length of a step.
+    Step,
+    /// The integrator, the wrench held over a step and its sub-steps included.
+    Integrator,
+    /// Friction as the models say, or none.
+    Friction,
+    /// Other models that the scene names.
+    Alternatives,
+    /// The kind of every bounding volume.
+    Bounds,
+    /// How many elements a leaf holds.
+    Leaves,
+    /// Workers.
+    Workers,
+    /// Of a log: how many frames the wrench is held.
+    Every,
+}
+
+impl Lever {
+    /// All levers.
+    pub const ALL: [Self; 8] = [
+        Self::Step,
+        Self::Integrator,
+        Self::Friction,
+        Self::Alternatives,
+        Self::Bounds,
+        Self::Leaves,
+        Self::Workers,
+        Self::Every,
+    ];
+
+    /// Its name in tables and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Step => "step",
+            Self::Integrator => "integrator",
+            Self::Friction => "friction",
+            Self::Alternatives => "alternatives",
+            Self::Bounds => "bounds",
+            Self::Leaves => "leaves",
+            Self::Workers => "workers",
+            Self::Every => "every",
+        }
+    }
+
+    /// Whether it may change the answer; the others change the time alone, which is checked.
+    pub fn changes_answers(self) -> bool {
+        !matches!(self, Self::Bounds | Self::Leaves | Self::Workers)
+    }
+}
+
+impl Level {
+    /// The scene's models and one thread, at so many steps a frame.
+    pub fn plain(integrator: Integrator, steps_per_frame: u32) -> Self {
+        Self {
+            steps_per_frame,
+            integrator,
+            frictionless: false,
+            alternative: None,
+            bounds: None,
+            leaf: None,
+            workers: 0,
+        }
+    }
+
+    /// Times that a step asks the engine.
+    pub fn calls_per_step(&self) -> u32 {
+        if self.integrator == Integrator::RungeKutta4 { 4 } else { 1 }
+    }
+
+    /// Times that a frame asks the engine.
+    pub fn calls_per_frame(&self) -> u64 {
+        u64::from(self.calls_per_step()) * u64::from(self.steps_per_frame)
+    }
+
+    /// What is set, besides step and integrator.
+    pub fn settings(&self) -> Vec<(Lever, String)> {
+        let mut settings = Vec::new();
+        if self.frictionless {
+            settings.push((Lever::Friction, "no friction".to_owned()));
+        }
+        settings.extend(self.alternative.clone().map(|name| (Lever::Alternatives, format!("`{name}`"))));
+        settings.extend(self.bounds.as_ref().map(|kind| (Lever::Bounds, format!("{} bounds", kind.name()))));
+        settings.extend(self.leaf.map(|most| (Lever::Leaves, format!("leaves of {most}"))));
+        if self.workers > 0 {
+            let workers = if self.workers == 1 { "1 worker" } else { &format!("{} workers", self.workers) };
+            settings.push((Lever::Workers, workers.to_owned()));
+        }
+        settings
+    }
+
+    /// A name that tells it from every other level of a study.
+    pub fn name(&self, frame_s: f64) -> String {
+        let step = frame_s / f64::from(self.steps_per_frame);
+        let mut name = format!("{}, {}", integrator_name(self.integrator), seconds(step));
+        self.settings().iter().for_each(|(_, setting)| {
+            let _ = write!(name, ", {setting}");
+        });
+        name
+    }
+}
+
+/// Short, as the scene format says it where that is short.
+pub fn integrator_name(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::SemiImplicitEuler => "Euler".to_owned(),
+        Integrator::RungeKutta4 => "RK4".to_owned(),
+        Integrator::ZeroOrderHold { substeps, delay: 0 } => format!("hold/{substeps}"),
+        Integrator::ZeroOrderHold { substeps, delay } => format!("hold/{substeps} late {delay}"),
+    }
+}
+
+/// A time as s, ms or µs, with as many digits as it has, six at most.
+pub fn seconds(time_s: f64) -> String {
+    let (value, unit) = match time_s.abs() {
+        t if t >= 1.0 => (time_s, "s"),
+        t if t >= 1e-3 => (time_s * 1e3, "ms"),
+        _ => (time_s * 1e6, "µs"),
+    };
+    let text = format!("{value:.6}");
+    let digits = 7 + usize::from(text.starts_with('-'));
+    let short = if text.find('.').unwrap_or(0) >= digits { &text } else { &text[..digits.min(text.len())] };
+    format!("{} {unit}", short.trim_end_matches('0').trim_end_matches('.'))
+}

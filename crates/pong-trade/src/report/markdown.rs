@@ -1,0 +1,159 @@
+//! The page for people.
+
+use super::{effects, microseconds, percent, table};
+use crate::errors::Quantity;
+use crate::level::seconds;
+use crate::study::{Answer, Row, Study};
+use std::fmt::Write as _;
+
+/// The whole page: how the reference stands, every level, what to choose, what each lever does.
+pub fn markdown(study: &Study) -> String {
+    let frames = &study.plan.frames;
+    let mut page = format!("# Speed against accuracy: {}\n\n", study.scene);
+    let duration = frames.frame_s * frames.count as f64;
+    let _ = writeln!(
+        page,
+        "{} frames of {}, {} in all. A frame time is that of the whole frame, executive included; the shortest of all \
+         rounds, frame by frame. Errors are relative to the peak, or to what the reference sums up or travels.\n",
+        frames.count,
+        seconds(frames.frame_s),
+        seconds(duration)
+    );
+    page += &reference(study);
+    page += &verdict(study);
+    page += "\n## Levels, the fastest first\n\n";
+    page += &levels(study);
+    page += &remarks(study);
+    page += &effects::effects(study);
+    page
+}
+
+fn reference(study: &Study) -> String {
+    let reference = &study.reference;
+    let step = seconds(study.plan.frames.frame_s / f64::from(reference.steps_per_frame));
+    let mut text =
+        format!("## The reference\n\nRK4 at {step}, checked against steps twice and four times as long.\n\n");
+    let rows: Vec<Vec<String>> = Quantity::ALL
+        .iter()
+        .map(|quantity| {
+            let check = reference.of(*quantity);
+            let order = check.order.map_or("rounding".to_owned(), |order| format!("{order:.2}"));
+            vec![quantity.name().to_owned(), order, percent(check.error)]
+        })
+        .collect();
+    text += &table(&["quantity", "observed order", "estimated error, %"], &rows);
+    text
+}
+
+fn verdict(study: &Study) -> String {
+    let within = percent(study.within);
+    let names: Vec<&str> = study.of.iter().map(|quantity| quantity.name()).collect();
+    let names = names.join(", ");
+    let uncertainty = percent(study.reference.uncertainty(&study.of));
+    let cheapest = study.cheapest.map(|index| &study.rows[index]);
+    let text = match (study.converged, cheapest) {
+        (false, _) => format!(
+            "**The reference has not converged**: its own error in {names} is about {uncertainty} %, and {within} % cannot be \
+             judged by it. No level is named. Give more --refinements or a shorter --frame, ask for less (--within), or \
+             for quantities that do converge (--of): after a bounce or a slip that hangs on chance, the path does not."
+        ),
+        (true, None) => format!(
+            "**No level is within {within} %** in {names}. Give a shorter --frame or more --halvings."
+        ),
+        (true, Some(row)) => {
+            let base = &study.rows[study.plan.base];
+            let against = match (&row.times, &base.times) {
+                (Some(own), Some(base)) => {
+                    let ratio = base.median_ns() as f64 / own.median_ns().max(1) as f64;
+                    format!(" ({} times as fast as the scene as written)", super::digits(ratio))
+                }
+                _ => String::new(),
+            };
+            format!(
+                "**The cheapest level within {within} %** in {names}: **{}**{against}. A level counts as within if its error and \
+                 that of the reference ({uncertainty} %) together are.",
+                row.name
+            )
+        }
+    };
+    format!("\n{text}\n")
+}
+
+fn levels(study: &Study) -> String {
+    let mut order: Vec<usize> = (0..study.rows.len()).collect();
+    order.sort_by_key(|index| {
+        let row = &study.rows[*index];
+        (row.times.as_ref().map_or(u64::MAX, |times| times.median_ns()), *index)
+    });
+    let heading = [
+        "level",
+        "calls",
+        "median, µs",
+        "p99, µs",
+        "wrench, %",
+        "impulse, %",
+        "peak, %",
+        "energy, %",
+        "pose, %",
+        "mm",
+        "",
+    ];
+    let rows: Vec<Vec<String>> = order.iter().map(|index| line(study, *index)).collect();
+    table(&heading, &rows)
+}
+
+fn line(study: &Study, index: usize) -> Vec<String> {
+    let row = &study.rows[index];
+    let mut cells = vec![row.name.clone(), row.level.calls_per_frame().to_string()];
+    let times = row.times.as_ref();
+    cells.push(times.map_or("–".to_owned(), |times| microseconds(times.median_ns())));
+    cells.push(times.map_or("–".to_owned(), |times| microseconds(times.tail_ns())));
+    match &row.answer {
+        Answer::Diverged { .. } => cells.extend(["–"; 6].map(str::to_owned)),
+        Answer::Reached { errors, .. } => {
+            cells.extend(Quantity::ALL.iter().map(|quantity| percent(errors.of(*quantity))));
+            cells.push(super::digits(1e3 * errors.position_m));
+        }
+    }
+    cells.push(marks(study, index, row));
+    cells
+}
+
+fn marks(study: &Study, index: usize, row: &Row) -> String {
+    let mut marks = Vec::new();
+    if let Answer::Diverged { time_s } = row.answer {
+        marks.push(format!("diverged at {}", seconds(time_s)));
+    }
+    if let Answer::Reached { incomplete: 1.., .. } = row.answer {
+        marks.push("left contacts out".to_owned());
+    }
+    if study.same_bits(row) == Some(false) {
+        marks.push("NOT THE SAME BITS".to_owned());
+    }
+    if index == study.plan.base {
+        marks.push("as written".to_owned());
+    }
+    if row.on_front {
+        marks.push("front".to_owned());
+    }
+    if study.cheapest == Some(index) {
+        marks.push("cheapest within".to_owned());
+    }
+    marks.join(", ")
+}
+
+fn remarks(study: &Study) -> String {
+    let mut text = String::from(
+        "\n*calls*: how often a frame asks the engine. *front*: no level is both as fast and as accurate. *mm*: the greatest \
+         distance of a body from its place at the end of the reference.\n",
+    );
+    let reached = |row: &&Row| row.times.is_some();
+    let spread = study.rows.iter().filter(reached).filter_map(|row| row.times.as_ref());
+    let spread = spread.map(|times| times.spread()).fold(0.0, f64::max);
+    let _ = writeln!(
+        text,
+        "Between rounds the median of a level differed by {} % at most: smaller differences between levels are noise.",
+        percent(spread)
+    );
+    text
+}

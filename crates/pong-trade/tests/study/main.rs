@@ -1,0 +1,5 @@
+//! Studies of a ball on the ground.
+
+mod closed_forms;
+mod common;
+mod resume;
