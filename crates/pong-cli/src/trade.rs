@@ -2,21 +2,24 @@
 
 use crate::text::print;
 use indicatif::{ProgressBar, ProgressStyle};
-use pong_trade::{Lever, PlanSettings, Progress, Quantity, Settings, Study, report, study};
+use pong_trade::{
+    Lever, LogAlternative, PlanSettings, Progress, Quantity, Settings, Study, report, study, study_log,
+};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Runs a scene over the levers that buy speed, and tells frame time against error to a reference (docs/trade.md).
+/// Runs a scene, or the motions of a log, over the levers that buy speed, and tells frame time against error to a
+/// reference (docs/trade.md).
 ///
 /// Writes trade.md, trade.csv, errors.csv and trade.svg. What is finished is kept beside them: a study that was stopped
 /// goes on where it was.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// The scene file.
-    #[arg(value_name = "SCENE.ron")]
-    scene: PathBuf,
-    /// Folder for the results; `<scene>_trade` unless given.
+    /// The scene file, or the folder of a response log.
+    #[arg(value_name = "SCENE.ron|LOG")]
+    subject: PathBuf,
+    /// Folder for the results; `<scene>_trade` or `<log>_trade` unless given.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// The error that is allowed: names the cheapest level within it.
@@ -37,6 +40,10 @@ pub(crate) struct Arguments {
     /// Only these levers: any of step, integrator, friction, alternatives, bounds, leaves, workers.
     #[arg(long, value_name = "LEVERS", value_delimiter = ',', value_parser = lever)]
     levers: Vec<Lever>,
+    /// Of a log: other files for some of its models, as NAME:MODEL=FILE,MODEL=FILE; may be given several times. A scene names
+    /// its own.
+    #[arg(long, value_name = "NAME:MODEL=FILE", value_parser = alternative)]
+    alternative: Vec<LogAlternative>,
     /// Elements of a leaf to try.
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', default_value = "8,32,128")]
     leaves: Vec<usize>,
@@ -80,6 +87,16 @@ fn lever(text: &str) -> Result<Lever, String> {
     found.ok_or_else(|| format!("give any of {}", known.join(", ")))
 }
 
+fn alternative(text: &str) -> Result<LogAlternative, String> {
+    let cure = || "give NAME:MODEL=FILE, such as coarse:peg=peg_coarse.ron".to_owned();
+    let (name, rest) = text.split_once(':').filter(|(name, _)| !name.is_empty()).ok_or_else(cure)?;
+    let models = rest.split(',').map(|pair| {
+        let (model, file) = pair.split_once('=').ok_or_else(cure)?;
+        Ok((model.to_owned(), PathBuf::from(file)))
+    });
+    Ok(LogAlternative { name: name.to_owned(), models: models.collect::<Result<_, String>>()? })
+}
+
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok(study) => finish(arguments, &study),
@@ -116,7 +133,9 @@ fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
 }
 
 fn output(arguments: &Arguments) -> PathBuf {
-    let stem = arguments.scene.file_stem().unwrap_or_default().to_string_lossy();
+    let subject = &arguments.subject;
+    let name = if subject.is_dir() { subject.file_name() } else { subject.file_stem() };
+    let stem = name.unwrap_or_default().to_string_lossy();
     arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}_trade")))
 }
 
@@ -128,10 +147,20 @@ fn run(arguments: &Arguments) -> Result<Study, pong_trade::TradeError> {
         bar.set_message(progress.doing.to_owned());
         ControlFlow::Continue(())
     };
-    let study = study(&arguments.scene, &output(arguments), &settings(arguments), &mut watch);
+    let (subject, output) = (&arguments.subject, output(arguments));
+    let study = match subject.is_dir() {
+        true => study_log(subject, &arguments.alternative, &output, &settings(arguments), &mut watch),
+        false if !arguments.alternative.is_empty() => {
+            bar.finish_and_clear();
+            let line =
+                "--alternative: a scene names its own; write `alternatives` into it (docs/scene_format.md)";
+            return Err(pong_trade::TradeError(line.to_owned()));
+        }
+        false => study(subject, &output, &settings(arguments), &mut watch),
+    };
     bar.finish_and_clear();
     let study = study?;
-    report::write(&study, &output(arguments))?;
+    report::write(&study, &output)?;
     Ok(study)
 }
 

@@ -26,7 +26,9 @@ pub use csv::{CsvTables, Look};
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};
-pub use replay::{Difference, Obstacle, ReplayOptions, ReplayReport, replay};
+pub use replay::{
+    Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, RerunOptions, replay, rerun,
+};
 pub use run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
 pub use write::{ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

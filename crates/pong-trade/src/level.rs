@@ -4,13 +4,22 @@ use pong_executive::Integrator;
 use pong_geometry::bounding::BoundKind;
 use std::fmt::Write as _;
 
+/// What moves the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// An integrator, under the wrenches.
+    Integrated(Integrator),
+    /// A log of so many frames in one of the study.
+    Logged(u32),
+}
+
 /// One setting of every lever. What is `None` or 0 is as the scene and its models say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// Steps in a frame: the step is frame / steps.
+    /// Steps in a frame: the step is frame / steps. Of a log: how many of its frames the engine sees.
     pub steps_per_frame: u32,
-    /// The integrator.
-    pub integrator: Integrator,
+    /// The integrator, or that there is none.
+    pub motion: Motion,
     /// Whether friction is left out of every surface.
     pub frictionless: bool,
     /// The scene's alternative whose models are taken.
@@ -26,7 +35,7 @@ pub struct Level {
 /// What can be set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Lever {
-    /// The length of a step.
+    /// The length of a step; of a log, over how many frames a wrench is held.
     Step,
     /// The integrator, the wrench held over a step and its sub-steps included.
     Integrator,
@@ -40,13 +49,11 @@ pub enum Lever {
     Leaves,
     /// Workers.
     Workers,
-    /// Of a log: how many frames the wrench is held.
-    Every,
 }
 
 impl Lever {
     /// All levers.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Step,
         Self::Integrator,
         Self::Friction,
@@ -54,7 +61,6 @@ impl Lever {
         Self::Bounds,
         Self::Leaves,
         Self::Workers,
-        Self::Every,
     ];
 
     /// Its name in tables and on the command line.
@@ -67,7 +73,6 @@ impl Lever {
             Self::Bounds => "bounds",
             Self::Leaves => "leaves",
             Self::Workers => "workers",
-            Self::Every => "every",
         }
     }
 
@@ -79,10 +84,10 @@ impl Lever {
 
 impl Level {
     /// The scene's models and one thread, at so many steps a frame.
-    pub fn plain(integrator: Integrator, steps_per_frame: u32) -> Self {
+    pub fn plain(motion: Motion, steps_per_frame: u32) -> Self {
         Self {
             steps_per_frame,
-            integrator,
+            motion,
             frictionless: false,
             alternative: None,
             bounds: None,
@@ -93,7 +98,7 @@ impl Level {
 
     /// Times that a step asks the engine.
     pub fn calls_per_step(&self) -> u32 {
-        if self.integrator == Integrator::RungeKutta4 { 4 } else { 1 }
+        if self.motion == Motion::Integrated(Integrator::RungeKutta4) { 4 } else { 1 }
     }
 
     /// Times that a frame asks the engine.
@@ -117,10 +122,25 @@ impl Level {
         settings
     }
 
+    /// Its step in words.
+    pub fn step_name(&self, frame_s: f64) -> String {
+        match self.motion {
+            Motion::Integrated(_) => seconds(frame_s / f64::from(self.steps_per_frame)),
+            Motion::Logged(frames) => match frames / self.steps_per_frame {
+                1 => "every frame".to_owned(),
+                every => format!("1 frame of {every}"),
+            },
+        }
+    }
+
     /// A name that tells it from every other level of a study.
     pub fn name(&self, frame_s: f64) -> String {
-        let step = frame_s / f64::from(self.steps_per_frame);
-        let mut name = format!("{}, {}", integrator_name(self.integrator), seconds(step));
+        let mut name = match self.motion {
+            Motion::Integrated(integrator) => {
+                format!("{}, {}", integrator_name(integrator), self.step_name(frame_s))
+            }
+            Motion::Logged(_) => self.step_name(frame_s),
+        };
         self.settings().iter().for_each(|(_, setting)| {
             let _ = write!(name, ", {setting}");
         });
@@ -128,8 +148,16 @@ impl Level {
     }
 }
 
+/// What moves the bodies, in short.
+pub fn motion_name(motion: Motion) -> String {
+    match motion {
+        Motion::Integrated(integrator) => integrator_name(integrator),
+        Motion::Logged(_) => "log".to_owned(),
+    }
+}
+
 /// Short, as the scene format says it where that is short.
-pub fn integrator_name(integrator: Integrator) -> String {
+fn integrator_name(integrator: Integrator) -> String {
     match integrator {
         Integrator::SemiImplicitEuler => "Euler".to_owned(),
         Integrator::RungeKutta4 => "RK4".to_owned(),

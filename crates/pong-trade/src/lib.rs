@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `level.rs`, `plan.rs` | one setting of every lever; which of them are run |
 //! | `run.rs`, `record.rs`, `rewrite.rs` | one run: recorded, or timed; models as a level wants them |
+//! | `subject.rs`, `open_loop.rs` | what is run: a scene, or the motions of a log |
 //! | `errors.rs`, `reference.rs` | how far a run is from the reference; how far that may be off itself |
 //! | `study.rs`, `store.rs` | all runs, in turn; what is kept of them |
 //! | `choice.rs` | the Pareto front and the cheapest level within a tolerance |
@@ -17,6 +18,7 @@ mod error;
 mod errors;
 mod hash;
 mod level;
+mod open_loop;
 mod plan;
 mod record;
 mod reference;
@@ -25,11 +27,13 @@ mod rewrite;
 mod run;
 mod store;
 mod study;
+mod subject;
 
 pub use error::TradeError;
 pub use errors::{Errors, Quantity};
-pub use level::{Level, Lever, integrator_name, seconds};
+pub use level::{Level, Lever, Motion, motion_name, seconds};
+pub use open_loop::LogAlternative;
 pub use plan::{Plan, PlanSettings};
 pub use reference::{Check, Reference};
 pub use run::Frames;
-pub use study::{Answer, Place, Progress, Row, Settings, Study, Times, study};
+pub use study::{Answer, Place, Progress, Row, Settings, Study, Times, study, study_log};

@@ -1,7 +1,8 @@
 //! Which levels are run.
 
 use crate::error::TradeError;
-use crate::level::{Level, Lever};
+use crate::level::{Level, Lever, Motion};
+use crate::open_loop::LoggedRun;
 use crate::run::Frames;
 use pong_executive::Integrator;
 use pong_executive::scene::Scene;
@@ -83,17 +84,36 @@ impl Plan {
         let integrators = integrators(scene.integrator(), pulls(Lever::Integrator));
         let grid: Vec<Level> = integrators
             .iter()
-            .flat_map(|integrator| steps.iter().map(|steps| Level::plain(*integrator, *steps)))
+            .flat_map(|integrator| {
+                steps.iter().map(|steps| Level::plain(Motion::Integrated(*integrator), *steps))
+            })
             .collect();
-        let base = Level::plain(scene.integrator(), (own as u32).min(finest));
+        let base = Level::plain(Motion::Integrated(scene.integrator()), (own as u32).min(finest));
         let base = grid.iter().position(|level| *level == base).unwrap_or(0);
         let instants = instants(count as u64, bodies, finest);
         let frames = Frames { frame_s, count: count as u64, instants };
         Ok(Self { frames, grid, base, finest })
     }
 
+    /// The plan for a log: the engine sees every frame, every other … .
+    pub(crate) fn of_log(log: &mut LoggedRun, settings: &PlanSettings) -> Result<Self, TradeError> {
+        let halvings = settings.halvings.unwrap_or(3).min(16);
+        let finest = 1_u32 << halvings;
+        let frames = log.frames(finest)?;
+        let steps =
+            if settings.levers.contains(&Lever::Step) { self::halvings(finest) } else { vec![finest] };
+        let grid: Vec<Level> =
+            steps.iter().rev().map(|steps| Level::plain(Motion::Logged(finest), *steps)).collect();
+        Ok(Self { frames, grid, base: 0, finest })
+    }
+
     /// Levels with one lever set besides those of the grid, around a level of it.
-    pub fn around(&self, anchor: &Level, scene: &Scene, settings: &PlanSettings) -> Vec<(Lever, Level)> {
+    pub fn around(
+        &self,
+        anchor: &Level,
+        alternatives: &[String],
+        settings: &PlanSettings,
+    ) -> Vec<(Lever, Level)> {
         let mut levels = Vec::new();
         let mut add = |lever: Lever, change: &dyn Fn(&mut Level)| {
             if settings.levers.contains(&lever) {
@@ -103,8 +123,8 @@ impl Plan {
             }
         };
         add(Lever::Friction, &|level| level.frictionless = true);
-        for name in scene.alternatives() {
-            add(Lever::Alternatives, &|level| level.alternative = Some(name.to_owned()));
+        for name in alternatives {
+            add(Lever::Alternatives, &|level| level.alternative = Some(name.clone()));
         }
         for kind in [BoundKind::Aabb, BoundKind::Sphere, BoundKind::Obb] {
             add(Lever::Bounds, &|level| level.bounds = Some(kind.clone()));

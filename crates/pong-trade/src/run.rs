@@ -1,7 +1,7 @@
 //! One run of a level.
 
 use crate::error::TradeError;
-use crate::level::Level;
+use crate::level::{Level, Motion};
 use crate::record::{Record, Recorder};
 use crate::rewrite;
 use pong_engine::WorkerSettings;
@@ -12,7 +12,7 @@ use std::time::Instant;
 /// The frames of a study, the same for every level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frames {
-    /// Length of a frame, s: the longest step.
+    /// Length of a frame, s: the longest step. Of a log the mean.
     pub frame_s: f64,
     /// How many there are.
     pub count: u64,
@@ -76,8 +76,12 @@ pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<
 pub(crate) fn build(scene: &Scene, level: &Level, frames: &Frames) -> Result<BuiltScene, TradeError> {
     let rewrite = |model| rewrite::model(model, level);
     let workers = WorkerSettings { workers: level.workers, ..WorkerSettings::default() };
+    let integrator = match level.motion {
+        Motion::Integrated(integrator) => Some(integrator),
+        Motion::Logged(_) => None,
+    };
     let variation = Variation {
-        integrator: Some(level.integrator),
+        integrator,
         step: Some(frames.frame_s / f64::from(level.steps_per_frame)),
         workers: (level.workers > 0).then_some(workers),
         alternative: level.alternative.as_deref(),

@@ -4,14 +4,16 @@ use crate::choice::{self, Point, percentile};
 use crate::error::TradeError;
 use crate::errors::{Errors, Quantity, errors};
 use crate::hash::Fnv;
-use crate::level::{Level, Lever};
+use crate::level::{Level, Lever, Motion};
+use crate::open_loop::{LogAlternative, LoggedRun};
 use crate::plan::{Plan, PlanSettings};
 use crate::record::Record;
 use crate::reference::Reference;
-use crate::run::{self, Ended};
+use crate::run::Ended;
 use crate::store::Store;
-use pong_executive::Simulation;
+use crate::subject::{self, Subject};
 use pong_executive::scene::Scene;
+use pong_executive::{Integrator, Simulation};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -163,8 +165,10 @@ pub struct Study {
     pub scene: String,
     /// The plan.
     pub plan: Plan,
-    /// What the levels were compared with.
-    pub reference: Reference,
+    /// How good the reference is; `None` for a log, whose levels are compared with the engine at every frame.
+    pub reference: Option<Reference>,
+    /// Of a log: the greatest distance of the engine's wrenches from the log's own, relative to the peak.
+    pub apart: Option<f64>,
     /// The levels: the grid, then those around the base, then those around the level chosen by its errors alone.
     pub rows: Vec<Row>,
     /// The row of the level with fewest calls of the engine within the tolerance, around which levers were pulled again.
@@ -180,6 +184,16 @@ pub struct Study {
 }
 
 impl Study {
+    /// Whether a log was studied.
+    pub fn is_log(&self) -> bool {
+        self.reference.is_none()
+    }
+
+    /// What the reference may be off itself, in the quantities that count.
+    pub fn uncertainty(&self) -> f64 {
+        self.reference.as_ref().map_or(0.0, |reference| reference.uncertainty(&self.of))
+    }
+
     /// The worst relative error of a row in the quantities that count.
     pub fn error(&self, row: &Row) -> Option<f64> {
         row.answer.errors().map(|errors| errors.worst(&self.of))
@@ -197,6 +211,9 @@ impl Study {
 }
 
 /// Studies a scene file and keeps what is finished in a folder, so that a study that was stopped goes on where it was.
+///
+/// # Errors
+/// A scene or a model at fault, a folder that cannot be written, a study that was told to stop.
 pub fn study(
     scene: &Path,
     output: &Path,
@@ -207,34 +224,66 @@ pub fn study(
     let scene = Scene::load(scene).map_err(|errors| TradeError(errors.to_string()))?;
     let built = scene.build().map_err(|errors| TradeError(errors.to_string()))?;
     let plan = Plan::new(&scene, built.simulation.bodies().len(), &settings.plan)?;
-    let mut job = Job {
-        inputs: inputs(&scene, &text, &plan)?,
-        radii: radii(&built.simulation),
-        store: Store::open(output, settings.fresh)?,
-        done: 0,
-        all: calls_in_all(&scene, &plan, settings),
-        scene: &scene,
-        settings,
-        plan: &plan,
-        watch,
-    };
+    let hash = subject::hash_of_scene(&scene, &text)?;
+    let radii = radii(&built.simulation);
+    drop(built);
+    let store = Store::open(output, settings.fresh)?;
+    let subject = Subject::Scene(Box::new(scene));
+    let mut job = Job::new(subject, settings, &plan, hash, radii, store, watch);
     let (reference, record) = job.reference()?;
-    let mut rows = Vec::new();
-    for level in &plan.grid {
-        rows.push(job.row(level, Place::Grid, &reference, &record)?);
-    }
-    job.around(plan.base, &mut rows, &reference, &record)?;
-    let converged = reference.has_converged(&settings.of, settings.within);
     let tolerance = settings.within - reference.uncertainty(&settings.of);
-    let second = fewest_calls(&rows[..plan.grid.len()], &settings.of, tolerance);
-    if let Some(second) = second.filter(|second| *second != plan.base) {
-        job.around(second, &mut rows, &reference, &record)?;
+    let (rows, second) = job.rows(reference.steps_per_frame, &record, tolerance)?;
+    let converged = reference.has_converged(&settings.of, settings.within);
+    let scene = job.subject.name().to_owned();
+    let (within, of, reference) = (settings.within, settings.of.clone(), Some(reference));
+    Ok(judge(Study {
+        scene,
+        plan,
+        reference,
+        apart: None,
+        rows,
+        second,
+        cheapest: None,
+        converged,
+        within,
+        of,
+    }))
+}
+
+/// Studies a log, open loop: its motions go through the engine at every level, and the wrenches are compared.
+///
+/// Step means how many of its frames the engine sees; the wrench is held in between. Energy and pose do not count.
+///
+/// # Errors
+/// As [`study`], and a log that cannot be read or whose world cannot be built again.
+pub fn study_log(
+    log: &Path,
+    alternatives: &[LogAlternative],
+    output: &Path,
+    settings: &Settings,
+    watch: Watch<'_>,
+) -> Result<Study, TradeError> {
+    let mut log = LoggedRun::open(log, alternatives)?;
+    let mut settings = settings.clone();
+    settings.of.retain(|quantity| !matches!(quantity, Quantity::Energy | Quantity::Pose));
+    if log.restores() {
+        settings.plan.levers.retain(|lever| !matches!(lever, Lever::Friction | Lever::Alternatives));
     }
-    job.time(&mut rows)?;
-    let name = scene.name().to_owned();
-    let (within, of) = (settings.within, settings.of.clone());
-    let study = Study { scene: name, plan, reference, rows, second, cheapest: None, converged, within, of };
-    Ok(judge(study))
+    let plan = Plan::of_log(&mut log, &settings.plan)?;
+    let (hash, radii) = (log.hash()?, vec![0.0; log.bodies()]);
+    let store = Store::open(output, settings.fresh)?;
+    let mut job = Job::new(Subject::Log(Box::new(log)), &settings, &plan, hash, radii, store, watch);
+    let base = &plan.grid[plan.base];
+    job.tell(base, "reference")?;
+    let Ended::Whole(record) = job.subject.record(base, &plan.frames)? else {
+        return Err(TradeError::new("log", "its end was not reached; use another copy of it"));
+    };
+    let (rows, second) = job.rows(base.steps_per_frame, &record, settings.within)?;
+    let scene = job.subject.name().to_owned();
+    let Subject::Log(log) = &job.subject else { unreachable!("a log was put in") };
+    let (apart, within, of) = (log.apart(), settings.within, settings.of.clone());
+    let (reference, converged) = (None, true);
+    Ok(judge(Study { scene, plan, reference, apart, rows, second, cheapest: None, converged, within, of }))
 }
 
 /// An answer as far off as none at all is on no front, however fast it is.
@@ -253,7 +302,7 @@ fn judge(mut study: Study) -> Study {
     for ((index, point), on_front) in timed.iter().zip(choice::front(&points)) {
         study.rows[*index].on_front = on_front && point.error < USELESS;
     }
-    let tolerance = study.within - study.reference.uncertainty(&study.of);
+    let tolerance = study.within - study.uncertainty();
     let cheapest = choice::cheapest(&points, tolerance).filter(|_| study.converged);
     study.cheapest = cheapest.map(|place| timed[place].0);
     study
@@ -270,24 +319,6 @@ fn fewest_calls(rows: &[Row], of: &[Quantity], tolerance: f64) -> Option<usize> 
     })
 }
 
-/// A hash of everything that decides the answers.
-fn inputs(scene: &Scene, text: &str, plan: &Plan) -> Result<u64, TradeError> {
-    let mut hash = Fnv::default();
-    hash.text(env!("CARGO_PKG_VERSION"));
-    hash.text(text);
-    for file in scene.model_files() {
-        let unreadable = |reason| TradeError::new(&file.display().to_string(), &format!("{reason}"));
-        hash.text(&std::fs::read_to_string(&file).map_err(unreadable)?);
-        // Meshes lie in files of their own; what is wrong with a model is told when it is run.
-        let model = pong_model::load(&file, &pong_geometry::extension::Extensions::new());
-        hash.word(model.map_or(0, |model| model.hash));
-    }
-    hash.word(plan.frames.frame_s.to_bits());
-    hash.word(plan.frames.count);
-    hash.word(plan.frames.instants.into());
-    Ok(hash.value())
-}
-
 /// Radii of gyration of the free bodies, m: √(largest moment of inertia / mass).
 fn radii(simulation: &Simulation) -> Vec<f64> {
     let radius = |mass: &pong_executive::MassProperties| {
@@ -296,19 +327,9 @@ fn radii(simulation: &Simulation) -> Vec<f64> {
     simulation.bodies().map(|(_, body)| body.mass().map_or(0.0, radius)).collect()
 }
 
-/// Calls of the engine that a study will make, about.
-fn calls_in_all(scene: &Scene, plan: &Plan, settings: &Settings) -> u64 {
-    let runs = 1 + u64::from(settings.rounds);
-    let grid: u64 = plan.grid.iter().map(Level::calls_per_frame).sum();
-    let base = &plan.grid[plan.base];
-    let around = plan.around(base, scene, &settings.plan).len() as u64 * base.calls_per_frame();
-    let reference = 4 * (2 + 4 + 8) * u64::from(plan.finest);
-    plan.frames.count * (runs * (grid + around) + reference)
-}
-
 /// A study at work.
 struct Job<'a> {
-    scene: &'a Scene,
+    subject: Subject,
     settings: &'a Settings,
     plan: &'a Plan,
     inputs: u64,
@@ -319,7 +340,57 @@ struct Job<'a> {
     watch: Watch<'a>,
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    fn new(
+        subject: Subject,
+        settings: &'a Settings,
+        plan: &'a Plan,
+        mut hash: Fnv,
+        radii: Vec<f64>,
+        store: Store,
+        watch: Watch<'a>,
+    ) -> Self {
+        hash.word(plan.frames.frame_s.to_bits());
+        hash.word(plan.frames.count);
+        hash.word(plan.frames.instants.into());
+        let mut job =
+            Self { subject, settings, plan, inputs: hash.value(), radii, store, done: 0, all: 0, watch };
+        job.all = job.calls_in_all();
+        job
+    }
+
+    /// Calls of the engine that the study will make, about.
+    fn calls_in_all(&self) -> u64 {
+        let (plan, settings) = (self.plan, self.settings);
+        let runs = 1 + u64::from(settings.rounds);
+        let grid: u64 = plan.grid.iter().map(Level::calls_per_frame).sum();
+        let base = &plan.grid[plan.base];
+        let around = plan.around(base, &self.subject.alternatives(), &settings.plan).len() as u64;
+        let reference = 4 * (2 + 4 + 8) * u64::from(plan.finest);
+        plan.frames.count * (runs * (grid + around * base.calls_per_frame()) + reference)
+    }
+
+    /// Every level, compared and timed, and the one around which levers were pulled again.
+    fn rows(
+        &mut self,
+        reference_steps: u32,
+        record: &Record,
+        tolerance: f64,
+    ) -> Result<(Vec<Row>, Option<usize>), TradeError> {
+        let plan = self.plan;
+        let mut rows = Vec::new();
+        for level in &plan.grid {
+            rows.push(self.row(level, Place::Grid, reference_steps, record)?);
+        }
+        self.around(plan.base, &mut rows, reference_steps, record)?;
+        let second = fewest_calls(&rows[..plan.grid.len()], &self.settings.of, tolerance);
+        if let Some(second) = second.filter(|second| *second != plan.base) {
+            self.around(second, &mut rows, reference_steps, record)?;
+        }
+        self.time(&mut rows)?;
+        Ok((rows, second))
+    }
+
     /// Tells what is run next; an error if it is to stop.
     fn tell(&mut self, level: &Level, doing: &str) -> Result<(), TradeError> {
         let doing = format!("{doing} {}", level.name(self.plan.frames.frame_s));
@@ -361,9 +432,9 @@ impl Job<'_> {
         let (mut last, mut difference): (Option<Record>, Option<Errors>) = (None, None);
         for run in 0..3 + self.settings.refinements {
             steps *= 2;
-            let level = Level::plain(pong_executive::Integrator::RungeKutta4, steps);
+            let level = Level::plain(Motion::Integrated(Integrator::RungeKutta4), steps);
             self.tell(&level, "reference")?;
-            let Ended::Whole(record) = run::record(self.scene, &level, &self.plan.frames)? else { continue };
+            let Ended::Whole(record) = self.subject.record(&level, &self.plan.frames)? else { continue };
             let now = last.as_ref().map(|coarser| errors(coarser, &record, &self.radii));
             if let (Some(before), Some(now)) = (difference, now) {
                 let reference = Reference::new(steps, &before, &now);
@@ -386,10 +457,10 @@ impl Job<'_> {
         &mut self,
         level: &Level,
         place: Place,
-        reference: &Reference,
+        reference_steps: u32,
         record: &Record,
     ) -> Result<Row, TradeError> {
-        let key = self.key(&[reference.steps_per_frame.into()], Some(level));
+        let key = self.key(&[reference_steps.into()], Some(level));
         let answer = match self.store.get("level", key) {
             Some(kept) => kept,
             None => {
@@ -403,8 +474,8 @@ impl Job<'_> {
         Ok(Row { level: level.clone(), name, place, answer, times: None, on_front: false })
     }
 
-    fn answer(&self, level: &Level, reference: &Record) -> Result<Answer, TradeError> {
-        Ok(match run::record(self.scene, level, &self.plan.frames)? {
+    fn answer(&mut self, level: &Level, reference: &Record) -> Result<Answer, TradeError> {
+        Ok(match self.subject.record(level, &self.plan.frames)? {
             Ended::Diverged(time_s) => Answer::Diverged { time_s },
             Ended::Whole(record) => Answer::Reached {
                 errors: errors(&record, reference, &self.radii),
@@ -418,12 +489,12 @@ impl Job<'_> {
         &mut self,
         anchor: usize,
         rows: &mut Vec<Row>,
-        reference: &Reference,
+        reference_steps: u32,
         record: &Record,
     ) -> Result<(), TradeError> {
-        let level = rows[anchor].level.clone();
-        for (lever, level) in self.plan.around(&level, self.scene, &self.settings.plan) {
-            rows.push(self.row(&level, Place::Around { anchor, lever }, reference, record)?);
+        let (level, alternatives) = (rows[anchor].level.clone(), self.subject.alternatives());
+        for (lever, level) in self.plan.around(&level, &alternatives, &self.settings.plan) {
+            rows.push(self.row(&level, Place::Around { anchor, lever }, reference_steps, record)?);
         }
         Ok(())
     }
@@ -436,7 +507,7 @@ impl Job<'_> {
                 let mut times: Times = self.store.get("times", key).unwrap_or_default();
                 if times.medians_ns.len() < round as usize {
                     self.tell(&row.level, &format!("time, round {round}, of"))?;
-                    times.add(run::time(self.scene, &row.level, &self.plan.frames)?);
+                    times.add(self.subject.time(&row.level, &self.plan.frames)?);
                     self.store.put("times", key, &times)?;
                 }
                 row.times = Some(times);

@@ -2,8 +2,10 @@
 
 mod compare;
 mod rebuild;
+mod rerun;
 
 pub use compare::Difference;
+pub use rerun::{RerunFrame, RerunOptions, rerun};
 
 use crate::error::LogError;
 use crate::event::{Event, LoggedEvent};
@@ -14,6 +16,7 @@ use crate::write::Capture;
 use compare::Comparison;
 use pong_engine::{InterfaceId, Laws, ModelId, ObjectId, PairId, State, WorkerSettings, World};
 use pong_geometry::extension::Extensions;
+use pong_model::FrictionLaw;
 
 /// How a log is replayed.
 #[derive(Default)]
@@ -161,7 +164,16 @@ struct Replay {
 
 impl Replay {
     fn new(log: &Log, options: &ReplayOptions) -> Result<Self, LogError> {
-        let (world, models) = rebuild::world(log, options)?;
+        let (world, models) = rebuild::world(log, options, None)?;
+        Self::of_world(log, options, world, models)
+    }
+
+    fn of_world(
+        log: &Log,
+        options: &ReplayOptions,
+        world: World,
+        models: Vec<ModelId>,
+    ) -> Result<Self, LogError> {
         let objects: Vec<ObjectId> = world.objects().collect();
         let mut bodies = Vec::new();
         for object in &objects {
@@ -227,7 +239,12 @@ impl Replay {
             Event::Forget { object } => self.world.forget(find(&self.objects, *object, "object")?)?,
             Event::Surface { model, name, values } => {
                 let model = find(&self.models, *model, "model")?;
-                self.world.set_surface(model, &values.surface(name))?;
+                let mut surface = values.surface(name);
+                // Laws never change in a run: where there is none now, a rerun has left it out.
+                if self.world.surface(model, name)?.friction == FrictionLaw::None {
+                    surface.friction = FrictionLaw::None;
+                }
+                self.world.set_surface(model, &surface)?;
             }
             Event::Restore { file } => {
                 let path = log.folder().join(file);

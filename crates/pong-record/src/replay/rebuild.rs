@@ -4,10 +4,18 @@ use super::ReplayOptions;
 use crate::error::LogError;
 use crate::read::Log;
 use pong_engine::{Config, ModelId, World};
+use pong_model::Model;
 use std::sync::Arc;
 
+/// What becomes of a model, by its index.
+type Rewrite<'a> = &'a dyn Fn(usize, Model) -> Result<Model, String>;
+
 /// The sealed world and the ids of its models.
-pub(super) fn world(log: &Log, options: &ReplayOptions) -> Result<(World, Vec<ModelId>), LogError> {
+pub(super) fn world(
+    log: &Log,
+    options: &ReplayOptions,
+    rewrite: Option<Rewrite<'_>>,
+) -> Result<(World, Vec<ModelId>), LogError> {
     let run = log.run();
     let config = Config {
         contact_capacity: run.contact_capacity.map(|capacity| capacity as usize),
@@ -24,7 +32,16 @@ pub(super) fn world(log: &Log, options: &ReplayOptions) -> Result<(World, Vec<Mo
     }
     let mut models = Vec::new();
     for (index, model) in run.models.iter().enumerate() {
-        models.push(add_model(&mut world, log, index, &model.name, model.hash)?);
+        let loaded = load_model(&world, log, index, &model.name, model.hash)?;
+        let wanted = match rewrite {
+            None => Ok(loaded),
+            Some(rewrite) => rewrite(index, loaded),
+        };
+        let wanted = wanted.map_err(|line| {
+            let (cause, cure) = line.split_once("; ").unwrap_or((&line, "leave the model as it is"));
+            LogError::Model { name: model.name.clone(), cause: cause.to_owned(), cure: cure.to_owned() }
+        })?;
+        models.push(world.add_model(Arc::new(wanted))?);
     }
     let mut objects = Vec::new();
     for object in &run.objects {
@@ -38,7 +55,7 @@ pub(super) fn world(log: &Log, options: &ReplayOptions) -> Result<(World, Vec<Mo
     Ok((world, models))
 }
 
-fn add_model(world: &mut World, log: &Log, index: usize, name: &str, hash: u64) -> Result<ModelId, LogError> {
+fn load_model(world: &World, log: &Log, index: usize, name: &str, hash: u64) -> Result<Model, LogError> {
     let path = log.model_path(index).unwrap_or_default();
     let fails =
         |cause: String, cure: &str| LogError::Model { name: name.to_owned(), cause, cure: cure.to_owned() };
@@ -52,7 +69,7 @@ fn add_model(world: &mut World, log: &Log, index: usize, name: &str, hash: u64) 
         let cause = format!("{} has hash {:#018x}, the log says {hash:#018x}", path.display(), model.hash);
         return Err(fails(cause, "put the file back that the log was written with"));
     }
-    Ok(world.add_model(Arc::new(model))?)
+    Ok(model)
 }
 
 fn check(world: &World, log: &Log, options: &ReplayOptions) -> Result<(), LogError> {

@@ -1,7 +1,7 @@
 //! Tables for programs.
 
 use crate::errors::Quantity;
-use crate::level::integrator_name;
+use crate::level::motion_name;
 use crate::study::{Answer, Row, Study};
 use std::fmt::Write as _;
 
@@ -37,7 +37,7 @@ fn line(study: &Study, row: &Row) -> String {
     let level = &row.level;
     let levers = [
         quoted(&row.name),
-        quoted(&integrator_name(level.integrator)),
+        quoted(&motion_name(level.motion)),
         format!("{:?}", study.plan.frames.frame_s / f64::from(level.steps_per_frame)),
         if level.frictionless { "none" } else { "model" }.to_owned(),
         quoted(level.alternative.as_deref().unwrap_or("")),

@@ -6,7 +6,11 @@ use crate::study::{Place, Row, Study};
 
 /// A table for the scene as written, and one for the level that is cheapest by calls within the tolerance.
 pub(super) fn effects(study: &Study) -> String {
-    let mut text = section(study, study.plan.base, "the scene as written");
+    let mut text = section(
+        study,
+        study.plan.base,
+        if study.is_log() { "the log as recorded" } else { "the scene as written" },
+    );
     if let Some(second) = study.second.filter(|second| *second != study.plan.base) {
         text += &section(study, second, "the fewest calls within the tolerance");
     }
@@ -38,7 +42,7 @@ fn differs(study: &Study, anchor: usize, row: &Row) -> Option<Lever> {
         Place::Around { anchor: of, lever } => (of == anchor).then_some(lever),
         Place::Grid => {
             let step = row.level.steps_per_frame != base.steps_per_frame;
-            let integrator = row.level.integrator != base.integrator;
+            let integrator = row.level.motion != base.motion;
             match (step, integrator) {
                 (true, false) => Some(Lever::Step),
                 (false, true) => Some(Lever::Integrator),
@@ -50,10 +54,8 @@ fn differs(study: &Study, anchor: usize, row: &Row) -> Option<Lever> {
 
 fn line(study: &Study, base: &Row, lever: Lever, row: &Row) -> Vec<String> {
     let to = match lever {
-        Lever::Step => {
-            crate::level::seconds(study.plan.frames.frame_s / f64::from(row.level.steps_per_frame))
-        }
-        Lever::Integrator => crate::level::integrator_name(row.level.integrator),
+        Lever::Step => row.level.step_name(study.plan.frames.frame_s),
+        Lever::Integrator => crate::level::motion_name(row.level.motion),
         _ => row.level.settings().into_iter().map(|(_, name)| name).collect::<Vec<_>>().join(", "),
     };
     let time = match (&row.times, &base.times) {

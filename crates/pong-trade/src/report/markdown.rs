@@ -3,6 +3,7 @@
 use super::{effects, microseconds, percent, table};
 use crate::errors::Quantity;
 use crate::level::seconds;
+use crate::reference::Reference;
 use crate::study::{Answer, Row, Study};
 use std::fmt::Write as _;
 
@@ -19,7 +20,7 @@ pub fn markdown(study: &Study) -> String {
         seconds(frames.frame_s),
         seconds(duration)
     );
-    page += &reference(study);
+    page += &study.reference.as_ref().map_or_else(|| of_log(study), |checks| reference(study, checks));
     page += &verdict(study);
     page += "\n## Levels, the fastest first\n\n";
     page += &levels(study);
@@ -28,8 +29,24 @@ pub fn markdown(study: &Study) -> String {
     page
 }
 
-fn reference(study: &Study) -> String {
-    let reference = &study.reference;
+/// What a log's levels are compared with.
+fn of_log(study: &Study) -> String {
+    let against = match study.apart {
+        Some(0.0) => "which gives the log's own wrenches bit for bit".to_owned(),
+        Some(apart) => format!(
+            "whose wrenches are up to {} % of the peak from the log's own: commits between its frames are not in the log, \
+             or another version wrote it",
+            percent(apart)
+        ),
+        None => "which was run earlier".to_owned(),
+    };
+    format!(
+        "## The reference\n\nThe engine at every frame of the log with the log's models, {against}. The motions are those of \
+         the log at every level: no error grows by itself here, and none is damped.\n"
+    )
+}
+
+fn reference(study: &Study, reference: &Reference) -> String {
     let step = seconds(study.plan.frames.frame_s / f64::from(reference.steps_per_frame));
     let mut text =
         format!("## The reference\n\nRK4 at {step}, checked against steps twice and four times as long.\n\n");
@@ -49,7 +66,7 @@ fn verdict(study: &Study) -> String {
     let within = percent(study.within);
     let names: Vec<&str> = study.of.iter().map(|quantity| quantity.name()).collect();
     let names = names.join(", ");
-    let uncertainty = percent(study.reference.uncertainty(&study.of));
+    let uncertainty = percent(study.uncertainty());
     let cheapest = study.cheapest.map(|index| &study.rows[index]);
     let text = match (study.converged, cheapest) {
         (false, _) => format!(
@@ -65,7 +82,7 @@ fn verdict(study: &Study) -> String {
             let against = match (&row.times, &base.times) {
                 (Some(own), Some(base)) => {
                     let ratio = base.median_ns() as f64 / own.median_ns().max(1) as f64;
-                    format!(" ({} times as fast as the scene as written)", super::digits(ratio))
+                    format!(" ({} times as fast as {})", super::digits(ratio), as_written(study))
                 }
                 _ => String::new(),
             };
@@ -77,6 +94,10 @@ fn verdict(study: &Study) -> String {
         }
     };
     format!("\n{text}\n")
+}
+
+fn as_written(study: &Study) -> &'static str {
+    if study.is_log() { "every frame with the log's models" } else { "the scene as written" }
 }
 
 fn levels(study: &Study) -> String {

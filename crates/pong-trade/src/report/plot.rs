@@ -1,6 +1,6 @@
 //! The plot: median frame time against the worst error, both logarithmic.
 
-use crate::level::integrator_name;
+use crate::level::motion_name;
 use crate::study::{Place, Row, Study};
 use std::fmt::Write as _;
 
@@ -80,9 +80,9 @@ fn dots(study: &Study) -> Vec<Dot<'_>> {
     let mut seen = Vec::new();
     let mut dots = Vec::new();
     for (index, row) in study.rows.iter().enumerate() {
-        let integrator = row.level.integrator;
-        let colour = seen.iter().position(|known| *known == integrator).unwrap_or_else(|| {
-            seen.push(integrator);
+        let motion = row.level.motion;
+        let colour = seen.iter().position(|known| *known == motion).unwrap_or_else(|| {
+            seen.push(motion);
             seen.len() - 1
         });
         let (Some(times), Some(error)) = (&row.times, study.error(row)) else { continue };
@@ -123,7 +123,7 @@ fn plain(value: f64) -> String {
 
 /// The tolerance, and what the reference may be off itself, if that is within the field.
 fn lines(out: &mut String, study: &Study, y: &Axis) {
-    let uncertainty = study.reference.uncertainty(&study.of);
+    let uncertainty = study.uncertainty();
     let own = (uncertainty >= libm::exp10(y.from)).then_some((uncertainty, "the reference's own", "#999"));
     for (error, name, colour) in [(study.within, "tolerance", "#c00")].into_iter().chain(own) {
         let at = y.at(error);
@@ -175,9 +175,9 @@ fn legend(out: &mut String, study: &Study, dots: &[Dot<'_>]) {
         text(out, left + 16.0, at + 4.0, "start", name);
         at += 22.0;
     };
-    for colour in 0..COLOURS.len() {
-        if let Some(dot) = dots.iter().find(|dot| dot.colour == colour) {
-            entry(COLOURS[colour], COLOURS[colour], 4.5, &integrator_name(dot.row.level.integrator));
+    for (index, colour) in COLOURS.iter().enumerate() {
+        if let Some(dot) = dots.iter().find(|dot| dot.colour == index) {
+            entry(colour, colour, 4.5, &motion_name(dot.row.level.motion));
         }
     }
     entry("none", "#222", 4.5, "another lever pulled");

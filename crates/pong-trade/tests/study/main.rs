@@ -2,4 +2,5 @@
 
 mod closed_forms;
 mod common;
+mod logs;
 mod resume;

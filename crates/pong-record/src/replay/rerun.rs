@@ -1,0 +1,80 @@
+//! The recorded motions go through an engine that is not quite the log's: other models, other laws, fewer frames.
+
+use super::{Replay, ReplayOptions, rebuild};
+use crate::error::LogError;
+use crate::read::{Frame, Log};
+use pong_engine::{InterfaceId, Laws, WorkerSettings, World};
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+
+/// What becomes of a model of the log, by its index; an error is a line of cause and cure.
+type Rewrite<'a> = &'a dyn Fn(usize, Model) -> Result<Model, String>;
+
+/// What is to differ from the log.
+#[derive(Default)]
+pub struct RerunOptions<'a> {
+    /// Workers of the world; the results are the same bits.
+    pub workers: Option<WorkerSettings>,
+    /// Every model, once loaded and checked against the log, is replaced by what this makes of it.
+    pub rewrite: Option<Rewrite<'a>>,
+    /// Only every so many frames, beginning with the first, are handed to the engine; 0 counts as 1.
+    pub every: u64,
+    /// The force laws that the host of the log had registered.
+    pub laws: Laws,
+    /// The kinds of primitives that it knew.
+    pub extensions: Extensions,
+}
+
+/// A frame of a rerun.
+pub struct RerunFrame<'a> {
+    /// Number among the log's frames, from 0.
+    pub index: u64,
+    /// What the log has of it.
+    pub logged: &'a Frame,
+    /// The world: wrenches are those of this frame, or of the last one that was handed to the engine.
+    pub world: &'a World,
+    /// The movable groups, in the order of the log's columns.
+    pub bodies: &'a [InterfaceId],
+    /// Time from handing in the states to the end of the commit, ns; 0 for frames that were passed over.
+    pub took_ns: u64,
+}
+
+/// Runs a log through the engine with something else than it says, open loop: the motions stay those of the log. Calls
+/// back with every frame, of which there are at most so many.
+///
+/// An event that gives a surface friction is obeyed without it where the model has none now.
+///
+/// # Errors
+/// A log that cannot be read, or whose world cannot be built; a contact state that was restored in the log and does not fit
+/// what differs; what the callback returns.
+pub fn rerun(
+    log: &mut Log,
+    options: RerunOptions<'_>,
+    frames: u64,
+    each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), LogError>,
+) -> Result<(), LogError> {
+    let every = options.every.max(1);
+    // With a tolerance the hash of the world need not be that of the log.
+    let replay = ReplayOptions {
+        workers: options.workers,
+        tolerance: Some(0.0),
+        laws: options.laws,
+        extensions: options.extensions,
+    };
+    let (world, models) = rebuild::world(log, &replay, options.rewrite)?;
+    let mut replay = Replay::of_world(log, &replay, world, models)?;
+    let mut frame = Frame::default();
+    for index in 0..log.frame_count().min(frames) {
+        log.read(index, &mut frame)?;
+        let mut took_ns = 0;
+        if index.is_multiple_of(every) {
+            let begin = std::time::Instant::now();
+            replay.run(log, &frame)?;
+            replay.accept(&frame.row)?;
+            took_ns = begin.elapsed().as_nanos() as u64;
+        }
+        let (world, bodies) = (&replay.world, &replay.bodies[..]);
+        each(&RerunFrame { index, logged: &frame, world, bodies, took_ns })?;
+    }
+    Ok(())
+}

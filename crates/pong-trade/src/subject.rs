@@ -1,0 +1,67 @@
+//! What is studied: a scene, whose motion follows from its wrenches, or a log, whose motion is what it is.
+
+use crate::error::TradeError;
+use crate::hash::Fnv;
+use crate::level::Level;
+use crate::open_loop::LoggedRun;
+use crate::run::{self, Ended, Frames};
+use pong_executive::scene::Scene;
+
+/// A scene or a log.
+pub(crate) enum Subject {
+    Scene(Box<Scene>),
+    Log(Box<LoggedRun>),
+}
+
+impl Subject {
+    /// Runs a level and records it.
+    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Ended, TradeError> {
+        match self {
+            Self::Scene(scene) => run::record(scene, level, frames),
+            Self::Log(log) => log.record(level, frames).map(Ended::Whole),
+        }
+    }
+
+    /// Runs a level that is known to reach the end, and times every frame, ns.
+    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>, TradeError> {
+        match self {
+            Self::Scene(scene) => run::time(scene, level, frames),
+            Self::Log(log) => log.time(level, frames),
+        }
+    }
+
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Scene(scene) => scene.name(),
+            Self::Log(log) => log.name(),
+        }
+    }
+
+    pub fn alternatives(&self) -> Vec<String> {
+        match self {
+            Self::Scene(scene) => scene.alternatives().map(str::to_owned).collect(),
+            Self::Log(log) => log.alternatives(),
+        }
+    }
+}
+
+/// A hash of a scene's text and of every model that it names.
+pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, TradeError> {
+    let mut hash = Fnv::default();
+    hash.text(env!("CARGO_PKG_VERSION"));
+    hash.text(text);
+    for file in scene.model_files() {
+        hash_model(&mut hash, &file)?;
+    }
+    Ok(hash)
+}
+
+/// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
+/// when it is run.
+pub(crate) fn hash_model(hash: &mut Fnv, file: &std::path::Path) -> Result<(), TradeError> {
+    let unreadable = |reason| TradeError::new(&file.display().to_string(), &format!("{reason}"));
+    hash.text(&std::fs::read_to_string(file).map_err(unreadable)?);
+    let model = pong_model::load(file, &pong_geometry::extension::Extensions::new());
+    hash.word(model.map_or(0, |model| model.hash));
+    Ok(())
+}
