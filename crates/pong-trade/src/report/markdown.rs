@@ -106,21 +106,19 @@ fn levels(study: &Study) -> String {
         let row = &study.rows[*index];
         (row.times.as_ref().map_or(u64::MAX, |times| times.median_ns()), *index)
     });
-    let heading = [
-        "level",
-        "calls",
-        "median, µs",
-        "p99, µs",
-        "wrench, %",
-        "impulse, %",
-        "peak, %",
-        "energy, %",
-        "pose, %",
-        "mm",
-        "",
-    ];
+    let mut heading: Vec<String> = ["level", "calls", "median, µs", "p99, µs"].map(str::to_owned).to_vec();
+    heading.extend(shown(study).iter().map(|quantity| format!("{}, %", quantity.name())));
+    // The motions of a log are the same at every level.
+    heading.extend((!study.is_log()).then(|| "mm".to_owned()));
+    heading.push(String::new());
+    let heading: Vec<&str> = heading.iter().map(String::as_str).collect();
     let rows: Vec<Vec<String>> = order.iter().map(|index| line(study, *index)).collect();
     table(&heading, &rows)
+}
+
+/// The quantities that have a column.
+fn shown(study: &Study) -> &'static [Quantity] {
+    if study.is_log() { &Quantity::ALL[..3] } else { &Quantity::ALL }
 }
 
 fn line(study: &Study, index: usize) -> Vec<String> {
@@ -130,10 +128,13 @@ fn line(study: &Study, index: usize) -> Vec<String> {
     cells.push(times.map_or("–".to_owned(), |times| microseconds(times.median_ns())));
     cells.push(times.map_or("–".to_owned(), |times| microseconds(times.tail_ns())));
     match &row.answer {
-        Answer::Diverged { .. } => cells.extend(["–"; 6].map(str::to_owned)),
+        Answer::Diverged { .. } => {
+            let columns = shown(study).len() + usize::from(!study.is_log());
+            cells.extend(std::iter::repeat_n("–".to_owned(), columns));
+        }
         Answer::Reached { errors, .. } => {
-            cells.extend(Quantity::ALL.iter().map(|quantity| percent(errors.of(*quantity))));
-            cells.push(super::digits(1e3 * errors.position_m));
+            cells.extend(shown(study).iter().map(|quantity| percent(errors.of(*quantity))));
+            cells.extend((!study.is_log()).then(|| super::digits(1e3 * errors.position_m)));
         }
     }
     cells.push(marks(study, index, row));
@@ -165,15 +166,19 @@ fn marks(study: &Study, index: usize, row: &Row) -> String {
 
 fn remarks(study: &Study) -> String {
     let mut text = String::from(
-        "\n*calls*: how often a frame asks the engine. *front*: no level is both as fast and as accurate. *mm*: the greatest \
-         distance of a body from its place at the end of the reference.\n",
+        "\n*calls*: how often a frame asks the engine. *front*: no level is both as fast and as accurate.",
     );
+    if !study.is_log() {
+        text += " *mm*: the greatest distance of a body from its place at the end of the reference.";
+    }
+    text.push('\n');
     let reached = |row: &&Row| row.times.is_some();
     let spread = study.rows.iter().filter(reached).filter_map(|row| row.times.as_ref());
     let spread = spread.map(|times| times.spread()).fold(0.0, f64::max);
     let _ = writeln!(
         text,
-        "Between rounds the median of a level differed by {} % at most: smaller differences between levels are noise.",
+        "Between rounds the median of a level differed by {} % at most; the shortest of all rounds, which the table has, differs \
+         less. Levels that are the same but for a lever that does nothing here show by how much.",
         percent(spread)
     );
     text
