@@ -33,6 +33,7 @@ impl From<EngineError> for Failure {
             EngineError::WrongPhase { .. } => pong_status::WrongPhase,
             EngineError::Seal { .. } => pong_status::SealFailed,
             EngineError::BadState { .. } => pong_status::BadState,
+            EngineError::NotFinite { .. } => pong_status::BadState,
             EngineError::UnsetState { .. } => pong_status::UnsetState,
             EngineError::BadValue { .. } => pong_status::BadValue,
             EngineError::State(_) => pong_status::BadStateBlock,

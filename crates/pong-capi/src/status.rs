@@ -23,7 +23,8 @@ pub enum pong_status {
     WrongPhase = 5,
     /// The scene cannot be sealed; the message lists every reason.
     SealFailed = 6,
-    /// A state is not finite or its quaternion is not of unit length; the message names the interface.
+    /// A state is not finite or its quaternion is not of unit length, or a frame's forces or energies are beyond what a
+    /// number holds and the frame does not count; the message names the interface.
     BadState = 7,
     /// A paired movable group has no state yet; the message names the interface.
     UnsetState = 8,

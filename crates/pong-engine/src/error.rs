@@ -48,6 +48,12 @@ pub enum EngineError {
         /// `object/path` of the interface.
         interface: String,
     },
+    /// States, surfaces or laws of the host are so large that forces, moments or energies are beyond what a number holds.
+    /// There is no frame until one can be computed.
+    NotFinite {
+        /// `object/path` of an interface whose contacts show it.
+        interface: String,
+    },
     /// A value that a surface or a setting cannot have.
     BadValue {
         /// The thing.
@@ -87,6 +93,13 @@ impl std::fmt::Display for EngineError {
                 write!(
                     f,
                     "state of `{interface}`: never set; set the states of all paired movable groups before a frame"
+                )
+            }
+            Self::NotFinite { interface } => {
+                write!(
+                    f,
+                    "frame: the contacts of `{interface}` give forces, moments or energies beyond what a number holds; set \
+                     smaller states or surface values, or mend the law, and evaluate again"
                 )
             }
             Self::BadValue { what, cause } => write!(f, "{what}: {cause}"),

@@ -96,12 +96,15 @@ impl Running {
     ) -> Result<FrameReport, EngineError> {
         frame::require_states(scene, &self.sealed, states)?;
         self.clock = clock;
-        // Should a law of the host's panic, there is no frame until the next one.
+        // Should a law of the host's panic or a sum overflow, there is no frame until the next one.
         (self.evaluated, self.current, self.frame.computed) = (false, false, false);
         let given = Given { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
         frame::evaluate(&given, self.crew.as_mut(), &mut self.frame);
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
+        if let Some(body) = self.frame.overflows(&self.sealed) {
+            return Err(EngineError::NotFinite { interface: scene.body_name(body) });
+        }
         (self.evaluated, self.current, self.frame.computed) = (true, true, true);
         Ok(self.frame.report)
     }

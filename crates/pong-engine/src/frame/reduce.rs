@@ -1,8 +1,9 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
-use super::Frame;
+use super::{Frame, FrameContact};
 use crate::sealed::Sealed;
 use crate::state::Role;
+use pong_geometry::Wrench;
 
 /// Adds every contact to both of its movable groups.
 pub(super) fn sum(sealed: &Sealed, frame: &mut Frame) {
@@ -14,5 +15,29 @@ pub(super) fn sum(sealed: &Sealed, frame: &mut Frame) {
             wrenches[body_a] += contact.wrenches[0];
             wrenches[body_b] += contact.wrenches[1];
         }
+    }
+}
+
+/// What the turn to the axes of another frame must not carry out of the range of numbers.
+const LARGEST: f64 = f64::MAX / 16.0;
+
+impl Frame {
+    /// A movable group whose numbers have left the range of numbers, if any: a product or sum of finite ones can.
+    pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
+        // False for what is not a number, too.
+        let holds = |sum: f64| sum <= LARGEST;
+        let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
+        let body = self.wrenches.iter().position(|wrench| !holds(of_wrench(wrench)));
+        body.or_else(|| {
+            // Forces that cancel each other, and energies.
+            let of_contact = |contact: &FrameContact| {
+                contact.normal_force + contact.friction_force.abs().sum() + contact.stored.abs()
+            };
+            let mut contacts = self.order.iter().map(|place| &self.lane.out.contacts[place.index as usize]);
+            let bad = contacts.find(|contact| !holds(of_contact(contact)));
+            let ledger = !holds(self.work.abs() + self.dissipated.abs());
+            // Energies are nobody's: the first group stands for all.
+            bad.map(|contact| sealed.bodies_of(&contact.found.key).0).or(ledger.then_some(0))
+        })
     }
 }

@@ -160,11 +160,25 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, S
     {
         return Err(StateError::Damaged);
     }
-    reader.at = HEADER_LEN + like.poses.len() * POSE_LEN;
-    match records_make_sense(like, reader, count) {
+    reader.at = TOTALS_AT;
+    let totals = [reader.f64(), reader.f64()];
+    let poses_make_sense = like.poses.iter().all(|_| is_finite_pose(&reader.pair_pose()));
+    match totals.iter().all(|x| x.is_finite()) && poses_make_sense && records_make_sense(like, reader, count)
+    {
         true => Ok(count),
         false => Err(StateError::Damaged),
     }
+}
+
+fn is_finite_pose(pose: &PairPose) -> bool {
+    let finite = |x: &Pose| x.position.iter().chain(x.orientation.coords.iter()).all(|x| x.is_finite());
+    pose.relative.iter().all(finite)
+}
+
+fn is_finite_record(record: &ContactRecord) -> bool {
+    let vectors = [&record.normal, &record.point, &record.bristle, &record.force];
+    let numbers = [record.stored, record.work, record.dissipated];
+    vectors.into_iter().flatten().chain(&numbers).all(|x| x.is_finite())
 }
 
 /// Whether every record is possible, and their keys in order: all that looks them up relies on it.
@@ -176,7 +190,10 @@ fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize
         record.is_some_and(|record| {
             let in_order = last <= record.key;
             last = record.key;
-            in_order && (record.key.group_pair as usize) < like.poses.len() && record.key.flipped < 2
+            in_order
+                && is_finite_record(&record)
+                && (record.key.group_pair as usize) < like.poses.len()
+                && record.key.flipped < 2
         })
     })
 }

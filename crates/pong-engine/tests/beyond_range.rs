@@ -1,0 +1,120 @@
+//! Numbers at the ends of their range: what cannot be computed is refused, and the next good frame is as it would have
+//! been. Found by the fuzz targets (docs/fuzzing.md).
+
+use pong_engine::{Config, EngineError, InterfaceId, State, StateError, World};
+use std::sync::Arc;
+
+const CHECKSUM: usize = 8;
+/// Bytes of a block before its first number: magic, version, count, world (`state/block.rs`).
+const HEAD: usize = 24;
+
+struct Rig {
+    world: World,
+    interfaces: [InterfaceId; 2],
+}
+
+impl Rig {
+    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m).
+    fn new(stiffness: &str) -> Self {
+        let text = format!(
+            r#"(format: "pong-model", version: 1, name: "ball",
+                surfaces: {{"s": (stiffness: 1.0, normal: Linear(damping: 1.0), friction: Bristle(mu: 0.3))}},
+                pairs: [(surfaces: ("s", "s"), stiffness: {stiffness})],
+                root: (name: "ball", surface: "s", primitives: [Sphere(name: "b", center: (0, 0, 0), radius: 1)]))"#
+        );
+        let mut world = World::new(Config { ledger: true, contact_capacity: Some(2), ..Config::default() });
+        let model = pong_model::parse(&text, "ball", None, world.extensions()).unwrap();
+        let model = world.add_model(Arc::new(model)).unwrap();
+        let objects = ["a", "b"].map(|name| world.create_object(model, name).unwrap());
+        world.pair(objects[0], objects[1]).unwrap();
+        world.seal().unwrap();
+        let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+        let mut rig = Self { world, interfaces };
+        rig.set(0, [0.0; 3], 0.0);
+        rig.set(1, [1.9, 0.1, 0.0], 0.1);
+        rig
+    }
+
+    fn set(&mut self, which: usize, position: [f64; 3], speed: f64) {
+        let mut state = State { position, ..State::identity() };
+        state.linear_velocity = [-speed, speed, 0.0];
+        self.world.set_state(self.interfaces[which], &state).unwrap();
+    }
+
+    fn saved(&self) -> Vec<u8> {
+        let mut block = vec![0; self.world.state_size().unwrap()];
+        self.world.save_state(&mut block).unwrap();
+        block
+    }
+
+    fn wrench_bits(&self) -> Vec<u64> {
+        let wrench = self.world.wrench(self.interfaces[0]).unwrap();
+        wrench.force.iter().chain(wrench.moment.iter()).map(|x| x.to_bits()).collect()
+    }
+}
+
+/// Near the largest number there is: a depth of 1e-3 m is a force, one of 1.9 m is none.
+const STIFF: &str = "1.7e308";
+
+#[test]
+fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
+    let mut rig = Rig::new(STIFF);
+    rig.set(1, [1.999, 0.0, 0.0], 0.1);
+    rig.world.step().unwrap();
+    let before = rig.saved();
+
+    rig.set(1, [0.1, 0.0, 0.0], 0.1);
+    match rig.world.step() {
+        Err(EngineError::NotFinite { interface }) => assert!(interface.starts_with("a/"), "{interface}"),
+        other => panic!("{other:?}"),
+    }
+    assert!(matches!(rig.world.wrench(rig.interfaces[0]), Err(EngineError::WrongPhase { .. })));
+    assert!(matches!(rig.world.commit(), Err(EngineError::NotFinite { .. })));
+    assert_eq!(rig.saved(), before, "the contact state after a refused frame");
+
+    rig.set(1, [1.999, 0.0, 0.0], 0.1);
+    rig.world.restore_state(&before).unwrap();
+    rig.world.evaluate().unwrap();
+    let mut other = Rig::new(STIFF);
+    other.world.restore_state(&before).unwrap();
+    other.set(1, [1.999, 0.0, 0.0], 0.1);
+    other.world.evaluate().unwrap();
+    assert_eq!(rig.wrench_bits(), other.wrench_bits(), "a world that was never refused a frame");
+}
+
+#[test]
+fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_right() {
+    let mut rig = Rig::new("1e6");
+    rig.world.step().unwrap();
+    let good = rig.saved();
+    let body = good.len() - CHECKSUM;
+    let mut refused = 0;
+    for at in (HEAD..body - 7).step_by(8) {
+        for number in [f64::NAN, f64::INFINITY] {
+            let mut block = good.clone();
+            block[at..at + 8].copy_from_slice(&number.to_le_bytes());
+            let checksum = block[..body].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            });
+            block[body..].copy_from_slice(&checksum.to_le_bytes());
+            match rig.world.restore_state(&block) {
+                Err(error) => {
+                    assert_eq!(error, EngineError::State(StateError::Damaged));
+                    assert_eq!(rig.saved(), good);
+                    refused += 1;
+                }
+                // Not the place of a number, but of whole ones that may be anything.
+                Ok(()) => {
+                    rig.world.step().unwrap();
+                    assert!(
+                        rig.wrench_bits().iter().all(|bits| f64::from_bits(*bits).is_finite()),
+                        "at {at}"
+                    );
+                    rig.world.restore_state(&good).unwrap();
+                }
+            }
+        }
+    }
+    // Two totals, two poses of seven, one record of fifteen numbers.
+    assert!(refused >= 2 * (2 + 14 + 15), "{refused}");
+}

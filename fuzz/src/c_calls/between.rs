@@ -1,0 +1,188 @@
+//! What is done between frames: contact state, pairs, surfaces, forgetting, workers.
+
+use super::frames::finite;
+use super::laws;
+use super::session::{Session, Sure, read_text};
+use pong::contact_state::{pong_contact_state_size, pong_restore_contact_state, pong_save_contact_state};
+use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
+use pong::objects::pong_forget_object;
+use pong::pairs::pong_set_pair_enabled;
+use pong::surfaces::{
+    pong_get_surface, pong_set_surface, pong_surface_count, pong_surface_name, pong_surface_values,
+};
+use pong::workers::{pong_prewake, pong_quiesce};
+use std::ffi::c_char;
+
+/// Surfaces of the models, and another.
+const SURFACES: [&str; 6] = ["rubber", "rock", "wall", "own", "foam", "nope"];
+
+impl Session<'_> {
+    pub fn between_frames(&mut self) {
+        match self.input.below(8) {
+            0 => self.save(),
+            1 | 2 => self.restore(),
+            3 => self.forget(),
+            4 => self.switch_pair(),
+            5 | 6 => self.surface(),
+            _ => self.wake(),
+        }
+    }
+
+    /// What the laws of this world do from now on.
+    pub fn change_laws(&mut self) {
+        let kind = self.input.below(laws::KINDS as usize) as u8;
+        if let Some(host) = self.host() {
+            host.behaviour.set(kind);
+            // Whether the frame there is counts is for the next evaluation to say.
+            host.has_frame = false;
+        }
+    }
+
+    fn save(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let mut needed = 0;
+        let sure = known.only_if(sealed);
+        // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
+        self.call("size", sure, || unsafe { pong_contact_state_size(world, &mut needed) });
+        let size = match self.input.below(4) {
+            0 => needed / 2,
+            1 => needed + 64,
+            _ => needed,
+        };
+        let mut block = vec![0xA5_u8; size];
+        let pointer = if self.input.chance(6) { std::ptr::null_mut() } else { block.as_mut_ptr() };
+        let sure = sure.unless(needed == 0).only_if(size >= needed && (!pointer.is_null() || needed == 0));
+        let done =
+            self.call("save", sure, || unsafe { pong_save_contact_state(world, pointer.cast(), size) });
+        if done {
+            assert!(block[needed..].iter().all(|byte| *byte == 0xA5), "written beyond the block");
+            block.truncate(needed);
+            self.note(block.iter().map(|byte| u64::from(*byte)));
+            self.host().expect("it has a world").saved = Some(block);
+        }
+    }
+
+    fn restore(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let saved = self.host().and_then(|host| host.saved.clone());
+        let (mut block, mut sure) = match saved {
+            Some(block) => (block, known.only_if(sealed)),
+            None => (self.input.slice(40).to_vec(), known.and(Sure::Wrong)),
+        };
+        if self.input.chance(100) {
+            let at = usize::from(u16::from_le_bytes(self.input.bytes()));
+            match self.input.below(3) {
+                0 => block.truncate(at % block.len().max(1)),
+                1 => block.extend([0; 7]),
+                _ => {
+                    let at = at % block.len().max(1);
+                    block.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 0x10);
+                }
+            }
+            sure = sure.and(Sure::Wrong);
+        }
+        let (pointer, size) = match self.input.byte() {
+            255 => (std::ptr::null(), block.len().max(1)),
+            254 => (block.as_ptr(), usize::MAX),
+            _ => (block.as_ptr(), block.len()),
+        };
+        let sure = sure.only_if(!pointer.is_null() && size == block.len());
+        self.call("restore", sure, || unsafe { pong_restore_contact_state(world, pointer.cast(), size) });
+    }
+
+    fn forget(&mut self) {
+        let (world, known) = self.world();
+        let (object, good) = self.id(|ids| &ids.objects, |bits| pong_object_id { bits });
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let sure = known.and(good).only_if(sealed);
+        self.call("forget", sure, || unsafe { pong_forget_object(world, object) });
+    }
+
+    fn switch_pair(&mut self) {
+        let (world, known) = self.world();
+        let (pair, good) = self.id(|ids| &ids.pairs, |bits| pong_pair_id { bits });
+        let enabled = self.input.one_of(&[0, 1, 1, 1, 2, -1, i32::MIN]);
+        let sure = known.and(good).only_if(enabled == 0 || enabled == 1);
+        self.call("switch pair", sure, || unsafe { pong_set_pair_enabled(world, pair, enabled) });
+    }
+
+    fn surface(&mut self) {
+        let (world, known) = self.world();
+        let (model, good) = self.id(|ids| &ids.models, |bits| pong_model_id { bits });
+        let name = self.text(&SURFACES);
+        let mut count = 0;
+        let sure = known.and(good);
+        self.call("surfaces", sure, || unsafe { pong_surface_count(world, model, &mut count) });
+        let place = self.place::<*const c_char>();
+        let index = self.input.one_of(&[0, 1, 1000, usize::MAX]);
+        let named = sure.and(place.sure).and(Sure::Unknown).only_if(index < 1000);
+        if self.call("name", named, || unsafe { pong_surface_name(world, model, index, place.pointer) }) {
+            read_text(place.get());
+        }
+        let place = self.place::<pong_surface_values>();
+        let got = sure.and(name.sure).and(place.sure).and(Sure::Unknown);
+        if !self.call("get surface", got, || unsafe {
+            pong_get_surface(world, model, name.pointer(), place.pointer)
+        }) {
+            return;
+        }
+        let mut values = place.get();
+        let good = self.change(&mut values);
+        let sure = Sure::Unknown.only_if(good);
+        self.call("set surface", sure, || unsafe { pong_set_surface(world, model, name.pointer(), &values) });
+    }
+
+    /// Other values. Answers whether any of them is certainly wrong.
+    fn change(&mut self, values: &mut pong_surface_values) -> bool {
+        match self.input.below(4) {
+            0 => {
+                let number = self.input.number();
+                let numbers = [
+                    &mut values.stiffness,
+                    &mut values.damping,
+                    &mut values.ramp,
+                    &mut values.dissipation,
+                    &mut values.friction,
+                    &mut values.friction_static_excess,
+                    &mut values.friction_stiffness,
+                    &mut values.friction_damping,
+                    &mut values.friction_slip_speed,
+                ];
+                let which = self.input.below(numbers.len());
+                *numbers.into_iter().nth(which).expect("one of them") = number;
+                let linear = values.normal_law == 0;
+                // Others may belong to a law that the surface has not.
+                match which {
+                    0 => number > 0.0,
+                    1 | 2 if linear => number >= 0.0 && number.is_finite(),
+                    _ => true,
+                }
+            }
+            1 => {
+                values.normal_law = self.input.one_of(&[0, 1, 2, 3, 4, -1]);
+                (0..4).contains(&values.normal_law)
+            }
+            2 => {
+                values.friction_law = self.input.one_of(&[0, 1, 2, 3, 4, -1]);
+                (0..4).contains(&values.friction_law)
+            }
+            _ => {
+                values.stiffness = [1e3, 1e5, 1e7, f64::INFINITY][self.input.below(4)];
+                values.friction = self.input.small(0.25).abs();
+                finite([values.friction].iter(), "friction");
+                true
+            }
+        }
+    }
+
+    fn wake(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let sure = known.only_if(sealed);
+        let time = self.input.one_of(&[0, 1, 200, 2000, u64::MAX]);
+        self.call("prewake", sure.and(Sure::Unknown), || unsafe { pong_prewake(world, time) });
+        self.call("quiesce", sure, || unsafe { pong_quiesce(world) });
+    }
+}

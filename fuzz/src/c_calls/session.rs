@@ -1,0 +1,248 @@
+//! What every call is checked for, and arguments of every kind.
+
+use super::host::{Host, Ids};
+use crate::count;
+use crate::input::Input;
+use pong::status::{pong_last_message, pong_status};
+use pong::world::pong_world;
+use std::collections::HashSet;
+use std::ffi::{CStr, CString, c_char};
+use std::mem::MaybeUninit;
+
+/// Whether an argument, or a whole call, is right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sure {
+    /// The call must be refused.
+    Wrong,
+    /// Nobody knows.
+    Unknown,
+    /// The call must succeed.
+    Right,
+}
+
+impl Sure {
+    pub fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Wrong, _) | (_, Self::Wrong) => Self::Wrong,
+            (Self::Unknown, _) | (_, Self::Unknown) => Self::Unknown,
+            _ => Self::Right,
+        }
+    }
+
+    /// Wrong unless the condition holds.
+    pub fn only_if(self, condition: bool) -> Self {
+        self.and(if condition { Self::Right } else { Self::Wrong })
+    }
+
+    /// Nothing is sure any more where the condition holds.
+    pub fn unless(self, condition: bool) -> Self {
+        self.and(if condition { Self::Unknown } else { Self::Right })
+    }
+}
+
+/// A place in memory for a result: of its exact size, so that a byte too much is found; or none, or a crooked one.
+pub struct Place<T> {
+    pub pointer: *mut T,
+    pub sure: Sure,
+    memory: Box<MaybeUninit<T>>,
+}
+
+impl<T: Copy> Place<T> {
+    /// What was written. Only after a success with a place that is right.
+    pub fn get(&self) -> T {
+        // SAFETY: by the contract of this function.
+        unsafe { self.memory.as_ptr().read() }
+    }
+}
+
+/// A crooked place: aligned to nothing.
+static mut CROOKED: [u64; 512] = [0; 512];
+
+/// How many worlds a host has at a time.
+pub const WORLDS: usize = 3;
+
+pub struct Session<'a> {
+    pub input: Input<'a>,
+    hosts: [Option<Box<Host>>; WORLDS],
+    pub current: usize,
+    /// Ids of worlds that are gone.
+    pub stale: Ids,
+    /// Calls so far, and those that were refused.
+    made: usize,
+    refused: Vec<usize>,
+    left_out: HashSet<usize>,
+    /// What the frames were, as one number.
+    frames: u64,
+    /// No second thread, worker or clock had a part in it.
+    pub alone: bool,
+    /// Expensive things done so far.
+    pub costs: u32,
+}
+
+impl<'a> Session<'a> {
+    pub fn new(data: &'a [u8]) -> Self {
+        Self {
+            input: Input::new(data),
+            hosts: [const { None }; WORLDS],
+            current: 0,
+            stale: Ids::default(),
+            made: 0,
+            refused: Vec::new(),
+            left_out: HashSet::new(),
+            frames: 0xcbf2_9ce4_8422_2325,
+            alone: true,
+            costs: 0,
+        }
+    }
+
+    /// As [`new`](Self::new), leaving out these calls.
+    pub fn without(data: &'a [u8], refused: Vec<usize>) -> Self {
+        Self { left_out: refused.into_iter().collect(), ..Self::new(data) }
+    }
+
+    /// Ends all worlds; answers the calls that were refused, the frames, and whether no other thread had a part.
+    pub fn finish(mut self) -> (Vec<usize>, u64, bool) {
+        for slot in 0..WORLDS {
+            self.current = slot;
+            self.destroy();
+        }
+        super::logs::remove_folders();
+        (self.refused, self.frames, self.alone)
+    }
+
+    /// Makes a call and checks what it says of itself.
+    pub fn call(&mut self, name: &str, sure: Sure, call: impl FnOnce() -> pong_status) -> bool {
+        self.made += 1;
+        if self.left_out.contains(&self.made) {
+            return false;
+        }
+        let status = call();
+        count::call(status == pong_status::Ok);
+        // What was left out may be missed.
+        check(name, status, if self.is_again() { Sure::Unknown } else { sure });
+        if status != pong_status::Ok {
+            self.refused.push(self.made);
+        }
+        status == pong_status::Ok
+    }
+
+    /// Calls so far.
+    pub fn calls(&self) -> usize {
+        self.made
+    }
+
+    /// Whether calls are left out, so that what follows from their success is not known.
+    pub fn is_again(&self) -> bool {
+        !self.left_out.is_empty()
+    }
+
+    /// Takes note of what a frame was.
+    pub fn note(&mut self, words: impl Iterator<Item = u64>) {
+        for word in words {
+            self.frames = (self.frames ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    pub fn host(&mut self) -> Option<&mut Host> {
+        self.hosts[self.current].as_deref_mut()
+    }
+
+    pub fn hosts(&mut self) -> &mut [Option<Box<Host>>; WORLDS] {
+        &mut self.hosts
+    }
+
+    /// The present world; now and then NULL, always where there is none.
+    pub fn world(&mut self) -> (*mut pong_world, Sure) {
+        let nothing = self.input.chance(2);
+        match self.host() {
+            Some(host) if !nothing => (host.world, Sure::Right),
+            _ => (std::ptr::null_mut(), Sure::Wrong),
+        }
+    }
+
+    /// An id: mostly a good one, else zero, one of another world, one of a world that is gone, or any number.
+    pub fn id<T: Copy>(&mut self, of: impl Fn(&Ids) -> &Vec<T>, make: impl Fn(u64) -> T) -> (T, Sure) {
+        let good = !self.input.chance(12);
+        if good {
+            let at = self.input.byte() as usize;
+            let ids = self.host().map(|host| of(&host.ids));
+            return match ids {
+                Some(ids) if !ids.is_empty() => (ids[at % ids.len()], Sure::Right),
+                _ => (make(0), Sure::Wrong),
+            };
+        }
+        let at = self.input.byte() as usize;
+        let any = |ids: &Vec<T>| (!ids.is_empty()).then(|| ids[at % ids.len().max(1)]);
+        let wrong = match self.input.below(4) {
+            0 => any(of(&self.stale)),
+            1 => {
+                let other = self.hosts[(self.current + 1) % WORLDS].as_deref();
+                other.and_then(|host| any(of(&host.ids)))
+            }
+            2 => return (make(u64::from_le_bytes(self.input.bytes())), Sure::Unknown),
+            _ => None,
+        };
+        (wrong.unwrap_or(make(0)), Sure::Wrong)
+    }
+
+    /// A place for a result.
+    pub fn place<T>(&mut self) -> Place<T> {
+        let mut memory = Box::<T>::new_uninit();
+        let (pointer, sure) = match (self.input.chance(6), align_of::<T>()) {
+            (false, _) => (memory.as_mut_ptr(), Sure::Right),
+            (true, 8) if self.input.chance(128) => {
+                let start: *mut u8 = (&raw mut CROOKED).cast();
+                (start.wrapping_add(4).cast(), Sure::Wrong)
+            }
+            (true, _) => (std::ptr::null_mut(), Sure::Wrong),
+        };
+        Place { pointer, sure, memory }
+    }
+
+    /// One of some texts, or one that is none.
+    pub fn text(&mut self, all: &[&str]) -> Text {
+        match self.input.byte() {
+            0..=2 => Text { text: None, sure: Sure::Wrong },
+            3 | 4 => Text { text: Some(c"\xff\xfe".into()), sure: Sure::Wrong },
+            5 => Text { text: CString::new("long ".repeat(300)).ok(), sure: Sure::Unknown },
+            6 => Text { text: CString::new(self.input.slice(12)).ok(), sure: Sure::Unknown },
+            byte => Text { text: CString::new(all[byte as usize % all.len()]).ok(), sure: Sure::Unknown },
+        }
+    }
+}
+
+/// A text and whether it is one.
+pub struct Text {
+    pub text: Option<CString>,
+    pub sure: Sure,
+}
+
+impl Text {
+    pub fn pointer(&self) -> *const c_char {
+        self.text.as_ref().map_or(std::ptr::null(), |text| text.as_ptr())
+    }
+}
+
+/// What must hold after any call.
+pub fn check(name: &str, status: pong_status, sure: Sure) {
+    // SAFETY: the message is never NULL, ends with a zero byte and lives until the thread's next call.
+    let message = unsafe { CStr::from_ptr(pong_last_message()) }.to_string_lossy();
+    assert!(status != pong_status::Panic, "{name}: {message}");
+    assert!(
+        (status == pong_status::Ok) == message.is_empty(),
+        "{name}: {status:?} with the message {message:?}"
+    );
+    match sure {
+        Sure::Right => assert!(status == pong_status::Ok, "{name}: refused with {status:?}: {message}"),
+        Sure::Wrong => assert!(status != pong_status::Ok, "{name}: succeeded and should not"),
+        Sure::Unknown => {}
+    }
+}
+
+/// A text of the library's: readable to its end.
+pub fn read_text(text: *const c_char) {
+    assert!(!text.is_null(), "a text that is NULL after a success");
+    // SAFETY: the library promises a text that ends with a zero byte.
+    let length = unsafe { CStr::from_ptr(text) }.to_bytes().len();
+    std::hint::black_box(length);
+}

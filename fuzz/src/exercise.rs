@@ -1,0 +1,86 @@
+//! What was accepted as a model must be fit for frames.
+
+use crate::count;
+use crate::input::Input;
+use pong_engine::{Config, State, World};
+use pong_model::Model;
+use std::sync::Arc;
+
+/// More elements than this would only be slow.
+const ELEMENTS_MAX: usize = 3000;
+/// Contacts that the world has room for: some inputs are to have more.
+const CAPACITY: usize = 64;
+/// A small model of each kind that others are tested against.
+const PARTNER: &str = r#"(format: "pong-model", version: 1, name: "partner",
+    surfaces: {"s": (stiffness: 1e5, normal: Linear(damping: 10.0), friction: Bristle(mu: 0.3))},
+    root: (name: "partner", surface: "s", primitives: [
+        Sphere(name: "ball", center: (0, 0, 0), radius: 0.5),
+        Polyhedron(name: "wedge", vertices: [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+            faces: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]),
+        Plane(name: "ground", normal: (0, 0, 1), offset: 0),
+        Point(name: "tip", position: (0, 0, 0)),
+        LineSegment(name: "bar", ends: ((0, 0, 0), (1, 0, 0))),
+    ]))"#;
+
+/// Seals a world of two Objects of the model and a partner, and runs some frames with states made of the bytes.
+///
+/// # Panics
+/// Where a frame is refused that should not be, or a number that comes out is not finite.
+pub fn run(model: Model, input: &mut Input<'_>) {
+    if elements(&model) > ELEMENTS_MAX {
+        return;
+    }
+    let config = Config { contact_capacity: Some(CAPACITY), ledger: true, ..Config::default() };
+    let mut world = World::new(config);
+    let partner = pong_model::parse(PARTNER, "partner", None, world.extensions()).expect("a good model");
+    let model = world.add_model(Arc::new(model)).expect("set-up");
+    let partner = world.add_model(Arc::new(partner)).expect("set-up");
+    let objects = [("a", model), ("b", model), ("c", partner)]
+        .map(|(name, model)| world.create_object(model, name).expect("set-up"));
+    world.pair(objects[0], objects[1]).expect("set-up");
+    world.pair(objects[0], objects[2]).expect("set-up");
+    // Of one movable group it is refused.
+    let _ = world.pair(objects[0], objects[0]);
+    if world.seal().is_err() {
+        return;
+    }
+    let interfaces: Vec<_> =
+        objects.iter().flat_map(|object| world.interfaces(*object).expect("sealed")).collect();
+    for _ in 0..3 {
+        for interface in &interfaces {
+            world.set_state(*interface, &state(input)).expect("a good state");
+        }
+        world.step().expect("a frame of good states");
+        count::frame();
+        for interface in &interfaces {
+            let wrench = world.wrench(*interface).expect("a frame was computed");
+            let numbers = wrench.force.iter().chain(wrench.moment.iter());
+            assert!(numbers.clone().all(|x| x.is_finite()), "wrench {wrench:?}");
+        }
+        for contact in world.contacts_iter() {
+            let numbers = contact.force.iter().chain(contact.point.iter()).chain(contact.normal.iter());
+            let alone = [contact.depth, contact.rate, contact.stored, contact.weight];
+            assert!(numbers.chain(&alone).all(|x| x.is_finite()), "{contact:?}");
+        }
+    }
+    let mut block = vec![0; world.state_size().expect("sealed")];
+    world.save_state(&mut block).expect("a block of this size");
+    world.restore_state(&block).expect("what was just saved");
+}
+
+fn elements(model: &Model) -> usize {
+    let of_body = |body: &pong_model::Body| body.primitives.len() + body.triangles.triangles.len();
+    model.bodies.iter().map(of_body).sum()
+}
+
+/// Close to the origin, turned about any axis, and slow.
+fn state(input: &mut Input<'_>) -> State {
+    let mut state = State::identity();
+    state.position = [input.small(0.25), input.small(0.25), input.small(0.25)];
+    let turn = [1.0, input.small(0.25), input.small(0.25), input.small(0.25)];
+    let norm = turn.iter().map(|x| x * x).sum::<f64>().sqrt();
+    state.orientation = turn.map(|x| x / norm);
+    state.linear_velocity = [input.small(0.1), input.small(0.1), input.small(1.0)];
+    state.angular_velocity = [input.small(1.0), input.small(1.0), input.small(1.0)];
+    state
+}

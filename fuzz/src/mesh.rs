@@ -1,0 +1,43 @@
+//! The mesh readers: the importer's and, for OBJ and STL, that of the model loader.
+
+use crate::input::Input;
+use crate::{count, exercise, files};
+use pong_geometry::extension::Extensions;
+use pong_import::{DefaultSurface, Options};
+use std::path::Path;
+
+/// A file with this ending through the importer; what comes out is loaded and used.
+pub fn import(data: &[u8], ending: &str) {
+    count::input();
+    let file = files::write(&format!("mesh.{ending}"), data);
+    let surface = DefaultSurface { name: "steel".to_owned(), stiffness: 1e6, damping: 250.0, mu: 0.2 };
+    let options = Options { surface: Some(surface), ..Options::default() };
+    let output = file.with_extension("ron");
+    match pong_import::import(&file, &output, &options, &mut |_| ()) {
+        Ok(_) => {
+            count::accepted();
+            // A model that needs a law or a kind of the host's is written and cannot be loaded here.
+            if let Ok(model) = pong_model::load(&output, &Extensions::new()) {
+                exercise::run(model, &mut Input::new(data));
+            }
+        }
+        Err(findings) => assert!(!findings.faults.is_empty(), "refused without a fault"),
+    }
+}
+
+/// A file with this ending as the mesh of a model, as surface and as solid.
+pub fn load(data: &[u8], ending: &str) {
+    let name = format!("mesh.{ending}");
+    let file = files::write(&name, data);
+    for kind in ["TriangleMesh", "Polyhedron"] {
+        let text = format!(
+            r#"(format: "pong-model", version: 1, name: "m", surfaces: {{"s": (stiffness: 1e5)}},
+            root: (name: "m", surface: "s", primitives: [{kind}(name: "mesh", file: "{name}", scale: 0.5)]))"#
+        );
+        let folder = file.parent().unwrap_or(Path::new(""));
+        if let Ok(model) = pong_model::parse(&text, "fuzz.ron", Some(folder), &Extensions::new()) {
+            count::accepted();
+            exercise::run(model, &mut Input::new(data));
+        }
+    }
+}

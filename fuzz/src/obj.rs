@@ -1,0 +1,9 @@
+//! OBJ files.
+
+use crate::mesh;
+
+/// Through both readers.
+pub fn run(data: &[u8]) {
+    mesh::import(data, "obj");
+    mesh::load(data, "obj");
+}
