@@ -131,7 +131,8 @@ enum pong_status
     PONG_STATUS_WRONG_PHASE = 5,
     /// The scene cannot be sealed; the message lists every reason.
     PONG_STATUS_SEAL_FAILED = 6,
-    /// A state is not finite or its quaternion is not of unit length; the message names the interface.
+    /// A state is not finite or its quaternion is not of unit length, or a frame's forces or energies are beyond what a
+    /// number holds and the frame does not count; the message names the interface.
     PONG_STATUS_BAD_STATE = 7,
     /// A paired movable group has no state yet; the message names the interface.
     PONG_STATUS_UNSET_STATE = 8,

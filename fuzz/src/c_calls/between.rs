@@ -58,7 +58,9 @@ impl Session<'_> {
         if done {
             assert!(block[needed..].iter().all(|byte| *byte == 0xA5), "written beyond the block");
             block.truncate(needed);
-            self.note(block.iter().map(|byte| u64::from(*byte)));
+            let words =
+                block.chunks_exact(8).map(|word| u64::from_le_bytes(word.try_into().expect("8 bytes")));
+            self.note(words);
             self.host().expect("it has a world").saved = Some(block);
         }
     }

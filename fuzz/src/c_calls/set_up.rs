@@ -48,7 +48,8 @@ impl Session<'_> {
 
     fn good_scene(&mut self, kind: u8) {
         let mut config = pong_default_config();
-        config.contact_capacity = [0, 8, 0, 64][usize::from(kind) % 4];
+        // Small blocks of contact state, and some scenes with too many contacts.
+        config.contact_capacity = [16, 4, 32, 64][usize::from(kind) % 4];
         config.keep_ledger = u32::from(kind.is_multiple_of(2));
         self.create(&config, Sure::Right);
         let (models, pairs): (&[usize], &[(usize, usize)]) = match kind {
@@ -100,15 +101,22 @@ impl Session<'_> {
     }
 
     pub fn switch_world(&mut self) {
-        self.current = self.input.below(WORLDS);
+        let wanted = self.input.below(WORLDS);
+        let empty = self.input.chance(32);
+        if empty || self.hosts()[wanted].is_some() {
+            self.current = wanted;
+        }
     }
 
     pub fn end_world(&mut self) {
-        if self.input.chance(64) {
+        if !self.input.chance(64) {
             // SAFETY: NULL is allowed.
             self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(std::ptr::null_mut()) });
         } else {
             self.destroy();
+            // The host goes on with another world, if it has one.
+            let other = self.hosts().iter().position(Option::is_some);
+            self.current = other.unwrap_or(self.current);
         }
     }
 
