@@ -103,6 +103,9 @@ impl Running {
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
         if let Some(body) = self.frame.overflows(&self.sealed) {
+            // Nobody is to see its contacts.
+            self.frame.order.clear();
+            self.frame.report = FrameReport::default();
             return Err(EngineError::NotFinite { interface: scene.body_name(body) });
         }
         (self.evaluated, self.current, self.frame.computed) = (true, true, true);

@@ -70,6 +70,11 @@ fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
     }
     assert!(matches!(rig.world.wrench(rig.interfaces[0]), Err(EngineError::WrongPhase { .. })));
     assert!(matches!(rig.world.commit(), Err(EngineError::NotFinite { .. })));
+    assert_eq!(
+        (rig.world.contact_count(), rig.world.contacts().len()),
+        (0, 0),
+        "contacts of a refused frame"
+    );
     assert_eq!(rig.saved(), before, "the contact state after a refused frame");
 
     rig.set(1, [1.999, 0.0, 0.0], 0.1);
