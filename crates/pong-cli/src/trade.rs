@@ -2,6 +2,7 @@
 
 use crate::text::print;
 use indicatif::{ProgressBar, ProgressStyle};
+use pong_engine::WorkerSettings;
 use pong_trade::{
     Lever, LogAlternative, PlanSettings, Progress, Quantity, Settings, Study, report, study, study_log,
 };
@@ -174,7 +175,7 @@ fn settings(arguments: &Arguments) -> Settings {
             duration_s: arguments.duration,
             levers: if arguments.levers.is_empty() { Lever::ALL.to_vec() } else { arguments.levers.clone() },
             leaves: arguments.leaves.clone(),
-            workers: arguments.workers.clone(),
+            workers: granted(&arguments.workers),
         },
         within: arguments.within,
         of: all_if_none(&arguments.of),
@@ -182,6 +183,21 @@ fn settings(arguments: &Arguments) -> Settings {
         refinements: arguments.refinements,
         fresh: arguments.fresh,
     }
+}
+
+/// The numbers of workers that this machine has cores for; the others are told.
+fn granted(wanted: &[usize]) -> Vec<usize> {
+    let has = |workers: &usize| {
+        let settings = WorkerSettings { workers: *workers, ..WorkerSettings::default() };
+        settings.workers_granted() >= *workers
+    };
+    let (granted, refused): (Vec<usize>, Vec<usize>) = wanted.iter().partition(|workers| has(workers));
+    for workers in refused {
+        eprintln!(
+            "warning: --workers {workers} is left out: there are not so many cores beside the caller's"
+        );
+    }
+    granted
 }
 
 /// A bar on standard error, if that is a terminal.

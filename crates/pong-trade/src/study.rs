@@ -266,6 +266,10 @@ pub fn study_log(
     let mut log = LoggedRun::open(log, alternatives)?;
     let mut settings = settings.clone();
     settings.of.retain(|quantity| !matches!(quantity, Quantity::Energy | Quantity::Pose));
+    if settings.of.is_empty() {
+        let line = "the motions of a log are what they are; ask for any of wrench, impulse, peak";
+        return Err(TradeError::new("--of", line));
+    }
     if log.restores() {
         settings.plan.levers.retain(|lever| !matches!(lever, Lever::Friction | Lever::Alternatives));
     }
