@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x0aba2bae906d5b57ULL
+#define PONG_LAYOUT_HASH 0xe7d9ddcd1bb361beULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -62,6 +62,24 @@
 
 /// `work_ns` of normal and friction forces.
 #define PONG_WORK_FORCES 3
+
+/// `keep_accounts` of a host that evaluates again within every step, as Runge-Kutta methods do.
+#define PONG_ACCOUNTS_STAGES 1
+
+/// `keep_accounts` of a host whose wrenches give the velocities with which the bodies then move: semi-implicit Euler.
+#define PONG_ACCOUNTS_SEMI_IMPLICIT 2
+
+/// `keep_accounts` of a host that holds each wrench from one commit to the next, as one that steps the world once a frame.
+#define PONG_ACCOUNTS_HELD 3
+
+/// `verdict`: less energy was returned than taken.
+#define PONG_VERDICT_LOST 0
+
+/// `verdict`: as much was returned as taken, as far as the accounts can tell.
+#define PONG_VERDICT_UNRESOLVED 1
+
+/// `verdict`: more energy was returned than taken.
+#define PONG_VERDICT_RETURNED_MORE 2
 
 /// `what` of a tally of tests of the bounding volumes that models give.
 #define PONG_TALLY_VOLUMES 0
@@ -209,8 +227,15 @@ typedef struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     uint64_t worker_cores;
+    /// PONG_ACCOUNTS_...: keeps energy accounts of contacts and pairs, see pong_get_pair_account(), and says what the host
+    /// does with wrenches, which the work that they do depends on. Keeps the ledger as well. 0 (default) keeps none and
+    /// costs nothing.
+    uint32_t keep_accounts;
+    /// With PONG_ACCOUNTS_HELD: how many whole frames later than the first possible one the wrenches act, at most 16; 0 by
+    /// default.
+    uint32_t wrenches_late;
     /// Zero.
-    uint64_t reserved[8];
+    uint64_t reserved[7];
 } pong_config;
 
 /// State of a movable group, relative to and expressed in the common frame: any frame that paired Objects share.
@@ -457,6 +482,62 @@ typedef struct pong_ledger {
     /// Dissipated since the world began, J.
     double dissipated;
 } pong_ledger;
+
+/// Energies, J. To rounding  taken + put_in + made = returned + stored + damping_loss + friction_loss.
+typedef struct pong_account {
+    /// What the bodies gave: work of the wrench on them, where it was negative.
+    double taken;
+    /// What the bodies got back: work of the wrench on them, where it was positive.
+    double returned;
+    /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
+    /// began while its pair touched already: what it may have taken over from another.
+    double put_in;
+    /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
+    double made;
+    /// Stored in normal springs and friction now.
+    double stored;
+    /// Lost in normal damping.
+    double damping_loss;
+    /// Lost in friction.
+    double friction_loss;
+    /// What `returned - taken` may be off by, rounding apart; 0 except with PONG_ACCOUNTS_STAGES.
+    double resolution;
+    /// PONG_VERDICT_...
+    uint32_t verdict;
+    /// Zero.
+    uint32_t reserved;
+} pong_account;
+
+/// Accounts of two movable groups. A touch lasts from their first contact until nothing of them touches any more, and no
+/// late wrench is on its way.
+typedef struct pong_pair_account {
+    /// The pair of Objects.
+    struct pong_pair_id pair;
+    /// The two movable groups.
+    struct pong_interface_id interfaces[2];
+    /// Since the world began.
+    struct pong_account total;
+    /// Of the touch that lasts; zero if none does.
+    struct pong_account touch;
+    /// 1 if a touch lasts.
+    int32_t touching;
+    /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
+    int32_t makes_energy;
+    /// Touches that have ended.
+    uint64_t touches;
+    /// Of those, the ones that returned more than they took.
+    uint64_t returned_more;
+    /// Of those, the ones of which the accounts cannot tell.
+    uint64_t unresolved;
+    /// What touches returned too much, all together, J.
+    double excess;
+    /// What one touch returned too much at most, J.
+    double worst_excess;
+    /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
+    double stiffness;
+    /// Damping of that contact, N s/m.
+    double damping;
+} pong_pair_account;
 
 /// Tests of one kind against another in the last frame.
 typedef struct pong_tally {
@@ -832,6 +913,31 @@ const char *pong_work_name(size_t work);
 
 /// The energies; zero unless the configuration has keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
+
+/// The accounts of all pairs together at the last commit; zero unless the configuration has keep_accounts.
+pong_status pong_get_account(const struct pong_world *world, struct pong_account *account);
+
+/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has keep_accounts.
+pong_status pong_pair_account_count(const struct pong_world *world, size_t *count);
+
+/// The accounts of a pair of movable groups at the last commit, always in the same order.
+pong_status pong_get_pair_account(const struct pong_world *world,
+                                  size_t index,
+                                  struct pong_pair_account *account);
+
+/// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
+/// the next call of this function for the world.
+pong_status pong_pair_remedy(const struct pong_world *world,
+                             size_t index,
+                             const char **remedy);
+
+/// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
+/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has keep_accounts.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
+pong_status pong_get_contact_accounts(const struct pong_world *world,
+                                      struct pong_account *accounts,
+                                      size_t capacity,
+                                      size_t *count);
 
 /// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
 /// frame; 0 before the first.

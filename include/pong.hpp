@@ -45,6 +45,8 @@ using Contact = pong_contact;
 using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
+using Account = pong_account;
+using PairAccount = pong_pair_account;
 using SurfaceValues = pong_surface_values;
 using Tally = pong_tally;
 using Worker = pong_worker;
@@ -200,6 +202,29 @@ public:
     }
     Ledger ledger() const {
         return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
+    }
+    /// Accounts of all contacts together; zero unless the configuration has keep_accounts.
+    Account account() const {
+        return result<Account>([&](Account* out) { return pong_get_account(get(), out); });
+    }
+    /// Accounts of all pairs of movable groups.
+    std::vector<PairAccount> pair_accounts() const {
+        std::vector<PairAccount> all(
+            result<std::size_t>([&](std::size_t* out) { return pong_pair_account_count(get(), out); }));
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            check(pong_get_pair_account(get(), i, &all[i]));
+        }
+        return all;
+    }
+    /// Accounts of the contacts of the last frame, in the order of contacts().
+    std::vector<Account> contact_accounts() const {
+        return list<Account>([&](Account* out, std::size_t capacity, std::size_t* count) {
+            return pong_get_contact_accounts(get(), out, capacity, count);
+        });
+    }
+    /// What to do about a pair (a place in pair_accounts()) that makes energy.
+    std::string pair_remedy(std::size_t pair) const {
+        return result<const char*>([&](const char** out) { return pong_pair_remedy(get(), pair, out); });
     }
     std::vector<Tally> tallies() const {
         std::vector<Tally> all(result<std::size_t>([&](std::size_t* out) { return pong_tally_count(get(), out); }));

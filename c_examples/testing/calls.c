@@ -206,6 +206,51 @@ static void energies_and_limits(void)
     OK(pong_destroy_world(s.world));
 }
 
+/* The tip of the arm is led into the ground and out, each wrench held for a frame. */
+static void accounts(void)
+{
+    scene s;
+    pong_config config = pong_default_config();
+    pong_account all, contacts[4];
+    pong_pair_account pair;
+    const char *remedy;
+    size_t count, listed, i;
+    double depth;
+    config.keep_accounts = PONG_ACCOUNTS_HELD;
+    open_scene(&s, &config);
+    OK(pong_seal(s.world, NULL));
+    OK(pong_pair_account_count(s.world, &count));
+    TEST(count == 2);
+    s.states[0].position[2] = 1.0; /* the ball is out of the way */
+    /* In and out again by the same way: every wrench is that of the place before, and so does more on the way out. */
+    for (i = 0; i <= 20; i += 1) {
+        depth = i <= 10 ? 5e-4 * (double)i : 5e-4 * (double)(20 - i);
+        s.states[1].position[2] = -0.1 - depth + 1e-6;
+        OK(pong_set_states(s.world, s.interfaces, s.states, 3));
+        OK(pong_step(s.world));
+        OK(pong_contact_count(s.world, &listed));
+        OK(pong_get_contact_accounts(s.world, contacts, 4, &count));
+        TEST(count == listed);
+    }
+    OK(pong_get_account(s.world, &all));
+    TEST(all.verdict == PONG_VERDICT_RETURNED_MORE && all.returned > all.taken && all.taken > 0.0);
+    TEST(fabs(all.made - (all.returned - all.taken) - all.damping_loss - all.friction_loss) < 1e-12);
+    TEST(all.made > 0.0 && all.stored == 0.0 && all.put_in == 0.0 && all.resolution == 0.0);
+    OK(pong_pair_account_count(s.world, &count));
+    for (i = 0, listed = 0; i < count; i += 1) {
+        OK(pong_get_pair_account(s.world, i, &pair));
+        if (pair.makes_energy) {
+            listed += 1;
+            TEST(pair.touches == 1 && pair.returned_more == 1 && !pair.touching && pair.stiffness > 0.0);
+            TEST(pair.excess > 0.0 && pair.excess == pair.worst_excess && pair.total.returned == all.returned);
+            OK(pong_pair_remedy(s.world, i, &remedy));
+            TEST(strstr(remedy, "shorten the step") != NULL && strstr(remedy, "c > k") != NULL);
+        }
+    }
+    TEST(listed == 1);
+    OK(pong_destroy_world(s.world));
+}
+
 static unsigned tested(const crowd *c, uint32_t what, const char *a, const char *b, unsigned *met)
 {
     pong_tally tally;
@@ -375,6 +420,7 @@ int main(void)
     threads(&s);
     OK(pong_destroy_world(s.world));
     energies_and_limits();
+    accounts();
     workers();
     return report_failures("calls");
 }

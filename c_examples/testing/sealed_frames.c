@@ -56,6 +56,8 @@ static void look(run *r)
     crowd *s = &r->scene;
     pong_report report;
     pong_ledger ledger;
+    pong_account account;
+    pong_pair_account pair;
     pong_tally tally;
     pong_worker worker;
     pong_surface_values values;
@@ -63,6 +65,11 @@ static void look(run *r)
     size_t count, i;
     OK(pong_get_report(s->world, &report));
     OK(pong_get_ledger(s->world, &ledger));
+    OK(pong_get_account(s->world, &account));
+    OK(pong_pair_account_count(s->world, &count));
+    for (i = 0; i < count; i += 1) {
+        OK(pong_get_pair_account(s->world, i, &pair));
+    }
     OK(pong_tally_count(s->world, &count));
     for (i = 0; i < count; i += 1) {
         OK(pong_get_tally(s->world, i, &tally));
@@ -178,6 +185,8 @@ static void measure(run *r, uint32_t workers, uint32_t optional)
     config.oversubscribe = 1;
     config.contact_capacity = CAPACITY;
     config.keep_ledger = optional;
+    config.keep_accounts = optional ? PONG_ACCOUNTS_HELD : 0;
+    config.wrenches_late = optional;
     config.report_times = optional;
     open_crowd(&r->scene, &config);
     TEST(r->scene.sealed.workers == workers && r->scene.sealed.contact_capacity == CAPACITY);

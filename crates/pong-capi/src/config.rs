@@ -1,9 +1,10 @@
 //! Settings of a world.
 
+use crate::accounts::{PONG_ACCOUNTS_HELD, PONG_ACCOUNTS_SEMI_IMPLICIT, PONG_ACCOUNTS_STAGES};
 use crate::guard::{Failure, Outcome};
 use crate::status::pong_status;
 use crate::version::PONG_ABI_VERSION;
-use pong_engine::{Config, WorkerSettings};
+use pong_engine::{Config, WorkerSettings, WrenchUse};
 use std::time::Duration;
 
 /// Tells a configuration that pong_default_config() made from one that nobody filled in.
@@ -50,8 +51,15 @@ pub struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     pub worker_cores: u64,
+    /// PONG_ACCOUNTS_...: keeps energy accounts of contacts and pairs, see pong_get_pair_account(), and says what the host
+    /// does with wrenches, which the work that they do depends on. Keeps the ledger as well. 0 (default) keeps none and
+    /// costs nothing.
+    pub keep_accounts: u32,
+    /// With PONG_ACCOUNTS_HELD: how many whole frames later than the first possible one the wrenches act, at most 16; 0 by
+    /// default.
+    pub wrenches_late: u32,
     /// Zero.
-    pub reserved: [u64; 8],
+    pub reserved: [u64; 7],
 }
 
 /// The default settings.
@@ -71,7 +79,9 @@ pub extern "C" fn pong_default_config() -> pong_config {
         pin_workers: 0,
         fifo_priority: 0,
         worker_cores: 0,
-        reserved: [0; 8],
+        keep_accounts: 0,
+        wrenches_late: 0,
+        reserved: [0; 7],
     }
 }
 
@@ -99,6 +109,7 @@ impl pong_config {
         let engine = Config {
             contact_capacity: contact_capacity.map(|wanted| wanted as usize),
             ledger: switch("keep_ledger", self.keep_ledger)?,
+            accounts: self.accounts()?,
             workers: self.worker_settings()?,
         };
         Ok(Wanted { engine, times: switch("report_times", self.report_times)? })
@@ -117,6 +128,30 @@ impl pong_config {
             "config: it {cause}; start from pong_default_config() and change only what is documented"
         );
         Err(Failure::new(pong_status::Config, message))
+    }
+
+    fn accounts(&self) -> Outcome<Option<WrenchUse>> {
+        let most = WrenchUse::LATE_MAX.into();
+        let late = within("wrenches_late", self.wrenches_late.into(), 0, most, "0 by default")? as u32;
+        let wrench_use = match self.keep_accounts {
+            0 => None,
+            PONG_ACCOUNTS_STAGES => Some(WrenchUse::Stages),
+            PONG_ACCOUNTS_SEMI_IMPLICIT => Some(WrenchUse::SemiImplicit),
+            PONG_ACCOUNTS_HELD => Some(WrenchUse::Held { late }),
+            other => {
+                let message =
+                    format!("config: keep_accounts is {other}; give PONG_ACCOUNTS_..., or 0 for none");
+                return Err(Failure::new(pong_status::BadValue, message));
+            }
+        };
+        if late > 0 && self.keep_accounts != PONG_ACCOUNTS_HELD {
+            let message = format!(
+                "config: wrenches_late is {late} but keep_accounts is {}; only wrenches that are held come late: set it to PONG_ACCOUNTS_HELD or wrenches_late to 0",
+                self.keep_accounts
+            );
+            return Err(Failure::new(pong_status::BadValue, message));
+        }
+        Ok(wrench_use)
     }
 
     /// Checked whether there will be workers or not: a wrong value must not wait for the day that asks for one.

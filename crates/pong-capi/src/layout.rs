@@ -1,5 +1,6 @@
 //! The layout of every struct, as data: hashed for `pong_check_abi`, compared with what C compilers make of it.
 
+use crate::accounts::{pong_account, pong_pair_account};
 use crate::config::pong_config;
 use crate::contacts::{pong_contact, pong_contact_side};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
@@ -46,7 +47,8 @@ macro_rules! layouts {
 layouts! {
     pong_config {
         struct_size, abi_version, cookie, contact_capacity, keep_ledger, report_times, workers, oversubscribe, spin_us,
-        patience_us, pin_workers, fifo_priority, worker_cores, reserved,
+        patience_us, pin_workers, fifo_priority, worker_cores, keep_accounts, wrenches_late,
+        reserved,
     }
     pong_model_id { bits }
     pong_object_id { bits }
@@ -80,6 +82,13 @@ layouts! {
         frames, flushed, lost, events_lost, bytes, buffer_peak, buffer_size, failed, reserved_flags, reserved,
     }
     pong_ledger { stored, work, dissipated }
+    pong_account {
+        taken, returned, put_in, made, stored, damping_loss, friction_loss, resolution, verdict, reserved,
+    }
+    pong_pair_account {
+        pair, interfaces, total, touch, touching, makes_energy, touches, returned_more, unresolved, excess, worst_excess,
+        stiffness, damping,
+    }
     pong_surface_values {
         normal_law, friction_law, stiffness, damping, ramp, dissipation, friction, friction_static_excess,
         friction_stiffness, friction_damping, friction_slip_speed,

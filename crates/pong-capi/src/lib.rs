@@ -11,7 +11,7 @@
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
 //! | `seal.rs` | end of set-up |
-//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `tally.rs` | frames |
+//! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
 //! | `workers.rs` | workers, around frames |
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //! | `log.rs` | response logs |
@@ -28,6 +28,7 @@
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
 
+pub mod accounts;
 mod clock;
 pub mod config;
 pub mod contact_state;

@@ -29,6 +29,8 @@ pub(crate) struct Inner {
     pub names: Names,
     pub user_data: UserData,
     pub seal_warnings: Vec<CString>,
+    /// What `pong_pair_remedy` gave out last.
+    pub remedy: CString,
     /// The workers, once the world is sealed.
     pub workers: Option<Vec<Started>>,
     /// How many pairs of Objects there are.
@@ -68,6 +70,7 @@ pub unsafe extern "C" fn pong_create_world(
             names: Names::default(),
             user_data: UserData::default(),
             seal_warnings: Vec::new(),
+            remedy: CString::default(),
             workers: None,
             pair_count: 0,
             states: Vec::new(),

@@ -53,6 +53,26 @@ fn assert_holds(text: &str, parts: &[&str]) {
     }
 }
 
+/// An undamped ball whose wrench is held over each step: the summary and a warning tell what that makes.
+#[test]
+fn run_tells_of_contacts_that_return_more_than_they_take() {
+    let folder = folder("held");
+    let scene =
+        DROP.replace("RungeKutta4", "ZeroOrderHold(delay: 1)").replace("(0, 0, 0.1))", "(0, 0, 0.101))");
+    std::fs::write(folder.join("held.ron"), scene.replace("1e-3", "1e-4")).unwrap();
+    std::fs::write(folder.join("ball.ron"), BALL.replace("normal: Linear(damping: 632.4)", "")).unwrap();
+    let (code, out, err) = pong(&folder, &["run", "held.ron"]);
+    assert_eq!(code, 0, "{err}");
+    assert_holds(&out, &["holding contact wrenches over steps made", "made by holding J", "ball, ground"]);
+    let parts = [
+        "warning: `ball` and `ground`: ",
+        "touches returned more energy than they took",
+        "k·dt·1.5",
+        "c must exceed",
+    ];
+    assert_holds(&err, &parts);
+}
+
 #[test]
 fn run_sums_up_and_ends_with_zero() {
     let (code, out, err) = pong(&folder("run"), &["run", "drop.ron"]);
@@ -64,6 +84,8 @@ fn run_sums_up_and_ends_with_zero() {
         "9.81",
         "9.81e-5",
         "Energy drift: ",
+        "returned more",
+        "ball, ground",
         "Time per step: median ",
     ];
     assert_holds(&out, &parts);

@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+mod account;
 pub mod advice;
 mod contact;
 mod dispatch;
@@ -34,6 +35,7 @@ mod sharing;
 mod state;
 mod world;
 
+pub use account::{Account, PairAccount, Verdict, WrenchUse};
 pub use contact::{Contact, ContactSide, Ledger};
 pub use dispatch::has_tester;
 pub use error::EngineError;

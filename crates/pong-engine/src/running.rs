@@ -1,11 +1,12 @@
 //! What exists once a world is sealed: its memory, its workers, its frames.
 
+use crate::account::Account;
 use crate::error::EngineError;
 use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
-use crate::state::{ContactMemory, Remembered, StateError, block_len, read_block, write_block};
+use crate::state::{Books, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block};
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
 use std::time::Duration;
@@ -41,8 +42,10 @@ impl Running {
     ) -> Result<Self, EngineError> {
         let (sealed, tables) = (Arc::new(sealed), Arc::new(tables));
         let pairs = sealed.group_pairs.len();
-        let memory =
-            || Arc::new(ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.custom_stride));
+        let memory = || {
+            let memory = ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.custom_stride);
+            Arc::new(memory.with_books(Books::new(sealed.account_pairs(), sealed.late)))
+        };
         let nothing = Arc::new(ContactMemory::with_capacity(0, 0, 0));
         let input = || FrameInput {
             phase: 0,
@@ -128,6 +131,7 @@ impl Running {
         take_turns(memory, spares, |_, next| {
             next.replace(fresh(frame), &frame.remembered);
             (next.work, next.dissipated) = (frame.work, frame.dissipated);
+            next.books.copy_from(&frame.books);
         });
         watch.lap(Stage::Commit, &mut frame.times);
         self.evaluated = false;
@@ -142,7 +146,7 @@ impl Running {
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
         let mut left_out = 0;
         take_turns(memory, spares, |old, next| {
-            left_out = old.accept_into(fresh(frame), &frame.remembered, accepted, next);
+            left_out = old.accept_into(fresh(frame), (&frame.remembered, &frame.books), accepted, next);
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
@@ -164,9 +168,31 @@ impl Running {
         self.changed();
     }
 
+    /// Pairs of movable groups with their accounts, what they have stored taken in, and the stiffest of their contacts.
+    pub fn pair_books(
+        &self,
+    ) -> impl Iterator<Item = (&GroupPair, &PairBook, Account, Account, Option<(f64, f64)>)> {
+        let books = &self.memory.books.pairs;
+        self.sealed.group_pairs.iter().zip(books).enumerate().map(|(index, (pair, book))| {
+            let records = &self.memory.records;
+            let first = records.partition_point(|record| (record.key.group_pair as usize) < index);
+            let of_pair = records[first..].iter().take_while(|r| r.key.group_pair as usize == index);
+            let pushing = of_pair.filter(|record| record.role == Role::Pushes);
+            let stored = pushing.map(|record| record.stored).sum::<f64>() + 0.0;
+            let total = Account { stored, ..book.total };
+            let touch = Account { stored, ..book.touch };
+            (pair, book, total, touch, self.stiffest(pair))
+        })
+    }
+
+    /// Stiffness and damping of the stiffest contact of a pair, where they do not depend on the depth.
+    pub fn stiffest(&self, pair: &GroupPair) -> Option<(f64, f64)> {
+        let tables = pair.tables.iter().map(|&table| &self.tables[table]);
+        tables.filter_map(SurfaceTable::stiffest).max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
     pub fn state_size(&self) -> usize {
-        let sealed = &self.sealed;
-        block_len(sealed.group_pairs.len(), sealed.record_capacity, sealed.custom_stride)
+        self.sealed.state_size()
     }
 
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), StateError> {

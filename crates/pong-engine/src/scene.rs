@@ -1,5 +1,6 @@
 //! Everything that set-up decides, and the states that the host sets.
 
+use crate::account::WrenchUse;
 use crate::advice::{GroupMass, StepPlan};
 use crate::registry::Laws;
 use pong_geometry::extension::Extensions;
@@ -17,6 +18,9 @@ pub struct Config {
     pub contact_capacity: Option<usize>,
     /// Whether energies are kept (physics contract, section 6).
     pub ledger: bool,
+    /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
+    /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).
+    pub accounts: Option<WrenchUse>,
     /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
     /// are the same bits.
     pub workers: Option<WorkerSettings>,

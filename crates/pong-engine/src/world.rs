@@ -1,5 +1,6 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
+use crate::account::{Account, PairAccount, WrenchUse};
 use crate::advice::{self, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
@@ -38,6 +39,7 @@ impl World {
 
     /// An empty world that knows the user's own kinds of primitives and bounding volumes, and laws.
     pub fn with_extensions(config: Config, extensions: Extensions, laws: Laws) -> Self {
+        let config = Config { ledger: config.ledger || config.accounts.is_some(), ..config };
         let scene = Scene {
             config,
             extensions,
@@ -355,6 +357,44 @@ impl World {
         let memory = &running.memory;
         let stored = memory.records.iter().map(|record| record.stored).sum();
         Ledger { stored, work: memory.work, dissipated: memory.dissipated }
+    }
+
+    /// What the host does with wrenches, if accounts are kept ([`Config::accounts`]).
+    pub fn wrench_use(&self) -> Option<WrenchUse> {
+        self.scene.config.accounts
+    }
+
+    /// Accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) and in their order; empty
+    /// unless [`Config::accounts`] is set.
+    pub fn contact_accounts(&self) -> impl Iterator<Item = Account> + '_ {
+        let running = self.running.iter().filter(|_| self.scene.config.accounts.is_some());
+        running.flat_map(|running| running.frame.list_accounts(&running.sealed))
+    }
+
+    /// Accounts of all pairs of movable groups at the last commit; empty unless [`Config::accounts`] is set.
+    pub fn pair_accounts(&self) -> impl Iterator<Item = PairAccount> + '_ {
+        let books = self.running.iter().flat_map(Running::pair_books);
+        books.map(|(pair, book, total, touch, stiffest)| PairAccount {
+            pair: PairId::new(self.stamp, pair.pair),
+            interfaces: [pair.first, pair.second].map(|body| InterfaceId::new(self.stamp, body)),
+            total,
+            touch,
+            touching: book.touching,
+            touches: book.touches,
+            returned_more: book.returned_more,
+            unresolved: book.unresolved,
+            excess: book.excess,
+            worst_excess: book.worst_excess,
+            stiffest,
+            wrench_use: self.scene.config.accounts.unwrap_or_default(),
+        })
+    }
+
+    /// The accounts of all pairs of movable groups together, at the last commit.
+    pub fn account(&self) -> Account {
+        let mut all = Account::default();
+        self.pair_accounts().for_each(|pair| all.add(&pair.total));
+        all
     }
 
     /// Size of the contact state block, bytes; fixed when the world is sealed.

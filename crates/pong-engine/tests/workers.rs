@@ -102,7 +102,7 @@ impl Brush {
         let trap = Arc::new(Trap::default());
         let mut laws = Laws::default();
         laws.add_normal("trapped", Arc::new(Trapped(Arc::clone(&trap))));
-        let config = Config { contact_capacity: Some(3000), ledger: true, workers };
+        let config = Config { contact_capacity: Some(3000), ledger: true, workers, ..Config::default() };
         let mut world = World::with_extensions(config, Extensions::new(), laws);
         let rest = "normal: Custom(name: \"trapped\", parameters: []), friction: Bristle(mu: 0.5)";
         let own = surface(1e4, rest);

@@ -7,8 +7,10 @@
 //! up to the order of the integrator. Contact terms are the engine's ledger: they are zero unless the world keeps it.
 
 use crate::body::Motion;
+use crate::simulation::Simulation;
 use crate::state::FreeState;
 use crate::system::System;
+use pong_engine::{PairAccount, Verdict, WrenchUse};
 use pong_geometry::{Twist, Wrench};
 
 /// Energies, J.
@@ -24,6 +26,9 @@ pub struct Energy {
     pub contacts: f64,
     /// Lost in contacts since the start.
     pub contact_loss: f64,
+    /// Made since the start by holding contact wrenches over steps: work that the forces would not have done as they follow
+    /// the motion. The balance drifts by it. Zero unless the world keeps accounts.
+    pub contact_made: f64,
     /// Lost in dampers of springs since the start.
     pub spring_loss: f64,
     /// Work since the start of loads on free bodies, and of prescribed bodies on what they push.
@@ -81,8 +86,12 @@ impl System {
     pub fn energy(&self, states: &[FreeState]) -> Energy {
         // Empty sums are −0; adding zero makes them 0.
         let ledger = self.world.ledger();
-        let mut energy =
-            Energy { contacts: ledger.stored + 0.0, contact_loss: ledger.dissipated, ..Energy::default() };
+        let mut energy = Energy {
+            contacts: ledger.stored + 0.0,
+            contact_loss: ledger.dissipated,
+            contact_made: self.world.account().made,
+            ..Energy::default()
+        };
         for ((_, inertia), state) in self.free.iter().zip(states) {
             let speed = state.velocity.value().norm_squared();
             energy.kinetic += 0.5 * (inertia.mass * speed + state.spin(inertia).dot(&state.momentum));
@@ -91,5 +100,38 @@ impl System {
         energy.springs =
             self.springs.iter().map(|spring| self.spring_action(spring).energy).sum::<f64>() + 0.0;
         energy
+    }
+}
+
+impl Simulation {
+    /// Warnings about pairs of bodies whose contact has returned more energy than it took, each with the remedy. Empty if none
+    /// has, or if the world keeps no accounts ([`Integrator::wrench_use`](crate::Integrator::wrench_use)).
+    pub fn energy_warnings(&self) -> Vec<String> {
+        let pairs = self.world().pair_accounts().filter(PairAccount::makes_energy);
+        pairs.map(|pair| self.energy_warning(&pair)).collect()
+    }
+
+    fn energy_warning(&self, pair: &PairAccount) -> String {
+        let name = |interface| {
+            let mut bodies = self.bodies().map(|(_, body)| body);
+            bodies.find(|body| body.interface == Some(interface)).map_or("", |body| body.name.as_str())
+        };
+        let [first, second] = pair.interfaces.map(name);
+        let mut text = format!("`{first}` and `{second}`: ");
+        if pair.returned_more > 0 {
+            text += &format!(
+                "{} of {} touches returned more energy than they took, {:.3e} J in all and {:.3e} J at most; ",
+                pair.returned_more, pair.touches, pair.excess, pair.worst_excess
+            );
+        }
+        if pair.touch.verdict() == Verdict::ReturnedMore {
+            text += &format!("the contact that lasts has returned {:.3e} J too much; ", pair.touch.excess());
+        }
+        text += &pair.remedy();
+        if let (WrenchUse::Held { late }, Some((k, _))) = (pair.wrench_use, pair.stiffest) {
+            let needed = k * self.step_length() * (0.5 + f64::from(late));
+            text += &format!("; at this step c must exceed {needed:.3e} N·s/m");
+        }
+        text
     }
 }

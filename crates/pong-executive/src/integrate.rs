@@ -9,6 +9,7 @@ pub(crate) use hold::{Held, hold};
 pub(crate) use runge_kutta::{Contact, runge_kutta};
 
 use crate::state::Rates;
+use pong_engine::WrenchUse;
 
 /// How the motion of the free bodies is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +28,20 @@ pub enum Integrator {
         /// How many whole frames the wrench comes late.
         delay: u32,
     },
+}
+
+impl Integrator {
+    /// What the integrator does with contact wrenches, for a world that keeps accounts of their work
+    /// ([`Config::accounts`](pong_engine::Config)); `None` if they come later than accounts can be kept for.
+    pub fn wrench_use(self) -> Option<WrenchUse> {
+        match self {
+            Self::SemiImplicitEuler => Some(WrenchUse::SemiImplicit),
+            Self::RungeKutta4 => Some(WrenchUse::Stages),
+            Self::ZeroOrderHold { delay, .. } => {
+                (delay <= WrenchUse::LATE_MAX).then_some(WrenchUse::Held { late: delay })
+            }
+        }
+    }
 }
 
 /// Room for derivatives, kept from step to step.

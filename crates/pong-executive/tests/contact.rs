@@ -19,7 +19,7 @@ fn ball_on_plane(damping: f64, height: f64, integrator: Integrator, step: f64) -
             surfaces: { "rigid": (stiffness: inf) },
             root: (name: "ground", surface: "rigid", primitives: [
                 Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#;
-    let mut world = World::new(Config { ledger: true, ..Config::default() });
+    let mut world = World::new(Config { accounts: integrator.wrench_use(), ..Config::default() });
     let mut touching = Vec::new();
     for (name, text) in [("ball", ball.as_str()), ("ground", ground)] {
         let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
@@ -108,4 +108,36 @@ fn the_same_run_gives_the_same_bits() {
         (simulation.pose(ball), simulation.twist(ball))
     };
     assert_eq!(end(), end());
+}
+
+/// The balance of a host that holds wrenches drifts by what that makes, and by nothing else. An undamped contact is warned of
+/// with the damping that it takes; one that has it is not.
+#[test]
+fn a_host_that_holds_wrenches_is_told_what_that_made() {
+    let step = 0.1 / 1e5_f64.sqrt();
+    for delay in [0, 1] {
+        let needed = 1e5 * step * (0.5 + f64::from(delay));
+        for (damping, warnings) in [(0.0, 1), (2.0 * needed, 0)] {
+            let integrator = Integrator::ZeroOrderHold { substeps: 1, delay };
+            let (mut simulation, _) = ball_on_plane(damping, 0.02, integrator, step);
+            simulation.settle().unwrap();
+            let start = simulation.energy();
+            simulation.run_for(0.5).unwrap();
+            let end = simulation.energy();
+            let drift = end.balance() - start.balance();
+            assert!((drift - end.contact_made).abs() < 1e-12, "{drift} {}", end.contact_made);
+            let told = simulation.energy_warnings();
+            assert_eq!(told.len(), warnings, "{told:?}");
+            if let Some(warning) = told.first() {
+                assert!(drift > 0.0);
+                for part in [
+                    "`ball` and `ground`",
+                    "returned more energy",
+                    &format!("c must exceed {needed:.3e} N·s/m"),
+                ] {
+                    assert!(warning.contains(part), "no `{part}` in: {warning}");
+                }
+            }
+        }
+    }
 }

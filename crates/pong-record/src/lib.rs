@@ -29,6 +29,6 @@ pub use read::{Frame, Log};
 pub use replay::{
     Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, RerunOptions, replay, rerun,
 };
-pub use run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
+pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
 pub use write::{ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

@@ -1,6 +1,7 @@
 //! run.json: what the numbers in the tables of a log mean.
 
 use crate::error::LogError;
+use pong_engine::WrenchUse;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
@@ -43,6 +44,9 @@ pub struct Run {
     /// Whether the world kept energies.
     #[serde(default)]
     pub ledger: bool,
+    /// What the host did with wrenches, if the world kept accounts of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accounts: Option<RunAccounts>,
     /// Names of the force laws that the host registered.
     #[serde(default)]
     pub laws: Vec<String>,
@@ -66,6 +70,41 @@ pub struct Run {
     /// Frames that were lost because they came faster than they could be written.
     #[serde(default)]
     pub lost: u64,
+}
+
+/// What a host does with wrenches: [`WrenchUse`](pong_engine::WrenchUse) in a log.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunAccounts {
+    /// Evaluates within every step.
+    Stages,
+    /// Gives the velocity with which the bodies then move.
+    SemiImplicit,
+    /// Holds them from one commit to the next.
+    Held {
+        /// How many whole frames they come late.
+        late: u32,
+    },
+}
+
+impl From<WrenchUse> for RunAccounts {
+    fn from(wrench_use: WrenchUse) -> Self {
+        match wrench_use {
+            WrenchUse::Stages => Self::Stages,
+            WrenchUse::SemiImplicit => Self::SemiImplicit,
+            WrenchUse::Held { late } => Self::Held { late },
+        }
+    }
+}
+
+impl From<RunAccounts> for WrenchUse {
+    fn from(accounts: RunAccounts) -> Self {
+        match accounts {
+            RunAccounts::Stages => Self::Stages,
+            RunAccounts::SemiImplicit => Self::SemiImplicit,
+            RunAccounts::Held { late } => Self::Held { late },
+        }
+    }
 }
 
 /// A model of a log.

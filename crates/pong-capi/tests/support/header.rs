@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 23] = [
+const FILES: [&str; 24] = [
     "status",
     "version",
     "config",
@@ -24,6 +24,7 @@ const FILES: [&str; 23] = [
     "frames",
     "contacts",
     "report",
+    "accounts",
     "tally",
     "workers",
     "contact_state",

@@ -75,6 +75,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if !arguments.quiet {
         print(&summary::summary(&built, &statistics));
     }
+    for warning in built.simulation.energy_warnings() {
+        eprintln!("warning: {warning}");
+    }
     if let Some(advice) = statistics.incomplete_advice() {
         eprintln!("warning: {advice}");
     }

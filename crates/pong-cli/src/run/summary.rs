@@ -2,6 +2,7 @@
 
 use super::statistics::Statistics;
 use crate::text::{count, number, numbers, table};
+use pong_engine::{PairAccount, Verdict};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Simulation};
 
@@ -84,14 +85,61 @@ fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
     );
     if built.ledger {
         text += &format!(
-            ", contacts {} J stored, {} J lost\nEnergy drift: {} J at the end, {} J at worst\n",
+            ", contacts {} J stored, {} J lost\nEnergy drift: {} J at the end, {} J at worst",
             number(last.contacts),
             number(last.contact_loss),
             number(last.balance() - first.balance()),
             number(statistics.worst_balance),
         );
+        if last.contact_made != first.contact_made {
+            let made = number(last.contact_made - first.contact_made);
+            text += &format!("; holding contact wrenches over steps made {made} J of it");
+        }
+        text += "\n";
+        text += &accounts(&built.simulation);
     } else {
         text += "\nEnergy drift: not known; set ledger: true in the scene\n";
     }
     text
+}
+
+/// What each pair of bodies gave to its contacts and where it went; nothing if none touched.
+fn accounts(simulation: &Simulation) -> String {
+    let touched = simulation.world().pair_accounts().filter(|pair| pair.touching || pair.touches > 0);
+    let names = |interface| {
+        let mut bodies = simulation.bodies();
+        bodies.find(|(_, body)| body.interface == Some(interface)).map(|(_, body)| body.name.clone())
+    };
+    let row = |pair: PairAccount| {
+        let [first, second] = pair.interfaces.map(|interface| names(interface).unwrap_or_default());
+        let total = &pair.total;
+        let energies =
+            [total.taken, total.returned, total.stored, total.damping_loss, total.friction_loss, total.made];
+        let mut row = vec![format!("{first}, {second}")];
+        row.extend(energies.map(number));
+        row.extend([(pair.touches + u64::from(pair.touching)).to_string(), returned_more(&pair)]);
+        row
+    };
+    let rows: Vec<Vec<String>> = touched.map(row).collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let heading = [
+        "contact energy",
+        "taken J",
+        "returned J",
+        "stored J",
+        "damping J",
+        "friction J",
+        "made by holding J",
+        "touches",
+        "returned more",
+    ];
+    table(&heading, &rows)
+}
+
+/// How many touches returned more than they took, the one that lasts too.
+fn returned_more(pair: &PairAccount) -> String {
+    let lasting = pair.touch.verdict() == Verdict::ReturnedMore;
+    (pair.returned_more + u64::from(lasting)).to_string()
 }

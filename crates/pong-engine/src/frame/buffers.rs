@@ -1,10 +1,11 @@
 //! What a frame writes, grouped by the stage that writes it.
 
+use super::accounts::Interval;
 use super::input::FrameInput;
 use super::lane::Lane;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
 use crate::sealed::Sealed;
-use crate::state::{ContactKey, ContactRecord, PairPose, Role};
+use crate::state::{Books, ContactKey, ContactRecord, PairPose, Role};
 use pong_arena::Table;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
@@ -28,6 +29,8 @@ pub(crate) struct Frame {
     // ledger
     pub work: f64,
     pub dissipated: f64,
+    pub books: Books,
+    pub intervals: Vec<Interval>,
     // reduce
     pub wrenches: Vec<Wrench>,
     pub report: FrameReport,
@@ -213,6 +216,8 @@ impl Frame {
             order: Table::with_capacity(sealed.limits.lane_contacts, nowhere),
             work: 0.0,
             dissipated: 0.0,
+            books: Books::new(sealed.account_pairs(), sealed.late),
+            intervals: vec![Interval::default(); sealed.account_pairs()],
             wrenches: vec![Wrench::zero(); bodies],
             report: FrameReport::default(),
             counts: FrameCounts::default(),

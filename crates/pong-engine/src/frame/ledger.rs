@@ -10,6 +10,7 @@
 //! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
 
 use super::Frame;
+use super::accounts::Keeper;
 use super::forces::reference_point;
 use super::input::FrameInput;
 use super::lane::Lane;
@@ -28,6 +29,18 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
     }
     let Frame { input, lane, order, work: all_work, dissipated: all_dissipated, .. } = frame;
     let Lane { scratch, out, .. } = lane;
+    let input = &*input;
+    let mut keeper = scene.config.accounts.map(|wrench_use| Keeper {
+        scene,
+        sealed,
+        memory,
+        input,
+        wrench_use,
+        books: &mut frame.books,
+        intervals: &mut frame.intervals,
+        custom: &mut out.custom,
+    });
+    keeper.iter_mut().for_each(Keeper::begin);
     scratch.reset();
     let continued = scratch.slice(memory.records.len(), false).expect("sealing has sized the scratch");
     for place in order.iter() {
@@ -39,15 +52,18 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         let motion = &input.motions[found.key.group_pair as usize][found.key.flipped as usize];
         let mut before = Before::default();
         // Two contacts may continue one record; its energy goes to the first.
-        if let Some(earlier) = contact.continues.filter(|&i| !continued[i as usize]) {
-            continued[earlier as usize] = true;
-            before = Before::of(&memory.records[earlier as usize]);
+        let earlier = contact.continues.map(|i| i as usize).filter(|&i| !continued[i]);
+        if let Some(earlier) = earlier {
+            continued[earlier] = true;
+            before = Before::of(&memory.records[earlier]);
         }
         let mut work = 0.0;
-        if let Some(since) = &motion.since_commit {
+        let displacement = motion.since_commit.as_ref().map(|since| {
             let (body_a, _) = sealed.bodies_of(&found.key);
             let reference = reference_point(scene.body(body_a), found);
-            let displacement = Displacement::new(since, &motion.x_ba, &reference);
+            Displacement::new(since, &motion.x_ba, &reference)
+        });
+        if let Some(displacement) = &displacement {
             work = displacement.half_work(&before.point, &before.force, false)
                 + displacement.half_work(&contact.point, &contact.force(), true);
         }
@@ -56,13 +72,21 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         contact.dissipated = before.dissipated + dissipated;
         *all_work += work;
         *all_dissipated += dissipated;
+        if let Some(keeper) = &mut keeper {
+            keeper.contact(place.index as usize, contact, earlier, displacement.as_ref());
+        }
     }
-    let ended = memory.records.iter().zip(&*continued).filter(|(r, done)| r.role == Role::Pushes && !**done);
-    for (earlier, _) in ended {
-        let (work, dissipated) = end_contact(earlier, input);
+    let ended = memory.records.iter().enumerate().filter(|(i, r)| r.role == Role::Pushes && !continued[*i]);
+    for (index, earlier) in ended {
+        let displacement = displacement_of_ended(earlier, input);
+        let (work, dissipated) = end_contact(earlier, displacement.as_ref());
         *all_work += work;
         *all_dissipated += dissipated;
+        if let Some(keeper) = &mut keeper {
+            keeper.ended(index, displacement.as_ref());
+        }
     }
+    keeper.iter_mut().for_each(|keeper| keeper.close(&frame.remembered));
 }
 
 /// What a contact was at the last commit; all zero if it was none.
@@ -88,34 +112,46 @@ impl Before {
 }
 
 /// Displacement of A since the last commit, at a point carried by A.
-struct Displacement {
+pub(super) struct Displacement {
     before: Vec3,
     now: Vec3,
-    turn: Vec3,
+    pub turn: Vec3,
+    /// The origin of A's frame.
+    pub origin_before: Vec3,
+    pub origin_now: Vec3,
 }
 
 impl Displacement {
     fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
-        Self { before: since.x_ba.point(reference), now: x_ba.point(reference), turn: since.turn() }
+        Self {
+            before: since.x_ba.point(reference),
+            now: x_ba.point(reference),
+            turn: since.turn(),
+            origin_before: since.x_ba.translation,
+            origin_now: x_ba.translation,
+        }
     }
 
     /// Half of the work that a force at `point` does over the displacement.
-    fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
+    pub fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
         let arm = point - if at_end { self.now } else { self.before };
         0.5 * (force.dot(&(self.now - self.before)) + arm.cross(force).dot(&self.turn))
     }
 }
 
+/// Displacement at a contact that is no more.
+fn displacement_of_ended(earlier: &ContactRecord, input: &FrameInput) -> Option<Displacement> {
+    let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
+    let since = motion.since_commit.as_ref()?;
+    // Any point carried by A serves as reference; the contact's own place then is at hand.
+    let local = since.x_ba.inverse().point(&earlier.point);
+    Some(Displacement::new(since, &motion.x_ba, &local))
+}
+
 /// Work and dissipation of a contact that is no more: half of the work of its last force, and its stored energy is
 /// gone.
-fn end_contact(earlier: &ContactRecord, input: &FrameInput) -> (f64, f64) {
-    let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
-    let mut work = 0.0;
-    if let Some(since) = &motion.since_commit {
-        // Any point carried by A serves as reference; the contact's own place then is at hand.
-        let local = since.x_ba.inverse().point(&earlier.point);
-        work =
-            Displacement::new(since, &motion.x_ba, &local).half_work(&earlier.point, &earlier.force, false);
-    }
+fn end_contact(earlier: &ContactRecord, displacement: Option<&Displacement>) -> (f64, f64) {
+    let half = |displacement: &Displacement| displacement.half_work(&earlier.point, &earlier.force, false);
+    let work = displacement.map_or(0.0, half);
     (work, earlier.stored - work)
 }

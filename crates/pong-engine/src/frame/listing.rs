@@ -1,11 +1,14 @@
 //! The contacts of a frame as the host sees them: ids, common frame.
 
 use super::Frame;
+use super::accounts::account_of;
 use super::buffers::FrameContact;
+use crate::account::Account;
 use crate::contact::{Contact, ContactSide};
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
+use crate::state::Role;
 use pong_geometry::Vec3;
 
 impl Frame {
@@ -17,6 +20,15 @@ impl Frame {
         stamp: WorldStamp,
     ) -> impl Iterator<Item = Contact> + 'a {
         self.pushing().map(move |contact| self.list_contact(contact, scene, sealed, stamp))
+    }
+
+    /// Accounts of the contacts that push, in key order.
+    pub fn list_accounts<'a>(&'a self, sealed: &'a Sealed) -> impl Iterator<Item = Account> + 'a {
+        let out = &self.lane.out;
+        let pushing = self.order.iter().map(|place| place.index as usize);
+        let pushing = pushing.filter(|&index| out.contacts[index].found.role == Role::Pushes);
+        pushing
+            .map(|index| account_of(&out.custom_of(index)[sealed.account_at..], out.contacts[index].stored))
     }
 
     fn list_contact(

@@ -1,5 +1,6 @@
 //! One frame: the stages in order.
 
+mod accounts;
 mod block;
 mod bounding;
 mod buffers;
@@ -20,6 +21,7 @@ mod side_of_entry;
 mod state_in;
 mod testers;
 
+pub(crate) use accounts::contact_numbers;
 pub(crate) use block::arena_bytes;
 pub(crate) use bounding::ROUND;
 pub(crate) use buffers::{Frame, FrameContact, Place};

@@ -10,10 +10,12 @@ pub(crate) use plan::Plan;
 pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
 pub use warnings::SetupWarning;
 
+use crate::account::WrenchUse;
 use crate::dispatch::has_tester;
 use crate::error::EngineError;
+use crate::frame::contact_numbers;
 use crate::scene::Scene;
-use crate::state::{ContactKey, fnv1a};
+use crate::state::{Books, ContactKey, block_len, fnv1a};
 use limits::{too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
@@ -54,11 +56,28 @@ pub(crate) struct Sealed {
     pub contact_capacity: usize,
     /// Records: contacts, and as many that are only remembered.
     pub record_capacity: usize,
+    /// Numbers that are remembered of a contact: those of registered friction laws, then its account.
     pub custom_stride: usize,
+    /// Where among them the account begins.
+    pub account_at: usize,
+    /// Whether accounts are kept, and how many frames late the host's wrenches are.
+    pub keeps_accounts: bool,
+    pub late: usize,
     pub hash: u64,
 }
 
 impl Sealed {
+    /// Pairs of movable groups of which accounts are kept: all or none.
+    pub fn account_pairs(&self) -> usize {
+        if self.keeps_accounts { self.group_pairs.len() } else { 0 }
+    }
+
+    /// Size of the contact state block, bytes.
+    pub fn state_size(&self) -> usize {
+        let accounts = Books::block_len(self.account_pairs(), self.late);
+        block_len(self.group_pairs.len(), self.record_capacity, self.custom_stride, accounts)
+    }
+
     /// The bodies that hold A and B of a contact.
     pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
         let pair = &self.group_pairs[key.group_pair as usize];
@@ -96,9 +115,14 @@ pub(crate) fn seal(
     if let Some(0) = scene.config.contact_capacity {
         problems.push("contact capacity: 0 leaves no contact; give at least 1 or leave it out".to_owned());
     }
-    problems.extend(
-        scene.config.contact_capacity.and_then(|wanted| too_large(scene, wanted, custom_stride(&tables))),
-    );
+    let account_at = custom_stride(&tables);
+    let custom_stride = account_at + scene.config.accounts.map_or(0, contact_numbers);
+    let late = scene.config.accounts.map_or(0, WrenchUse::late);
+    if late > WrenchUse::LATE_MAX as usize {
+        let most = WrenchUse::LATE_MAX;
+        problems.push(format!("accounts: wrenches that come {late} frames late; give at most {most}"));
+    }
+    problems.extend(scene.config.contact_capacity.and_then(|wanted| too_large(scene, wanted, custom_stride)));
     if !problems.is_empty() {
         return Err(EngineError::Seal { problems });
     }
@@ -110,16 +134,7 @@ pub(crate) fn seal(
     }
     let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
     let record_capacity = 2 * contact_capacity;
-    let custom_stride = custom_stride(&tables);
     let hash = scene_hash(scene, contact_capacity, custom_stride);
-    let state_size = crate::state::block_len(group_pairs.len(), record_capacity, custom_stride);
-    let report = SealReport {
-        group_pairs: group_pairs.len(),
-        contact_capacity,
-        state_size,
-        workers: Vec::new(),
-        warnings: warnings(scene, &group_pairs),
-    };
     let limits = Limits::new(scene, &group_pairs, record_capacity, custom_stride);
     let sealed = Sealed {
         plans: plans(scene, &group_pairs),
@@ -131,7 +146,17 @@ pub(crate) fn seal(
         contact_capacity,
         record_capacity,
         custom_stride,
+        account_at,
+        keeps_accounts: scene.config.accounts.is_some(),
+        late,
         hash,
+    };
+    let report = SealReport {
+        group_pairs: sealed.group_pairs.len(),
+        contact_capacity,
+        state_size: sealed.state_size(),
+        workers: Vec::new(),
+        warnings: warnings(scene, &sealed.group_pairs),
     };
     Ok((sealed, tables, report))
 }
@@ -216,6 +241,9 @@ pub(crate) fn can_be_tested(
 /// Hash of everything that decides what a contact state block means.
 fn scene_hash(scene: &Scene, capacity: usize, custom_stride: usize) -> u64 {
     let mut text = format!("capacity {capacity} stride {custom_stride} ledger {}\n", scene.config.ledger);
+    if let Some(wrench_use) = scene.config.accounts {
+        text += &format!("accounts {wrench_use:?}\n");
+    }
     for model in &scene.models {
         text += &format!("model {:016x}\n", model.hash);
     }

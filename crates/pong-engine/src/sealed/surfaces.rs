@@ -2,9 +2,9 @@
 
 use super::{GroupPair, can_be_tested, kind_name};
 use crate::error::EngineError;
-use crate::law::{FrictionProps, PairProps, combine};
+use crate::law::{FrictionProps, NormalProps, PairProps, combine};
 use crate::scene::Scene;
-use pong_model::{Body, FrictionLaw, Model, NormalLaw, PairOverride, Surface};
+use pong_model::{Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, Surface};
 use std::collections::BTreeSet;
 
 /// Values of all pairs of surfaces of two models, A's model first.
@@ -20,6 +20,18 @@ impl SurfaceTable {
     pub fn props(&self, surface_a: u32, surface_b: u32) -> &PairProps {
         let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
         entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
+    }
+}
+
+impl SurfaceTable {
+    /// Stiffness and damping of the stiffest pair of surfaces whose force is linear in the depth.
+    pub fn stiffest(&self) -> Option<(f64, f64)> {
+        let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {
+            NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
+            NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
+            NormalProps::HuntCrossley { .. } | NormalProps::Custom { .. } => None,
+        });
+        linear.max_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
 

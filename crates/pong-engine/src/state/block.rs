@@ -3,12 +3,14 @@
 //! ```text
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
 //! | poses: known 8, two poses of 7 × 8, per pair of movable groups
+//! | accounts, if they are kept: PairBook::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
 //! | records: RECORD_LEN + 8 × custom numbers, per place of the world's contact capacity, unused ones zero
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
 //! Little-endian. The size depends on the sealed world alone.
 
+use super::books::{Books, PairBook};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
 use pong_geometry::{Pose, Vec3};
 
@@ -73,19 +75,28 @@ impl std::fmt::Display for StateError {
 
 impl std::error::Error for StateError {}
 
-/// Size of the block of a sealed world, bytes.
-pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize) -> usize {
-    used_len(group_pairs, capacity, custom_stride) + CHECKSUM_LEN
+/// Size of the block of a sealed world whose accounts of pairs take so many bytes.
+pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize, accounts: usize) -> usize {
+    used_len(group_pairs, capacity, custom_stride) + accounts + CHECKSUM_LEN
 }
 
-/// What is written for a number of records, without the checksum, bytes.
+/// Size of the block of a memory, bytes.
+fn expected_len(memory: &ContactMemory) -> usize {
+    block_len(memory.poses.len(), memory.records.capacity(), memory.custom_stride, accounts_len(memory))
+}
+
+fn accounts_len(memory: &ContactMemory) -> usize {
+    Books::block_len(memory.books.pairs.len(), memory.books.late)
+}
+
+/// What is written for a number of records, without accounts of pairs and checksum, bytes.
 fn used_len(group_pairs: usize, records: usize, custom_stride: usize) -> usize {
     HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * custom_stride)
 }
 
 /// Writes the block. `out` must have the length that [`block_len`] gives.
 pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> Result<(), StateError> {
-    let expected = block_len(memory.poses.len(), memory.records.capacity(), memory.custom_stride);
+    let expected = expected_len(memory);
     if out.len() != expected {
         return Err(StateError::Length { expected, got: out.len() });
     }
@@ -98,6 +109,7 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
     writer.f64(memory.work);
     writer.f64(memory.dissipated);
     memory.poses.iter().for_each(|pose| writer.pair_pose(pose));
+    writer.books(&memory.books);
     for (record, custom) in memory.iter() {
         writer.record(record);
         custom.iter().for_each(|x| writer.f64(*x));
@@ -122,6 +134,7 @@ pub(crate) fn read_block(
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
     memory.poses.iter_mut().for_each(|pose| *pose = reader.pair_pose());
+    reader.books(&mut memory.books);
     memory.clear_records();
     for _ in 0..count {
         let record = reader.record().expect("checked before");
@@ -135,7 +148,7 @@ pub(crate) fn read_block(
 
 /// Everything that may be wrong with a block; answers the number of its records.
 fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, StateError> {
-    let expected = block_len(like.poses.len(), like.records.capacity(), like.custom_stride);
+    let expected = expected_len(like);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);
     }
@@ -155,7 +168,8 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, S
         return Err(StateError::Damaged);
     }
     let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
-    let (used, unused) = body.split_at(used_len(like.poses.len(), count, like.custom_stride));
+    let used = used_len(like.poses.len(), count, like.custom_stride) + accounts_len(like);
+    let (used, unused) = body.split_at(used);
     if unused.iter().any(|byte| *byte != 0) || fnv1a_with_zeros(used, unused.len()).to_le_bytes() != checksum
     {
         return Err(StateError::Damaged);
@@ -163,8 +177,9 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, S
     reader.at = TOTALS_AT;
     let totals = [reader.f64(), reader.f64()];
     let poses_make_sense = like.poses.iter().all(|_| is_finite_pose(&reader.pair_pose()));
-    match totals.iter().all(|x| x.is_finite()) && poses_make_sense && records_make_sense(like, reader, count)
-    {
+    let accounts_make_sense = (0..accounts_len(like) / 8).all(|_| reader.f64().is_finite());
+    let finite = totals.iter().all(|x| x.is_finite()) && poses_make_sense && accounts_make_sense;
+    match finite && records_make_sense(like, reader, count) {
         true => Ok(count),
         false => Err(StateError::Damaged),
     }
@@ -251,6 +266,14 @@ impl Writer<'_> {
         }
     }
 
+    fn books(&mut self, books: &Books) {
+        books.pairs.iter().flat_map(PairBook::numbers).for_each(|x| self.f64(x));
+        for wrench in &books.waiting {
+            self.vec3(&wrench.force);
+            self.vec3(&wrench.moment);
+        }
+    }
+
     fn record(&mut self, record: &ContactRecord) {
         let key = &record.key;
         for word in [key.group_pair, key.flipped, key.primitive_a, key.shell_b, key.end] {
@@ -310,6 +333,15 @@ impl Reader<'_> {
         let known = self.u32() != 0;
         self.u32();
         PairPose { relative: [self.pose(), self.pose()], known }
+    }
+
+    fn books(&mut self, books: &mut Books) {
+        for book in &mut books.pairs {
+            *book = PairBook::from_numbers(&std::array::from_fn(|_| self.f64()));
+        }
+        for wrench in &mut books.waiting {
+            (wrench.force, wrench.moment) = (self.vec3(), self.vec3());
+        }
     }
 
     /// `None` if the record has a role that there is not.

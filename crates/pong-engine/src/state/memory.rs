@@ -1,5 +1,6 @@
 //! Contact records under their keys, and the relative poses of the last commit.
 
+use super::books::Books;
 use pong_arena::{Full, Table};
 use pong_geometry::{Pose, Vec3};
 
@@ -117,8 +118,10 @@ pub(crate) struct ContactMemory {
     pub poses: Box<[PairPose]>,
     /// Sorted by key, then piece and feature.
     pub records: Table<ContactRecord>,
-    /// Numbers of registered friction laws: `custom_stride` per record.
+    /// Numbers of registered friction laws and of accounts: `custom_stride` per record.
     pub custom: Table<f64>,
+    /// Accounts of pairs; empty unless the world keeps them.
+    pub books: Books,
     /// How many numbers each record has in `custom`.
     pub custom_stride: usize,
     /// Energy that left the contacts for good since the world began, J.
@@ -164,9 +167,15 @@ impl ContactMemory {
             records: Table::with_capacity(records, ContactRecord::blank()),
             custom: Table::with_capacity(records * custom_stride, 0.0),
             custom_stride,
+            books: Books::default(),
             dissipated: 0.0,
             work: 0.0,
         }
+    }
+
+    /// The same with room for accounts of pairs.
+    pub fn with_books(self, books: Books) -> Self {
+        Self { books, ..self }
     }
 
     /// Appends a record and its custom numbers, `custom_stride` of them; keys must come in order.
@@ -195,6 +204,7 @@ impl ContactMemory {
             .extend_from_slice(&other.records)
             .and_then(|()| self.custom.extend_from_slice(&other.custom));
         fits.expect("memories of one world have room for the same");
+        self.books.copy_from(&other.books);
         (self.work, self.dissipated) = (other.work, other.dissipated);
     }
 
@@ -242,6 +252,11 @@ impl ContactMemory {
         for (index, pose) in self.poses.iter_mut().enumerate() {
             if forgotten(index as u32) {
                 *pose = PairPose::unknown();
+                if !self.books.pairs.is_empty() {
+                    let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
+                    let pushing = of_pair.filter(|record| record.role == Role::Pushes);
+                    self.books.forget(index, pushing.map(|record| record.stored).sum());
+                }
             }
         }
         let stride = self.custom_stride;

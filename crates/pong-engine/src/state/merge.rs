@@ -4,6 +4,7 @@
 //! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
 //! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
 
+use super::books::Books;
 use super::memory::{ContactMemory, ContactRecord, PairPose};
 use std::iter::Peekable;
 
@@ -25,18 +26,19 @@ impl ContactMemory {
     }
 
     /// Writes into `next` what is remembered after a commit of the pairs of movable groups that `accepted` names:
-    /// of those `fresh` and `poses`, of all others what is remembered now. The totals are the present ones.
+    /// of those `fresh`, `poses` and `books`, of all others what is remembered now. The totals are the present ones.
     ///
     /// Answers how many records were left out because `next` has no room for them.
     pub fn accept_into<'a>(
         &'a self,
         fresh: impl Iterator<Item = Remembered<'a>> + Clone,
-        poses: &[PairPose],
+        (poses, books): (&[PairPose], &Books),
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
     ) -> usize {
         for (index, pose) in next.poses.iter_mut().enumerate() {
             *pose = if accepted(index as u32) { poses[index] } else { self.poses[index] };
+            next.books.copy_pair(index, if accepted(index as u32) { books } else { &self.books });
         }
         (next.work, next.dissipated) = (self.work, self.dissipated);
         let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);

@@ -1,6 +1,7 @@
 //! Contact state: all that the engine remembers between frames (physics contract, section 5).
 
 mod block;
+mod books;
 mod memory;
 mod merge;
 #[cfg(test)]
@@ -8,5 +9,6 @@ mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{block_len, fnv1a, read_block, write_block};
+pub(crate) use books::{Books, PairBook};
 pub(crate) use memory::{ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role};
 pub(crate) use merge::Remembered;

@@ -130,7 +130,7 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
         let accepted = random.below(1 << GROUP_PAIRS);
         let is_accepted = |pair: u32| accepted >> pair & 1 == 1;
         let next = &mut next[memory.custom_stride];
-        let left_out = memory.accept_into(fresh_of(&trial), &trial.poses, is_accepted, next);
+        let left_out = memory.accept_into(fresh_of(&trial), (&trial.poses, &trial.books), is_accepted, next);
 
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_accepted(record.key.group_pair));
@@ -211,7 +211,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
 }
 
 fn block_of(memory: &ContactMemory) -> Vec<u8> {
-    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.custom_stride)];
+    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.custom_stride, 0)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }

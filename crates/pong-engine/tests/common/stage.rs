@@ -3,7 +3,7 @@
 #![allow(dead_code)]
 
 use pong_engine::{
-    Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, WorkerSettings, World,
+    Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, WorkerSettings, World, WrenchUse,
 };
 use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
@@ -62,6 +62,7 @@ pub struct Scene {
     pub frames: usize,
     pub contact_capacity: Option<usize>,
     pub ledger: bool,
+    pub accounts: Option<WrenchUse>,
     /// With the primitives, volumes and laws of `own_kinds.rs`.
     pub own_kinds: bool,
     pub models: Vec<String>,
@@ -86,6 +87,7 @@ impl Scene {
             frames,
             contact_capacity: None,
             ledger: true,
+            accounts: None,
             own_kinds: false,
             models,
             objects: vec![0, 1],
@@ -99,7 +101,8 @@ impl Scene {
 
     /// A sealed world of the scene.
     pub fn set_up(&self, workers: Option<WorkerSettings>) -> Stage<'_> {
-        let config = Config { contact_capacity: self.contact_capacity, ledger: self.ledger, workers };
+        let Self { contact_capacity, ledger, accounts, .. } = *self;
+        let config = Config { contact_capacity, ledger, accounts, workers };
         let mut world = match self.own_kinds {
             true => World::with_extensions(config, crate::own_kinds::extensions(), crate::own_kinds::laws()),
             false => World::new(config),

@@ -1,6 +1,7 @@
 //! Models, objects and pairs of a scene, as a world.
 
 use super::document::Document;
+use super::effects::integrator;
 use super::error::Faults;
 use super::variation::Variation;
 use pong_engine::{Config, EngineError, InterfaceId, ObjectId, SealReport, World};
@@ -35,6 +36,7 @@ impl Setting {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,
             workers: variation.workers.clone(),
+            accounts: integrator(document).wrench_use().filter(|_| document.ledger),
         };
         let mut setting = Self {
             world: World::new(config),

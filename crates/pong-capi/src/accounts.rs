@@ -1,0 +1,220 @@
+//! Energy accounts.
+
+use crate::guard::with_world;
+use crate::ids::{pong_interface_id, pong_pair_id};
+use crate::interfaces::too_small;
+use crate::names::{c_text, no_such};
+use crate::pointers::{Out, OutArray};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use pong_engine::{Account, PairAccount, Verdict};
+use std::ffi::c_char;
+
+/// `keep_accounts` of a host that evaluates again within every step, as Runge-Kutta methods do.
+pub const PONG_ACCOUNTS_STAGES: u32 = 1;
+/// `keep_accounts` of a host whose wrenches give the velocities with which the bodies then move: semi-implicit Euler.
+pub const PONG_ACCOUNTS_SEMI_IMPLICIT: u32 = 2;
+/// `keep_accounts` of a host that holds each wrench from one commit to the next, as one that steps the world once a frame.
+pub const PONG_ACCOUNTS_HELD: u32 = 3;
+
+/// `verdict`: less energy was returned than taken.
+pub const PONG_VERDICT_LOST: u32 = 0;
+/// `verdict`: as much was returned as taken, as far as the accounts can tell.
+pub const PONG_VERDICT_UNRESOLVED: u32 = 1;
+/// `verdict`: more energy was returned than taken.
+pub const PONG_VERDICT_RETURNED_MORE: u32 = 2;
+
+/// Energies, J. To rounding  taken + put_in + made = returned + stored + damping_loss + friction_loss.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_account {
+    /// What the bodies gave: work of the wrench on them, where it was negative.
+    pub taken: f64,
+    /// What the bodies got back: work of the wrench on them, where it was positive.
+    pub returned: f64,
+    /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
+    /// began while its pair touched already: what it may have taken over from another.
+    pub put_in: f64,
+    /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
+    pub made: f64,
+    /// Stored in normal springs and friction now.
+    pub stored: f64,
+    /// Lost in normal damping.
+    pub damping_loss: f64,
+    /// Lost in friction.
+    pub friction_loss: f64,
+    /// What `returned - taken` may be off by, rounding apart; 0 except with PONG_ACCOUNTS_STAGES.
+    pub resolution: f64,
+    /// PONG_VERDICT_...
+    pub verdict: u32,
+    /// Zero.
+    pub reserved: u32,
+}
+
+/// Accounts of two movable groups. A touch lasts from their first contact until nothing of them touches any more, and no
+/// late wrench is on its way.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_pair_account {
+    /// The pair of Objects.
+    pub pair: pong_pair_id,
+    /// The two movable groups.
+    pub interfaces: [pong_interface_id; 2],
+    /// Since the world began.
+    pub total: pong_account,
+    /// Of the touch that lasts; zero if none does.
+    pub touch: pong_account,
+    /// 1 if a touch lasts.
+    pub touching: i32,
+    /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
+    pub makes_energy: i32,
+    /// Touches that have ended.
+    pub touches: u64,
+    /// Of those, the ones that returned more than they took.
+    pub returned_more: u64,
+    /// Of those, the ones of which the accounts cannot tell.
+    pub unresolved: u64,
+    /// What touches returned too much, all together, J.
+    pub excess: f64,
+    /// What one touch returned too much at most, J.
+    pub worst_excess: f64,
+    /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
+    pub stiffness: f64,
+    /// Damping of that contact, N s/m.
+    pub damping: f64,
+}
+
+/// The accounts of all pairs together at the last commit; zero unless the configuration has keep_accounts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_account(
+    world: *const pong_world,
+    account: *mut pong_account,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(account, "account")?.set((&inner.world.account()).into());
+            Ok(())
+        })
+    }
+}
+
+/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has keep_accounts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_pair_account_count(world: *const pong_world, count: *mut usize) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(count, "count")?.set(inner.world.pair_accounts().count());
+            Ok(())
+        })
+    }
+}
+
+/// The accounts of a pair of movable groups at the last commit, always in the same order.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_pair_account(
+    world: *const pong_world,
+    index: usize,
+    account: *mut pong_pair_account,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(account, "account")?;
+            let count = inner.world.pair_accounts().count();
+            let found = inner.world.pair_accounts().nth(index);
+            out.set((&found.ok_or_else(|| no_such("pair account", index, count))?).into());
+            Ok(())
+        })
+    }
+}
+
+/// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
+/// the next call of this function for the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_pair_remedy(
+    world: *const pong_world,
+    index: usize,
+    remedy: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(remedy, "remedy")?;
+            let count = inner.world.pair_accounts().count();
+            let found = inner.world.pair_accounts().nth(index);
+            let found = found.ok_or_else(|| no_such("pair account", index, count))?;
+            inner.remedy = c_text(&found.remedy());
+            out.set(inner.remedy.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+/// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
+/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has keep_accounts.
+/// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_contact_accounts(
+    world: *const pong_world,
+    accounts: *mut pong_account,
+    capacity: usize,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let (mut out, count) =
+                (OutArray::new(accounts, capacity, "accounts")?, Out::new(count, "count")?);
+            inner.law_faults.check()?;
+            let listed = inner.world.contact_accounts().enumerate();
+            listed.take(capacity).for_each(|(index, account)| out.set(index, (&account).into()));
+            let total = inner.world.wrench_use().map_or(0, |_| inner.world.contact_count());
+            count.set(total);
+            too_small("accounts", capacity, total)
+        })
+    }
+}
+
+impl From<&Account> for pong_account {
+    fn from(account: &Account) -> Self {
+        Self {
+            taken: account.taken,
+            returned: account.returned,
+            put_in: account.put_in,
+            made: account.made,
+            stored: account.stored,
+            damping_loss: account.damping_loss,
+            friction_loss: account.friction_loss,
+            resolution: account.resolution,
+            verdict: match account.verdict() {
+                Verdict::Lost => PONG_VERDICT_LOST,
+                Verdict::Unresolved => PONG_VERDICT_UNRESOLVED,
+                Verdict::ReturnedMore => PONG_VERDICT_RETURNED_MORE,
+            },
+            reserved: 0,
+        }
+    }
+}
+
+impl From<&PairAccount> for pong_pair_account {
+    fn from(account: &PairAccount) -> Self {
+        let (stiffness, damping) = account.stiffest.unwrap_or_default();
+        Self {
+            pair: account.pair.into(),
+            interfaces: account.interfaces.map(Into::into),
+            total: (&account.total).into(),
+            touch: (&account.touch).into(),
+            touching: account.touching.into(),
+            makes_energy: account.makes_energy().into(),
+            touches: account.touches,
+            returned_more: account.returned_more,
+            unresolved: account.unresolved,
+            excess: account.excess,
+            worst_excess: account.worst_excess,
+            stiffness,
+            damping,
+        }
+    }
+}
