@@ -33,6 +33,11 @@
 /// More contacts of one ball with one surface than could be shared exactly: the deepest were.
 #define PONG_FLAG_SHARING_LIMIT 2
 
+/// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
+/// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
+/// pong_forget_object().
+#define PONG_FLAG_WENT_THROUGH 4
+
 /// `stage_ns` of states in and relative motion.
 #define PONG_STAGE_RELATIVE 0
 
@@ -899,7 +904,7 @@ pong_status pong_get_contacts(const struct pong_world *world,
 /// Counts, times, memory and flags of the last frame; all zero before the first.
 pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
 
-/// What a flag of the report means, in words: "contact limit", "sharing limit"; "unknown limit" for a number that is
+/// What a flag of the report means, in words: "contact limit", "sharing limit", "went through"; "unknown limit" for a number that is
 /// no single flag. Lives as long as the library.
 const char *pong_limit_name(uint32_t flag);
 

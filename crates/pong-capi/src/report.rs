@@ -12,6 +12,10 @@ use std::ffi::{CStr, c_char};
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
 /// More contacts of one ball with one surface than could be shared exactly: the deepest were.
 pub const PONG_FLAG_SHARING_LIMIT: u32 = 2;
+/// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
+/// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
+/// pong_forget_object().
+pub const PONG_FLAG_WENT_THROUGH: u32 = 4;
 
 /// `stage_ns` of states in and relative motion.
 pub const PONG_STAGE_RELATIVE: usize = 0;
@@ -155,13 +159,14 @@ fn advised_capacity(frame: &FrameReport, capacity: u64) -> u64 {
     twice.max(wanted.into())
 }
 
-/// What a flag of the report means, in words: "contact limit", "sharing limit"; "unknown limit" for a number that is
+/// What a flag of the report means, in words: "contact limit", "sharing limit", "went through"; "unknown limit" for a number that is
 /// no single flag. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_limit_name(flag: u32) -> *const c_char {
     let name: &CStr = match flag {
         PONG_FLAG_CONTACT_LIMIT => c"contact limit",
         PONG_FLAG_SHARING_LIMIT => c"sharing limit",
+        PONG_FLAG_WENT_THROUGH => c"went through",
         _ => c"unknown limit",
     };
     name.as_ptr()
@@ -234,6 +239,7 @@ mod tests {
     fn flags_are_the_bits_of_the_engine() {
         assert_eq!(PONG_FLAG_CONTACT_LIMIT, StatusBits::CONTACT_LIMIT.bits());
         assert_eq!(PONG_FLAG_SHARING_LIMIT, StatusBits::SHARING_LIMIT.bits());
+        assert_eq!(PONG_FLAG_WENT_THROUGH, StatusBits::WENT_THROUGH.bits());
     }
 
     #[test]

@@ -1,6 +1,7 @@
-//! `pong verify`: the cases with known answers, and their report.
+//! `pong verify`: the cases with known answers and the extremes, and their reports.
 
 use crate::text::print;
+use pong_verify::extremes::{self, Extreme, Finding, Length};
 use pong_verify::{Case, Verdict, cases, report};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -8,10 +9,16 @@ use std::process::ExitCode;
 /// Runs cases with known answers through engine and executive and prints what came out.
 #[derive(clap::Args)]
 pub(crate) struct Arguments {
-    /// Only these cases, by id (V3); may be given several times.
+    /// Instead of the cases the extremes of the range, each with its margin.
+    #[arg(long)]
+    extremes: bool,
+    /// With --extremes: also the soaks, which take minutes.
+    #[arg(long, requires = "extremes")]
+    long: bool,
+    /// Only these cases, by id (V3, or E11 with --extremes); may be given several times.
     #[arg(long, value_name = "ID", conflicts_with = "output")]
     only: Vec<String>,
-    /// Also writes the report (docs/verification.md) to this file.
+    /// Also writes the report (docs/verification.md, docs/extremes.md) to this file.
     #[arg(short, long, value_name = "FILE.md")]
     output: Option<PathBuf>,
     /// Lists the cases and runs none.
@@ -20,6 +27,9 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    if arguments.extremes {
+        return main_of_extremes(arguments);
+    }
     let chosen = match choose(&arguments.only) {
         Ok(chosen) => chosen,
         Err(unknown) => {
@@ -37,13 +47,50 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     print(&report::text(&verdicts));
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     print(&format!("\n{} of {} cases pass\n", verdicts.len() - failed, verdicts.len()));
+    finish(arguments, &report::markdown(&verdicts), failed)
+}
+
+/// Writes the report, if one is wanted.
+fn finish(arguments: &Arguments, report: &str, failed: usize) -> ExitCode {
     if let Some(path) = &arguments.output
-        && let Err(reason) = std::fs::write(path, report::markdown(&verdicts))
+        && let Err(reason) = std::fs::write(path, report)
     {
         eprintln!("{}: {reason}", path.display());
         return ExitCode::FAILURE;
     }
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn main_of_extremes(arguments: &Arguments) -> ExitCode {
+    let all = extremes::extremes();
+    let is_asked = |extreme: &&Extreme| arguments.only.iter().any(|id| id.eq_ignore_ascii_case(extreme.id));
+    let unknown = |id: &&String| !all.iter().any(|extreme| id.eq_ignore_ascii_case(extreme.id));
+    if let Some(unknown) = arguments.only.iter().find(unknown) {
+        eprintln!("there is no extreme `{unknown}`; `pong verify --extremes --list` names them");
+        return ExitCode::from(2);
+    }
+    let chosen: Vec<_> = match arguments.only.as_slice() {
+        [] => all,
+        _ => all.iter().filter(is_asked).copied().collect(),
+    };
+    if arguments.list {
+        let lines = chosen.iter().map(|extreme| format!("{:<4} {}\n", extreme.id, extreme.asked));
+        print(&lines.collect::<String>());
+        return ExitCode::SUCCESS;
+    }
+    let length = Length { long: arguments.long };
+    let findings: Vec<Finding> = chosen.iter().map(|extreme| run_extreme(extreme, length)).collect();
+    print(&extremes::text(&findings));
+    let failed = findings.iter().filter(|finding| !finding.passes()).count();
+    print(&format!("\n{} of {} extremes hold\n", findings.len() - failed, findings.len()));
+    finish(arguments, &extremes::markdown(&findings), failed)
+}
+
+fn run_extreme(extreme: &Extreme, length: Length) -> Finding {
+    eprint!("{:<4} {} … ", extreme.id, extreme.asked);
+    let finding = extreme.run(length);
+    eprintln!("{}", if finding.passes() { "holds" } else { "FAILS" });
+    finding
 }
 
 /// The cases of these ids, all if there are none, or the first id that no case has.

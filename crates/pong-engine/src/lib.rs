@@ -48,7 +48,7 @@ pub use law::{
 pub use pong_threads::{LaneWork, WorkerStart};
 pub use registry::Laws;
 pub use report::{
-    FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
+    FrameCounts, FrameReport, MemoryReport, Passage, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
 };
 pub use scene::{Config, State, WorkerSettings};
 pub use sealed::{SealReport, SetupWarning};

@@ -1,9 +1,10 @@
 //! What a frame reports: what was left out, counts and times.
 
+use crate::ids::InterfaceId;
 use pong_geometry::bounding::Volume;
 use pong_geometry::primitive::PrimitiveKind;
 
-/// What a frame had to leave out.
+/// What a frame had to leave out, or missed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StatusBits(u32);
 
@@ -15,7 +16,12 @@ impl StatusBits {
     /// deepest were. Raise `Config::contact_capacity`.
     pub const SHARING_LIMIT: Self = Self(2);
 
-    /// Whether nothing was left out.
+    /// Something went right through something else since the last commit, or came out on the far side of what pushed it
+    /// back: a contact was missed. [`World::passage`](crate::World::passage) names it. Make the frames shorter, the wall
+    /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::forget`](crate::World::forget) first.
+    pub const WENT_THROUGH: Self = Self(4);
+
+    /// Whether nothing was left out or missed.
     pub fn is_complete(self) -> bool {
         self.0 == 0
     }
@@ -33,6 +39,20 @@ impl StatusBits {
     pub(crate) fn set(&mut self, other: Self) {
         self.0 |= other.0;
     }
+}
+
+/// What went right through something between two commits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passage {
+    /// The movable group that moved through the other, by which of the two is A.
+    pub interface: InterfaceId,
+    /// Its primitive: index into the movable group's list (see
+    /// [`World::primitive_path`](crate::World::primitive_path)).
+    pub primitive: u32,
+    /// The movable group it went through.
+    pub through: InterfaceId,
+    /// How many passages the frame has; this is the first.
+    pub count: u32,
 }
 
 /// The frame in short.

@@ -4,9 +4,10 @@ use crate::account::{Account, PairAccount, WrenchUse};
 use crate::advice::{self, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
+use crate::frame::Passed;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::registry::Laws;
-use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes, WorkTimes};
+use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
 use crate::running::Running;
 use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
 use crate::sealed::{self, SealReport, SetupWarning};
@@ -316,6 +317,23 @@ impl World {
     /// The last frame in short.
     pub fn report(&self) -> FrameReport {
         self.running.as_ref().map_or_else(FrameReport::default, |running| running.frame.report)
+    }
+
+    /// What went right through something else between the last commit and the last frame, if anything did
+    /// ([`StatusBits::WENT_THROUGH`](crate::StatusBits)). A point, the centre of a ball, the origin of a ray, the ends and
+    /// the middle of a segment are followed along straight lines; what is shorter than half of the thinnest part of the
+    /// other movable group is taken to have gone through none.
+    pub fn passage(&self) -> Option<Passage> {
+        let frame = &self.running.as_ref()?.frame;
+        let Passed { body_a, primitive_a, body_b } = frame.passages.first?;
+        let interface = |body| InterfaceId::new(self.stamp, body);
+        let count = frame.passages.count;
+        Some(Passage {
+            interface: interface(body_a),
+            primitive: primitive_a,
+            through: interface(body_b),
+            count,
+        })
     }
 
     /// How often what was tested in the last frame, and what that found.

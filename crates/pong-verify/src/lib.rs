@@ -17,10 +17,12 @@
 //! | `measure.rs` | periods, roots, observed orders, random numbers |
 //! | `cases/` | the cases, one file each or a few that belong together |
 //! | `report.rs` | the table as text and as Markdown |
+//! | `extremes/` | the extremes that must hold, with their margins |
 
 #![forbid(unsafe_code)]
 
 mod cases;
+pub mod extremes;
 mod measure;
 pub mod report;
 mod row;

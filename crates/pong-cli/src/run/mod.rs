@@ -78,7 +78,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for warning in built.simulation.energy_warnings() {
         eprintln!("warning: {warning}");
     }
-    if let Some(advice) = statistics.incomplete_advice() {
+    for advice in [statistics.incomplete_advice(), statistics.passage_advice()].into_iter().flatten() {
         eprintln!("warning: {advice}");
     }
     match ended {

@@ -1,6 +1,6 @@
 //! What a run is summed up from, gathered at every step.
 
-use pong_engine::{Contact, InterfaceId};
+use pong_engine::{Contact, InterfaceId, StatusBits};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{Energy, Simulation, Vec3, Wrench};
 use std::collections::BTreeMap;
@@ -34,6 +34,8 @@ pub(super) struct Statistics {
     every: u64,
     steps: u64,
     contacts_wanted: Option<u32>,
+    /// Steps in which something went through something else.
+    passages: u64,
 }
 
 impl Statistics {
@@ -58,6 +60,7 @@ impl Statistics {
             every: built.steps.div_ceil(TIMES_KEPT).max(1),
             steps: 0,
             contacts_wanted: None,
+            passages: 0,
         }
     }
 
@@ -86,7 +89,9 @@ impl Statistics {
             self.count(&simulation.world().contacts());
         }
         let report = simulation.world().report();
-        if !report.status.is_complete() {
+        self.passages += u64::from(report.status.contains(StatusBits::WENT_THROUGH));
+        let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
+        if limits.into_iter().any(|limit| report.status.contains(limit)) {
             self.contacts_wanted = self.contacts_wanted.max(Some(report.contacts_wanted));
         }
         self.last_energy = simulation.energy();
@@ -118,6 +123,17 @@ impl Statistics {
         let last = sorted.len().checked_sub(1)?;
         let at = |share: f64| sorted[(share * last as f64).round() as usize] as f64 * 1e-3;
         Some([at(0.5), at(0.99), at(1.0)])
+    }
+
+    /// What to do if something went through something else between two steps.
+    pub fn passage_advice(&self) -> Option<String> {
+        (self.passages > 0).then(|| {
+            format!(
+                "in {} steps something went right through something else, and contacts were missed; \
+                 make the step shorter, the wall thicker or the surfaces stiffer",
+                self.passages
+            )
+        })
     }
 
     /// What to do if frames had to leave contacts out.

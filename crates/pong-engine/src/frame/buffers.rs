@@ -3,6 +3,7 @@
 use super::accounts::Interval;
 use super::input::FrameInput;
 use super::lane::Lane;
+use super::passages::Passages;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
 use crate::sealed::Sealed;
 use crate::state::{Books, ContactKey, ContactRecord, PairPose, Role};
@@ -26,6 +27,7 @@ pub(crate) struct Frame {
     pub lane: Lane,
     // order, limit: the contacts that count, by place in `lane.contacts`, in the order of every sum
     pub order: Table<Place>,
+    pub passages: Passages,
     // ledger
     pub work: f64,
     pub dissipated: f64,
@@ -214,6 +216,7 @@ impl Frame {
             remembered: vec![PairPose::unknown(); pairs],
             lane: Lane::new(sealed, sealed.limits.lane_contacts, true),
             order: Table::with_capacity(sealed.limits.lane_contacts, nowhere),
+            passages: Passages::default(),
             work: 0.0,
             dissipated: 0.0,
             books: Books::new(sealed.account_pairs(), sealed.late),

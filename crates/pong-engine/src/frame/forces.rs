@@ -9,7 +9,7 @@ use crate::friction::{FrictionInput, FrictionOutput, friction};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{ContactRecord, Role};
+use crate::state::{ContactKey, ContactRecord, Role};
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
 use pong_geometry::{Vec3, Wrench};
@@ -166,7 +166,7 @@ impl PairContext<'_> {
     /// the contact was then.
     fn slip(&self, contact: &FrameContact, record: &ContactRecord) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
-        let reference = reference_point(self.body_a, &contact.found);
+        let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
         let displacement = now - before + self.turn(since).cross(&(record.point - before));
@@ -176,11 +176,11 @@ impl PairContext<'_> {
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
 /// a segment's end, a ray's tip.
-pub(super) fn reference_point(body_a: &Body, contact: &Found) -> Vec3 {
-    let element = contact.element_a as usize;
-    match body_a.primitives[contact.key.primitive_a as usize].kind {
+pub(super) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
+    let element = element_a as usize;
+    match body_a.primitives[key.primitive_a as usize].kind {
         PrimitiveKind::Point => body_a.points[element].position,
-        PrimitiveKind::LineSegment => body_a.segments[element].ends[contact.key.end as usize],
+        PrimitiveKind::LineSegment => body_a.segments[element].ends[key.end as usize],
         PrimitiveKind::Ray => body_a.rays[element].tip(),
         PrimitiveKind::Sphere => body_a.spheres[element].center,
         PrimitiveKind::Ellipsoid => body_a.ellipsoids[element].center,

@@ -60,7 +60,7 @@ pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         let mut work = 0.0;
         let displacement = motion.since_commit.as_ref().map(|since| {
             let (body_a, _) = sealed.bodies_of(&found.key);
-            let reference = reference_point(scene.body(body_a), found);
+            let reference = reference_point(scene.body(body_a), &found.key, found.element_a);
             Displacement::new(since, &motion.x_ba, &reference)
         });
         if let Some(displacement) = &displacement {

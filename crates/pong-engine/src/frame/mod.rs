@@ -13,6 +13,7 @@ mod lane;
 mod ledger;
 mod listing;
 mod order;
+mod passages;
 mod reach;
 mod reduce;
 mod relative;
@@ -27,6 +28,7 @@ pub(crate) use bounding::ROUND;
 pub(crate) use buffers::{Frame, FrameContact, Place};
 pub(crate) use crew::Crew;
 pub(crate) use input::FrameInput;
+pub(crate) use passages::{Passed, least_travel_m, reach_m};
 pub(crate) use relative::Motion;
 pub(crate) use state_in::require_states;
 
@@ -57,6 +59,7 @@ pub(crate) fn evaluate(given: &Given<'_>, crew: Option<&mut Crew>, frame: &mut F
     find_contacts(given, crew, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(scene, sealed, frame);
+    passages::watch(given, frame);
     watch.lap(Stage::Order, &mut frame.times);
     ledger::balance(scene, sealed, memory, frame);
     watch.lap(Stage::Ledger, &mut frame.times);

@@ -1,6 +1,7 @@
 //! Which kinds of which movable groups are tested against which.
 
 use super::{GroupPair, can_be_tested, kind_name};
+use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Body, PrimitiveInfo};
@@ -18,6 +19,10 @@ pub(crate) struct Plan {
     element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
     /// By the kind of A: a bit for every kind of B that it may touch.
     touched: [u16; PrimitiveKind::ALL.len()],
+    /// A line of A that is shorter goes through nothing of B, m.
+    pub least_travel_m: f64,
+    /// Greatest distance of anything of A from the origin of its movable group, m.
+    pub reach_a_m: f64,
 }
 
 impl Plan {
@@ -42,7 +47,10 @@ impl Plan {
                 touched[info_a.kind as usize] |= 1 << info_b.kind as u16;
             }
         }
-        Self { group_pair: group_pair as u32, flipped, body_a, body_b, element_ns, touched }
+        let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
+        let (least_travel_m, reach_a_m) = (least_travel_m(a, b, tests), reach_m(a));
+        let group_pair = group_pair as u32;
+        Self { group_pair, flipped, body_a, body_b, element_ns, touched, least_travel_m, reach_a_m }
     }
 
     /// Whether anything of these two kinds in A and B is tested: by the table of testers, of two primitives of one

@@ -3,7 +3,8 @@
 #![allow(dead_code)]
 
 use pong_engine::{
-    Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, WorkerSettings, World, WrenchUse,
+    Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, StatusBits, WorkerSettings, World,
+    WrenchUse,
 };
 use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
@@ -196,7 +197,8 @@ impl Stage<'_> {
             hash.wrench(&self.world.wrench_common(*group).unwrap());
         }
         let report = self.world.report();
-        hash.word(u64::from(report.status.bits()));
+        // What went through something is told beside the answers: earlier versions did not tell it.
+        hash.word(u64::from(report.status.bits() & !StatusBits::WENT_THROUGH.bits()));
         hash.word(u64::from(report.contacts));
         hash.word(u64::from(report.contacts_wanted));
         let mut listed = 0;
@@ -212,6 +214,7 @@ impl Stage<'_> {
         let counts = self.world.counts();
         hash.word(counts.leaf_pairs);
         hash.word(counts.boxes_tested);
+        hash.word(self.world.passage().map_or(0, |passage| u64::from(passage.count)));
         for (a, b, tally) in counts.volumes() {
             hash.bytes(a.as_bytes());
             hash.bytes(b.as_bytes());

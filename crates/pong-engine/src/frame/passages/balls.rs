@@ -1,0 +1,49 @@
+//! Lines through spheres and ellipsoids: of two balls, through the larger, whichever it is.
+
+use super::{Line, Met};
+use crate::frame::input::PairContext;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::{Mat3, Vec3};
+use pong_model::Item;
+
+/// What a line did to a ball of B. Planes are half spaces, which nothing goes through; a user's own kinds are not known.
+pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: &Line) -> Option<Met> {
+    let (body_a, body_b) = (context.body_a, context.body_b);
+    let element = item_b.element as usize;
+    match body_b.primitives[item_b.primitive as usize].kind {
+        PrimitiveKind::Sphere => {
+            let own = match body_a.primitives[item_a.primitive as usize].kind {
+                PrimitiveKind::Sphere => body_a.spheres[item_a.element as usize].radius,
+                _ => 0.0,
+            };
+            let sphere = &body_b.spheres[element];
+            let radius = sphere.radius.max(own);
+            let unit = |p: &Vec3| (p - sphere.center) / radius;
+            through_unit_ball(&unit(&line.from), &unit(&line.to)).map(Met::Through)
+        }
+        PrimitiveKind::Ellipsoid => {
+            let ellipsoid = &body_b.ellipsoids[element];
+            let scale = Mat3::from_diagonal(&ellipsoid.semi_axes.map(|a| 1.0 / a));
+            let to_axes = scale * ellipsoid.axes.transpose();
+            let unit = |p: &Vec3| to_axes * (p - ellipsoid.center);
+            let at = through_unit_ball(&unit(&line.from), &unit(&line.to))?;
+            Some(Met::Through((to_axes.transpose() * at).normalize()))
+        }
+        _ => None,
+    }
+}
+
+/// Where a line with both ends outside the unit ball enters it, if it does.
+fn through_unit_ball(from: &Vec3, to: &Vec3) -> Option<Vec3> {
+    let path = to - from;
+    let (square, along, room) = (path.norm_squared(), from.dot(&path), from.norm_squared() - 1.0);
+    let root = along * along - square * room;
+    let outside = room >= 0.0 && to.norm_squared() >= 1.0;
+    // No line, and what is no number, enters nowhere.
+    let enters = root > 0.0 && along < 0.0;
+    if !outside || !enters {
+        return None;
+    }
+    let at = (-along - root.sqrt()) / square;
+    (at < 1.0).then(|| from + path * at)
+}

@@ -1,0 +1,139 @@
+//! Contacts that ended: did what they pushed to one side come out on the other? So does what is pressed slowly through
+//! something too soft, which no length of a line tells.
+
+use super::sheets::along;
+use super::{Line, Passages, SAME_SIDE_COSINE_MIN, Seen, pushing, solids};
+use crate::frame::Given;
+use crate::frame::buffers::Frame;
+use crate::frame::forces::reference_point;
+use crate::state::{ContactRecord, Role};
+use pong_geometry::Vec3;
+use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::interference::triangle_features::TriangleView;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::simd::Portable;
+use pong_model::box_tree::{Child, lanes};
+
+/// Looks at every committed contact that no present one continues.
+pub(super) fn look_at_ended(given: &Given<'_>, frame: &Frame, passages: &mut Passages) {
+    let records = &given.memory.records;
+    let continued = frame.lane.scratch.slice(records.len(), false).expect("sealing has sized the scratch");
+    for record in frame.in_order().filter_map(|contact| contact.continues) {
+        continued[record as usize] = true;
+    }
+    let ended =
+        records.iter().zip(&*continued).filter(|(record, go_on)| record.role == Role::Pushes && !**go_on);
+    for (record, _) in ended {
+        let pair = &given.sealed.group_pairs[record.key.group_pair as usize];
+        if !given.states.enabled[pair.pair] {
+            continue;
+        }
+        // Most that ended are pushed to the same side from the next facet.
+        if pushing(frame, record.key).any(|normal| normal.dot(&record.normal) > SAME_SIDE_COSINE_MIN) {
+            continue;
+        }
+        let direction = (record.key.group_pair, record.key.flipped);
+        let seen = Seen::of_direction(given, direction, given.sealed.bodies_of(&record.key), frame);
+        if seen.came_out_behind(record) {
+            passages.note(seen.passed(record.key.primitive_a));
+        }
+    }
+}
+
+impl Seen<'_> {
+    /// Whether what a contact pushed to one side is now on the other side, or is pushed there. What moved
+    /// on as it was pushed is not.
+    fn came_out_behind(&self, record: &ContactRecord) -> bool {
+        let (body, key) = (self.context.body_b, &record.key);
+        let info_a = &self.context.body_a.primitives[key.primitive_a as usize];
+        if info_a.kind == PrimitiveKind::Custom {
+            return false;
+        }
+        let Some(line) = self.line_of(record) else { return false };
+        if record.normal.dot(&(line.to - line.from)) >= 0.0 {
+            return false;
+        }
+        let of_shell = |kind| {
+            let mut infos = body.primitives.iter();
+            infos.any(|info| info.kind == kind && info.shell == key.shell_b)
+        };
+        if of_shell(PrimitiveKind::Polyhedron) {
+            self.came_out_of_solid(record, &line)
+        } else if body
+            .triangles
+            .triangles
+            .get(record.element_b as usize)
+            .is_some_and(|t| t.shell == key.shell_b)
+        {
+            self.came_out_of_sheet(record, &line)
+        } else {
+            false
+        }
+    }
+
+    /// The line of what carries the contact.
+    fn line_of(&self, record: &ContactRecord) -> Option<Line> {
+        let info = &self.context.body_a.primitives[record.key.primitive_a as usize];
+        let element = info.elements.start;
+        self.line(&reference_point(self.context.body_a, &record.key, element))
+    }
+
+    fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
+        let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
+        if solids::holds(body, shell, &line.to) {
+            return self.pushes_away_from(&record.normal, primitive_a, shell);
+        }
+        let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from));
+        out.is_some_and(|out| out.dot(&record.normal) < -SAME_SIDE_COSINE_MIN)
+    }
+
+    /// Behind its triangle before, and now farther behind, with the sheet still above where it was too deep to be pushed: not
+    /// if it went round the rim.
+    fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
+        let body = self.context.body_b;
+        let view = TriangleView::new(&body.triangles, record.element_b);
+        let (before, now) = (-view.height(&line.from), -view.height(&line.to));
+        if before <= 0.0 || now <= before {
+            return false;
+        }
+        let mut sheets = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
+        let sheet = sheets.find(|info| info.elements.contains(&record.element_b));
+        let thickness = sheet.and_then(|info| info.thickness).unwrap_or_else(|| self.smallest_of(record));
+        let lost = ((thickness - before) / (now - before)).clamp(0.0, 1.0);
+        let place = line.from + (line.to - line.from) * lost;
+        let above = place + record.normal * (2.0 * now.min(thickness));
+        self.sheet_between(&above, &place, record.key.shell_b)
+    }
+
+    /// The smallest semi-axis of the ball that carries a contact, m.
+    fn smallest_of(&self, record: &ContactRecord) -> f64 {
+        let body = self.context.body_a;
+        let info = &body.primitives[record.key.primitive_a as usize];
+        let element = info.elements.start as usize;
+        match info.kind {
+            PrimitiveKind::Sphere => body.spheres[element].radius,
+            PrimitiveKind::Ellipsoid => body.ellipsoids[element].smallest_semi_axis(),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether a line goes from the front through a shell of triangles.
+    fn sheet_between(&self, from: &Vec3, to: &Vec3, shell: u32) -> bool {
+        let body = self.context.body_b;
+        let Some(ray) = along(from, to) else { return false };
+        let mut hit = false;
+        for batch in body.tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
+            let query = batch.boxes.narrowed(&from.inf(to), &from.sup(to));
+            batch.boxes.visit(Portable, &query, |node, met| {
+                for lane in lanes(met) {
+                    let Child::Element(place) = node.child(lane) else { continue };
+                    let element = body.tree.items[(batch.items.start + place) as usize].element;
+                    hit = hit
+                        || (body.triangles.triangles[element as usize].shell == shell
+                            && ray_triangle(&ray, &body.triangles, element, 0.0).is_some());
+                }
+            });
+        }
+        hit
+    }
+}

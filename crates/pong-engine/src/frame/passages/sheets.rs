@@ -1,0 +1,21 @@
+//! Lines through triangles. What comes from behind passes by right (physics contract, 2.2).
+
+use super::{Line, Met};
+use pong_geometry::Vec3;
+use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::primitive::{Ray, RayResponse, TriangleSet};
+
+/// Whether a line goes from the front through a triangle.
+pub(super) fn meet(set: &TriangleSet, triangle: u32, line: &Line) -> Option<Met> {
+    let ray = along(&line.from, &line.to)?;
+    ray_triangle(&ray, set, triangle, 0.0).map(|_| Met::Through(set.normal(triangle)))
+}
+
+/// A ray from one place to another; `None` if they are one.
+pub(super) fn along(from: &Vec3, to: &Vec3) -> Option<Ray> {
+    let path = to - from;
+    let length = path.norm();
+    let direction = path / length;
+    let is_line = length > 0.0 && length.is_finite();
+    is_line.then_some(Ray { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
+}

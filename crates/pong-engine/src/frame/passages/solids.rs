@@ -1,0 +1,51 @@
+//! Lines through polyhedra. The pieces of a shell, joined by inner walls, are one solid.
+
+use super::{Line, Met};
+use pong_geometry::Vec3;
+use pong_geometry::interference::point_polyhedron::entry_of_line;
+use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
+use pong_model::Body;
+
+/// What a line did to a piece: by an active face into it, and out of the whole solid or not. A line that began in the
+/// solid belongs to a contact that there was.
+pub(super) fn meet(body: &Body, shell: u32, piece: u32, line: &Line) -> Option<Met> {
+    let polyhedron = &body.polyhedra[piece as usize];
+    let entry = entry_of_line(&line.from, &line.to, polyhedron)?;
+    let face = &polyhedron.faces[entry.face];
+    if !face.active || holds(body, shell, &line.from) {
+        return None;
+    }
+    let inside = holds(body, shell, &line.to);
+    Some(if inside { Met::Into(face.normal) } else { Met::Through(face.normal) })
+}
+
+/// Whether a place is inside a solid.
+pub(super) fn holds(body: &Body, shell: u32, place: &Vec3) -> bool {
+    pieces(body, shell).any(|polyhedron| polyhedron.contains(place))
+}
+
+/// The normal of the face by which a line that began inside has left the solid for good.
+pub(super) fn way_out(body: &Body, shell: u32, line: &Line) -> Option<Vec3> {
+    let backwards = pieces(body, shell).filter_map(|polyhedron| {
+        let entry = entry_of_line(&line.to, &line.from, polyhedron)?;
+        Some((entry.at, &polyhedron.faces[entry.face]))
+    });
+    let last = backwards.filter(|(_, face)| face.active).min_by(|(a, _), (b, _)| a.total_cmp(b));
+    last.map(|(_, face)| face.normal)
+}
+
+fn pieces(body: &Body, shell: u32) -> impl Iterator<Item = &Polyhedron> {
+    let of_shell = body.primitives.iter().filter(move |info| info.shell == shell);
+    let pieces = of_shell.filter(|info| info.kind == PrimitiveKind::Polyhedron);
+    pieces.map(|info| &body.polyhedra[info.elements.start as usize])
+}
+
+/// The least extent of a polyhedron along the normal of one of its faces, m.
+pub(super) fn width_m(polyhedron: &Polyhedron) -> f64 {
+    let lowest = |normal: &Vec3| {
+        let along = polyhedron.vertices.iter().map(|vertex| normal.dot(&vertex.position));
+        along.fold(f64::INFINITY, f64::min)
+    };
+    let widths = polyhedron.faces.iter().map(|face| face.offset - lowest(&face.normal));
+    widths.fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,78 @@
+//! Whether anything may have gone through: how far a body went since the last commit against what is thinnest.
+
+use super::solids::width_m;
+use crate::frame::relative::Motion;
+use crate::sealed::Plan;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::{Transform, Vec3};
+use pong_model::{Batch, Body};
+
+/// Half of what is thinnest in B, as far as A can go through it, m: a line that is shorter goes through no wall.
+/// Infinite where there is nothing to go through.
+pub(crate) fn least_travel_m(
+    a: &Body,
+    b: &Body,
+    tests: impl Fn(PrimitiveKind, PrimitiveKind) -> bool,
+) -> f64 {
+    let kinds = PrimitiveKind::ALL;
+    let touched = |kind_b: PrimitiveKind| kinds.iter().any(|&kind_a| tests(kind_a, kind_b));
+    let mut thinnest = f64::INFINITY;
+    if touched(PrimitiveKind::Polyhedron) {
+        thinnest = b.polyhedra.iter().map(width_m).fold(thinnest, f64::min);
+    }
+    if touched(PrimitiveKind::Triangle) {
+        let of_balls = a.spheres.iter().map(|sphere| sphere.radius);
+        let of_ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.semi_axes.min());
+        let smallest = of_balls.chain(of_ellipsoids).fold(f64::INFINITY, f64::min);
+        let meshes = b.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
+        thinnest = meshes.map(|info| info.thickness.unwrap_or(smallest)).fold(thinnest, f64::min);
+        thinnest = a.rays.iter().map(|ray| ray.length).fold(thinnest, f64::min);
+    }
+    if touched(PrimitiveKind::Sphere) {
+        thinnest = b.spheres.iter().map(|sphere| 2.0 * sphere.radius).fold(thinnest, f64::min);
+    }
+    if touched(PrimitiveKind::Ellipsoid) {
+        let least = b.ellipsoids.iter().map(|ellipsoid| 2.0 * ellipsoid.semi_axes.min());
+        thinnest = least.fold(thinnest, f64::min);
+    }
+    0.5 * thinnest
+}
+
+/// Whether a place of A's body may have gone that far.
+pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
+    let Some(since) = &motion.since_commit else { return false };
+    let shift = (motion.x_ba.translation - since.x_ba.translation).norm();
+    // The Frobenius norm is no less than how far a rotation carries anything at a distance of 1 m.
+    let turn = (motion.x_ba.rotation - since.x_ba.rotation).norm();
+    shift + turn * plan.reach_a_m > plan.least_travel_m
+}
+
+/// Greatest distance of anything of A that is followed from the origin of its movable group, m.
+pub(crate) fn reach_m(a: &Body) -> f64 {
+    let points = a.points.iter().map(|point| point.position);
+    let ends = a.segments.iter().flat_map(|segment| segment.ends);
+    let rays = a.rays.iter().map(|ray| ray.origin);
+    let balls = a.spheres.iter().map(|sphere| sphere.center);
+    let ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.center);
+    let all = points.chain(ends).chain(rays).chain(balls).chain(ellipsoids);
+    all.map(|place| place.norm()).fold(0.0, f64::max)
+}
+
+/// Whether what a batch of A sweeps over since the last commit may meet a batch of B.
+pub(super) fn sweeps(motion: &Motion, a: &Batch, b: &Batch) -> bool {
+    let Some(since) = &motion.since_commit else { return false };
+    let (low, high) = a.boxes.widened(&a.boxes.around);
+    if !low.iter().chain(high.iter()).all(|x| x.is_finite()) {
+        return true;
+    }
+    let (from, to) = (carried(&low, &high, &since.x_ba), carried(&low, &high, &motion.x_ba));
+    let query = b.boxes.narrowed(&from.0.inf(&to.0), &from.1.sup(&to.1));
+    query.meets(&b.boxes.around)
+}
+
+/// The box in B's frame around a box of A's.
+fn carried(low: &Vec3, high: &Vec3, x_ba: &Transform) -> (Vec3, Vec3) {
+    let center = x_ba.point(&(0.5 * (low + high)));
+    let half = x_ba.rotation.abs() * (0.5 * (high - low));
+    (center - half, center + half)
+}

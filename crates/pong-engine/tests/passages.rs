@@ -1,0 +1,200 @@
+//! What goes right through something between two commits is told, and nothing else is. Shots by the ten thousand are in
+//! `pong verify --extremes`.
+
+mod common;
+
+use common::*;
+use pong_engine::{Config, StatusBits};
+use pong_geometry::{Quat, Vec3};
+
+const POINT: &str = "Point(name: \"p\", position: (0,0,0))";
+const BALL: &str = "Sphere(name: \"s\", center: (0,0,0), radius: 0.02)";
+const BAR: &str = "LineSegment(name: \"l\", ends: ((0,-0.1,0),(0,0.1,0)))";
+const EGG: &str = "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.02,0.03,0.04))";
+const RAY: &str = "Ray(name: \"r\", origin: (0,0,0), direction: (-1,0,0), length: 0.05)";
+
+/// 10 mm thick, its faces across x.
+fn plate() -> String {
+    box_polyhedron("w", [0.0; 3], [0.005, 0.5, 0.5], "")
+}
+
+/// Its front looks along +x.
+fn sheet(rest: &str) -> String {
+    plate_mesh("m", 4, 1.0, |x, y| Vec3::new(0.0, x, y))
+        .replace("TriangleMesh(", &format!("TriangleMesh({rest}"))
+}
+
+fn rig(a: &str, b: &str) -> Rig {
+    let steel = surface(1e5, "");
+    Rig::new(&model("a", &steel, a), &model("b", &steel, b))
+}
+
+/// Places A along x one frame after another; in which frames something went through.
+fn told(rig: &mut Rig, places: &[f64]) -> Vec<bool> {
+    let places = places.iter().map(|x| Vec3::new(*x, 0.03, 0.02));
+    told_at(rig, places)
+}
+
+fn told_at(rig: &mut Rig, places: impl IntoIterator<Item = Vec3>) -> Vec<bool> {
+    let step = |place| {
+        rig.place_a(place, Quat::identity());
+        let report = rig.world.step().unwrap();
+        let told = report.status.contains(StatusBits::WENT_THROUGH);
+        assert_eq!(told, rig.world.passage().is_some());
+        assert_eq!(told, !report.status.is_complete());
+        told
+    };
+    places.into_iter().map(step).collect()
+}
+
+#[test]
+fn everything_that_goes_through_a_plate_is_told_once() {
+    for bullet in [POINT, BALL, BAR, EGG, RAY] {
+        for from in [1.0, -1.0] {
+            let mut rig = rig(bullet, &plate());
+            let places = [0.5, 0.3, -0.3, -0.5].map(|x| x * from);
+            assert_eq!(told(&mut rig, &places), [false, false, true, false], "{bullet} from {from}");
+        }
+    }
+}
+
+#[test]
+fn it_is_named() {
+    let mut rig = rig(
+        &format!("{POINT}, {}", POINT.replace("\"p\", position: (0,0,0)", "\"q\", position: (0,2,0)")),
+        &plate(),
+    );
+    told(&mut rig, &[0.3, -0.3]);
+    let passage = rig.world.passage().unwrap();
+    assert_eq!((passage.interface, passage.through), (rig.interfaces[0], rig.interfaces[1]));
+    assert_eq!((passage.primitive, passage.count), (0, 1));
+}
+
+#[test]
+fn an_evaluation_tells_it_as_well_and_the_same_again() {
+    let mut rig = rig(POINT, &plate());
+    told(&mut rig, &[0.3]);
+    for x in [-0.3, 0.2, -0.3] {
+        rig.place_a(Vec3::x() * x, Quat::identity());
+        let report = rig.world.evaluate().unwrap();
+        assert_eq!(report.status.contains(StatusBits::WENT_THROUGH), x < 0.0);
+    }
+}
+
+/// A point that is pressed slowly through comes out on the far side without having gone far in any frame.
+#[test]
+fn what_is_pressed_slowly_through_is_told_when_it_comes_out() {
+    for (bullet, wall) in [
+        (POINT, plate()),
+        (BALL, plate()),
+        (BALL, sheet("")),
+        (EGG, sheet("")),
+        (BAR, plate()),
+        (EGG, plate()),
+    ] {
+        let mut rig = rig(bullet, &wall);
+        let places: Vec<f64> = (0..200).map(|i| 0.1 - 0.001 * f64::from(i)).collect();
+        let count = told(&mut rig, &places).into_iter().filter(|told| *told).count();
+        assert!(count >= 1 && count <= 2, "{bullet} through {wall}: {count}");
+    }
+}
+
+#[test]
+fn sheets_are_passed_from_behind_by_right() {
+    for bullet in [BALL, EGG] {
+        let mut one = rig(bullet, &sheet(""));
+        assert_eq!(told(&mut one, &[-0.3, 0.3, -0.3]), [false, false, true], "{bullet}");
+        let mut two = rig(bullet, &sheet("two_sided: true, "));
+        assert_eq!(told(&mut two, &[-0.3, 0.3, -0.3]), [false, true, true], "{bullet}");
+    }
+}
+
+#[test]
+fn what_is_stopped_or_leaves_as_it_came_is_not_told() {
+    for (bullet, wall) in
+        [(POINT, plate()), (BALL, plate()), (BALL, sheet("")), (BALL, sheet("two_sided: true, "))]
+    {
+        let mut rig = rig(bullet, &wall);
+        // In fast, out faster; then deep, but still pushed to where it came from.
+        let places = [0.3, 0.001, 0.4, 0.3, -0.004, 0.001, 0.5];
+        assert_eq!(told(&mut rig, &places), [false; 7], "{bullet} on {wall}");
+    }
+}
+
+#[test]
+fn past_the_edge_over_the_rim_and_round_the_corner_is_not_told() {
+    let mut past = rig(POINT, &plate());
+    let beside = [0.3, -0.3, 0.3].map(|x| Vec3::new(x, 0.5 + 1e-9, 0.0));
+    assert_eq!(told_at(&mut past, beside), [false; 3]);
+    // Pressed on the face, then off over its rim.
+    let mut slid = rig(POINT, &plate());
+    let off = [0.0, 0.3, 0.49, 0.6, 0.9].map(|y| Vec3::new(0.004, y, 0.0));
+    assert_eq!(told_at(&mut slid, [Vec3::x()].into_iter().chain(off)), [false; 6]);
+    let mut sheet_rim = rig(BALL, &sheet(""));
+    let off = [0.0, 0.3, 0.49, 0.6, 0.9].map(|y| Vec3::new(-0.005, y, 0.0));
+    assert_eq!(told_at(&mut sheet_rim, [Vec3::x() * 0.03].into_iter().chain(off)), [false; 6]);
+}
+
+#[test]
+fn balls_and_eggs_are_gone_through_as_well() {
+    for (bullet, target) in [
+        (POINT, "Sphere(name: \"b\", center: (0,0,0), radius: 0.1)"),
+        (BALL, "Sphere(name: \"b\", center: (0,0,0), radius: 0.1)"),
+        (POINT, EGG),
+    ] {
+        let mut rig = rig(bullet, target);
+        assert_eq!(
+            told_at(&mut rig, [0.3, -0.3].map(|x| Vec3::new(x, 0.01, 0.0))),
+            [false, true],
+            "{bullet} {target}"
+        );
+        assert_eq!(told_at(&mut rig, [0.3, -0.3].map(|x| Vec3::new(x, 0.2, 0.0))), [false, false]);
+    }
+}
+
+/// The pieces of a body are one solid: from an inner wall nobody comes in.
+#[test]
+fn pieces_are_one_solid() {
+    let pieces = [
+        box_polyhedron("near", [0.0, -0.25, 0.0], [0.005, 0.25, 0.5], "3"),
+        box_polyhedron("far", [0.0, 0.25, 0.0], [0.005, 0.25, 0.5], "2"),
+    ];
+    let mut rig = rig(POINT, &pieces.join(","));
+    let across = [Vec3::new(0.1, -0.1, 0.0), Vec3::new(-0.1, 0.1, 0.0), Vec3::new(0.002, 0.2, 0.0)];
+    assert_eq!(told_at(&mut rig, across), [false, true, false]);
+    // Inside from one piece to the other.
+    let mut rig = self::rig(POINT, &pieces.join(","));
+    let along = [
+        Vec3::new(0.1, -0.1, 0.0),
+        Vec3::new(0.004, -0.1, 0.0),
+        Vec3::new(0.004, 0.1, 0.0),
+        Vec3::new(-0.1, 0.2, 0.0),
+    ];
+    assert_eq!(told_at(&mut rig, along), [false, false, false, true]);
+}
+
+#[test]
+fn a_jump_that_is_meant_a_pair_that_is_off_and_a_first_frame_are_not_told() {
+    let mut rig = rig(POINT, &plate());
+    assert_eq!(told(&mut rig, &[0.3]), [false]);
+    rig.world.forget(rig.objects[0]).unwrap();
+    assert_eq!(told(&mut rig, &[-0.3]), [false]);
+    rig.world.set_pair_enabled(rig.pair, false).unwrap();
+    assert_eq!(told(&mut rig, &[0.3]), [false]);
+    rig.world.set_pair_enabled(rig.pair, true).unwrap();
+    assert_eq!(told(&mut rig, &[-0.3, 0.3]), [false, true]);
+}
+
+/// A wall that turns through a point: what counts is the motion of one against the other.
+#[test]
+fn a_wall_that_sweeps_over_a_point_is_told() {
+    let steel = surface(1e5, "");
+    let mut rig =
+        Rig::with_config(Config::default(), &model("a", &steel, POINT), &model("b", &steel, &plate()));
+    let point = at(Vec3::new(0.0, 0.3, 0.0), Quat::identity());
+    let status = [-0.2, 0.2, 0.3].map(|angle| {
+        rig.place([point, at(Vec3::zeros(), Quat::from_scaled_axis(Vec3::z() * angle))]);
+        rig.world.step().unwrap().status.contains(StatusBits::WENT_THROUGH)
+    });
+    assert_eq!(status, [false, true, false]);
+}

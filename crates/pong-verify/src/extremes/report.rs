@@ -1,0 +1,113 @@
+//! The table of extremes: as text, and as Markdown for `docs/extremes.md`. No date, no duration, no machine.
+
+use super::{Answer, Finding};
+use crate::{Bound, Row};
+use std::fmt::Write as _;
+
+impl Answer {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Safe => "safe",
+            Self::Refused => "refused",
+            Self::Told => "told",
+        }
+    }
+}
+
+/// How many times the error fits into what is allowed.
+fn margin(row: &Row) -> String {
+    /// Beyond this the error is rounding, of which no digit is worth a change of the report.
+    const ENOUGH: f64 = 1000.0;
+    let times = row.allowed() / row.error();
+    match row.bound {
+        _ if !row.passes() => "NONE".to_owned(),
+        Bound::Absolute(0.0) => "exact".to_owned(),
+        _ if times > ENOUGH => format!("> {ENOUGH}"),
+        _ if times >= 100.0 => format!("{times:.0}"),
+        _ => format!("{times:.1}"),
+    }
+}
+
+/// Aligned lines for a terminal.
+pub fn text(findings: &[Finding]) -> String {
+    let mut out = String::new();
+    for Finding { extreme, rows } in findings {
+        let _ = writeln!(out, "{:<4} {:<8} {}", extreme.id, extreme.answer.word(), extreme.asked);
+        match rows {
+            Err(failure) => {
+                let _ = writeln!(out, "       could not be run: {failure}");
+            }
+            Ok(rows) => rows.iter().for_each(|row| {
+                let (unit, allowed) = (row.unit, row.tolerance_text());
+                let mark = if row.passes() { "" } else { "  FAILS" };
+                let _ = writeln!(
+                    out,
+                    "       margin {:>7}  {}: {} {unit}, error {}, allowed {allowed}{mark}",
+                    margin(row),
+                    row.quantity,
+                    row.got_text(),
+                    row.error_text()
+                );
+            }),
+        }
+    }
+    out
+}
+
+/// `docs/extremes.md`.
+pub fn markdown(findings: &[Finding]) -> String {
+    let mut out = String::from(HEADER);
+    out.push_str(
+        "\n| | extreme, and what is asked | engine | least margin | limit |\n|---|---|---|---|---|\n",
+    );
+    for Finding { extreme, rows } in findings {
+        let least = rows.as_ref().ok().and_then(|rows| {
+            let share = |row: &Row| row.error() / row.allowed();
+            rows.iter().filter(|row| row.allowed() > 0.0).max_by(|a, b| share(a).total_cmp(&share(b)))
+        });
+        let least = least.map_or("exact".to_owned(), margin);
+        let (id, anchor) = (extreme.id, extreme.id.to_lowercase());
+        let answer = extreme.answer.word();
+        let _ = writeln!(
+            out,
+            "| [{id}](#{anchor}) | {} | {answer} | {least} | {} |",
+            extreme.asked, extreme.limit
+        );
+    }
+    findings.iter().for_each(|finding| section(&mut out, finding));
+    out
+}
+
+fn section(out: &mut String, Finding { extreme, rows }: &Finding) {
+    let _ = writeln!(out, "\n## {}\n\n**{}** {}", extreme.id, extreme.asked, extreme.set_up);
+    if !extreme.also.is_empty() {
+        let _ = writeln!(out, "\nSee also: {}.", extreme.also);
+    }
+    match rows {
+        Err(failure) => {
+            let _ = writeln!(out, "\nCould not be run: {failure}");
+        }
+        Ok(rows) => {
+            out.push_str(
+                "\n| quantity | unit | got | error | allowed | margin |\n|---|---|---|---|---|---|\n",
+            );
+            for row in rows {
+                let (got, error, allowed) = (row.got_text(), row.error_text(), row.tolerance_text());
+                let (quantity, unit) = (&row.quantity, row.unit);
+                let _ =
+                    writeln!(out, "| {quantity} | {unit} | {got} | {error} | {allowed} | {} |", margin(row));
+            }
+        }
+    }
+}
+
+const HEADER: &str = "\
+# Extremes
+
+What holds at the ends of the range, measured. `pong verify --extremes -o docs/extremes.md` writes this file and
+`bash ci/extremes` checks it; `--long` runs the soaks with the same code. It holds no dates and nothing about a machine.
+
+*Engine*: **safe**, it computes as anywhere else; **refused**, it says what is wrong, where and what to do, and nothing
+changes; **told**, it computes what it can and says that this is not the whole. *Margin*: what is allowed over the error
+measured; *exact* where nothing is allowed. Formulas and allowances are in `crates/pong-verify/src/extremes`.
+";

@@ -1,0 +1,106 @@
+//! Small scenes of two Objects, written as an author would write them.
+
+use crate::Failure;
+use pong_engine::{Config, Contact, InterfaceId, State, World};
+use pong_executive::{Pose, Quat, Twist, Vec3, Wrench};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+/// A world of two Objects.
+pub struct Rig {
+    pub world: World,
+    pub sides: [InterfaceId; 2],
+}
+
+impl Rig {
+    pub fn new(a: &str, b: &str) -> Result<Self, Failure> {
+        Self::with(Config::default(), a, b)
+    }
+
+    pub fn with(config: Config, a: &str, b: &str) -> Result<Self, Failure> {
+        let mut world = World::new(config);
+        let mut objects = Vec::new();
+        for (name, text) in [("a", a), ("b", b)] {
+            let model = pong_model::parse(text, "extreme.ron", None, &Extensions::new());
+            let model = world.add_model(Arc::new(model.map_err(|errors| errors.to_string())?))?;
+            objects.push(world.create_object(model, name)?);
+        }
+        world.pair(objects[0], objects[1])?;
+        world.seal()?;
+        let sides = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+        world.set_states(&sides.map(|side| (side, State::identity())))?;
+        Ok(Self { world, sides })
+    }
+
+    /// Sets the state of A; B stays where it is, at first at rest at the origin.
+    pub fn put(&mut self, position: Vec3, turn: Quat, velocity: Vec3) -> Result<(), Failure> {
+        let pose = Pose { position, orientation: turn };
+        let twist = Twist { linear: velocity, angular: Vec3::zeros() };
+        Ok(self.world.set_state(self.sides[0], &State::from_motion(&pose, &twist))?)
+    }
+
+    /// Sets the state of A, evaluates and commits.
+    pub fn step(&mut self, position: Vec3, turn: Quat, velocity: Vec3) -> Result<Wrench, Failure> {
+        self.put(position, turn, velocity)?;
+        self.world.step()?;
+        self.wrench()
+    }
+
+    /// On A, along the common axes.
+    pub fn wrench(&self) -> Result<Wrench, Failure> {
+        Ok(self.world.wrench_common(self.sides[0])?)
+    }
+
+    pub fn contacts(&self) -> Vec<Contact> {
+        self.world.contacts()
+    }
+}
+
+/// A model of one movable group.
+pub fn model(surface: &str, primitives: &str) -> String {
+    format!(
+        "(format: \"pong-model\", version: 1, name: \"part\", surfaces: {{ \"s\": ({surface}) }}, \
+         root: (name: \"part\", surface: \"s\", primitives: [ {primitives} ]))"
+    )
+}
+
+/// A surface without damping and friction.
+pub fn spring(stiffness: f64) -> String {
+    format!("stiffness: {stiffness:?}, normal: Linear(damping: 0.0)")
+}
+
+/// Coordinates as an author writes them.
+pub fn at(v: Vec3) -> String {
+    format!("({:?},{:?},{:?})", v.x, v.y, v.z)
+}
+
+/// A box about a centre, placed by `carry`.
+pub fn block(name: &str, center: Vec3, half: Vec3, carry: impl Fn(Vec3) -> Vec3) -> String {
+    let corner = |i: usize| {
+        let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
+        at(carry(center + half.component_mul(&Vec3::new(sign(0), sign(1), sign(2)))))
+    };
+    let vertices: Vec<String> = (0..8).map(corner).collect();
+    format!(
+        "Polyhedron(name: \"{name}\", vertices: [{}], \
+         faces: [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]])",
+        vertices.join(",")
+    )
+}
+
+/// A square sheet of cells of two triangles, `n` by `n` and 1 m wide, its front to where `x × y` of `place` points.
+pub fn sheet(name: &str, rest: &str, n: usize, place: impl Fn(f64, f64) -> Vec3) -> String {
+    let coordinate = |i: usize| i as f64 / n as f64 - 0.5;
+    let row = |j: usize| (0..=n).map(move |i| (coordinate(i), coordinate(j)));
+    let vertices: Vec<String> = (0..=n).flat_map(row).map(|(x, y)| at(place(x, y))).collect();
+    let cell = |j: usize, i: usize| {
+        let v = j * (n + 1) + i;
+        format!("({v},{},{}),({v},{},{})", v + 1, v + n + 2, v + n + 2, v + n + 1)
+    };
+    let triangles: Vec<String> = (0..n).flat_map(|j| (0..n).map(move |i| cell(j, i))).collect();
+    format!(
+        "TriangleMesh(name: \"{name}\", {rest} vertices: [{}], triangles: [{}])",
+        vertices.join(","),
+        triangles.join(",")
+    )
+}
