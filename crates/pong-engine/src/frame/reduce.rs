@@ -27,7 +27,9 @@ impl Frame {
         // False for what is not a number, too.
         let holds = |sum: f64| sum <= LARGEST;
         let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
-        let body = self.wrenches.iter().position(|wrench| !holds(of_wrench(wrench)));
+        // Those that meet nobody have no wrench.
+        let mut bodies = sealed.paired_bodies.iter().copied();
+        let body = bodies.find(|&body| !holds(of_wrench(&self.wrenches[body])));
         body.or_else(|| {
             // Forces that cancel each other, and energies.
             let of_contact = |contact: &FrameContact| {
