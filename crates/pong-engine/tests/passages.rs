@@ -95,7 +95,7 @@ fn what_is_pressed_slowly_through_is_told_when_it_comes_out() {
         let mut rig = rig(bullet, &wall);
         let places: Vec<f64> = (0..200).map(|i| 0.1 - 0.001 * f64::from(i)).collect();
         let count = told(&mut rig, &places).into_iter().filter(|told| *told).count();
-        assert!(count >= 1 && count <= 2, "{bullet} through {wall}: {count}");
+        assert!((1..=2).contains(&count), "{bullet} through {wall}: {count}");
     }
 }
 
