@@ -31,6 +31,7 @@ typedef struct {
     double rest_since;
     double most_force, most_moment, most_stroke;
     size_t most_contacts;
+    size_t incomplete; /* frames whose contacts are not all there, or came too late: pong_report.flags */
     double energy_at_start, energy_least, energy_gain, balance_error; /* J */
     double ledger_work_at_start;
 } history;
@@ -65,6 +66,13 @@ static void watch_latch(history *h, const docking *d, int i, double time, const 
         sprintf(text, "latch %d snapped", i);
         say(h, time, text, a);
     }
+}
+
+static void watch_report(history *h, const contact_scene *scene)
+{
+    pong_report report;
+    CHECK(pong_get_report(scene->world, &report));
+    h->incomplete += report.flags != 0;
 }
 
 static void watch_energy(history *h, const contact_scene *scene, const docking *d)
@@ -122,6 +130,7 @@ static void watch(history *h, docking *d, const contact_scene *scene, size_t con
         say(h, time, "PARTED", &a);
     }
     watch_energy(h, scene, d);
+    watch_report(h, scene);
 }
 
 /* --- a run ---------------------------------------------------------------------------------------------------------- */
@@ -292,8 +301,8 @@ static int run_one(contact_scene *scene, docking *d, const docking_case *c, cons
     printf("         ledger of the engine: work %.3f J, stored %.3f J, dissipated %.3f J\n", ledger.work, ledger.stored,
            ledger.dissipated);
     printf("         account open by at most %.1e J; largest rise of the total %.1e J\n", h.balance_error, h.energy_gain);
-    printf("frames:  %u of %.1f ms, %s, %u deadlines missed\n", (unsigned)frame.count, FRAME_S * 1e3,
-           o->fast ? "as fast as they go" : "in real time", (unsigned)misses);
+    printf("frames:  %u of %.1f ms, %s, %u deadlines missed, %u incomplete\n", (unsigned)frame.count, FRAME_S * 1e3,
+           o->fast ? "as fast as they go" : "in real time", (unsigned)misses, (unsigned)h.incomplete);
     print_durations("pong_step", &step);
     print_durations("whole frame", &frame);
     free(step.us);
@@ -305,7 +314,7 @@ static int run_corners(contact_scene *scene, docking *d, const options *o)
 {
     durations step = make_durations((size_t)(o->seconds / FRAME_S + 1) * CORNERS);
     durations frame = make_durations(step.capacity);
-    size_t misses = 0;
+    size_t misses = 0, incomplete = 0;
     int i, good = 0;
 
     printf("%-24s %7s %8s %8s %8s %8s %7s %7s %7s %9s  %s\n", "case", "contact", "aligned", "latched", "at rest",
@@ -317,12 +326,13 @@ static int run_corners(contact_scene *scene, docking *d, const options *o)
         c.turn_rate = o->rates ? 0.2 : 0.0;
         h = run(scene, d, &c, o, &step, &frame, &misses);
         good += went_well(&h, d->latches_locked);
+        incomplete += h.incomplete;
         printf("%-24s %5.2f s %6.2f s %6.2f s %6.2f s %5.0f mm %5.0f N %4.0f Nm %5.0e J %7.0e J  %s\n", c.name,
                h.first_contact, h.aligned, h.soft_capture, h.rest, h.most_stroke * 1e3, h.most_force, h.most_moment,
                h.energy_gain, h.balance_error, verdict(&h));
         fflush(stdout);
     }
-    printf("%d of %d as they must\n", good, CORNERS);
+    printf("%d of %d as they must; %u frames incomplete\n", good, CORNERS, (unsigned)incomplete);
     printf("frames:  %u, %u longer than %.1f ms\n", (unsigned)frame.count, (unsigned)misses, FRAME_S * 1e3);
     print_durations("pong_step", &step);
     print_durations("whole frame", &frame);

@@ -135,6 +135,17 @@ fn past_the_edge_over_the_rim_and_round_the_corner_is_not_told() {
     assert_eq!(told_at(&mut sheet_rim, [Vec3::x() * 0.03].into_iter().chain(off)), [false; 6]);
 }
 
+/// The latch of a docking ring, pressed down the slope of its striker, snaps over the edge to the back.
+#[test]
+fn from_one_face_of_a_wedge_to_the_other_is_not_told() {
+    let wedge = "Polyhedron(name: \"w\", vertices: [(0, 0, -1), (-0.1, 0, -1), (-0.1, -0.1, -1), (0, 0, 1), \
+                 (-0.1, 0, 1), (-0.1, -0.1, 1)], \
+                 faces: [[0, 2, 1], [3, 4, 5], [0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5]])";
+    let mut rig = rig(POINT, wedge);
+    let round = [(0.0, -0.02), (-0.010, -0.0098), (-0.010, -0.0001), (-0.010, 0.001)];
+    assert_eq!(told_at(&mut rig, round.map(|(x, y)| Vec3::new(x, y, 0.0))), [false; 4]);
+}
+
 #[test]
 fn balls_and_eggs_are_gone_through_as_well() {
     for (bullet, target) in [

@@ -34,8 +34,9 @@ pub(super) struct Statistics {
     every: u64,
     steps: u64,
     contacts_wanted: Option<u32>,
-    /// Steps in which something went through something else.
+    /// Steps in which something went through something else, and the first of them in words.
     passages: u64,
+    first_passage: String,
 }
 
 impl Statistics {
@@ -61,6 +62,7 @@ impl Statistics {
             steps: 0,
             contacts_wanted: None,
             passages: 0,
+            first_passage: String::new(),
         }
     }
 
@@ -89,7 +91,12 @@ impl Statistics {
             self.count(&simulation.world().contacts());
         }
         let report = simulation.world().report();
-        self.passages += u64::from(report.status.contains(StatusBits::WENT_THROUGH));
+        if report.status.contains(StatusBits::WENT_THROUGH) {
+            self.passages += 1;
+            if self.passages == 1 {
+                self.first_passage = passage_in_words(simulation).unwrap_or_default();
+            }
+        }
         let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
         if limits.into_iter().any(|limit| report.status.contains(limit)) {
             self.contacts_wanted = self.contacts_wanted.max(Some(report.contacts_wanted));
@@ -129,9 +136,9 @@ impl Statistics {
     pub fn passage_advice(&self) -> Option<String> {
         (self.passages > 0).then(|| {
             format!(
-                "in {} steps something went right through something else, and contacts were missed; \
+                "in {} steps something went right through something else, and contacts were missed; first {}; \
                  make the step shorter, the wall thicker or the surfaces stiffer",
-                self.passages
+                self.passages, self.first_passage
             )
         })
     }
@@ -144,6 +151,15 @@ impl Statistics {
              set contact_capacity: {wanted} in the scene"
         ))
     }
+}
+
+/// Which element went through which body, and when.
+fn passage_in_words(simulation: &Simulation) -> Option<String> {
+    let world = simulation.world();
+    let passage = world.passage()?;
+    let element = world.primitive_path(passage.interface, passage.primitive).ok()?;
+    let through = world.interface_path(passage.through).ok()?;
+    Some(format!("`{element}` through `{through}` at {} s", simulation.time()))
 }
 
 impl BodyStatistics {

@@ -14,6 +14,10 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
 
+/// Two faces are the two sides of a wall where the cosine between their normals is less than this (150°). At a wider angle
+/// they are those of a wedge, round the edge of which what is pressed on one face may well come to the other.
+const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
+
 /// Looks at every committed contact that no present one continues.
 pub(super) fn look_at_ended(given: &Given<'_>, frame: &Frame, passages: &mut Passages) {
     let records = &given.memory.records;
@@ -38,6 +42,10 @@ pub(super) fn look_at_ended(given: &Given<'_>, frame: &Frame, passages: &mut Pas
             passages.note(seen.passed(record.key.primitive_a));
         }
     }
+}
+
+fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
+    one.dot(other) < BOTH_SIDES_COSINE_MAX
 }
 
 impl Seen<'_> {
@@ -81,10 +89,11 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to) {
-            return self.pushes_away_from(&record.normal, primitive_a, shell);
+            return self.pushing(primitive_a, shell).any(|normal| are_both_sides(normal, &record.normal))
+                && !self.pushes_to(&record.normal, primitive_a, shell);
         }
         let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from));
-        out.is_some_and(|out| out.dot(&record.normal) < -SAME_SIDE_COSINE_MIN)
+        out.is_some_and(|out| are_both_sides(&out, &record.normal))
     }
 
     /// Behind its triangle before, and now farther behind, with the sheet still above where it was too deep to be pushed: not
