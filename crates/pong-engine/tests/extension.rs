@@ -92,6 +92,49 @@ fn registered_laws_are_used_and_their_state_is_saved() {
     assert_eq!(place(&mut world, 0.03), last);
 }
 
+/// Tells what it was given, and pulls at the surface, which no friction may.
+#[derive(Debug)]
+struct Witness;
+
+impl FrictionForce for Witness {
+    fn state_len(&self) -> usize {
+        0
+    }
+
+    fn evaluate(&self, input: &FrictionInput<'_>, _: &mut [f64]) -> FrictionOutput {
+        let told = Vec3::new(input.stiffness, input.parameters[0], 0.0) * input.share;
+        FrictionOutput {
+            force: told - input.normal * 77.0,
+            bristle: Vec3::zeros(),
+            sticks: false,
+            stored: 0.0,
+        }
+    }
+}
+
+/// A registered friction law is given the stiffness of a bristle by default, ⅔·k of the pair, and its force stays in the
+/// contact plane.
+#[test]
+fn a_registered_friction_law_is_given_the_pair_and_kept_in_the_plane() {
+    let own = |k: f64| surface(k, "friction: Custom(name: \"witness\", parameters: [500.0])");
+    let mut laws = Laws::default();
+    laws.add_friction("witness", Arc::new(Witness));
+    let mut world = World::with_extensions(Config::default(), Extensions::new(), laws);
+    let tip = load(&mut world, &model("tip", &own(3e5), "Point(name: \"p\", position: (0,0,0))"));
+    let floor = model("floor", &own(1e5), "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
+    let floor = load(&mut world, &floor);
+    let objects = [world.create_object(tip, "a").unwrap(), world.create_object(floor, "b").unwrap()];
+    world.pair(objects[0], objects[1]).unwrap();
+    world.seal().unwrap();
+    let [tip, floor] = objects.map(|object| world.interface(object, "").unwrap());
+    world.set_state(floor, &State::identity()).unwrap();
+    world.set_state(tip, &at(Vec3::new(0.0, 0.0, -2e-3), Quat::identity())).unwrap();
+    world.step().unwrap();
+    let expected = Vec3::new(2.0 / 3.0 * 7.5e4, 500.0, 7.5e4 * 2e-3);
+    let force = world.wrench(tip).unwrap().force;
+    assert!((force - expected).norm() < 1e-9, "{force:?}");
+}
+
 #[test]
 fn a_law_that_nobody_registered_is_refused_at_seal() {
     let error = sealed_with(Laws::default()).err().unwrap().to_string();

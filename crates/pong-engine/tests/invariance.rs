@@ -118,6 +118,30 @@ fn the_common_frame_does_not_matter() {
     }
 }
 
+/// A host may hand in a quaternion in one frame and its negative in the next: it is one orientation, to the last bit.
+#[test]
+fn a_quaternion_and_its_negative_are_one_orientation() {
+    let (a, b) = everything();
+    let (mut plain, mut flipping) = (Rig::new(&a, &b), Rig::new(&a, &b));
+    let mut random = Random(23);
+    for step in 0..40 {
+        let [state_a, state_b] = some_motion(&mut random, 1.0);
+        let flip = |state: State, flips: bool| match flips {
+            true => State { orientation: state.orientation.map(|x| -x), ..state },
+            false => state,
+        };
+        plain.place([state_a, state_b]);
+        flipping.place([flip(state_a, step % 2 == 1), flip(state_b, step % 3 == 1)]);
+        for rig in [&mut plain, &mut flipping] {
+            rig.world.step().unwrap();
+        }
+        for side in 0..2 {
+            assert_eq!(plain.wrench(side), flipping.wrench(side), "step {step}");
+        }
+        assert!(plain.wrench(0).force.norm() > 100.0, "the scene must press");
+    }
+}
+
 #[test]
 fn scaling_the_scene_scales_the_result() {
     for s in [1e-3, 1e3] {

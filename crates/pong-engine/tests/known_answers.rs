@@ -127,6 +127,84 @@ fn a_falling_load_shrinks_the_bristle() {
     assert!((at_depth(0.005, 4e-3) + 37.5).abs() < 1e-9);
 }
 
+/// Slipping, then turned back under a quarter of the load: the bristle is cut at once to what that load holds.
+#[test]
+fn what_sticks_again_under_less_load_holds_no_more_than_that_load_allows() {
+    let friction = "friction: Bristle(mu: 0.5, static_excess: 0.4, stiffness: 4e4, damping: 0.0)";
+    let (a, b) = unequal(friction);
+    let mut rig = Rig::new(&a, &b);
+    let mut pull = |x: f64, depth: f64, v: f64| {
+        let velocity = Vec3::new(v, 0.0, 0.0);
+        let state = moving(Vec3::new(x, 0.0, 0.2 - depth), Quat::identity(), velocity, Vec3::zeros());
+        rig.place([state, State::identity()]);
+        rig.world.step().unwrap();
+        let contact = rig.world.contacts()[0];
+        (contact.friction_force.x, contact.sticks)
+    };
+    pull(0.0, 4e-3, 0.1);
+    // Standing still is no turning back.
+    for (x, v) in [(0.05, 0.1), (0.051, 0.0)] {
+        let (force, sticks) = pull(x, 4e-3, v);
+        assert!((force + 150.0).abs() < 1e-9 && !sticks, "{force}");
+    }
+    // Back by 1 mm the bristle would pull with 130 N; μ_s·F = 0.7·75 N.
+    let (force, sticks) = pull(0.050, 1e-3, -0.1);
+    assert!((force + 52.5).abs() < 1e-9 && sticks, "{force}");
+    // From there it unloads along its spring, k_t = 2e4 N/m.
+    let (force, sticks) = pull(0.049, 1e-3, -0.1);
+    assert!((force + 32.5).abs() < 1e-9 && sticks, "{force}");
+}
+
+/// A bristle stores ½·K·p², at every load, and nothing beyond its limit.
+#[test]
+fn a_bristle_stores_half_its_stiffness_times_its_square() {
+    let (a, b) = unequal("friction: Bristle(mu: 0.5, stiffness: 4e4)");
+    let mut rig = Rig::new(&a, &b);
+    let normal = 0.5 * 7.5e4 * 4e-3 * 4e-3;
+    for (x, bristle) in [(0.0, 0.0), (1e-3, 1e-3), (5e-3, 5e-3), (0.02, 7.5e-3)] {
+        rig.place_a(Vec3::new(x, 0.0, 0.196), Quat::identity());
+        rig.world.step().unwrap();
+        let stored = rig.world.contacts()[0].stored;
+        assert!((stored - normal - 0.5 * 2e4 * bristle * bristle).abs() < 1e-12, "{x}: {stored} J");
+    }
+}
+
+/// Without a coefficient a bristle holds nothing, wherever it is pulled; no number turns into none.
+#[test]
+fn a_bristle_without_a_coefficient_holds_nothing() {
+    let (a, b) = unequal("friction: Bristle(mu: 0.0, stiffness: 4e4, damping: 100.0)");
+    let mut rig = Rig::new(&a, &b);
+    for (x, v) in [(0.0, 0.0), (0.01, 0.1), (0.01, 0.0), (0.01, 0.0), (0.0, -0.1), (0.0, 0.0)] {
+        let velocity = Vec3::new(v, 0.0, 0.0);
+        let state = moving(Vec3::new(x, 0.0, 0.196), Quat::identity(), velocity, Vec3::zeros());
+        rig.place([state, State::identity()]);
+        rig.world.step().unwrap();
+        assert_eq!(rig.world.contacts()[0].friction_force, Vec3::zeros(), "{x}");
+    }
+}
+
+/// F_t = −μ·F_n·v/max(|v|, v_ε), against the motion in the plane, without a memory of earlier frames.
+#[test]
+fn coulomb_friction_follows_its_formula() {
+    let coulomb = |mu: f64| format!("friction: Coulomb(mu: {mu:?}, slip_speed: 0.02)");
+    let tip = model("tip", &surface(3e5, &coulomb(0.3)), "Point(name: \"p\", position: (0.5,0,0))");
+    let floor = surface(1e5, &coulomb(0.6));
+    let floor = model("floor", &floor, "Plane(name: \"f\", normal: (0,0,1), offset: 0.2)");
+    let mut rig = Rig::new(&tip, &floor);
+    let direction = Vec3::new(0.6, -0.8, 0.0);
+    for (speed, share) in [(0.3, 1.0), (0.005, 0.25), (0.02, 1.0), (0.0, 0.0), (0.019, 0.95), (7.0, 1.0)] {
+        let position = Vec3::new(-0.5, 0.0, 0.196);
+        let state = moving(position, Quat::identity(), direction * speed, Vec3::zeros());
+        rig.place([state, State::identity()]);
+        rig.world.step().unwrap();
+        let contact = rig.world.contacts()[0];
+        // The harmonic mean of 0.3 and 0.6, and 300 N.
+        let expected = direction * (-0.4 * 300.0 * share);
+        assert!((contact.friction_force - expected).norm() < 1e-9, "{speed}: {:?}", contact.friction_force);
+        assert_eq!(contact.sticks, speed < 0.02, "{speed}");
+    }
+}
+
 /// A ball that rolls straight stretches no bristle; one that spins in place feels no torque about the normal.
 #[test]
 fn rolling_and_drilling_are_free() {
@@ -270,17 +348,21 @@ fn a_bristle_stays_in_the_contact_plane() {
 
 /// Force of a point 4 mm deep that closes at 0.5 m/s, both surfaces alike.
 fn force_of(surface_values: &str) -> f64 {
+    pressed(surface_values, 4e-3, 0.5).0
+}
+
+/// Normal force and stored energy of a point, both surfaces alike.
+fn pressed(surface_values: &str, depth: f64, closing: f64) -> (f64, f64) {
     let alike = surface(2e5, surface_values);
     let tip = model("tip", &alike, "Point(name: \"p\", position: (0,0,0))");
     let floor = model("floor", &alike, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
     let mut rig = Rig::new(&tip, &floor);
-    let closing = Vec3::new(0.0, 0.0, -0.5);
-    rig.place([
-        moving(Vec3::new(0.0, 0.0, -4e-3), Quat::identity(), closing, Vec3::zeros()),
-        State::identity(),
-    ]);
+    let velocity = Vec3::new(0.0, 0.0, -closing);
+    let tip = moving(Vec3::new(0.0, 0.0, -depth), Quat::identity(), velocity, Vec3::zeros());
+    rig.place([tip, State::identity()]);
     rig.world.step().unwrap();
-    rig.world.contacts()[0].normal_force
+    let contact = rig.world.contacts()[0];
+    (contact.normal_force, contact.stored)
 }
 
 #[test]
@@ -299,4 +381,25 @@ fn every_normal_law_follows_its_formula() {
     // Half of the depth in each surface: k·(δ/2)^(3/2) with k = 2e5.
     let hertz = force_of("normal: HuntCrossley(dissipation: 0.8, exponent: 1.5)");
     assert!((hertz - 2e5 * 2e-3_f64.powf(1.5) * factor).abs() < 1e-9);
+}
+
+/// What a spring stores is the integral of its force at rest, of every law: its slope is that force, and it begins at zero.
+#[test]
+fn every_law_stores_the_integral_of_its_force() {
+    for law in [
+        "normal: Linear(damping: 120.0)",
+        "normal: Linear(damping: 120.0, ramp: 0.016)",
+        "normal: HuntCrossley(dissipation: 0.8, exponent: 1.0)",
+        "normal: HuntCrossley(dissipation: 0.8, exponent: 1.5)",
+    ] {
+        for depth in [1e-4, 4e-3] {
+            let (force, stored) = pressed(law, depth, 0.0);
+            let small = 1e-3 * depth;
+            let rise = pressed(law, depth + small, 0.0).1 - pressed(law, depth - small, 0.0).1;
+            assert!((rise / (2.0 * small * force) - 1.0).abs() < 1e-6, "{law}");
+            assert!(pressed(law, 1e-3 * depth, 0.0).1 < 1e-5 * stored, "{law}");
+            // Damping stores nothing.
+            assert_eq!(pressed(law, depth, 0.5).1, stored, "{law}");
+        }
+    }
 }

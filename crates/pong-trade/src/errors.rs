@@ -175,3 +175,75 @@ fn pose(run: &Record, reference: &Record, radii: &[f64]) -> (f64, f64, f64) {
     }
     worst
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RADIUS: f64 = 0.5;
+
+    /// A body pushed with 10 N that goes 1 m in a frame, twice, and ends turned by `angle` about z.
+    fn moved(angle: f64) -> Record {
+        let row = |x: f64, angle: f64| {
+            let (sine, cosine) = (libm::sin(0.5 * angle), libm::cos(0.5 * angle));
+            [10.0, 0.0, 0.0, 0.0, 0.0, 1.0, x, 0.0, 0.0, cosine, 0.0, 0.0, sine]
+        };
+        Record {
+            bodies: 1,
+            per_frame: 1,
+            rows: [row(0.0, 0.0), row(1.0, 0.0), row(2.0, angle)].concat(),
+            impulses: vec![[20.0, 0.0, 0.0, 0.0, 0.0, 4.0]],
+            efforts: vec![[20.0, 4.0]],
+            peaks: vec![[10.0, 8.0]],
+            energy_change: 5.0,
+            energy_scale: 50.0,
+            incomplete: 0,
+        }
+    }
+
+    /// One thing off at a time: the error of its quantity is the difference over the scale, that of all others is zero.
+    #[test]
+    fn every_error_is_the_difference_over_its_scale() {
+        let reference = moved(0.4);
+        let off = |change: &dyn Fn(&mut Record)| {
+            let mut run = reference.clone();
+            change(&mut run);
+            errors(&run, &reference, &[RADIUS])
+        };
+        assert_eq!(off(&|_| {}), Errors::default());
+        let check = |found: Errors, quantity: Quantity, expected: f64| {
+            for other in Quantity::ALL {
+                let wanted = if other == quantity { expected } else { 0.0 };
+                assert!((found.of(other) - wanted).abs() < 1e-12, "{quantity:?}: {found:?}, not {expected}");
+            }
+        };
+        // One of two instants is off by 5 N, of 10 N; by 6 N·m, of 8 N·m.
+        let force = |run: &mut Record| (run.rows[13 + 1], run.rows[13 + 2]) = (3.0, 4.0);
+        check(off(&force), Quantity::Wrench, 12.5_f64.sqrt() / 10.0);
+        check(off(&|run| run.rows[26 + 5] += 6.0), Quantity::Wrench, 18.0_f64.sqrt() / 8.0);
+        // The impulse of moments counts against what that of forces makes at the radius of gyration: 10 N·m·s.
+        check(off(&|run| run.impulses[0][1] = 2.0), Quantity::Impulse, 2.0 / 20.0);
+        check(off(&|run| run.impulses[0][5] += 3.0), Quantity::Impulse, 3.0 / 10.0);
+        // Too low is as wrong as too high.
+        check(off(&|run| run.peaks[0][0] -= 1.0), Quantity::Peak, 1.0 / 10.0);
+        check(off(&|run| run.peaks[0][1] += 2.0), Quantity::Peak, 2.0 / 8.0);
+        check(off(&|run| run.energy_change -= 4.0), Quantity::Energy, 4.0 / 50.0);
+        // It travels 2 m and turns by 0.4 rad at a radius of 0.5 m.
+        let displaced = off(&|run| run.rows[26 + 7] = 0.11);
+        check(displaced, Quantity::Pose, 0.11 / 2.2);
+        assert_eq!((displaced.position_m, displaced.angle_rad), (0.11, 0.0));
+        let turned = errors(&moved(0.62), &reference, &[RADIUS]);
+        check(turned, Quantity::Pose, 0.22 * RADIUS / 2.2);
+        assert!((turned.angle_rad - 0.22).abs() < 1e-15 && turned.position_m == 0.0);
+    }
+
+    /// A quaternion and its negative are one orientation.
+    #[test]
+    fn a_turn_is_measured_the_short_way() {
+        let reference = moved(0.4);
+        let mut run = moved(0.5);
+        run.rows[26 + 9..26 + 13].iter_mut().for_each(|x| *x = -*x);
+        let found = errors(&run, &reference, &[RADIUS]);
+        assert!((found.angle_rad - 0.1).abs() < 1e-15, "{found:?}");
+    }
+}

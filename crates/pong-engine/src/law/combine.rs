@@ -276,6 +276,22 @@ mod tests {
     }
 
     #[test]
+    fn each_surface_damps_its_own_share() {
+        let hunt_crossley = |stiffness, dissipation| Surface {
+            normal: NormalLaw::HuntCrossley { dissipation, exponent: Exponent::One },
+            ..surface(stiffness, 0.0)
+        };
+        let (a, b) = (hunt_crossley(3e5, 0.2), hunt_crossley(1e5, 0.8));
+        let props = combine(&a, &b, None, &Laws::default()).unwrap();
+        let NormalProps::HuntCrossley { dissipation, exponent } = props.normal else {
+            panic!("not the law of both")
+        };
+        // A yields a quarter of the depth.
+        assert!((dissipation - (0.25 * 0.2 + 0.75 * 0.8)).abs() < 1e-15);
+        assert_eq!(exponent, Exponent::One);
+    }
+
+    #[test]
     fn hertz_surfaces_carry_the_same_force_at_their_share_of_the_depth() {
         let hertz = |stiffness| Surface {
             normal: NormalLaw::HuntCrossley { dissipation: 0.0, exponent: Exponent::ThreeHalves },
@@ -308,6 +324,77 @@ mod tests {
         assert!((mu_kinetic - 0.3).abs() < 1e-15 && (mu_static - 0.45).abs() < 1e-15);
         assert!((stiffness - 7500.0).abs() < 1e-9);
         assert!((damping - 4.0 * (0.75 * 0.75 + 0.25 * 0.25)).abs() < 1e-12);
+    }
+
+    /// k_t = ⅔·k and c_t = 0, of surfaces in series and of an entry for the pair.
+    #[test]
+    fn what_is_not_said_of_friction_follows_the_normal_spring() {
+        let friction = || FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: 0.0 };
+        let rough = |stiffness| Surface { friction: friction(), ..surface(stiffness, 0.0) };
+        let stiffness_of = |a: &Surface, b: &Surface, table| {
+            let props = combine(a, b, table, &Laws::default()).unwrap();
+            let FrictionProps::Bristle { stiffness, .. } = props.friction else { panic!("not a bristle") };
+            stiffness
+        };
+        let series = stiffness_of(&rough(3e5), &rough(1e5), None);
+        assert!((series - 2.0 / 3.0 * 7.5e4).abs() < 1e-9);
+        let one_rigid = stiffness_of(&rough(f64::INFINITY), &rough(1e5), None);
+        assert!((one_rigid - 2.0 / 3.0 * 1e5).abs() < 1e-9);
+        let entry =
+            PairOverride { stiffness: Some(6e4), friction: Some(friction()), ..PairOverride::default() };
+        let told = stiffness_of(&rough(3e5), &rough(1e5), Some(&entry));
+        assert!((told - 4e4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_entry_says_what_holds_for_the_pair() {
+        let friction =
+            FrictionLaw::Bristle { mu: 0.4, static_excess: 0.5, stiffness: Some(9e3), damping: 7.0 };
+        let entry =
+            PairOverride { stiffness: Some(6e4), friction: Some(friction), ..PairOverride::default() };
+        let props = combine(&surface(3e5, 0.0), &surface(1e5, 0.0), Some(&entry), &Laws::default()).unwrap();
+        assert_eq!((props.stiffness, props.share_a), (6e4, 0.25));
+        let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction else {
+            panic!("not a bristle")
+        };
+        assert_eq!((stiffness, damping, mu_kinetic), (9e3, 7.0, 0.4));
+        assert!((mu_static - 0.6).abs() < 1e-15);
+    }
+
+    #[test]
+    fn one_surface_without_friction_leaves_none() {
+        let coulomb = |mu| FrictionLaw::Coulomb { mu, slip_speed: 1e-3 };
+        let with = |friction| Surface { friction, ..surface(1e5, 0.0) };
+        for (a, b, expected) in [(0.0, 0.5, 0.0), (0.5, 0.0, 0.0), (0.0, 0.0, 0.0), (0.2, 0.6, 0.3)] {
+            let props = combine(&with(coulomb(a)), &with(coulomb(b)), None, &Laws::default()).unwrap();
+            let FrictionProps::Coulomb { mu, slip_speed } = props.friction else { panic!("not Coulomb's") };
+            assert!((mu - expected).abs() < 1e-15 && slip_speed == 1e-3, "{mu}");
+        }
+        let props = combine(&with(coulomb(0.5)), &surface(1e5, 0.0), None, &Laws::default()).unwrap();
+        assert!(matches!(props.friction, FrictionProps::None));
+    }
+
+    /// Values that must be alike, one of them different: refused, and the pair is named.
+    #[test]
+    fn what_must_be_alike_and_is_not_is_refused_by_name() {
+        let custom = |name: &str| NormalLaw::Custom { name: name.to_owned(), parameters: vec![] };
+        let custom_friction = |name: &str| FrictionLaw::Custom { name: name.to_owned(), parameters: vec![] };
+        let hunt_crossley = |exponent| NormalLaw::HuntCrossley { dissipation: 0.1, exponent };
+        let normal = |normal| Surface { normal, ..surface(1e5, 0.0) };
+        let friction = |friction| Surface { friction, ..surface(1e5, 0.0) };
+        let coulomb = |slip_speed| FrictionLaw::Coulomb { mu: 0.5, slip_speed };
+        let bristle = FrictionLaw::Bristle { mu: 0.5, static_excess: 0.0, stiffness: None, damping: 0.0 };
+        for (a, b, what) in [
+            (normal(custom("x")), normal(custom("y")), "their normal force law"),
+            (normal(custom("x")), surface(1e5, 0.0), "their normal force law"),
+            (normal(hunt_crossley(Exponent::One)), normal(hunt_crossley(Exponent::ThreeHalves)), "exponent"),
+            (friction(custom_friction("x")), friction(custom_friction("y")), "their friction law"),
+            (friction(coulomb(1e-3)), friction(coulomb(2e-3)), "slip speed"),
+            (friction(coulomb(1e-3)), friction(bristle), "their friction law"),
+        ] {
+            let error = combine(&a, &b, None, &Laws::default()).unwrap_err();
+            assert!(error.cause.contains(what) && error.cure.contains("pairs"), "{error:?}");
+        }
     }
 
     #[test]
