@@ -23,6 +23,7 @@ ENVIRONMENT = os.environ | {
     "CARGO_PROFILE_DEV_DEBUG": "0",
     "CARGO_INCREMENTAL": "1",
     "CARGO_TERM_COLOR": "never",
+    "RUST_BACKTRACE": "0",
 }
 SECONDS_MAX = 300
 # What a test says when it stumbles instead of judging.
@@ -135,7 +136,8 @@ def read_verdict(fault, done):
         return False, f"did not end as a test: {output[-300:]}"
     panic = PANIC.search(output)
     place, message = (panic[1], " ".join(panic[2].split())) if panic else ("", output[-300:])
-    is_own = "/tests/" in place or fault.binary == "lib" and place.startswith(f"crates/{fault.crate}/src/")
+    # An assertion of the code itself counts as well.
+    is_own = "/tests/" in place or place.startswith("crates/") and (fault.binary == "lib" or message.startswith("assertion"))
     if not is_own or STUMBLES.match(message):
         return False, f"stumbled at {place}: {message}"
     return True, message

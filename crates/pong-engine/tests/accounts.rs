@@ -233,6 +233,9 @@ fn what_begins_inside_was_put_in() {
         assert!((account.total.returned / put_in - 1.0).abs() < 0.1, "{account:?}");
         assert!(account.total.imbalance().abs() < 1e-12);
         assert_eq!(account.touches, 1);
+        // What was put in was not made; and the touch is over.
+        assert!(account.worst_excess < 0.1 * put_in, "{account:?}");
+        assert_eq!(account.touch, Account::default());
     }
 }
 

@@ -273,6 +273,35 @@ fn a_bristle_crosses_facets() {
     assert!(hold > 20.0);
 }
 
+/// From one face of a solid to the next, where the normal jumps by 20°: the bristle keeps its stretch.
+#[test]
+fn a_bristle_crosses_the_ridge_of_a_solid() {
+    let rough = surface(1e5, "friction: Bristle(mu: 50.0, stiffness: 1e4)");
+    let tip = model("tip", &rough, "Point(name: \"p\", position: (0,0,0))");
+    let slope = 10.0_f64.to_radians();
+    let ridge = format!(
+        "Polyhedron(name: \"ridge\", vertices: [(-1,-1,-1),(1,-1,-1),(1,1,-1),(-1,1,-1),(-1,-1,{z:?}),(0,-1,0),(1,-1,{z:?}),\
+         (-1,1,{z:?}),(0,1,0),(1,1,{z:?})], faces: [[0,3,2,1],[4,5,8,7],[5,6,9,8],[0,1,6,5,4],[2,3,7,8,9],[0,4,7,3],[1,2,9,6]])",
+        z = -slope.tan()
+    );
+    let mut rig = Rig::new(&tip, &model("ridge", &rough, &ridge));
+    for step in 0..=40 {
+        // 1 mm deep, 0.2 mm a step up the one face and down the other.
+        let x = 2e-4 * f64::from(step) - 3.9e-3;
+        let z = -x.abs() * slope.tan() - 1e-3 / slope.cos();
+        rig.place_a(Vec3::new(x, 0.0, z), Quat::identity());
+        rig.world.step().unwrap();
+        let contact = rig.world.contacts()[0];
+        let lean = if x < 0.0 { -slope } else { slope };
+        assert!((contact.normal - Vec3::new(lean.sin(), 0.0, lean.cos())).norm() < 1e-12, "{step}");
+        // Every step stretches by its length along the face. Over the ridge it points to neither: that costs a little.
+        let expected = 0.5e4 * 2e-4 / slope.cos() * f64::from(step);
+        let force = contact.friction_force.norm();
+        let lost = if x < 0.0 { 1e-9 } else { 0.1 };
+        assert!((force - expected).abs() < lost, "step {step}: {force} N, not {expected}");
+    }
+}
+
 /// A bar that lies flat is one spring: each end carries half of the stiffness, of the damping and of the bristle.
 #[test]
 fn the_two_ends_of_a_bar_share_one_spring_and_one_bristle() {

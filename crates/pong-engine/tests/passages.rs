@@ -209,3 +209,31 @@ fn a_wall_that_sweeps_over_a_point_is_told() {
     });
     assert_eq!(status, [false, true, false]);
 }
+
+/// What is hardly longer than the plate is thick goes through it.
+#[test]
+fn a_way_hardly_longer_than_the_plate_is_followed() {
+    for bullet in [POINT, BAR, RAY] {
+        let mut rig = rig(bullet, &plate());
+        assert_eq!(told(&mut rig, &[0.0055, -0.0055]), [false, true], "{bullet}");
+    }
+}
+
+/// An arm that swings: its origin stays where it is, its tip goes through the plate.
+#[test]
+fn an_arm_that_swings_through_a_plate_is_told() {
+    let mut rig = rig("Point(name: \"p\", position: (0,0.6,0))", &plate());
+    let status = [-0.2, 0.2, 0.3].map(|angle| {
+        rig.place_a(Vec3::new(0.0, -0.4, 0.0), Quat::from_scaled_axis(Vec3::z() * angle));
+        rig.world.step().unwrap().status.contains(StatusBits::WENT_THROUGH)
+    });
+    assert_eq!(status, [false, true, false]);
+}
+
+/// Pressed under the top of a ball, along it and out again, far for one frame: it leaves where it is pushed to.
+#[test]
+fn what_slides_over_a_ball_is_not_told() {
+    let mut rig = rig(POINT, "Sphere(name: \"b\", center: (0,0,0), radius: 0.1)");
+    let places = [(-0.055, 0.12), (-0.055, 0.08), (0.055, 0.095), (0.3, 0.095)];
+    assert_eq!(told_at(&mut rig, places.map(|(x, y)| Vec3::new(x, y, 0.0))), [false; 4]);
+}

@@ -61,6 +61,25 @@ fn a_sphere_whose_centre_goes_under_keeps_its_side() {
     }
 }
 
+/// What is forgotten, or was not looked at for a frame, was nowhere before: no line leads from there, and the face that is
+/// nearest now pushes.
+#[test]
+fn what_has_no_past_came_in_by_the_nearest_face() {
+    for switch_off in [false, true] {
+        let mut rig = Rig::new(&tip(), &wall());
+        push_at(&mut rig, -0.006);
+        if switch_off {
+            rig.world.set_pair_enabled(rig.pair, false).unwrap();
+            rig.world.step().unwrap();
+            rig.world.set_pair_enabled(rig.pair, true).unwrap();
+        } else {
+            rig.world.forget(rig.objects[0]).unwrap();
+        }
+        let force = push_at(&mut rig, 0.004);
+        assert!((force.x - 0.5 * K * 1e-3).abs() < 1e-9, "{switch_off}: {force:?}");
+    }
+}
+
 #[test]
 fn without_memory_the_least_deep_face_pushes() {
     let forgetful =
@@ -115,6 +134,33 @@ fn leaving_one_piece_ends_the_memory_before_another_is_entered() {
     // Up through the low top face, then through the riser: pushed out of the riser.
     let force = put(0.05, 0.2);
     assert!((force - Vec3::new(-0.5 * K * 0.05, 0.0, 0.0)).norm() < 1e-6, "{force:?}");
+}
+
+/// From one wall of a trough into the other within one frame, across the gap: the side by which it came into the first,
+/// which looks the other way, does not count in the second.
+#[test]
+fn across_a_gap_the_memory_of_the_first_wall_ends() {
+    let piece = |name, x: f64, z: f64, half_x: f64, inner| {
+        box_polyhedron(name, [x, 0.0, z], [half_x, 1.0, 0.5], inner)
+    };
+    let pieces = [
+        piece("left_base", -1.5, -0.5, 0.5, "5, 1"),
+        piece("middle", 0.0, -0.5, 1.0, "4, 5"),
+        piece("right_base", 1.5, -0.5, 0.5, "4, 1"),
+        piece("left", -1.5, 0.5, 0.5, "0"),
+        piece("right", 1.5, 0.5, 0.5, "0"),
+    ];
+    let mut rig = Rig::new(&tip(), &model("trough", &steel(), &pieces.join(",")));
+    let mut put = |x: f64| {
+        rig.place_a(Vec3::new(x, 0.0, 0.5), Quat::identity());
+        rig.world.step().unwrap();
+        rig.wrench(0).force
+    };
+    put(0.0);
+    let push = Vec3::new(0.5 * K * 0.05, 0.0, 0.0);
+    assert!((put(-1.05) - push).norm() < 1e-6);
+    let force = put(1.05);
+    assert!((force + push).norm() < 1e-6, "{force:?}");
 }
 
 /// Memory follows a faceted curve, but never goes round a sharp rim.

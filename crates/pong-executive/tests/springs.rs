@@ -151,6 +151,28 @@ fn loads_act_at_their_point_along_their_axes_and_their_work_is_counted() {
     assert!((energy.work_in / energy.kinetic - 1.0).abs() < 1e-5, "{energy:?}");
 }
 
+/// Loads are about the group's origin, bodies turn about their mass centre: a force through it turns nothing, one at the
+/// origin turns by its lever.
+#[test]
+fn a_force_turns_about_the_mass_centre() {
+    let center = Vec3::new(0.5, -0.2, 0.1);
+    let mass = MassProperties::cuboid(3.0, [0.2, 0.4, 0.6]).with_mass_center(center);
+    let force = Vec3::new(0.3, -1.1, 2.0);
+    let pushed = |point: Vec3, step: f64, duration: f64| {
+        let mut simulation = Simulation::new(empty_world(), Integrator::RungeKutta4, step).unwrap();
+        let body = simulation.add_body(RigidBody::free("body", mass)).unwrap();
+        simulation.add_load(Load { point, ..Load::force(body, force) }).unwrap();
+        simulation.run_for(duration).unwrap();
+        (simulation.pose(body), simulation.twist(body))
+    };
+    let (pose, twist) = pushed(center, 0.01, 1.0);
+    assert!(pose.orientation.angle() < 1e-15 && twist.angular.norm() < 1e-15, "{twist:?}");
+    assert!((pose.position - force * (0.5 / 3.0)).norm() < 1e-14);
+    let (_, twist) = pushed(Vec3::zeros(), 1e-6, 1e-6);
+    let expected = mass.inertia.try_inverse().unwrap() * -center.cross(&force) * 1e-6;
+    assert!((twist.angular - expected).norm() < 1e-9 * expected.norm(), "{twist:?}");
+}
+
 /// The twist must be the derivative of the pose.
 fn assert_consistent(path: &Path, times: &[f64], tolerance: f64) {
     let h = 1e-5;

@@ -337,6 +337,10 @@ fn mirrored_minima_on_the_plane_across_the_shortest_axis() {
     assert_eq!(first.depth, second.depth);
     assert_eq!(first.normal[1], -second.normal[1]);
     assert!(first.normal[1] > 0.0);
+    // With two axes as short there is a circle of nearest points, and nothing beside it.
+    for a in [Vec3::new(2.0, 0.5, 0.5), Vec3::repeat(0.5)] {
+        assert_eq!(second_nearest_on_ellipsoid(&a, &Vec3::new(0.1, 0.0, 0.0)), None);
+    }
 }
 
 #[test]
