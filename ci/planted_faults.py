@@ -1,4 +1,7 @@
-"""Plants the faults of ci/planted_faults.toml one by one in a copy of the repository and shows that a test sees each.
+"""Plants the faults of ci/planted/ one by one in a copy of the repository and shows that a test sees each.
+
+An entry says what it `breaks`, and the text `before`, which must stand exactly once in `file`, and `after`. `caught_by` is
+crate, test binary (`lib` for unit tests) and test.
 
 A fault is caught when its test passes without it, still builds with it, and then fails by an assertion of its own: not by a
 build error, not by an index out of bounds, not by taking too long.
@@ -13,7 +16,7 @@ import time
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-LIST = ROOT / "ci" / "planted_faults.toml"
+LISTS = ROOT / "ci" / "planted"
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "planted_faults"
 TREE = TARGET / "tree"
 # Little optimisation and no symbols: most of the time goes into building. The answers are the same bits.
@@ -69,8 +72,8 @@ class Fault:
 
 
 def read_list():
-    entries = tomllib.loads(LIST.read_text())["fault"]
-    faults = [Fault(entry) for entry in entries]
+    lists = [tomllib.loads(path.read_text()) for path in sorted(LISTS.glob("*.toml"))]
+    faults = [Fault(entry) for entries in lists for entry in entries["fault"]]
     problems = [problem for fault in faults for problem in fault.problems()]
     names = [fault.name for fault in faults]
     problems += [f"{name}: twice in the list" for name in {name for name in names if names.count(name) > 1}]
