@@ -38,7 +38,18 @@ pong::World build() {
     world.create_object(world.load_model_text(ball_model, "ball"), "ball");
     world.create_object(world.load_model_text(ground_model, "ground"), "ground");
     world.pair("ball", "ground");
-    world.seal();
+    // What drop() does with it below.
+    pong::Mass mass{};
+    mass.mass = 1.0;
+    world.set_mass(world.interface(world.object("ball")), mass);
+    mass.mass = HUGE_VAL;
+    world.set_mass(world.interface(world.object("ground")), mass);
+    pong::StepPlan plan = pong_default_step_plan();
+    plan.step = 1e-5;
+    plan.coupling = PONG_COUPLING_STEP;
+    world.plan_step(plan);
+    const pong::SealReport sealed = world.seal();
+    require(sealed.warning_count == 0 && sealed.note_count == 0 && sealed.surely_stable_step > 1e-3, "a stable step");
     return world;
 }
 

@@ -10,13 +10,22 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0xe7d9ddcd1bb361beULL
+#define PONG_LAYOUT_HASH 0x2f67e15d60342ce4ULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
 
 /// Number of the binary interface: the N of libpong.so.N.
 #define PONG_ABI_VERSION 0
+
+/// At every stage of an integrator of higher order (the classic Runge-Kutta method is meant).
+#define PONG_COUPLING_STAGES 0
+
+/// Once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
+#define PONG_COUPLING_STEP 1
+
+/// Once a frame, and held until the next.
+#define PONG_COUPLING_HELD 2
 
 /// `feature_kind` of a face, or of a surface as a whole.
 #define PONG_FEATURE_FACE 0
@@ -354,6 +363,52 @@ typedef struct pong_pair_id {
     uint64_t bits;
 } pong_pair_id;
 
+/// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
+typedef struct pong_step_plan {
+    /// The step or frame, s; must be set.
+    double step;
+    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_HELD by default.
+    int32_t coupling;
+    /// With PONG_COUPLING_HELD: how many whole frames the wrench comes late, at most 100; 0 by default.
+    uint32_t frames_late;
+    /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
+    /// depth are judged at the depth that this speed makes.
+    double closing_speed;
+    /// How near the depth of a bounce must come to its closed form; 0.05 by default. 0 in both accuracies: warn of
+    /// contacts that gain energy alone.
+    double depth_within;
+    /// How near the rebound of a bounce must come to its closed form; 0.02 by default.
+    double rebound_within;
+    /// Zero.
+    uint64_t reserved[4];
+} pong_step_plan;
+
+/// Mass properties of a movable group, for the step adviser alone: no frame reads them.
+typedef struct pong_mass {
+    /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
+    double mass;
+    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the
+    /// products those of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is not known: lever
+    /// arms are then left out.
+    double inertia[6];
+    /// The mass centre in the group frame, m.
+    double mass_center[3];
+} pong_mass;
+
+/// What the contacts of one frame leave of the planned step.
+typedef struct pong_acting {
+    /// Contacts that push something that yields.
+    uint64_t contacts;
+    /// Contacts whose masses or laws are not known.
+    uint64_t not_judged;
+    /// The longest step at which they are surely stable together, s; 0 if there is none, infinite if nothing acts.
+    double stable_step;
+    /// Stiffness over mass of the stiffest way to move, 1/s^2: the square of its frequency in rad/s.
+    double stiffness_rate;
+    /// Damping over mass of the most damped way to move, 1/s.
+    double damping_rate;
+} pong_acting;
+
 /// What sealing tells.
 typedef struct pong_seal_report {
     /// Pairs of movable groups that will be tested.
@@ -366,6 +421,13 @@ typedef struct pong_seal_report {
     uint64_t warning_count;
     /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
     uint64_t workers;
+    /// How many notes there are: see pong_seal_note().
+    uint64_t note_count;
+    /// The longest step at which no contact by itself gains energy, s; infinite if nothing that yields can be touched, 0
+    /// if no step is stable or none was planned (pong_plan_step()).
+    double stable_step;
+    /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
+    double surely_stable_step;
     /// Zero in this version.
     uint64_t reserved[4];
 } pong_seal_report;
@@ -590,7 +652,7 @@ typedef struct pong_surface_values {
     int32_t normal_law;
     /// Which friction law the surface has: PONG_FRICTION_...
     int32_t friction_law;
-    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ); infinite means rigid.
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ), 1e-100 to 1e100; infinite means rigid.
     double stiffness;
     /// Linear: damping, N s/m.
     double damping;
@@ -602,7 +664,7 @@ typedef struct pong_surface_values {
     double friction;
     /// Bristle: a, so that the static coefficient is (1 + a) times the kinetic one.
     double friction_static_excess;
-    /// Bristle: tangential stiffness, N/m; 0 takes two thirds of the normal stiffness.
+    /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     double friction_stiffness;
     /// Bristle: tangential damping, N s/m.
     double friction_damping;
@@ -732,7 +794,7 @@ pong_status pong_get_wrench(const struct pong_world *world,
 /// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
 pong_status pong_create_world(const struct pong_config *config, struct pong_world **world);
 
-/// Destroys a world and everything it gave out: ids become stale, names and warnings must not be read any more.
+/// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
 /// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
 pong_status pong_destroy_world(struct pong_world *world);
 
@@ -865,14 +927,42 @@ pong_status pong_find_primitive(const struct pong_world *world,
                                 const char *path,
                                 uint32_t *primitive);
 
+/// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
+struct pong_step_plan pong_default_step_plan(void);
+
+/// Tells the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+pong_status pong_set_mass(struct pong_world *world,
+                          struct pong_interface_id interface,
+                          const struct pong_mass *mass);
+
+/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
+/// long for, and what cannot be judged, is told by pong_seal_warning(); what it may be too long for, if enough contacts
+/// act at once, by pong_seal_note(). Before sealing.
+pong_status pong_plan_step(struct pong_world *world,
+                           const struct pong_step_plan *plan);
+
+/// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
+/// the masses from before the seal, and a frame. Allocates.
+pong_status pong_get_acting(const struct pong_world *world,
+                            struct pong_acting *acting);
+
 /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
 /// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
 /// message lists every reason.
 pong_status pong_seal(struct pong_world *world,
                       struct pong_seal_report *report);
 
-/// A warning of sealing: something the author may not have intended. The text lives as long as the world.
-pong_status pong_seal_warning(const struct pong_world *world, size_t index, const char **warning);
+/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the planned step.
+/// The text lives as long as the world.
+pong_status pong_seal_warning(const struct pong_world *world,
+                              size_t index,
+                              const char **warning);
+
+/// A note of sealing: what may go wrong at the planned step if enough contacts act at once, and need not. The text lives
+/// as long as the world.
+pong_status pong_seal_note(const struct pong_world *world,
+                           size_t index,
+                           const char **note);
 
 /// Computes contacts and wrenches from the states and the committed contact state. Changes nothing that a later
 /// evaluate or commit can see: integrators call it any number of times, at times in any order. A frame that hit a

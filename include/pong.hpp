@@ -51,6 +51,9 @@ using SurfaceValues = pong_surface_values;
 using Tally = pong_tally;
 using Worker = pong_worker;
 using LogOptions = pong_log_options;
+using Mass = pong_mass;
+using StepPlan = pong_step_plan;
+using Acting = pong_acting;
 using LogReport = pong_log_report;
 using Vec3 = std::array<double, 3>;
 
@@ -138,8 +141,18 @@ public:
     PairId pair(const std::string& a, const std::string& b) {
         return result<PairId>([&](PairId* out) { return pong_pair_by_name(get(), a.c_str(), b.c_str(), out); });
     }
+    /// For the check that plan_step() asks for; no frame reads masses.
+    void set_mass(InterfaceId interface, const Mass& mass) { check(pong_set_mass(get(), interface, &mass)); }
+    /// Start from pong_default_step_plan() and set the step.
+    void plan_step(const StepPlan& plan) { check(pong_plan_step(get(), &plan)); }
     SealReport seal() {
         return result<SealReport>([&](SealReport* out) { return pong_seal(get(), out); });
+    }
+    const char* seal_warning(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_seal_warning(get(), index, out); });
+    }
+    const char* seal_note(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_seal_note(get(), index, out); });
     }
 
     // Look-up.

@@ -151,6 +151,14 @@ static void surfaces(scene *s)
     TEST(fabs(after.force[2] - 2.0 * before.force[2]) < 1e-9);
     changed.stiffness = -1.0;
     REFUSED(pong_set_surface(s->world, s->ball_model, "rubber", &changed), BAD_VALUE, "`rubber`");
+    /* Two of 1.7e308 N/m, or of 5e-324, are no springs in series. */
+    changed.stiffness = 1.7e308;
+    REFUSED(pong_set_surface(s->world, s->ball_model, "rubber", &changed), BAD_VALUE, "1e-100 and 1e100 N/m");
+    changed.stiffness = 5e-324;
+    REFUSED(pong_set_surface(s->world, s->ball_model, "rubber", &changed), BAD_VALUE, "1e-100 and 1e100 N/m");
+    changed = values;
+    changed.friction_stiffness = 1.7e308;
+    REFUSED(pong_set_surface(s->world, s->ball_model, "rubber", &changed), BAD_VALUE, "1e-100 and 1e100 N/m");
     changed = values;
     changed.damping = NAN;
     REFUSED(pong_set_surface(s->world, s->ball_model, "rubber", &changed), BAD_VALUE, "`rubber`");
@@ -177,6 +185,147 @@ static void pairs_and_rates(scene *s)
     OK(pong_set_states(s->world, s->interfaces, s->states, 3));
     OK(pong_commit_pairs(s->world, &s->pair, 1));
     TEST(slide_to(s, 1e-4).force[0] < -0.1);
+}
+
+/* A world with the plan and the ball's mass; what does not yield is told too. */
+static pong_seal_report planned(scene *s, const pong_step_plan *plan, double mass, double inertia)
+{
+    pong_config config = pong_default_config();
+    pong_seal_report sealed;
+    pong_mass ball = {0}, fixed = {0};
+    int i;
+    open_scene(s, &config);
+    ball.mass = mass;
+    for (i = 0; i < 3; i += 1) {
+        ball.inertia[i] = inertia;
+    }
+    fixed.mass = INFINITY;
+    OK(pong_set_mass(s->world, s->interfaces[0], &ball));
+    OK(pong_set_mass(s->world, s->interfaces[1], &fixed));
+    OK(pong_set_mass(s->world, s->interfaces[2], &fixed));
+    OK(pong_plan_step(s->world, plan));
+    OK(pong_seal(s->world, &sealed));
+    return sealed;
+}
+
+/* Two surfaces of 2e4 N/m and 40 N s/m are 1e4 N/m and 20 N s/m: held over a frame they gain energy beyond 2 c/k = 4 ms. */
+static void certain_steps(void)
+{
+    const double steps[2] = {5e-3, 3e-3};
+    int i;
+    for (i = 0; i < 2; i += 1) {
+        scene s;
+        pong_step_plan plan = pong_default_step_plan();
+        pong_seal_report sealed;
+        const char *warning = "";
+        plan.step = steps[i];
+        plan.depth_within = plan.rebound_within = 0.0;
+        sealed = planned(&s, &plan, 100.0, 0.0);
+        TEST(sealed.warning_count == (i == 0 ? 1 : 0) && sealed.note_count == 0);
+        if (i == 0) {
+            OK(pong_seal_warning(s.world, 0, &warning));
+            TEST(strstr(warning, "longest stable step is 4.000e-3 s") != NULL);
+        }
+        REFUSED(pong_seal_note(s.world, 0, &warning), UNKNOWN_ID, "note 0: there are 0");
+        REFUSED(pong_plan_step(s.world, &plan), WRONG_PHASE, "sealed");
+        REFUSED(pong_set_mass(s.world, s.interfaces[0], NULL), NULL_ARGUMENT, "`mass`");
+        OK(pong_destroy_world(s.world));
+    }
+}
+
+/* Friction of 2/3 k at the skin of a ball of 1 kg and 2/5 m r^2 finds 2/7 kg: with semi-implicit Euler that may be too
+ * quick for a step that any spring by itself on 1 kg bears. k T^2/m + 2 c T/m = 4 with k 7/3 1e4 N/m and c 20 N s/m. */
+static void possible_steps(void)
+{
+    scene s;
+    pong_step_plan plan = pong_default_step_plan();
+    pong_seal_report sealed;
+    pong_acting acting;
+    const char *note = "";
+    const double k = 7e4 / 3.0, c = 20.0;
+    const double surely = 4.0 / (c + sqrt(c * c + 4.0 * k));
+    plan.step = 1.01 * surely;
+    plan.coupling = PONG_COUPLING_STEP;
+    plan.depth_within = plan.rebound_within = 0.0;
+    sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
+    TEST(sealed.warning_count == 0 && sealed.note_count == 1);
+    TEST(fabs(sealed.surely_stable_step / surely - 1.0) < 1e-9 && sealed.stable_step > 1.4 * surely);
+    OK(pong_seal_note(s.world, 0, &note));
+    TEST(strstr(note, "surely stable") != NULL && strstr(note, "may gain energy") != NULL);
+    OK(pong_destroy_world(s.world));
+    plan.step = 0.99 * surely;
+    sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
+    TEST(sealed.warning_count == 0 && sealed.note_count == 0);
+    REFUSED(pong_get_acting(s.world, &acting), WRONG_PHASE, "frame");
+    OK(pong_set_states(s.world, s.interfaces, s.states, 3));
+    OK(pong_step(s.world));
+    OK(pong_get_acting(s.world, &acting));
+    TEST(acting.contacts == 1 && acting.not_judged == 0);
+    /* 1 mm deep the lever is that much shorter than the radius, on either side. */
+    TEST(fabs(acting.stable_step / surely - 1.0) < 0.02 && fabs(acting.stiffness_rate / k - 1.0) < 0.02);
+    TEST(fabs(acting.damping_rate / c - 1.0) < 1e-9);
+    s.states[0].position[2] = 1.0;
+    OK(pong_set_states(s.world, s.interfaces, s.states, 3));
+    OK(pong_step(s.world));
+    OK(pong_get_acting(s.world, &acting));
+    TEST(acting.contacts == 0 && isinf(acting.stable_step));
+    OK(pong_destroy_world(s.world));
+}
+
+/* A model whose springs in series leave the range of numbers is not loaded. */
+static void stiffness_limits(void)
+{
+    scene s;
+    pong_config config = pong_default_config();
+    pong_model_id model;
+    const char *text = "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {\"s\": (stiffness: 1.7e308)},\n"
+                       " root: (name: \"m\", surface: \"s\", primitives: [Point(name: \"p\", position: (0, 0, 0))]))";
+    open_scene(&s, &config);
+    REFUSED(load_text(s.world, text, &model), MODEL_ERROR, "surfaces/s: [stiffness-range] the stiffness is 1.7e308");
+    REFUSED(load_text(s.world, text, &model), MODEL_ERROR, "give 1e-100 to 1e100 N/m");
+    OK(pong_destroy_world(s.world));
+}
+
+static void refused_plans(void)
+{
+    scene s;
+    pong_config config = pong_default_config();
+    pong_step_plan plan = pong_default_step_plan();
+    pong_mass mass = {-1.0, {0}, {0}};
+    pong_acting acting;
+    pong_seal_report sealed;
+    open_scene(&s, &config);
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "step");
+    plan.step = 1e-3;
+    plan.coupling = 7;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "coupling is 7");
+    plan.coupling = PONG_COUPLING_STEP;
+    plan.frames_late = 1;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "frames_late");
+    plan.frames_late = 0;
+    plan.closing_speed = NAN;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "closing speed");
+    plan.closing_speed = 0.0;
+    plan.depth_within = 0.0;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "accuracies");
+    plan = pong_default_step_plan();
+    plan.step = 1e-3;
+    plan.reserved[0] = 1;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "reserved");
+    REFUSED(pong_plan_step(s.world, NULL), NULL_ARGUMENT, "`plan`");
+    REFUSED(pong_get_acting(s.world, &acting), WRONG_PHASE, "no step is planned");
+    REFUSED(pong_set_mass(s.world, s.interfaces[2], &mass), BAD_VALUE, "mass of `ground/ground`");
+    mass.mass = 1.0;
+    mass.inertia[3] = 1.0;
+    REFUSED(pong_set_mass(s.world, s.interfaces[2], &mass), BAD_VALUE, "inertia");
+    mass.inertia[3] = 0.0;
+    mass.mass_center[1] = NAN;
+    REFUSED(pong_set_mass(s.world, s.interfaces[2], &mass), BAD_VALUE, "mass centre");
+    /* Nothing of that counts. */
+    OK(pong_seal(s.world, &sealed));
+    TEST(sealed.warning_count == 0 && sealed.note_count == 0);
+    TEST(sealed.stable_step == 0.0 && sealed.surely_stable_step == 0.0);
+    OK(pong_destroy_world(s.world));
 }
 
 static void energies_and_limits(void)
@@ -419,6 +568,10 @@ int main(void)
     pairs_and_rates(&s);
     threads(&s);
     OK(pong_destroy_world(s.world));
+    certain_steps();
+    possible_steps();
+    refused_plans();
+    stiffness_limits();
     energies_and_limits();
     accounts();
     workers();

@@ -10,6 +10,7 @@ use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::states::pong_state;
 use crate::status::pong_status;
+use crate::step_plan::{pong_acting, pong_mass, pong_step_plan};
 use crate::surfaces::pong_surface_values;
 use crate::tally::pong_tally;
 use crate::workers::pong_worker;
@@ -59,7 +60,13 @@ layouts! {
         normal_force, normal, slip, slip_velocity, share, stiffness, parameters, parameter_count, stuck, reserved,
     }
     pong_friction_output { force, stored, sticks, reserved }
-    pong_seal_report { group_pairs, contact_capacity, contact_state_size, warning_count, workers, reserved }
+    pong_seal_report {
+        group_pairs, contact_capacity, contact_state_size, warning_count, workers, note_count, stable_step,
+        surely_stable_step, reserved,
+    }
+    pong_mass { mass, inertia, mass_center }
+    pong_acting { contacts, not_judged, stable_step, stiffness_rate, damping_rate }
+    pong_step_plan { step, coupling, frames_late, closing_speed, depth_within, rebound_within, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }
     pong_wrench { force, moment }
     pong_contact_side { object, interface, primitive, element, arm }

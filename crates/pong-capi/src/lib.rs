@@ -10,6 +10,7 @@
 //! | `config.rs`, `world.rs` | create and destroy a world |
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
+//! | `step_plan.rs` | masses and step, for the check at the seal |
 //! | `seal.rs` | end of set-up |
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
 //! | `workers.rs` | workers, around frames |
@@ -53,6 +54,7 @@ pub mod report;
 pub mod seal;
 pub mod states;
 pub mod status;
+pub mod step_plan;
 pub mod surfaces;
 pub mod tally;
 pub mod user_data;

@@ -9,7 +9,7 @@ use std::ffi::c_char;
 
 /// What sealing tells.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_seal_report {
     /// Pairs of movable groups that will be tested.
     pub group_pairs: u64,
@@ -21,6 +21,13 @@ pub struct pong_seal_report {
     pub warning_count: u64,
     /// Workers that were started, which may be fewer than the configuration asks for: see pong_get_worker().
     pub workers: u64,
+    /// How many notes there are: see pong_seal_note().
+    pub note_count: u64,
+    /// The longest step at which no contact by itself gains energy, s; infinite if nothing that yields can be touched, 0
+    /// if no step is stable or none was planned (pong_plan_step()).
+    pub stable_step: f64,
+    /// The step up to which the scene is surely stable, whatever touches at once, s; likewise.
+    pub surely_stable_step: f64,
     /// Zero in this version.
     pub reserved: [u64; 4],
 }
@@ -37,6 +44,7 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
             let sealed = inner.world.seal()?;
             inner.seal_warnings =
                 sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
+            inner.seal_notes = sealed.notes.iter().map(|note| c_text(&note.to_string())).collect();
             inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
             inner.counters.contact_capacity = sealed.contact_capacity as u64;
             inner.states.reserve(inner.names.interface_count());
@@ -48,6 +56,9 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
                     contact_state_size: sealed.state_size as u64,
                     warning_count: sealed.warnings.len() as u64,
                     workers: sealed.workers.len() as u64,
+                    note_count: sealed.notes.len() as u64,
+                    stable_step: sealed.stable_step.unwrap_or(0.0),
+                    surely_stable_step: sealed.surely_stable_step.unwrap_or(0.0),
                     reserved: [0; 4],
                 });
             }
@@ -56,7 +67,8 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
     }
 }
 
-/// A warning of sealing: something the author may not have intended. The text lives as long as the world.
+/// A warning of sealing: something the author may not have intended, or a contact that gains energy at the planned step.
+/// The text lives as long as the world.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal_warning(
     world: *const pong_world,
@@ -69,6 +81,25 @@ pub unsafe extern "C" fn pong_seal_warning(
             let out = Out::new(warning, "warning")?;
             let warnings = &inner.seal_warnings;
             out.set(warnings.get(index).ok_or_else(|| no_such("warning", index, warnings.len()))?.as_ptr());
+            Ok(())
+        })
+    }
+}
+
+/// A note of sealing: what may go wrong at the planned step if enough contacts act at once, and need not. The text lives
+/// as long as the world.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_seal_note(
+    world: *const pong_world,
+    index: usize,
+    note: *mut *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(note, "note")?;
+            let notes = &inner.seal_notes;
+            out.set(notes.get(index).ok_or_else(|| no_such("note", index, notes.len()))?.as_ptr());
             Ok(())
         })
     }

@@ -36,7 +36,7 @@ pub struct pong_surface_values {
     pub normal_law: i32,
     /// Which friction law the surface has: PONG_FRICTION_...
     pub friction_law: i32,
-    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ); infinite means rigid.
+    /// Normal stiffness, N/m (N/m^1.5 with PONG_NORMAL_HUNT_CROSSLEY_HERTZ), 1e-100 to 1e100; infinite means rigid.
     pub stiffness: f64,
     /// Linear: damping, N s/m.
     pub damping: f64,
@@ -48,7 +48,7 @@ pub struct pong_surface_values {
     pub friction: f64,
     /// Bristle: a, so that the static coefficient is (1 + a) times the kinetic one.
     pub friction_static_excess: f64,
-    /// Bristle: tangential stiffness, N/m; 0 takes two thirds of the normal stiffness.
+    /// Bristle: tangential stiffness, N/m, 1e-100 to 1e100; 0 takes two thirds of the normal stiffness.
     pub friction_stiffness: f64,
     /// Bristle: tangential damping, N s/m.
     pub friction_damping: f64,

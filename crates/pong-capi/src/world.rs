@@ -29,6 +29,7 @@ pub(crate) struct Inner {
     pub names: Names,
     pub user_data: UserData,
     pub seal_warnings: Vec<CString>,
+    pub seal_notes: Vec<CString>,
     /// What `pong_pair_remedy` gave out last.
     pub remedy: CString,
     /// The workers, once the world is sealed.
@@ -70,6 +71,7 @@ pub unsafe extern "C" fn pong_create_world(
             names: Names::default(),
             user_data: UserData::default(),
             seal_warnings: Vec::new(),
+            seal_notes: Vec::new(),
             remedy: CString::default(),
             workers: None,
             pair_count: 0,
@@ -86,7 +88,7 @@ pub unsafe extern "C" fn pong_create_world(
     })
 }
 
-/// Destroys a world and everything it gave out: ids become stale, names and warnings must not be read any more.
+/// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
 /// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_status {

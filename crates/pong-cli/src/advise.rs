@@ -150,7 +150,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         closing_speed: speed,
         accuracy: Some(arguments.accuracy()),
     };
-    let (report, warnings) = built.simulation.step_report(&plan).map_err(|error| error.to_string())?;
+    let report = built.simulation.step_report(&plan).map_err(|error| error.to_string())?;
     let mut text = format!("{}: {}", built.name, arguments.stated(Some(plan.step), plan.coupling));
     text += &match (arguments.speed, speed) {
         (Some(speed), _) => format!(", closing at {} m/s\n", number(speed)),
@@ -158,8 +158,11 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         (None, None) => ", closing speed not known: give --speed\n".to_owned(),
     };
     text += &limits::told(&report, &plan);
-    for warning in &warnings {
+    for warning in &report.warnings {
         text += &format!("warning: {warning}\n");
+    }
+    for note in &report.notes {
+        text += &format!("note: {note}\n");
     }
     if arguments.depth.is_some() {
         for pair in &report.pairs {

@@ -100,6 +100,40 @@ fn what_goes_wrong_first_is_told() {
     assert!(out.contains("advised · rigid") && out.contains("0.001"), "{out}");
 }
 
+/// Two feet of k: ω² = 2k/m. With 4 kg and 1e6 N/m one alone bears 4 ms of semi-implicit Euler, both together 2.83 ms: what is
+/// beyond is a note, not a warning, and `--acting` tells what touched.
+#[test]
+fn what_may_go_wrong_is_a_note() {
+    let here = folder("notes", r#""advised": (stiffness: 1e6)"#, "SemiImplicitEuler", 3e-3);
+    let point = std::fs::read_to_string(here.join("point.ron")).unwrap();
+    let one = r#"Point(name: "tip", position: (0, 0, 0))"#;
+    // Coincident, so that inertia has no part in it; the second may be above the first.
+    let two = |height: f64| format!(r#"{one}, Point(name: "other", position: (0, 0, {height}))"#);
+    let scene = std::fs::read_to_string(here.join("scene.ron")).unwrap();
+    let weighty = scene.replace("integrator:", "gravity: (0, 0, -9.81), integrator:");
+    std::fs::write(here.join("scene.ron"), weighty.replace("duration: 1", "duration: 0.3")).unwrap();
+    for (height, together) in [(0.0, "the stiffest, 2 at"), (1.0, "the stiffest, 1 at")] {
+        std::fs::write(here.join("point.ron"), point.replace(one, &two(height))).unwrap();
+        let (_, out, _) = pong(&here, "advise scene.ron");
+        let (_, summary, err) = pong(&here, "run scene.ron --acting");
+        assert!(summary.contains("Contacts that acted together: at most"), "{summary}");
+        assert!(summary.contains(together), "{summary}");
+        if height == 0.0 {
+            let note = "note: `point/point`: up to 2 contacts can act on it at once, together as stiff as 2.000e6 N/m";
+            assert!(out.contains(note) && out.contains("up to 2.828e-3 s is surely stable"), "{out}");
+            let (_, careless, _) = pong(&here, "advise scene.ron --depth-within 1e4 --rebound-within 1e4");
+            let before = "Before that, 2 contacts together on `point/point` may gain energy";
+            assert!(careless.contains(before), "{careless}");
+            assert!(err.contains(note) && !err.contains("warning: `point"), "{err}");
+            assert!(summary.contains("the step is 0.003 s, and they may have gained energy"), "{summary}");
+        } else {
+            assert!(summary.contains("surely stable to 0.004 s; the step is shorter"), "{summary}");
+        }
+        let (_, _, err) = pong(&here, "run scene.ron --quiet");
+        assert!(!err.contains("note:"), "{err}");
+    }
+}
+
 #[test]
 fn wrong_wishes_are_refused() {
     let here = folder("wrong_wishes", r#""advised": (stiffness: 1e4)"#, "RungeKutta4", 1e-3);

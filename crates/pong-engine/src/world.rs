@@ -1,7 +1,7 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
 use crate::account::{Account, PairAccount, WrenchUse};
-use crate::advice::{self, GroupMass, StepPlan, StepReport};
+use crate::advice::{self, ActingReport, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
 use crate::frame::Passed;
@@ -10,7 +10,7 @@ use crate::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
 use crate::running::Running;
 use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
-use crate::sealed::{self, SealReport, SetupWarning};
+use crate::sealed::{self, SealReport};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_model::{Model, Surface};
@@ -179,6 +179,11 @@ impl World {
         Ok(())
     }
 
+    /// The step told by [`plan_step`](Self::plan_step).
+    pub fn step_plan(&self) -> Option<&StepPlan> {
+        self.scene.step_plan.as_ref()
+    }
+
     /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
     /// and takes it, and starts the workers. From here on frames take no memory and give none back.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
@@ -188,7 +193,11 @@ impl World {
             let (scene, masses) = (&*self.scene, &self.scene.masses);
             let setting =
                 advice::Setting { scene, group_pairs: &sealed.group_pairs, tables: &tables, masses };
-            report.warnings.extend(advice::warnings(&setting.report(plan), plan));
+            let step = setting.report(plan);
+            report.stable_step = Some(step.stable_step());
+            report.surely_stable_step = Some(step.surely_stable_step());
+            report.warnings.extend(step.warnings);
+            report.notes = step.notes;
         }
         let running = Running::start(&self.scene, sealed, tables, self.clock)?;
         report.workers = running.worker_starts().to_vec();
@@ -583,26 +592,45 @@ impl World {
         Ok(self.states.bodies[self.interface_index(interface)?].as_ref())
     }
 
-    /// What a step can hold in this scene, by the masses given before the seal and those given here (which go first),
-    /// and the warnings that it makes.
+    /// What a step can hold in this scene, by the masses given before the seal and those given here (which go first).
     pub fn step_report(
         &self,
         plan: &StepPlan,
         masses: &[(InterfaceId, GroupMass)],
-    ) -> Result<(StepReport, Vec<SetupWarning>), EngineError> {
+    ) -> Result<StepReport, EngineError> {
         let running = self.running("ask what a step can hold")?;
         plan.check()?;
+        let all = self.all_masses(masses)?;
+        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
+        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
+        Ok(setting.report(plan))
+    }
+
+    /// What the contacts of the last frame, all that push in it, leave of a step: exact levers and normals instead of the
+    /// bound that [`step_report`](Self::step_report) has before anything touches. Computed when it is asked for; masses as
+    /// there.
+    pub fn acting_report(
+        &self,
+        plan: &StepPlan,
+        masses: &[(InterfaceId, GroupMass)],
+    ) -> Result<ActingReport, EngineError> {
+        plan.check()?;
+        let running = self.framed()?;
+        let all = self.all_masses(masses)?;
+        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
+        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
+        Ok(advice::acting(&setting, &running.sealed, &running.frame, plan))
+    }
+
+    /// The masses told before the seal, those given here in their place.
+    fn all_masses(&self, masses: &[(InterfaceId, GroupMass)]) -> Result<Vec<Option<GroupMass>>, EngineError> {
         let mut all = self.scene.masses.clone();
         for (interface, mass) in masses {
             let index = self.interface_index(*interface)?;
             mass.check(&self.scene.body_name(index))?;
             all[index] = Some(*mass);
         }
-        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
-        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
-        let report = setting.report(plan);
-        let warnings = advice::warnings(&report, plan);
-        Ok((report, warnings))
+        Ok(all)
     }
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.

@@ -1,7 +1,10 @@
 //! Numbers at the ends of their range: what cannot be computed is refused, and the next good frame is as it would have
 //! been. Found by the fuzz targets (docs/fuzzing.md).
 
-use pong_engine::{Config, EngineError, InterfaceId, State, StateError, World};
+use pong_engine::{
+    Config, EngineError, FrictionProps, InterfaceId, Laws, State, StateError, World, combine_surfaces,
+};
+use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
 
 const CHECKSUM: usize = 8;
@@ -14,12 +17,12 @@ struct Rig {
 }
 
 impl Rig {
-    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m).
-    fn new(stiffness: &str) -> Self {
+    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m) and damping (N·s/m).
+    fn new(stiffness: &str, damping: &str) -> Self {
         let text = format!(
             r#"(format: "pong-model", version: 1, name: "ball",
                 surfaces: {{"s": (stiffness: 1.0, normal: Linear(damping: 1.0), friction: Bristle(mu: 0.3))}},
-                pairs: [(surfaces: ("s", "s"), stiffness: {stiffness})],
+                pairs: [(surfaces: ("s", "s"), stiffness: {stiffness}, normal: Linear(damping: {damping}))],
                 root: (name: "ball", surface: "s", primitives: [Sphere(name: "b", center: (0, 0, 0), radius: 1)]))"#
         );
         let mut world = World::new(Config { ledger: true, contact_capacity: Some(2), ..Config::default() });
@@ -53,17 +56,17 @@ impl Rig {
     }
 }
 
-/// Near the largest number there is: a depth of 1e-3 m is a force, one of 1.9 m is none.
-const STIFF: &str = "1.7e308";
+/// Near the largest number there is: at 0.1 m/s it is a force, at 100 m/s none.
+const DAMPING: &str = "1e307";
 
 #[test]
 fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
-    let mut rig = Rig::new(STIFF);
+    let mut rig = Rig::new("1e6", DAMPING);
     rig.set(1, [1.999, 0.0, 0.0], 0.1);
     rig.world.step().unwrap();
     let before = rig.saved();
 
-    rig.set(1, [0.1, 0.0, 0.0], 0.1);
+    rig.set(1, [0.1, 0.0, 0.0], 100.0);
     match rig.world.step() {
         Err(EngineError::NotFinite { interface }) => assert!(interface.starts_with("a/"), "{interface}"),
         other => panic!("{other:?}"),
@@ -80,7 +83,7 @@ fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
     rig.set(1, [1.999, 0.0, 0.0], 0.1);
     rig.world.restore_state(&before).unwrap();
     rig.world.evaluate().unwrap();
-    let mut other = Rig::new(STIFF);
+    let mut other = Rig::new("1e6", DAMPING);
     other.world.restore_state(&before).unwrap();
     other.set(1, [1.999, 0.0, 0.0], 0.1);
     other.world.evaluate().unwrap();
@@ -89,7 +92,7 @@ fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
 
 #[test]
 fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_right() {
-    let mut rig = Rig::new("1e6");
+    let mut rig = Rig::new("1e6", "1.0");
     rig.world.step().unwrap();
     let good = rig.saved();
     let body = good.len() - CHECKSUM;
@@ -123,4 +126,61 @@ fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_ri
     }
     // Two totals, two poses of seven, one record of fifteen numbers.
     assert!(refused >= 2 * (2 + 14 + 15), "{refused}");
+}
+
+fn surface(stiffness: f64, exponent: Exponent) -> Surface {
+    let normal = match exponent {
+        Exponent::One => NormalLaw::Linear { damping: 1.0, ramp: 0.0 },
+        Exponent::ThreeHalves => NormalLaw::HuntCrossley { dissipation: 0.1, exponent },
+    };
+    let friction =
+        FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: Some(stiffness), damping: 0.0 };
+    Surface { name: "s".to_owned(), stiffness, normal, friction }
+}
+
+/// Two springs in series yield more than either and less than the softer alone twice over, whatever their stiffness.
+#[test]
+fn stiffnesses_at_the_ends_of_their_range_are_springs_in_series() {
+    let ends = [Surface::SOFTEST, 1.0, Surface::STIFFEST];
+    for exponent in [Exponent::One, Exponent::ThreeHalves] {
+        for (k_a, k_b) in ends.into_iter().flat_map(|a| ends.into_iter().map(move |b| (a, b))) {
+            let (a, b) = (surface(k_a, exponent), surface(k_b, exponent));
+            let props = combine_surfaces(&a, &b, None, &Laws::default()).unwrap();
+            let softer = k_a.min(k_b);
+            assert!(props.stiffness <= softer && props.stiffness > 0.35 * softer, "{k_a} {k_b}: {props:?}");
+            assert!((0.0..=1.0).contains(&props.share_a), "{props:?}");
+            let FrictionProps::Bristle { stiffness, .. } = props.friction else { panic!("no bristle") };
+            assert!(stiffness <= softer && stiffness >= 0.5 * softer, "{k_a} {k_b}: {stiffness}");
+        }
+    }
+}
+
+/// As stiff as may be, a metre deep and more: a frame of numbers.
+#[test]
+fn the_stiffest_contact_has_a_force() {
+    let mut rig = Rig::new("1e100", "1.0");
+    rig.set(1, [0.1, 0.0, 0.0], 0.1);
+    rig.world.step().unwrap();
+    let force = rig.world.wrench(rig.interfaces[0]).unwrap().force.norm();
+    assert!((force / 1.9e100 - 1.0).abs() < 0.1, "{force}");
+}
+
+#[test]
+fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
+    let mut rig = Rig::new("1e6", "1.0");
+    let model = rig.world.models().next().unwrap().0;
+    let good = rig.world.surface(model, "s").unwrap().clone();
+    for k in [1.01e100, f64::MAX, 0.99e-100, 5e-324] {
+        let bad = Surface { stiffness: k, ..good.clone() };
+        let bristle = FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: Some(k), damping: 0.0 };
+        for bad in [bad, Surface { friction: bristle, ..good.clone() }] {
+            match rig.world.set_surface(model, &bad) {
+                Err(EngineError::BadValue { what, cause }) => {
+                    assert!(what.contains("`s`") && cause.contains("1e-100 and 1e100"), "{what}: {cause}");
+                }
+                other => panic!("{k}: {other:?}"),
+            }
+        }
+    }
+    assert_eq!(rig.world.surface(model, "s").unwrap(), &good);
 }

@@ -5,12 +5,27 @@
 pub struct Surface {
     /// Name, unique in the model.
     pub name: String,
-    /// Normal stiffness: N/m, or N/m^1.5 with the exponent 3/2; infinite means rigid.
+    /// Normal stiffness: N/m, or N/m^1.5 with the exponent 3/2; infinite means rigid. If finite, within
+    /// [`SOFTEST`](Self::SOFTEST) and [`STIFFEST`](Self::STIFFEST).
     pub stiffness: f64,
     /// Normal force law and its damping.
     pub normal: NormalLaw,
     /// Friction law.
     pub friction: FrictionLaw,
+}
+
+impl Surface {
+    /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
+    /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
+    /// do sums of stiffnesses.
+    pub const STIFFEST: f64 = 1e100;
+    /// The softest, N/m: its inverse and its share of the yield stay within that range.
+    pub const SOFTEST: f64 = 1e-100;
+
+    /// Whether a spring may have this stiffness, if it is not rigid.
+    pub fn can_be_so_stiff(stiffness: f64) -> bool {
+        (Self::SOFTEST..=Self::STIFFEST).contains(&stiffness)
+    }
 }
 
 /// The normal force law of a surface (physics contract, section 3).

@@ -91,6 +91,16 @@ fn faults_of_the_top_level() {
 fn faults_of_surfaces() {
     surface("not-positive", "surfaces/t", "\"t\": (/*!*/stiffness: 0)");
     surface("not-finite", "surfaces/t", "\"t\": (/*!*/stiffness: NaN)");
+    for stiffness in ["1.1e100", "1.7e308", "0.9e-100", "5e-324"] {
+        surface("stiffness-range", "surfaces/t", &format!("\"t\": (/*!*/stiffness: {stiffness})"));
+        let bristle = format!("\"t\": (stiffness: 1, friction: Bristle(mu: 1, /*!*/stiffness: {stiffness}))");
+        surface("stiffness-range", "surfaces/t", &bristle);
+    }
+    surface(
+        "restitution-range",
+        "surfaces/t",
+        "\"t\": (stiffness: 1e100, normal: Linear(/*!*/restitution: (e: 0.5, mass: 1e300)))",
+    );
     surface("repeated-surface", "surfaces/s", "/*!*/\"s\": (stiffness: 1)");
     surface("empty-name", "surfaces/", "/*!*/\"\": (stiffness: 1)");
     surface("negative", "surfaces/t", "\"t\": (stiffness: 1, normal: Linear(/*!*/damping: -1))");
@@ -144,6 +154,9 @@ fn faults_of_pairs() {
     pair("unknown-surface", "(/*!*/surfaces: (\"a\", \"b\"))");
     pair("wrong-type", "(/*!*/surfaces: (\"a\",))");
     pair("not-positive", "(surfaces: (\"s\", \"b\"), /*!*/stiffness: 0)");
+    pair("not-finite", "(surfaces: (\"s\", \"b\"), /*!*/stiffness: inf)");
+    pair("stiffness-range", "(surfaces: (\"s\", \"b\"), /*!*/stiffness: 1e101)");
+    pair("stiffness-range", "(surfaces: (\"s\", \"b\"), /*!*/stiffness: 1e-101)");
     pair(
         "restitution-without-stiffness",
         "(surfaces: (\"s\", \"b\"),\n/*!*/ normal: Linear(restitution: (e: 0.5, mass: 1)))",

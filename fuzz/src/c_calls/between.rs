@@ -157,7 +157,7 @@ impl Session<'_> {
                 let linear = values.normal_law == 0;
                 // Others may belong to a law that the surface has not.
                 match which {
-                    0 => number > 0.0,
+                    0 => (1e-100..=1e100).contains(&number) || number == f64::INFINITY,
                     1 | 2 if linear => number >= 0.0 && number.is_finite(),
                     _ => true,
                 }

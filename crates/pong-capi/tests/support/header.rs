@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 24] = [
+const FILES: [&str; 25] = [
     "status",
     "version",
     "config",
@@ -20,6 +20,7 @@ const FILES: [&str; 24] = [
     "pairs",
     "interfaces",
     "primitives",
+    "step_plan",
     "seal",
     "frames",
     "contacts",

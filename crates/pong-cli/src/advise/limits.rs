@@ -1,7 +1,7 @@
 //! What a step can hold: a table of contacts, and what goes wrong first.
 
-use crate::text::{number, table};
-use pong_engine::advice::{PairLimits, StepPlan, StepReport};
+use crate::text::{count, number, table};
+use pong_engine::advice::{GroupLimits, PairLimits, StepPlan, StepReport};
 
 /// The table and the verdict.
 pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
@@ -21,12 +21,37 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
         ];
         let rows: Vec<Vec<String>> = report.pairs.iter().map(|pair| row(pair, plan)).collect();
         text += &table(&heading, &rows);
+        text += &together(report);
         text += &first_to_fail(report, plan);
     }
     for cause in &report.not_judged {
         text += &format!("not judged: {cause}\n");
     }
     text
+}
+
+/// What can act on one movable group at once.
+fn together(report: &StepReport) -> String {
+    if report.groups.is_empty() {
+        return String::new();
+    }
+    let heading =
+        ["all that can act at once on", "kg", "primitives", "k N/m", "c N·s/m", "surely stable to s"];
+    let row = |group: &GroupLimits| {
+        vec![
+            group.group.clone(),
+            number(group.mass),
+            group.contacts.to_string(),
+            number(group.spring.stiffness),
+            number(group.spring.damping),
+            number(group.stable_step),
+        ]
+    };
+    let rows: Vec<Vec<String>> = report.groups.iter().map(row).collect();
+    let scene = report.surely_stable_step();
+    "A bound of their sums (levers and inertia counted; docs/advise.md):\n".to_owned()
+        + &table(&heading, &rows)
+        + &format!("  the scene is surely stable to {} s\n", number(scene))
 }
 
 fn row(pair: &PairLimits, plan: &StepPlan) -> Vec<String> {
@@ -71,5 +96,19 @@ fn first_to_fail(report: &StepReport, plan: &StepPlan) -> String {
         (_, true) => format!("beyond {} s, and the step is {} s", number(step), number(plan.step)),
         (_, false) => format!("beyond {} s; the step is shorter", number(step)),
     };
-    format!("First to go wrong: {what} {when}\n")
+    format!("First to go wrong: {what} {when}\n") + &may_go_wrong(report, step)
+}
+
+/// What may go wrong before that, and need not.
+fn may_go_wrong(report: &StepReport, first: f64) -> String {
+    let worst = report.groups.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step));
+    match worst {
+        Some(group) if group.stable_step < first => format!(
+            "Before that, {} on `{}` may gain energy beyond {} s\n",
+            count(group.contacts, "contact", "contacts together"),
+            group.group,
+            number(group.stable_step)
+        ),
+        _ => String::new(),
+    }
 }

@@ -1,5 +1,6 @@
 //! `pong run`: runs a scene, records it, sums it up.
 
+mod acting;
 mod outputs;
 mod statistics;
 mod summary;
@@ -36,7 +37,11 @@ pub(crate) struct Arguments {
     /// Replaces a log that is in the folder.
     #[arg(long, requires = "log")]
     overwrite: bool,
-    /// No progress bar and no summary; warnings and errors stay.
+    /// Has the step held against the contacts that really act together, at every step, and tells the worst in the
+    /// summary (docs/advise.md).
+    #[arg(long, conflicts_with = "quiet")]
+    acting: bool,
+    /// No progress bar, no notes and no summary; warnings and errors stay.
     #[arg(short, long)]
     quiet: bool,
 }
@@ -70,7 +75,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for warning in built.simulation.step_warnings() {
         eprintln!("warning: {warning}");
     }
-    let mut statistics = Statistics::new(&built);
+    if !arguments.quiet {
+        built.simulation.step_notes().iter().for_each(|note| eprintln!("note: {note}"));
+    }
+    let mut statistics = Statistics::new(&built, arguments.acting);
     let ended = run(arguments, &mut built, &mut statistics);
     if !arguments.quiet {
         print(&summary::summary(&built, &statistics));

@@ -1,5 +1,6 @@
 //! What a run is summed up from, gathered at every step.
 
+use super::acting::Acting;
 use pong_engine::{Contact, InterfaceId, StatusBits};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{Energy, Simulation, Vec3, Wrench};
@@ -37,10 +38,13 @@ pub(super) struct Statistics {
     /// Steps in which something went through something else, and the first of them in words.
     passages: u64,
     first_passage: String,
+    /// If it is asked for.
+    pub acting: Option<Acting>,
 }
 
 impl Statistics {
-    pub fn new(built: &BuiltScene) -> Self {
+    /// `acting`: whether what acts together is held against the step.
+    pub fn new(built: &BuiltScene, acting: bool) -> Self {
         let bodies = built.simulation.bodies();
         let none = BodyStatistics {
             peak_force: 0.0,
@@ -63,6 +67,7 @@ impl Statistics {
             contacts_wanted: None,
             passages: 0,
             first_passage: String::new(),
+            acting: acting.then(|| Acting::new(built.simulation.step_plan())),
         }
     }
 
@@ -90,6 +95,7 @@ impl Statistics {
         if simulation.world().contact_count() > 0 {
             self.count(&simulation.world().contacts());
         }
+        self.acting.iter_mut().for_each(|acting| acting.observe(simulation));
         let report = simulation.world().report();
         if report.status.contains(StatusBits::WENT_THROUGH) {
             self.passages += 1;

@@ -1,5 +1,6 @@
 //! What a run comes to, as text.
 
+use super::acting::Acting;
 use super::statistics::Statistics;
 use crate::text::{count, number, numbers, table};
 use pong_engine::{PairAccount, Verdict};
@@ -12,6 +13,7 @@ pub(super) fn summary(built: &BuiltScene, statistics: &Statistics) -> String {
     text += &ends(simulation);
     text += &contacts(simulation, statistics);
     text += &energies(built, statistics);
+    text += &statistics.acting.as_ref().map_or_else(String::new, Acting::told);
     if let Some([median, most, longest]) = statistics.step_times_us() {
         let [median, most, longest] = [median, most, longest].map(number);
         text += &format!("Time per step: median {median} µs, 99 % within {most} µs, longest {longest} µs\n");

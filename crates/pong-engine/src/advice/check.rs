@@ -1,12 +1,14 @@
-//! Every pair of movable groups against the host's step: single contacts.
+//! Every pair of movable groups against the host's step: single contacts, and all that can act on one group at once.
 
 use super::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
-use super::coupling::{Coupling, longest_stable_step};
+use super::coupling::{Coupling, longest_stable_step, surely_stable_step};
 use super::mass::{GroupMass, StepPlan};
 use super::spring::{ContactSprings, Spring, springs};
+use super::together::{Load, pair_load};
+use super::warn::{notes, warnings};
 use crate::law::PairProps;
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, SurfaceTable, can_be_tested};
+use crate::sealed::{GroupPair, SetupNote, SetupWarning, SurfaceTable, can_be_tested};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the adviser looks at.
@@ -53,13 +55,36 @@ pub struct PairLimits {
     pub bounce: Option<BounceLimit>,
 }
 
+/// All contacts that can act on one movable group at once (`together.rs` says which).
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupLimits {
+    /// `object/path`.
+    pub group: String,
+    /// Its mass, kg.
+    pub mass: f64,
+    /// Primitives that can press at once, at most.
+    pub contacts: usize,
+    /// Of the stiffest mode: the stiffness and damping that a contact in line with the mass centre would need for it.
+    pub spring: Spring,
+    /// The least damping over stiffness of any spring among them, s.
+    pub least_damped: f64,
+    /// The longest step at which every mode is surely stable, s; 0 if there is none.
+    pub stable_step: f64,
+}
+
 /// What the adviser found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StepReport {
     /// Pairs of movable groups, one of which at least yields.
     pub pairs: Vec<PairLimits>,
+    /// Movable groups that yield and can be touched.
+    pub groups: Vec<GroupLimits>,
     /// What could not be judged, and why.
     pub not_judged: Vec<String>,
+    /// What goes wrong at the step, those of instability first.
+    pub warnings: Vec<SetupWarning>,
+    /// What may go wrong at the step, and need not.
+    pub notes: Vec<SetupNote>,
 }
 
 impl StepReport {
@@ -69,12 +94,18 @@ impl StepReport {
         let all = self.pairs.iter().map(|pair| pair.normal).chain(friction);
         all.map(|limit| limit.stable_step).fold(f64::INFINITY, f64::min)
     }
+
+    /// The step at which the scene is surely stable, whatever touches at once, s; infinite if nothing can.
+    pub fn surely_stable_step(&self) -> f64 {
+        self.groups.iter().map(|group| group.stable_step).fold(self.stable_step(), f64::min)
+    }
 }
 
 impl Setting<'_> {
     pub fn report(&self, plan: &StepPlan) -> StepReport {
         let mut report = StepReport::default();
         let mut untold = BTreeSet::new();
+        let mut loads: BTreeMap<usize, (Load, f64)> = BTreeMap::new();
         for pair in self.group_pairs {
             let names = [pair.first, pair.second].map(|body| self.scene.body_name(body));
             let met = self.met(pair);
@@ -99,10 +130,35 @@ impl Setting<'_> {
                 }
             }
             report.pairs.extend(pair_limits(names, mass, &known, plan));
+            let ratio = known.iter().map(ContactSprings::least_damped).fold(f64::INFINITY, f64::min);
+            let load = pair_load(self, pair, mass, plan);
+            for body in [pair.first, pair.second] {
+                let (sum, least) = loads.entry(body).or_insert((Load::default(), f64::INFINITY));
+                (*sum, *least) = (sum.plus(load), least.min(ratio));
+            }
         }
+        let limits =
+            loads.iter().filter_map(|(&body, (load, ratio))| self.group_limits(body, load, *ratio, plan));
+        report.groups = limits.collect();
         report.not_judged.dedup();
         report.not_judged.extend(untold.iter().map(|name| format!("`{name}`: no mass is given")));
+        report.warnings = warnings(&report, plan);
+        report.notes = notes(&report, plan).into_iter().collect();
         report
+    }
+
+    /// `None` for what does not yield or cannot be touched.
+    fn group_limits(&self, body: usize, load: &Load, ratio: f64, plan: &StepPlan) -> Option<GroupLimits> {
+        let mass = self.masses[body].map(|known| known.mass).filter(|mass| mass.is_finite())?;
+        let (stiffness, damping) = (load.stiffness_rate, load.damping_rate);
+        (load.contacts > 0).then(|| GroupLimits {
+            group: self.scene.body_name(body),
+            mass,
+            contacts: load.contacts,
+            spring: Spring { stiffness: stiffness * mass, damping: damping * mass },
+            least_damped: ratio,
+            stable_step: surely_stable_step(plan.coupling, stiffness, damping, ratio),
+        })
     }
 
     /// 1/(1/m₁ + 1/m₂); `None` if neither yields.

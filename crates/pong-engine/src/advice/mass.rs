@@ -3,6 +3,7 @@
 use super::bounce::Accuracy;
 use super::coupling::Coupling;
 use crate::error::EngineError;
+use crate::scene::State;
 use pong_geometry::Mat3;
 
 /// Mass properties of a movable group, for the step adviser alone.
@@ -44,13 +45,19 @@ impl GroupMass {
                 self.mass
             ));
         }
-        if self.mass_center.iter().any(|x| !x.is_finite()) {
-            return bad("the mass centre is not finite; give three finite coordinates".to_owned());
+        let beyond = |x: &f64| x.is_nan() || x.abs() > State::LARGEST;
+        if self.mass.is_finite() && (beyond(&self.mass) || beyond(&(1.0 / self.mass))) {
+            let cause = format!("it is {:e} kg; give 1e-100 to 1e100, or infinity", self.mass);
+            return bad(cause);
         }
-        if self.inertia.iter().any(|x| !x.is_finite()) {
+        if self.mass_center.iter().any(beyond) {
             return bad(
-                "the inertia is not finite; give finite moments, or zeros if they are not known".to_owned()
+                "the mass centre is not finite or beyond 1e100 m; give three finite coordinates".to_owned()
             );
+        }
+        if self.inertia.iter().any(beyond) {
+            let cause = "the inertia is not finite or beyond 1e100 kg·m²; give finite moments, or zeros if they are not known";
+            return bad(cause.to_owned());
         }
         if self.tensor().is_some_and(|tensor| tensor.cholesky().is_none()) {
             let cause = "no body has this inertia; its principal moments must be above zero, or all values zero if \
@@ -84,7 +91,7 @@ impl StepPlan {
     /// Refuses values that no host can have.
     pub(crate) fn check(&self) -> Result<(), EngineError> {
         /// Wrenches that are later than this are likelier a slip of the pen.
-        const LATE_MAX: u32 = 1000;
+        const LATE_MAX: u32 = 100;
         let bad = |cause: String| Err(EngineError::BadValue { what: "step plan".to_owned(), cause });
         let positive = |value: f64| value > 0.0 && value.is_finite();
         if !positive(self.step) {

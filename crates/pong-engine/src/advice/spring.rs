@@ -23,6 +23,16 @@ pub(super) struct ContactSprings {
     pub bounces_by_formula: bool,
 }
 
+impl ContactSprings {
+    /// The least damping over stiffness of its springs, s.
+    pub fn least_damped(&self) -> f64 {
+        let of = |spring: &Spring| {
+            if spring.stiffness > 0.0 { spring.damping / spring.stiffness } else { f64::INFINITY }
+        };
+        of(&self.normal).min(self.friction.as_ref().map_or(f64::INFINITY, of))
+    }
+}
+
 /// The springs of a pair of surfaces on an effective mass (kg), or why they are not known.
 pub(super) fn springs(
     props: &PairProps,
@@ -30,38 +40,63 @@ pub(super) fn springs(
     speed: Option<f64>,
 ) -> Result<ContactSprings, &'static str> {
     let k = props.stiffness;
-    let plain = |damping| Spring { stiffness: k, damping };
-    let (normal, bounces_by_formula) = match &props.normal {
-        NormalProps::Linear { damping, ramp } => (plain(*damping), *ramp == 0.0),
+    let depth = match (&props.normal, speed) {
+        (NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. }, None) => {
+            return Err("a contact of exponent 3/2 is as stiff as it is deep, and no closing speed is given");
+        }
+        (NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. }, Some(speed)) => {
+            hertz_depth(k, mass, speed)
+        }
+        // Without a speed the damping is what it is at touch.
+        _ => speed.map_or(0.0, |speed| speed * (mass / k).sqrt()),
+    };
+    let (normal, bounces_by_formula) = normal_spring(props, depth)?;
+    // That of a bounce.
+    let load = speed.map(|speed| speed * (normal.stiffness * mass).sqrt().max(normal.damping));
+    Ok(ContactSprings { normal, friction: friction_spring(props, load)?, bounces_by_formula })
+}
+
+/// The springs of a contact that is so deep (m) and pressed so hard (N), or why they are not known.
+pub(super) fn pressed_springs(
+    props: &PairProps,
+    depth: f64,
+    load: f64,
+) -> Result<ContactSprings, &'static str> {
+    let (normal, bounces_by_formula) = normal_spring(props, depth)?;
+    Ok(ContactSprings { normal, friction: friction_spring(props, Some(load))?, bounces_by_formula })
+}
+
+/// The tangent at a depth, and whether the law is that of `bounce.rs`.
+fn normal_spring(props: &PairProps, depth: f64) -> Result<(Spring, bool), &'static str> {
+    let k = props.stiffness;
+    Ok(match &props.normal {
+        NormalProps::Linear { damping, ramp } => (Spring { stiffness: k, damping: *damping }, *ramp == 0.0),
         NormalProps::HuntCrossley { dissipation, exponent: Exponent::One } => {
-            // Without a speed the damping is what it is at touch.
-            let depth = speed.map_or(0.0, |speed| speed * (mass / k).sqrt());
-            (plain(k * depth * dissipation), false)
+            (Spring { stiffness: k, damping: k * depth * dissipation }, false)
         }
         NormalProps::HuntCrossley { dissipation, exponent: Exponent::ThreeHalves } => {
-            let speed = speed.ok_or(
-                "a contact of exponent 3/2 is as stiff as it is deep, and no closing speed is given",
-            )?;
-            let root = hertz_depth(k, mass, speed).sqrt();
+            let root = depth.sqrt();
             let damping = k * root * root * root * dissipation;
             (Spring { stiffness: 1.5 * k * root, damping }, false)
         }
         NormalProps::Custom { .. } => return Err("a normal law of the host's is not known here"),
-    };
-    let friction = match &props.friction {
+    })
+}
+
+/// Of friction that sticks under a load; `None` if nothing grips.
+fn friction_spring(props: &PairProps, load: Option<f64>) -> Result<Option<Spring>, &'static str> {
+    Ok(match &props.friction {
         FrictionProps::None => None,
         FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => {
             let grips = *mu_kinetic > 0.0 || *mu_static > 0.0;
             grips.then_some(Spring { stiffness: *stiffness, damping: *damping })
         }
-        // μN/v_ε up to the slip speed; N that of a bounce, unknown without a speed.
-        FrictionProps::Coulomb { mu, slip_speed } => speed.map(|speed| {
-            let load = speed * (normal.stiffness * mass).sqrt().max(normal.damping);
-            Spring { stiffness: 0.0, damping: mu * load / slip_speed }
-        }),
+        // μN/v_ε up to the slip speed; unknown without a load.
+        FrictionProps::Coulomb { mu, slip_speed } => {
+            load.map(|load| Spring { stiffness: 0.0, damping: mu * load / slip_speed })
+        }
         FrictionProps::Custom { .. } => return Err("a friction law of the host's is not known here"),
-    };
-    Ok(ContactSprings { normal, friction, bounces_by_formula })
+    })
 }
 
 /// ½mv² = ⅖·k·δ^(5/2).

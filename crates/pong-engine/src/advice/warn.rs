@@ -1,15 +1,16 @@
 //! What the step check tells before the first frame.
 
-use super::check::{PairLimits, SpringLimit, StepReport};
+use super::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
 use super::coupling::Coupling;
 use super::mass::StepPlan;
-use crate::sealed::SetupWarning;
+use super::spring::Spring;
+use crate::sealed::{SetupNote, SetupWarning};
 
 /// An undamped wrench that is held gains a little at any step: below this ω·dt that is left to the host.
 const HELD_UNDAMPED: f64 = 0.1;
 
 /// All warnings of a report, those of instability first.
-pub(crate) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning> {
+pub(super) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning> {
     let mut told = Vec::new();
     for pair in &report.pairs {
         told.extend(unstable(pair, plan).map(|told| SetupWarning::StepTooLong { told }));
@@ -19,6 +20,17 @@ pub(crate) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning
     }
     told.extend(report.not_judged.iter().map(|cause| SetupWarning::StepNotJudged { told: cause.clone() }));
     told
+}
+
+/// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same.
+pub(super) fn notes(report: &StepReport, plan: &StepPlan) -> Option<SetupNote> {
+    let warned = |group: &GroupLimits| {
+        report.pairs.iter().any(|pair| pair.groups.contains(&group.group) && unstable(pair, plan).is_some())
+    };
+    let together = report.groups.iter().filter(|group| !warned(group) && may_grow(group, plan));
+    let together: Vec<&GroupLimits> = together.collect();
+    let worst = together.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step))?;
+    Some(SetupNote::StepMayBeTooLong { told: may(worst, together.len() - 1, plan) })
 }
 
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
@@ -39,6 +51,34 @@ fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
         "`{a}` and `{b}`: friction of {k:.3e} N/m and {c:.3e} N·s/m on {mass:.3e} kg gains energy at a step of \
          {step:.3e} s; {cure}"
     ))
+}
+
+fn may_grow(group: &GroupLimits, plan: &StepPlan) -> bool {
+    // Of springs without damping the sum is left to the host where one of them would be.
+    let damping = if group.least_damped > 0.0 { group.spring.damping } else { 0.0 };
+    let spring = Spring { damping, ..group.spring };
+    grows(&SpringLimit { spring, stable_step: group.stable_step }, group.mass, plan)
+}
+
+fn may(worst: &GroupLimits, others: usize, plan: &StepPlan) -> String {
+    let GroupLimits { group, contacts, spring, stable_step, .. } = worst;
+    let who = match contacts {
+        1 => "a contact with its lever and friction can be".to_owned(),
+        _ => format!("up to {contacts} contacts can act on it at once, together"),
+    };
+    let surely = match stable_step {
+        0.0 => "no step is surely stable without damping of every contact".to_owned(),
+        _ => format!("up to {stable_step:.3e} s is surely stable"),
+    };
+    let others = match others {
+        0 => String::new(),
+        1 => "; so it is with 1 more movable group".to_owned(),
+        _ => format!("; so it is with {others} more movable groups"),
+    };
+    format!(
+        "`{group}`: {who} as stiff as {:.3e} N/m at its mass centre; a step of {:.3e} s may gain energy then, {surely}{others}",
+        spring.stiffness, plan.step,
+    )
 }
 
 fn grows(limit: &SpringLimit, mass: f64, plan: &StepPlan) -> bool {

@@ -8,7 +8,7 @@ mod warnings;
 pub(crate) use limits::Limits;
 pub(crate) use plan::Plan;
 pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
-pub use warnings::SetupWarning;
+pub use warnings::{SetupNote, SetupWarning};
 
 use crate::account::WrenchUse;
 use crate::dispatch::has_tester;
@@ -96,8 +96,16 @@ pub struct SealReport {
     pub state_size: usize,
     /// How every worker started: its core and priority, or why it has none.
     pub workers: Vec<WorkerStart>,
-    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
+    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend. What the planned step is
+    /// too long for ([`World::plan_step`](crate::World::plan_step)).
     pub warnings: Vec<SetupWarning>,
+    /// What the planned step may be too long for.
+    pub notes: Vec<SetupNote>,
+    /// The longest step at which no contact by itself gains energy, s; `None` if no step is planned, infinite if nothing
+    /// that yields can be touched.
+    pub stable_step: Option<f64>,
+    /// The step up to which the scene is surely stable, whatever touches at once, s; `None` if no step is planned.
+    pub surely_stable_step: Option<f64>,
 }
 
 pub(crate) fn seal(
@@ -157,6 +165,9 @@ pub(crate) fn seal(
         state_size: sealed.state_size(),
         workers: Vec::new(),
         warnings: warnings(scene, &sealed.group_pairs),
+        notes: Vec::new(),
+        stable_step: None,
+        surely_stable_step: None,
     };
     Ok((sealed, tables, report))
 }

@@ -171,6 +171,15 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
     if new.stiffness.is_nan() || new.stiffness <= 0.0 {
         return bad("the stiffness must be positive (infinite means rigid)");
     }
+    let bristle = match &new.friction {
+        FrictionLaw::Bristle { stiffness, .. } => *stiffness,
+        _ => None,
+    };
+    let springs =
+        [Some(new.stiffness).filter(|k| k.is_finite()), bristle.filter(|k| k.is_finite() && *k > 0.0)];
+    if springs.into_iter().flatten().any(|k| !Surface::can_be_so_stiff(k)) {
+        return bad("stiffnesses must lie within 1e-100 and 1e100 N/m, beyond which forces are no numbers");
+    }
     let numbers: &[f64] = match &new.normal {
         NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
         NormalLaw::HuntCrossley { dissipation, .. } => &[*dissipation],

@@ -52,6 +52,25 @@ impl std::fmt::Display for SetupWarning {
     }
 }
 
+/// What may go wrong, and nothing proves that it will: no reason to change a scene that runs well.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SetupNote {
+    /// If all contacts that can act on one movable group act at once, the planned step may gain energy; one contact
+    /// alone does not ([`SetupWarning::StepTooLong`]).
+    StepMayBeTooLong {
+        /// The movable group, how many contacts, and the longest step that is surely stable.
+        told: String,
+    },
+}
+
+impl std::fmt::Display for SetupNote {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::StepMayBeTooLong { told } => f.write_str(told),
+        }
+    }
+}
+
 /// Everything about a scene that its author may not have intended.
 pub(super) fn warnings(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<SetupWarning> {
     let mut found = BTreeSet::new();

@@ -7,8 +7,8 @@ use crate::error::ExecutiveError;
 use crate::integrate::Integrator;
 use crate::stability::{coupling, group_mass};
 use crate::state::FreeState;
-use pong_engine::advice::{StepPlan, StepReport};
-use pong_engine::{SetupWarning, World};
+use pong_engine::advice::{ActingReport, GroupMass, StepPlan, StepReport};
+use pong_engine::{InterfaceId, SetupWarning, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 impl Simulation {
@@ -30,10 +30,22 @@ impl Simulation {
     /// Warnings about contacts that gain energy at the step, each with the longest stable one
     /// ([`World::step_report`]). What cannot be judged is left out.
     pub fn step_warnings(&self) -> Vec<String> {
-        let plan = StepPlan { accuracy: None, ..self.step_plan() };
-        let Ok((_, warnings)) = self.step_report(&plan) else { return Vec::new() };
-        let judged = warnings.iter().filter(|warning| !matches!(warning, SetupWarning::StepNotJudged { .. }));
+        let Some(report) = self.stability_report() else { return Vec::new() };
+        let of_steps = report.warnings.iter();
+        let judged = of_steps.filter(|warning| !matches!(warning, SetupWarning::StepNotJudged { .. }));
         judged.map(ToString::to_string).collect()
+    }
+
+    /// Notes about contacts that may gain energy at the step if they act together, with the longest step that is surely
+    /// stable ([`World::step_report`]).
+    pub fn step_notes(&self) -> Vec<String> {
+        let report = self.stability_report().unwrap_or_default();
+        report.notes.iter().map(ToString::to_string).collect()
+    }
+
+    /// The step held against instability alone.
+    fn stability_report(&self) -> Option<StepReport> {
+        self.step_report(&StepPlan { accuracy: None, ..self.step_plan() }).ok()
     }
 
     /// Step and integrator as the step adviser knows them; the closing speed is not known.
@@ -41,10 +53,19 @@ impl Simulation {
         StepPlan::new(self.step, coupling(self.integrator))
     }
 
-    /// What a step can hold with the bodies at hand, and the warnings that it makes.
-    pub fn step_report(&self, plan: &StepPlan) -> Result<(StepReport, Vec<SetupWarning>), ExecutiveError> {
-        let touching = self.bodies().filter_map(|(_, body)| Some((body.interface?, group_mass(body))));
-        Ok(self.world().step_report(plan, &touching.collect::<Vec<_>>())?)
+    /// What a step can hold with the bodies at hand.
+    pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport, ExecutiveError> {
+        Ok(self.world().step_report(plan, &self.group_masses())?)
+    }
+
+    /// What the contacts of the present instant leave of a step ([`World::acting_report`]); springs and other loads of the
+    /// scene are left out.
+    pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport, ExecutiveError> {
+        Ok(self.world().acting_report(plan, &self.group_masses())?)
+    }
+
+    fn group_masses(&self) -> Vec<(InterfaceId, GroupMass)> {
+        self.bodies().filter_map(|(_, body)| Some((body.interface?, group_mass(body)))).collect()
     }
 
     /// The world: contacts, wrenches and counts of the present instant.

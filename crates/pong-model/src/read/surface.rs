@@ -53,8 +53,11 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
 /// Above zero; infinite means rigid.
 fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     let value = reader.any_number(node, path)?;
-    if value > 0.0 {
+    if value == f64::INFINITY {
         return Some(value);
+    }
+    if value > 0.0 {
+        return in_range(reader, node, path, value, "the stiffness", "; `inf` is rigid");
     }
     let rule = if value.is_nan() { "not-finite" } else { "not-positive" };
     reader.fault(
@@ -65,6 +68,30 @@ fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
         "it must be above zero; `inf` is rigid",
     );
     None
+}
+
+/// So stiff that no sum or product of the laws leaves the range of numbers.
+fn in_range(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    value: f64,
+    what: &str,
+    otherwise: &str,
+) -> Option<f64> {
+    if Surface::can_be_so_stiff(value) {
+        return Some(value);
+    }
+    let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
+    let cure = format!("give {least:e} to {most:e} N/m{otherwise}");
+    reader.fault(node.at, path, "stiffness-range", format!("{what} is {value:e}"), cure);
+    None
+}
+
+/// Finite, above zero and within the range of stiffnesses.
+fn finite_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str, what: &str) -> Option<f64> {
+    let value = reader.positive(node, path, what)?;
+    in_range(reader, node, path, value, what, "")
 }
 
 /// `known_stiffness` is that of the surface or pair, if it could be read.
@@ -108,7 +135,13 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
         reader.fault(node.at, path, "restitution-of-rigid", cause, cure);
         return None;
     }
-    Some(2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt())
+    let damping = 2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt();
+    if damping.is_finite() {
+        return Some(damping);
+    }
+    let cause = format!("a mass of {mass:e} kg on {stiffness:e} N/m makes more damping than a number holds");
+    reader.fault(node.at, path, "restitution-range", cause, "give a smaller mass or stiffness");
+    None
 }
 
 fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<NormalLaw> {
@@ -178,7 +211,7 @@ fn bristle(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<FrictionL
     let static_excess = optional_not_negative(reader, &fields, path, "static_excess");
     let damping = optional_not_negative(reader, &fields, path, "damping");
     let stiffness = match fields.optional("stiffness") {
-        Some(node) => Some(reader.positive(node, path, "the bristle's stiffness")?),
+        Some(node) => Some(finite_stiffness(reader, node, path, "the bristle's stiffness")?),
         None => None,
     };
     Some(FrictionLaw::Bristle { mu: mu?, static_excess: static_excess?, stiffness, damping: damping? })
@@ -253,7 +286,7 @@ fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surface]) -
 }
 
 fn pair_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
-    reader.positive(node, path, "the stiffness of a pair")
+    finite_stiffness(reader, node, path, "the stiffness of a pair")
 }
 
 /// A restitution needs the stiffness of the pair, which only this entry can tell for certain.

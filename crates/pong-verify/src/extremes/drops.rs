@@ -40,8 +40,8 @@ pub const STEP: Extreme = Extreme {
     set_up: "1,000 random masses, stiffnesses and damping ratios with each of three integrators, at 0.99 and 1.01 times the \
              longest stable step.",
     answer: Answer::Told,
-    limit: "linear, one contact, translation; several contacts at once need shorter steps",
-    also: "case W13",
+    limit: "linear; several contacts at once, and levers, need shorter steps: a note tells the step that is surely stable",
+    also: "case W13, `crates/pong-executive/tests/step_sums.rs`",
     rows: steps,
 };
 

@@ -1,0 +1,167 @@
+//! What the step adviser is told before the seal: masses, and what the host does with the wrench.
+
+use crate::guard::{Failure, Outcome, with_world};
+use crate::ids::pong_interface_id;
+use crate::pointers::{Out, one};
+use crate::status::pong_status;
+use crate::world::pong_world;
+use pong_engine::advice::{Accuracy, Coupling, GroupMass, StepPlan};
+
+/// Mass properties of a movable group, for the step adviser alone: no frame reads them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_mass {
+    /// Mass, kg; INFINITY for a group that does not yield (fixed, or on a prescribed path).
+    pub mass: f64,
+    /// Inertia about the mass centre along the axes of the group frame, kg m^2: Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the
+    /// products those of the tensor itself (Ixy = minus the integral of x y dm). All zero if it is not known: lever
+    /// arms are then left out.
+    pub inertia: [f64; 6],
+    /// The mass centre in the group frame, m.
+    pub mass_center: [f64; 3],
+}
+
+/// At every stage of an integrator of higher order (the classic Runge-Kutta method is meant).
+pub const PONG_COUPLING_STAGES: i32 = 0;
+/// Once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
+pub const PONG_COUPLING_STEP: i32 = 1;
+/// Once a frame, and held until the next.
+pub const PONG_COUPLING_HELD: i32 = 2;
+
+/// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_step_plan {
+    /// The step or frame, s; must be set.
+    pub step: f64,
+    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_HELD by default.
+    pub coupling: i32,
+    /// With PONG_COUPLING_HELD: how many whole frames the wrench comes late, at most 100; 0 by default.
+    pub frames_late: u32,
+    /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
+    /// depth are judged at the depth that this speed makes.
+    pub closing_speed: f64,
+    /// How near the depth of a bounce must come to its closed form; 0.05 by default. 0 in both accuracies: warn of
+    /// contacts that gain energy alone.
+    pub depth_within: f64,
+    /// How near the rebound of a bounce must come to its closed form; 0.02 by default.
+    pub rebound_within: f64,
+    /// Zero.
+    pub reserved: [u64; 4],
+}
+
+/// What the contacts of one frame leave of the planned step.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct pong_acting {
+    /// Contacts that push something that yields.
+    pub contacts: u64,
+    /// Contacts whose masses or laws are not known.
+    pub not_judged: u64,
+    /// The longest step at which they are surely stable together, s; 0 if there is none, infinite if nothing acts.
+    pub stable_step: f64,
+    /// Stiffness over mass of the stiffest way to move, 1/s^2: the square of its frequency in rad/s.
+    pub stiffness_rate: f64,
+    /// Damping over mass of the most damped way to move, 1/s.
+    pub damping_rate: f64,
+}
+
+/// A plan without a step: held wrenches, depth within 5 % and rebound within 2 %.
+#[unsafe(no_mangle)]
+pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
+    let Accuracy { depth, rebound } = Accuracy::default();
+    pong_step_plan {
+        step: 0.0,
+        coupling: PONG_COUPLING_HELD,
+        frames_late: 0,
+        closing_speed: 0.0,
+        depth_within: depth,
+        rebound_within: rebound,
+        reserved: [0; 4],
+    }
+}
+
+/// Tells the mass properties of a movable group, for the check that pong_plan_step() asks for. Before sealing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_set_mass(
+    world: *mut pong_world,
+    interface: pong_interface_id,
+    mass: *const pong_mass,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
+            Ok(inner.world.set_mass(interface.id(), &GroupMass { mass, inertia, mass_center })?)
+        })
+    }
+}
+
+/// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
+/// long for, and what cannot be judged, is told by pong_seal_warning(); what it may be too long for, if enough contacts
+/// act at once, by pong_seal_note(). Before sealing.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let plan = one(plan, "plan")?.check()?;
+            Ok(inner.world.plan_step(&plan)?)
+        })
+    }
+}
+
+/// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
+/// the masses from before the seal, and a frame. Allocates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_acting(world: *const pong_world, acting: *mut pong_acting) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::new(acting, "acting")?;
+            let Some(plan) = inner.world.step_plan() else {
+                let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
+                return Err(Failure::new(pong_status::WrongPhase, message));
+            };
+            let found = inner.world.acting_report(plan, &[])?;
+            out.set(pong_acting {
+                contacts: found.contacts as u64,
+                not_judged: found.not_judged as u64,
+                stable_step: found.stable_step,
+                stiffness_rate: found.stiffness_rate,
+                damping_rate: found.damping_rate,
+            });
+            Ok(())
+        })
+    }
+}
+
+impl pong_step_plan {
+    fn check(&self) -> Outcome<StepPlan> {
+        let bad = |message: String| Failure::new(pong_status::BadValue, message);
+        let coupling = match (self.coupling, self.frames_late) {
+            (PONG_COUPLING_STAGES, 0) => Coupling::StageWise,
+            (PONG_COUPLING_STEP, 0) => Coupling::OncePerStep,
+            (PONG_COUPLING_HELD, late) => Coupling::Held { late },
+            (PONG_COUPLING_STAGES | PONG_COUPLING_STEP, late) => {
+                let cause = "only a wrench that is held can be late; give 0, or PONG_COUPLING_HELD";
+                return Err(bad(format!("plan: frames_late is {late}: {cause}")));
+            }
+            (other, _) => {
+                return Err(bad(format!("plan: coupling is {other}; give one of PONG_COUPLING_...")));
+            }
+        };
+        if self.reserved != [0; 4] {
+            let cause = "it has values in its reserved fields; start from pong_default_step_plan()";
+            return Err(bad(format!("plan: {cause}")));
+        }
+        let none = (self.depth_within, self.rebound_within) == (0.0, 0.0);
+        let accuracy = Accuracy { depth: self.depth_within, rebound: self.rebound_within };
+        Ok(StepPlan {
+            step: self.step,
+            coupling,
+            closing_speed: (self.closing_speed != 0.0).then_some(self.closing_speed),
+            accuracy: (!none).then_some(accuracy),
+        })
+    }
+}

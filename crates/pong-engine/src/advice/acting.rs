@@ -1,0 +1,116 @@
+//! The contacts of a frame against the host's step: what acts together, instead of what might.
+//!
+//! With coordinates in which every mass is one, a contact that pushes along n with weight w and rubs across it is
+//!
+//! ```text
+//! K += r·(w·k·nnᵀ + k_t·(1 − nnᵀ))·rᵀ        r: its three directions on both movable groups, mobility.rs
+//! ```
+//!
+//! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere.
+
+use super::check::Setting;
+use super::coupling::surely_stable_step;
+use super::mass::StepPlan;
+use super::mobility::{Mobility, Vec6, largest_eigenvalue};
+use super::spring::{ContactSprings, pressed_springs};
+use crate::frame::{Frame, FrameContact};
+use crate::sealed::Sealed;
+use nalgebra::DMatrix;
+use pong_geometry::Vec3;
+use std::collections::BTreeSet;
+
+/// What the contacts of one frame leave of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ActingReport {
+    /// Contacts that push something of a known mass that yields.
+    pub contacts: usize,
+    /// Contacts whose masses or laws are not known.
+    pub not_judged: usize,
+    /// ω² of the stiffest mode, 1/s².
+    pub stiffness_rate: f64,
+    /// Of the most damped mode, damping over mass, 1/s.
+    pub damping_rate: f64,
+    /// The longest step at which these contacts are surely stable, s; 0 if there is none, infinite if nothing acts.
+    pub stable_step: f64,
+}
+
+pub(crate) fn acting(setting: &Setting<'_>, sealed: &Sealed, frame: &Frame, plan: &StepPlan) -> ActingReport {
+    let mut not_judged = 0;
+    let mut acting = Vec::new();
+    for contact in frame.pushing() {
+        match Acting::new(setting, sealed, frame, contact) {
+            Some(known) => acting.extend((!known.rows.is_empty()).then_some(known)),
+            None => not_judged += 1,
+        }
+    }
+    let ratio = acting.iter().map(|one| one.springs.least_damped()).fold(f64::INFINITY, f64::min);
+    let stiffness_rate = largest(&acting, |one| {
+        (one.weight * one.springs.normal.stiffness, one.springs.friction.map_or(0.0, |f| f.stiffness))
+    });
+    let damping_rate = largest(&acting, |one| {
+        (one.weight * one.springs.normal.damping, one.springs.friction.map_or(0.0, |f| f.damping))
+    });
+    let stable_step = match acting.is_empty() {
+        true => f64::INFINITY,
+        false => surely_stable_step(plan.coupling, stiffness_rate, damping_rate, ratio),
+    };
+    ActingReport { contacts: acting.len(), not_judged, stiffness_rate, damping_rate, stable_step }
+}
+
+/// A contact that acts on something that yields.
+struct Acting {
+    springs: ContactSprings,
+    weight: f64,
+    /// Unit normal from B to A, in B's frame.
+    normal: Vec3,
+    /// The axes of B's frame as forces on the movable groups that yield.
+    rows: Vec<(usize, [Vec6; 3])>,
+}
+
+impl Acting {
+    /// `None` for what cannot be judged.
+    fn new(setting: &Setting<'_>, sealed: &Sealed, frame: &Frame, contact: &FrameContact) -> Option<Self> {
+        let found = &contact.found;
+        let (a, b) = sealed.bodies_of(&found.key);
+        let masses = [setting.masses[a].as_ref()?, setting.masses[b].as_ref()?];
+        let pair = &sealed.group_pairs[found.key.group_pair as usize];
+        let flipped = found.key.flipped as usize;
+        let surface =
+            |body: usize, primitive: u32| setting.scene.body(body).primitives[primitive as usize].surface;
+        let surfaces = (surface(a, found.key.primitive_a), surface(b, found.primitive_b));
+        let props = setting.tables[pair.tables[flipped]].props(surfaces.0, surfaces.1);
+        let springs = pressed_springs(props, found.depth, contact.normal_force).ok()?;
+        let x_ba = &frame.input.motions[found.key.group_pair as usize][flipped].x_ba;
+        let at_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));
+        let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+        let on_a = Mobility::new(masses[0])
+            .map(|body| (a, axes.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
+        let on_b =
+            Mobility::new(masses[1]).map(|body| (b, axes.map(|axis| body.row(&-axis, &contact.point))));
+        let rows = on_a.into_iter().chain(on_b).collect();
+        Some(Self { springs, weight: found.full_weight(), normal: found.normal, rows })
+    }
+}
+
+/// Largest eigenvalue of the sum over all contacts; `values` gives what acts along the normal and what across it.
+fn largest(acting: &[Acting], values: impl Fn(&Acting) -> (f64, f64)) -> f64 {
+    let bodies: BTreeSet<usize> = acting.iter().flat_map(|one| one.rows.iter().map(|row| row.0)).collect();
+    let slot = |body: usize| 6 * bodies.iter().position(|other| *other == body).expect("collected above");
+    let mut sum = DMatrix::<f64>::zeros(6 * bodies.len(), 6 * bodies.len());
+    for one in acting {
+        let (along, across) = values(one);
+        let n = &one.normal;
+        let spring = n * n.transpose() * (along - across) + pong_geometry::Mat3::identity() * across;
+        for (body_i, rows_i) in &one.rows {
+            for (body_j, rows_j) in &one.rows {
+                let mut block = sum.fixed_view_mut::<6, 6>(slot(*body_i), slot(*body_j));
+                for (p, row_p) in rows_i.iter().enumerate() {
+                    for (q, row_q) in rows_j.iter().enumerate() {
+                        block += spring[(p, q)] * row_p * row_q.transpose();
+                    }
+                }
+            }
+        }
+    }
+    largest_eigenvalue(sum)
+}

@@ -1,0 +1,392 @@
+//! Contacts that can act together on a movable group: a bound of the stiffness that it can feel.
+//!
+//! A group on springs oscillates with ω² = λ, the largest eigenvalue of M⁻¹·Σ k·JᵀJ, J = (n, r × n) for a contact along n
+//! at the lever r. Which contacts there will be, and along which normals, nobody knows before the run. The bound:
+//!
+//! * **who**: every point, segment, ray, ball and ellipsoid of one group that the other's surfaces can touch, as far as
+//!   they can at once: on a plane those that lie within 2 % of the group's size of one supporting plane; on anything else
+//!   those that fit into its diameter. One that lies where several surfaces of the other are counts for each.
+//! * **along what**: on a plane its normal; elsewhere k·nnᵀ ≤ k·1, a spring as stiff in every direction.
+//! * **with friction** that sticks at all of them, at the lever of the ball's skin.
+//! * **on both**: the other body's share is that of its farthest place, and the λ of two bodies add.
+//! * **everywhere**: what different partners do to one group adds.
+//!
+//! Each of these can only raise λ, but for levers of friction on balls and for the directions of supporting planes, which
+//! are tried on a grid.
+
+use super::check::Setting;
+use super::mass::StepPlan;
+use super::mobility::{Mat6, Mobility, largest_eigenvalue};
+use super::spring::{ContactSprings, springs};
+use crate::sealed::{GroupPair, can_be_tested};
+use nalgebra::DMatrix;
+use pong_geometry::Vec3;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Body, Element, Item, PrimitiveInfo};
+
+/// What acts on one movable group at once, at most.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Load {
+    /// Contacts.
+    pub contacts: usize,
+    /// Largest k/m of a mode, 1/s².
+    pub stiffness_rate: f64,
+    /// Largest c/m of a mode, 1/s.
+    pub damping_rate: f64,
+}
+
+impl Load {
+    /// Both at once.
+    pub fn plus(self, other: Self) -> Self {
+        Self {
+            contacts: self.contacts + other.contacts,
+            stiffness_rate: self.stiffness_rate + other.stiffness_rate,
+            damping_rate: self.damping_rate + other.damping_rate,
+        }
+    }
+
+    fn times(self, count: usize) -> Self {
+        let share = count as f64;
+        Self {
+            contacts: self.contacts * count,
+            stiffness_rate: self.stiffness_rate * share,
+            damping_rate: self.damping_rate * share,
+        }
+    }
+
+    fn or_larger(self, other: Self) -> Self {
+        Self {
+            contacts: self.contacts.max(other.contacts),
+            stiffness_rate: self.stiffness_rate.max(other.stiffness_rate),
+            damping_rate: self.damping_rate.max(other.damping_rate),
+        }
+    }
+}
+
+/// A primitive that can press.
+struct Presser {
+    /// Where its normals pass, in its group's frame; of a segment the end that is farther from the mass centre.
+    center: Vec3,
+    /// How far from there it touches, m.
+    radius: f64,
+    /// Of all surfaces that it can meet the stiffest values.
+    springs: ContactSprings,
+}
+
+impl Presser {
+    fn friction(&self) -> (f64, f64) {
+        self.springs.friction.map_or((0.0, 0.0), |friction| (friction.stiffness, friction.damping))
+    }
+}
+
+/// The pressers of A and what they press on.
+struct Direction {
+    pressers: Vec<Presser>,
+    mobility_a: Option<Mobility>,
+    /// Largest 1/m of B at a place where it can be touched.
+    softness_b: f64,
+    /// Boxes around B's surfaces that are no planes.
+    boxes: Vec<(Vec3, Vec3)>,
+    planes: usize,
+}
+
+/// What the contacts of a pair do at once, by both its directions.
+pub(super) fn pair_load(setting: &Setting<'_>, pair: &GroupPair, mass: f64, plan: &StepPlan) -> Load {
+    let directions = [(pair.first, pair.second, 0), (pair.second, pair.first, 1)];
+    let loads = directions.map(|(a, b, flipped)| {
+        let direction = Direction::new(setting, pair, (a, b, flipped), mass, plan);
+        direction.on_planes().plus(direction.on_others())
+    });
+    loads[0].plus(loads[1])
+}
+
+impl Direction {
+    fn new(
+        setting: &Setting<'_>,
+        pair: &GroupPair,
+        (a, b, flipped): (usize, usize, usize),
+        mass: f64,
+        plan: &StepPlan,
+    ) -> Self {
+        let (body_a, body_b) = (setting.scene.body(a), setting.scene.body(b));
+        let mobility = |body: usize| setting.masses[body].as_ref().and_then(Mobility::new);
+        let mobility_a = mobility(a);
+        let in_order = (flipped == 0) == pair.first_named_first;
+        let table = &setting.tables[pair.tables[flipped]];
+        let meets = |info_a: &PrimitiveInfo, info_b: &PrimitiveInfo| {
+            // Of two equal kinds A is the one that was named first.
+            (in_order || info_a.kind != info_b.kind || info_a.kind == PrimitiveKind::Custom)
+                && can_be_tested(&setting.scene.extensions, (body_a, info_a), (body_b, info_b))
+        };
+        let partners = distinct(body_b);
+        let mut pressers = Vec::new();
+        let mut cached: Vec<(PrimitiveKind, u32, Option<ContactSprings>)> = Vec::new();
+        for info in &body_a.primitives {
+            let known =
+                cached.iter().find(|(kind, surface, _)| (*kind, *surface) == (info.kind, info.surface));
+            let made = match known {
+                Some((_, _, made)) => *made,
+                None => {
+                    let met = partners.iter().filter(|partner| meets(info, partner));
+                    let values = met.map(|partner| table.props(info.surface, partner.surface));
+                    let made = values.filter_map(|props| springs(props, mass, plan.closing_speed).ok());
+                    let made = made.reduce(stiffest);
+                    cached.push((info.kind, info.surface, made));
+                    made
+                }
+            };
+            pressers.extend(made.and_then(|springs| presser(body_a, info, springs, mobility_a.as_ref())));
+        }
+        let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
+        let touched =
+            |info: &&PrimitiveInfo| kinds.iter().any(|kind| crate::dispatch::has_tester(*kind, info.kind));
+        let planes =
+            body_b.primitives.iter().filter(touched).filter(|info| info.kind == PrimitiveKind::Plane).count();
+        let boxes = boxes(body_b, touched);
+        let softness_b = mobility(b).map_or(0.0, |mobility| {
+            let far = |(low, high): &(Vec3, Vec3)| {
+                (low - mobility.center()).abs().sup(&(high - mobility.center()).abs()).norm()
+            };
+            mobility.softest(boxes.iter().map(far).fold(0.0, f64::max))
+        });
+        Self { pressers, mobility_a, softness_b, boxes, planes }
+    }
+
+    /// On one plane at a time those that a supporting plane finds; three planes at once are as many as a corner has.
+    fn on_planes(&self) -> Load {
+        /// Planes that meet in a corner.
+        const CORNER: usize = 3;
+        if self.planes == 0 || self.pressers.is_empty() {
+            return Load::default();
+        }
+        let depth = SHALLOW * self.spread();
+        let mut worst = Load::default();
+        for normal in supports(&self.pressers) {
+            let height = |presser: &Presser| normal.dot(&presser.center) - presser.radius;
+            let lowest = self.pressers.iter().map(height).fold(f64::INFINITY, f64::min);
+            let pressing = self.pressers.iter().filter(|presser| height(presser) <= lowest + depth);
+            worst = worst.or_larger(self.load(&pressing.collect::<Vec<_>>(), Some(&normal), &-normal));
+        }
+        worst.times(self.planes.min(CORNER))
+    }
+
+    /// On anything else those that fit into its diameter.
+    fn on_others(&self) -> Load {
+        /// Places that are tried.
+        const WINDOWS: usize = 16;
+        let Some((low, high)) = self.boxes.iter().copied().reduce(around) else { return Load::default() };
+        if self.pressers.is_empty() {
+            return Load::default();
+        }
+        let diameter = (high - low).norm();
+        let near = |at: &Presser| -> Vec<&Presser> {
+            let reach = |other: &Presser| diameter + at.radius + other.radius;
+            let within = |other: &&Presser| (other.center - at.center).norm() <= reach(other);
+            self.pressers.iter().filter(within).collect()
+        };
+        let mut windows: Vec<Vec<&Presser>> = if self.spread() <= diameter {
+            vec![self.pressers.iter().collect()]
+        } else {
+            self.pressers.iter().step_by(1 + self.pressers.len() / 4096).map(near).collect()
+        };
+        windows.sort_by(|x, y| total(y).total_cmp(&total(x)));
+        let widest = self.pressers.iter().map(|presser| presser.radius).fold(0.0, f64::max);
+        let crowd = crowd(&self.boxes, 2.0 * widest);
+        let mut worst = Load::default();
+        for pressing in windows.iter().take(WINDOWS) {
+            // A tip has its skin at its centre, whichever way.
+            let ways = if widest > 0.0 { grid().collect() } else { vec![Vec3::x()] };
+            for toward in ways {
+                worst = worst.or_larger(self.load(pressing, None, &toward));
+            }
+        }
+        worst.times(crowd)
+    }
+
+    /// Of these pressers at once: along a normal, or along any; friction acts at the skin towards a direction.
+    fn load(&self, pressing: &[&Presser], normal: Option<&Vec3>, toward: &Vec3) -> Load {
+        let rate = |values: fn(&Presser) -> (f64, f64)| {
+            let mut sum = Mat6::zeros();
+            let mut whole = 0.0;
+            for presser in pressing {
+                let (along, across) = values(presser);
+                whole += along.max(across);
+                if let Some(mobility) = &self.mobility_a {
+                    let skin = presser.center + presser.radius * toward;
+                    mobility.add_bushing(&mut sum, across, &skin);
+                    match normal {
+                        // The bushing above has some of it; what it has too much stays.
+                        Some(normal) => mobility.add(&mut sum, (along - across).max(0.0), normal, &skin),
+                        None => mobility.add_bushing(&mut sum, (along - across).max(0.0), &presser.center),
+                    }
+                }
+            }
+            largest_eigenvalue(DMatrix::from_column_slice(6, 6, sum.as_slice())) + whole * self.softness_b
+        };
+        Load {
+            contacts: pressing.len(),
+            stiffness_rate: rate(|presser| (presser.springs.normal.stiffness, presser.friction().0)),
+            damping_rate: rate(|presser| (presser.springs.normal.damping, presser.friction().1)),
+        }
+    }
+
+    /// Diameter of the box around all pressers, m.
+    fn spread(&self) -> f64 {
+        let own = self.pressers.iter().map(|presser| {
+            let radius = Vec3::repeat(presser.radius);
+            (presser.center - radius, presser.center + radius)
+        });
+        own.reduce(around).map_or(0.0, |(low, high)| (high - low).norm())
+    }
+}
+
+/// How far behind a supporting plane a group still touches, by its size.
+const SHALLOW: f64 = 0.02;
+
+fn total(pressing: &[&Presser]) -> f64 {
+    pressing.iter().map(|presser| presser.springs.normal.stiffness).sum()
+}
+
+fn around(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> (Vec3, Vec3) {
+    (a.0.inf(&b.0), a.1.sup(&b.1))
+}
+
+/// The larger of every value of two contacts.
+fn stiffest(a: ContactSprings, b: ContactSprings) -> ContactSprings {
+    let larger = |a: super::Spring, b: super::Spring| super::Spring {
+        stiffness: a.stiffness.max(b.stiffness),
+        damping: a.damping.max(b.damping),
+    };
+    let friction = match (a.friction, b.friction) {
+        (Some(a), Some(b)) => Some(larger(a, b)),
+        (a, b) => a.or(b),
+    };
+    ContactSprings {
+        normal: larger(a.normal, b.normal),
+        friction,
+        bounces_by_formula: a.bounces_by_formula && b.bounces_by_formula,
+    }
+}
+
+/// One primitive for each kind and surface; every one of the host's own kinds.
+fn distinct(body: &Body) -> Vec<&PrimitiveInfo> {
+    let mut seen = std::collections::BTreeSet::new();
+    let new =
+        |info: &&PrimitiveInfo| info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface));
+    body.primitives.iter().filter(new).collect()
+}
+
+fn presser(
+    body: &Body,
+    info: &PrimitiveInfo,
+    springs: ContactSprings,
+    mobility: Option<&Mobility>,
+) -> Option<Presser> {
+    let index = info.elements.start as usize;
+    let (center, radius) = match info.kind {
+        PrimitiveKind::Point => (body.points[index].position, 0.0),
+        PrimitiveKind::Sphere => (body.spheres[index].center, body.spheres[index].radius),
+        PrimitiveKind::LineSegment => {
+            let from = mobility.map_or_else(Vec3::zeros, |mobility| *mobility.center());
+            let [one, other] = body.segments[index].ends;
+            (if (one - from).norm() > (other - from).norm() { one } else { other }, 0.0)
+        }
+        // Box of an ellipsoid, of a ray with its tip, of a kind of the host's.
+        PrimitiveKind::Ellipsoid | PrimitiveKind::Ray | PrimitiveKind::Custom => {
+            let item = Item { primitive: primitive_index(body, info)?, element: info.elements.start };
+            let (low, high) = Element::new(body, item).extent();
+            (0.5 * (low + high), 0.5 * (high - low).norm())
+        }
+        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => return None,
+    };
+    (center.iter().all(|x| x.is_finite()) && radius.is_finite()).then_some(Presser {
+        center,
+        radius,
+        springs,
+    })
+}
+
+fn primitive_index(body: &Body, info: &PrimitiveInfo) -> Option<u32> {
+    body.primitives.iter().position(|other| std::ptr::eq(other, info)).map(|index| index as u32)
+}
+
+/// Boxes around the surfaces of a body that can be touched, planes left out: convex pieces of one shell are one surface, a
+/// mesh is one.
+fn boxes(body: &Body, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<(Vec3, Vec3)> {
+    let mut by_surface = std::collections::BTreeMap::new();
+    for (index, info) in body.primitives.iter().enumerate() {
+        if info.kind == PrimitiveKind::Plane || !touched(&info) {
+            continue;
+        }
+        let key = if info.kind == PrimitiveKind::Triangle { (1, index as u32) } else { (0, info.shell) };
+        let of = |element| Element::new(body, Item { primitive: index as u32, element }).extent();
+        let whole = info.elements.clone().map(of).reduce(around);
+        if let Some(part) = whole {
+            by_surface.entry(key).and_modify(|sum| *sum = around(*sum, part)).or_insert(part);
+        }
+    }
+    by_surface.into_values().collect()
+}
+
+/// Surfaces that one body of a diameter can touch at once, at most: of any that it does, all are near to the smallest and
+/// none is smaller.
+fn crowd(boxes: &[(Vec3, Vec3)], diameter: f64) -> usize {
+    /// Beyond this many the answer is theirs all.
+    const COMPARED: usize = 4096;
+    if boxes.len() > COMPARED {
+        return boxes.len();
+    }
+    let size = |a: &(Vec3, Vec3)| (a.1 - a.0).norm();
+    let near = |a: &(Vec3, Vec3), b: &(Vec3, Vec3)| {
+        (0..3).all(|i| a.0[i] <= b.1[i] + diameter && b.0[i] <= a.1[i] + diameter)
+    };
+    let with = |a: &(Vec3, Vec3)| boxes.iter().filter(|b| size(b) >= size(a) && near(a, b)).count();
+    boxes.iter().map(with).max().unwrap_or(0)
+}
+
+/// The 26 directions to the neighbours of a cell.
+fn grid() -> impl Iterator<Item = Vec3> {
+    let steps = (0..27_u32).map(|code| {
+        let sign = |place: u32| f64::from(code / place % 3) - 1.0;
+        Vec3::new(sign(1), sign(3), sign(9))
+    });
+    steps.filter_map(|step| step.try_normalize(0.5))
+}
+
+/// Normals of supporting planes: the grid, the way to every presser from their middle, and, of few pressers, the plane
+/// through every three.
+fn supports(pressers: &[Presser]) -> Vec<Vec3> {
+    /// Up to so many have every three of them tried.
+    const FEW: usize = 16;
+    /// Of more, so many show the way.
+    const MANY: usize = 256;
+    let middle = pressers.iter().map(|presser| presser.center).sum::<Vec3>() / pressers.len() as f64;
+    let mut normals: Vec<Vec3> = grid().collect();
+    let shown = pressers.iter().step_by(1 + pressers.len() / MANY);
+    normals.extend(shown.filter_map(|presser| (middle - presser.center).try_normalize(0.0)));
+    if pressers.len() <= FEW {
+        for (i, a) in pressers.iter().enumerate() {
+            for (j, b) in pressers.iter().enumerate().skip(i + 1) {
+                for c in &pressers[j + 1..] {
+                    let across = (b.center - a.center).cross(&(c.center - a.center));
+                    normals.extend(across.try_normalize(0.0).into_iter().flat_map(|n| [n, -n]));
+                }
+            }
+        }
+    }
+    normals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three stones far apart on one sheet: a ball touches the sheet and one of them.
+    #[test]
+    fn a_ball_touches_the_sheet_and_one_stone() {
+        let cube = |x: f64, half: f64| (Vec3::new(x - half, -half, -half), Vec3::new(x + half, half, half));
+        let boxes = [cube(0.0, 50.0), cube(-20.0, 1.0), cube(0.0, 1.0), cube(20.0, 1.0)];
+        assert_eq!(crowd(&boxes, 1.0), 2);
+        assert_eq!(crowd(&boxes, 19.0), 4);
+    }
+}

@@ -1,0 +1,294 @@
+//! The step check, at the seal and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
+
+use pong_engine::advice::{ActingReport, Coupling, GroupMass, StepPlan, StepReport};
+use pong_engine::{Config, InterfaceId, SealReport, SetupNote, SetupWarning, State, World};
+use pong_geometry::extension::Extensions;
+use std::sync::Arc;
+
+const K: f64 = 1e6;
+
+fn model(name: &str, primitives: &str, stiffness: f64, friction: &str) -> String {
+    format!(
+        r#"(format: "pong-model", version: 1, name: "{name}",
+            surfaces: {{ "s": (stiffness: {stiffness:?}, friction: {friction}) }},
+            root: (name: "{name}", surface: "s", primitives: [{primitives}]))"#
+    )
+}
+
+/// Some Objects, of which the first is paired with each of the others.
+struct Meeting {
+    world: World,
+    interfaces: Vec<InterfaceId>,
+    seal: SealReport,
+}
+
+impl Meeting {
+    fn new(texts: &[&str], masses: &[GroupMass], plan: &StepPlan) -> Self {
+        let mut world = World::new(Config::default());
+        let mut objects = Vec::new();
+        for (i, text) in texts.iter().enumerate() {
+            let model =
+                pong_model::parse(text, "m", None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
+            let model = world.add_model(Arc::new(model)).unwrap();
+            objects.push(world.create_object(model, &format!("o{i}")).unwrap());
+        }
+        for other in &objects[1..] {
+            world.pair(objects[0], *other).unwrap();
+        }
+        let interfaces: Vec<_> = objects.iter().map(|object| world.interface(*object, "").unwrap()).collect();
+        for (interface, mass) in interfaces.iter().zip(masses) {
+            world.set_mass(*interface, mass).unwrap();
+        }
+        world.plan_step(plan).unwrap();
+        let seal = world.seal().unwrap();
+        Self { world, interfaces, seal }
+    }
+
+    /// Evaluates with the origins of the groups at these places.
+    fn at(&mut self, places: &[[f64; 3]], plan: &StepPlan) -> ActingReport {
+        for (interface, position) in self.interfaces.iter().zip(places) {
+            self.world.set_state(*interface, &State { position: *position, ..State::identity() }).unwrap();
+        }
+        self.world.evaluate().unwrap();
+        self.world.acting_report(plan, &[]).unwrap()
+    }
+}
+
+/// What a step of a plan can hold when these two meet; the seal tells the same.
+fn meet(texts: [&str; 2], masses: [GroupMass; 2], plan: &StepPlan) -> StepReport {
+    let Meeting { world, seal, .. } = Meeting::new(&texts, &masses, plan);
+    let report = world.step_report(plan, &[]).unwrap();
+    assert_eq!((&seal.warnings, &seal.notes), (&report.warnings, &report.notes));
+    assert_eq!(seal.stable_step, Some(report.stable_step()));
+    assert_eq!(seal.surely_stable_step, Some(report.surely_stable_step()));
+    report
+}
+
+fn close(got: f64, expected: f64) -> bool {
+    (got / expected - 1.0).abs() < 1e-12
+}
+
+/// Of undamped semi-implicit Euler.
+fn longest(omega_squared: f64) -> f64 {
+    2.0 / omega_squared.sqrt()
+}
+
+fn floor() -> String {
+    model("floor", r#"Plane(name: "f", normal: (0, 0, 1), offset: 0)"#, f64::INFINITY, "None")
+}
+
+fn points(places: &[[f64; 3]]) -> String {
+    let point = |(i, p): (usize, &[f64; 3])| {
+        format!(r#"Point(name: "p{i}", position: ({:?}, {:?}, {:?})),"#, p[0], p[1], p[2])
+    };
+    model("feet", &places.iter().enumerate().map(point).collect::<String>(), K, "None")
+}
+
+fn plan(step: f64) -> StepPlan {
+    StepPlan { accuracy: None, ..StepPlan::new(step, Coupling::OncePerStep) }
+}
+
+/// n springs of k on one mass are one of n·k, however many of them; warned of by none, noted beyond 2√(m/(n·k)).
+#[test]
+fn equal_springs_on_one_body_add() {
+    let masses = [GroupMass::point(3.0), GroupMass::immovable()];
+    for n in 2..=8_u32 {
+        let feet: Vec<[f64; 3]> = (0..n).map(|i| [f64::from(i % 3), f64::from(i / 3), 0.0]).collect();
+        let step = longest(f64::from(n) * K / 3.0);
+        let report = meet([&points(&feet), &floor()], masses, &plan(0.999 * step));
+        let group = &report.groups[0];
+        assert_eq!((report.groups.len(), group.contacts), (1, n as usize));
+        assert!(
+            close(group.stable_step, step) && close(group.spring.stiffness, f64::from(n) * K),
+            "{group:?}"
+        );
+        assert!(close(report.stable_step(), longest(K / 3.0)));
+        assert!(report.warnings.is_empty() && report.notes.is_empty(), "{:?}", report.notes);
+        let report = meet([&points(&feet), &floor()], masses, &plan(1.001 * step));
+        let [SetupNote::StepMayBeTooLong { told }] = &report.notes[..] else { panic!("{:?}", report.notes) };
+        assert!(told.contains(&format!("up to {step:.3e} s is surely stable")), "{told}");
+        assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    }
+}
+
+/// A point l off the mass centre finds 1/(1/m + l²/I): a rod of 3 kg and 2 m struck at its end weighs ¾ kg.
+#[test]
+fn a_lever_makes_a_contact_quicker() {
+    let rod = GroupMass { mass: 3.0, inertia: [1e-3, 1.0, 1.0, 0.0, 0.0, 0.0], mass_center: [0.0; 3] };
+    let tip = points(&[[1.0, 0.0, 0.0]]);
+    let step = longest(K / 0.75);
+    let report = meet([&tip, &floor()], [rod, GroupMass::immovable()], &plan(1.001 * step));
+    assert!(close(report.surely_stable_step(), step) && close(report.stable_step(), longest(K / 3.0)));
+    assert!(report.warnings.is_empty() && report.notes.len() == 1, "{:?}", report.notes);
+    // Seen from another origin the rod is the same.
+    let shifted = GroupMass { mass_center: [0.0, 0.0, 5.0], ..rod };
+    let tip = points(&[[1.0, 0.0, 5.0]]);
+    let report = meet([&tip, &floor()], [shifted, GroupMass::immovable()], &plan(step));
+    assert!(close(report.surely_stable_step(), step));
+    // Without an inertia there is no lever.
+    let report = meet([&tip, &floor()], [GroupMass::point(3.0), GroupMass::immovable()], &plan(step));
+    assert!(close(report.surely_stable_step(), longest(K / 3.0)));
+}
+
+/// Springs of k and 3k to two partners are 4k, and friction of k_t > k at a foot is as stiff as itself.
+#[test]
+fn partners_add_and_friction_counts() {
+    let ball = model("b", r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, f64::INFINITY, "None");
+    let wall = |k: f64| floor().replace("stiffness: inf", &format!("stiffness: {k:?}"));
+    let masses = [GroupMass::point(2.0), GroupMass::immovable(), GroupMass::immovable()];
+    let step = longest(4.0 * K / 2.0);
+    let mut between = Meeting::new(&[&ball, &wall(K), &wall(3.0 * K)], &masses, &plan(step));
+    let report = between.world.step_report(&plan(step), &[]).unwrap();
+    assert!(close(report.surely_stable_step(), step) && report.groups[0].contacts == 2, "{report:?}");
+    assert!(close(report.stable_step(), longest(1.5 * K)));
+    // Between the two, and at one alone.
+    let acting = between.at(&[[0.0, 0.0, 0.09], [0.0; 3], [0.0; 3]], &plan(step));
+    assert!(close(acting.stable_step, step) && acting.contacts == 2, "{acting:?}");
+    let acting = between.at(&[[0.0, 0.0, 0.09], [0.0; 3], [0.0, 0.0, -1.0]], &plan(step));
+    assert!(close(acting.stable_step, longest(0.5 * K)) && acting.contacts == 1, "{acting:?}");
+
+    let rough = "Bristle(mu: 0.5, stiffness: 4e6)";
+    let foot = points(&[[0.0; 3]]).replace("friction: None", &format!("friction: {rough}"));
+    let floor = floor().replace("friction: None", "friction: Bristle(mu: 0.5, stiffness: 12e6)");
+    let step = longest(3.0 * K / 2.0);
+    let mut rubbing = Meeting::new(&[&foot, &floor], &masses[..2], &plan(step));
+    let report = rubbing.world.step_report(&plan(step), &[]).unwrap();
+    assert!(close(report.surely_stable_step(), step) && close(report.stable_step(), step), "{report:?}");
+    let acting = rubbing.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan(step));
+    assert!(close(acting.stable_step, step), "{acting:?}");
+}
+
+/// V2's tripod: heave ω² = 3k/m = 1e6, rock ω² = 1.5kR²/I = 1.875e6 (without gravity), m 3 kg, R 0.5 m, I 0.2 kg·m².
+/// Undamped semi-implicit Euler is stable to 2/ω.
+#[test]
+fn the_feet_of_a_tripod_add_and_rock() {
+    let feet = [0.0, 1.0, 2.0].map(|i: f64| {
+        let angle = i * std::f64::consts::TAU / 3.0;
+        [0.5 * angle.cos(), 0.5 * angle.sin(), 0.0]
+    });
+    let of = |inertia: f64| GroupMass {
+        mass: 3.0,
+        inertia: [inertia, inertia, 0.3, 0.0, 0.0, 0.0],
+        mass_center: [0.0, 0.0, 0.3],
+    };
+    for (inertia, squared) in [(0.2_f64, 1.875e6_f64), (0.9, 1e6)] {
+        let masses = [of(inertia), GroupMass::immovable()];
+        let step = longest(squared);
+        let report = meet([&points(&feet), &floor()], masses, &plan(0.999 * step));
+        assert_eq!((report.groups.len(), report.groups[0].contacts), (1, 3));
+        // Planes through two feet alone see a longer lever and less stiffness; the tripod's own mode is the bound.
+        let told = report.groups[0].stable_step;
+        assert!(told <= step * (1.0 + 1e-9) && told > 0.6 * step, "{told} {step}");
+        assert!(close(report.stable_step(), longest(K / 3.0)) && report.warnings.is_empty());
+        let plan = plan(1.001 * step);
+        let mut stands = Meeting::new(&[&points(&feet), &floor()], &masses, &plan);
+        assert!(stands.seal.warnings.is_empty() && stands.seal.notes.len() == 1, "{:?}", stands.seal);
+        // What acts is exact: on all feet, and in the air.
+        let acting = stands.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan);
+        assert!(acting.contacts == 3 && (acting.stiffness_rate / squared - 1.0).abs() < 1e-9, "{acting:?}");
+        let air = stands.at(&[[0.0, 0.0, 1.0], [0.0; 3]], &plan);
+        assert_eq!((air.contacts, air.stable_step), (0, f64::INFINITY));
+    }
+}
+
+/// One point at the mass centre, on a floor: the bound is the single contact, and that is warned of.
+#[test]
+fn one_contact_is_its_own_sum() {
+    let masses = [GroupMass::point(2.0), GroupMass::immovable()];
+    let step = longest(K / 2.0);
+    let report = meet([&points(&[[0.0; 3]]), &floor()], masses, &plan(0.999 * step));
+    assert!(close(report.groups[0].stable_step, step));
+    assert!(report.warnings.is_empty() && report.notes.is_empty());
+    let report = meet([&points(&[[0.0; 3]]), &floor()], masses, &plan(1.001 * step));
+    assert!(matches!(report.warnings[..], [SetupWarning::StepTooLong { .. }]), "{:?}", report.warnings);
+    // What is certain is not told again as possible.
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
+}
+
+/// Two balls of m₁ and m₂ on one spring: ω² = k(1/m₁ + 1/m₂), seen from both.
+#[test]
+fn two_bodies_share_one_spring() {
+    let ball = |name| model(name, r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, 2.0 * K, "None");
+    let masses = [GroupMass::point(2.0), GroupMass::point(8.0)];
+    let step = longest(K * (1.0 / 2.0 + 1.0 / 8.0));
+    let mut two = Meeting::new(&[&ball("x"), &ball("y")], &masses, &plan(step));
+    let report = two.world.step_report(&plan(step), &[]).unwrap();
+    assert_eq!(report.groups.len(), 2);
+    for group in &report.groups {
+        assert_eq!(group.contacts, 1);
+        assert!((group.stable_step / step - 1.0).abs() < 1e-9, "{group:?}");
+    }
+    let acting = two.at(&[[0.0; 3], [0.12, 0.12, 0.0]], &plan(step));
+    assert!(close(acting.stable_step, step) && acting.contacts == 1, "{acting:?}");
+}
+
+/// A bar between two free balls of m: of the springs k at its ends, M(2k/M) in heave for the bar alone; with the balls
+/// k(1/m + 2/M) when they move against it.
+#[test]
+fn a_chain_of_bodies_has_the_mode_known_by_hand() {
+    let ends = |x: f64| format!(r#"Point(name: "p{x}", position: ({x:?}, 0, 0)),"#);
+    let bar = model("bar", &(ends(-1.0) + &ends(1.0)), f64::INFINITY, "None");
+    let ball = model("ball", r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, K, "None");
+    let masses = [GroupMass::point(5.0), GroupMass::point(2.0), GroupMass::point(2.0)];
+    let step = longest(K * (1.0 / 2.0 + 2.0 / 5.0));
+    let mut chain = Meeting::new(&[&bar, &ball, &ball], &masses, &plan(step));
+    let acting = chain.at(&[[0.0; 3], [-1.09, 0.0, 0.0], [1.09, 0.0, 0.0]], &plan(step));
+    assert!(acting.contacts == 2 && close(acting.stable_step, step), "{acting:?}");
+    let surely = chain.world.step_report(&plan(step), &[]).unwrap().surely_stable_step();
+    assert!(surely <= step, "a bound above what can happen: {surely} {step}");
+}
+
+/// Sums of damping: held over a frame, n springs are stable to the lesser of 2c/k and 2m/(n·c).
+#[test]
+fn damping_adds_too() {
+    let damped = |c: f64| {
+        points(&[[0.0; 3], [1.0, 0.0, 0.0]])
+            .replace("stiffness: 1000000.0,", &format!("stiffness: 1e6, normal: Linear(damping: {c:?}),"))
+    };
+    let masses = [GroupMass::point(3.0), GroupMass::immovable()];
+    for (c, single, sum) in [(1e2, 2e-4, 2e-4), (1e4, 2.0 * 3.0 / 1e4, 3.0 / 1e4)] {
+        let held = StepPlan { accuracy: None, ..StepPlan::new(1e-5, Coupling::Held { late: 0 }) };
+        let report = meet([&damped(c), &floor()], masses, &held);
+        assert!(close(report.stable_step(), single) && close(report.surely_stable_step(), sum), "{report:?}");
+    }
+}
+
+/// Undamped and held over a frame no step is stable; below ω·T = 0.1 that is left to the host, for the sum as for one.
+#[test]
+fn undamped_held_wrenches_are_noted_from_the_same_step_on() {
+    let feet = points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
+    let masses = [GroupMass::point(4.0), GroupMass::immovable()];
+    // ω is 1000 rad/s of all four, half that of one.
+    for (step, warnings, notes) in [(0.99e-4, 0, 0), (1.01e-4, 0, 1), (1.99e-4, 0, 1), (2.01e-4, 1, 0)] {
+        let held = StepPlan { accuracy: None, ..StepPlan::new(step, Coupling::Held { late: 0 }) };
+        let report = meet([&feet, &floor()], masses, &held);
+        assert_eq!((report.warnings.len(), report.notes.len()), (warnings, notes), "{step}: {report:?}");
+    }
+}
+
+/// What cannot be judged is told, each with its reason.
+#[test]
+fn what_is_not_known_is_told() {
+    let hertz = points(&[[0.0; 3]]).replace(
+        "stiffness: 1000000.0,",
+        "stiffness: 1e8, normal: HuntCrossley(dissipation: 0, exponent: 1.5),",
+    );
+    let floor = floor()
+        .replace("stiffness: inf,", "stiffness: inf, normal: HuntCrossley(dissipation: 0, exponent: 1.5),");
+    let masses = [GroupMass::point(2.0), GroupMass::immovable()];
+    let warnings = meet([&hertz, &floor], masses, &plan(1e-4)).warnings;
+    assert!(
+        matches!(&warnings[..], [SetupWarning::StepNotJudged { told }] if told.contains("closing speed"))
+    );
+    // With a speed: ½mv² = ⅖kδ^(5/2), ω² = 1.5k√δ/m.
+    let depth = (1.25 * 2.0 * 0.25 / 1e8_f64).powf(0.4);
+    let step = longest(1.5e8 * depth.sqrt() / 2.0);
+    for (step, count) in [(0.99 * step, 0), (1.01 * step, 1)] {
+        let fast = StepPlan { closing_speed: Some(0.5), ..plan(step) };
+        assert_eq!(meet([&hertz, &floor], masses, &fast).warnings.len(), count);
+    }
+    // What acts is judged at the depth that it has.
+    let mut deep = Meeting::new(&[&hertz, &floor], &masses, &plan(step));
+    let acting = deep.at(&[[0.0, 0.0, -depth], [0.0; 3]], &plan(step));
+    assert!((acting.stable_step / step - 1.0).abs() < 1e-9, "{acting:?}");
+}
