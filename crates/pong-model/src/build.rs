@@ -6,7 +6,7 @@ use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader};
 use crate::triangle_topology::{self, Findings, Oddity};
 use crate::weld::Welder;
-use crate::{hash, polyhedra, tree};
+use crate::{arrange, hash, polyhedra, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 
@@ -35,11 +35,17 @@ fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     if reader.fault_count() > 0 {
         return;
     }
-    match tree::build(&draft.body, &draft.groups, reader.ext) {
+    for group in arrange::without_leaf(&draft.groups) {
+        let group = &draft.groups[group];
+        let what = "`leaf_size` has no effect: nothing below is a leaf of this group; remove it";
+        reader.warn(group.at, &group.path, what);
+    }
+    let groups = arrange::arranged(&draft.body, &draft.groups);
+    match tree::build(&draft.body, &groups, reader.ext) {
         Ok(tree) => draft.body.tree = tree,
         Err(faults) => {
             for (group, reason) in faults {
-                let group = &draft.groups[group];
+                let group = &groups[group];
                 let cause = format!("its bounding volume cannot be fitted: {reason}");
                 reader.fault(group.at, &group.path, "bound", cause, "choose another kind of volume");
             }

@@ -38,6 +38,10 @@ pub(crate) struct GroupDraft {
     pub(crate) path: Arc<str>,
     pub(crate) at: u32,
     pub(crate) bound: BoundKind,
+    /// It has no volume of its own: what it holds counts to the group above.
+    pub(crate) above: bool,
+    /// Most elements of a leaf, if it has any.
+    pub(crate) leaf_size: Option<usize>,
     pub(crate) children: Vec<usize>,
     pub(crate) items: Vec<Item>,
 }

@@ -1,16 +1,19 @@
 //! Model files: RON text → validated, flat, immutable [`Model`].
 //!
 //! The way of a file: `ron_tree` (text to values with their places), `read` (values to drafts of bodies), `hull`
-//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `tree` and
-//! `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`.
+//! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`,
+//! `tree` and `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`. `grouping`
+//! gives the text of a file other bounding volumes and leaves.
 
 #![forbid(unsafe_code)]
 
+mod arrange;
 pub mod box_tree;
 mod build;
 mod draft;
 mod element;
 mod error;
+pub mod grouping;
 mod hash;
 mod hull;
 pub mod model;

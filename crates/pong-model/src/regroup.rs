@@ -1,13 +1,10 @@
 //! The same model with other bounding volumes or other leaves: other times, the same answers.
 
 use crate::draft::GroupDraft;
-use crate::element::Element;
-use crate::model::{Body, Item, Model};
-use crate::tree;
-use pong_geometry::Vec3;
+use crate::model::{Body, Model};
+use crate::{arrange, tree};
 use pong_geometry::bounding::{BoundKind, Volume};
 use pong_geometry::extension::Extensions;
-use std::sync::Arc;
 
 impl Model {
     /// The model with the bounding volumes of all its groups fitted anew in one kind.
@@ -34,20 +31,9 @@ impl Model {
         }
         self.regrouped(ext, |body| {
             let root = &body.tree.nodes[0];
-            let template = GroupDraft { bound: kind_of(&root.volume), ..group(&root.group) };
+            let template = GroupDraft { bound: kind_of(&root.volume), ..GroupDraft::new(&root.group) };
             let mut groups = vec![template];
-            let (bounded, unbounded): (Vec<Item>, Vec<Item>) =
-                body.tree.items.iter().partition(|item| center(body, **item).is_some());
-            if unbounded.is_empty() {
-                halve(body, bounded, most, 0, &mut groups);
-            } else {
-                let parts = [bounded, unbounded].into_iter().filter(|part| !part.is_empty());
-                for part in parts {
-                    let child = push(&mut groups, 0);
-                    let most = if center(body, part[0]).is_some() { most } else { part.len() };
-                    halve(body, part, most, child, &mut groups);
-                }
-            }
+            arrange::cut(body, body.tree.items.clone(), most, 0, &mut groups);
             groups
         })
     }
@@ -75,19 +61,9 @@ fn groups_of(body: &Body) -> Vec<GroupDraft> {
             bound: kind_of(&node.volume),
             children: node.children.clone().map(|child| child as usize).collect(),
             items: body.tree.items[node.items.start as usize..node.items.end as usize].to_vec(),
-            ..group(&node.group)
+            ..GroupDraft::new(&node.group)
         })
         .collect()
-}
-
-fn group(path: &Arc<str>) -> GroupDraft {
-    GroupDraft {
-        path: Arc::clone(path),
-        at: 0,
-        bound: BoundKind::Aabb,
-        children: Vec::new(),
-        items: Vec::new(),
-    }
 }
 
 fn kind_of(volume: &Volume) -> BoundKind {
@@ -99,46 +75,10 @@ fn kind_of(volume: &Volume) -> BoundKind {
     }
 }
 
-/// A new group below another, of its kind.
-fn push(groups: &mut Vec<GroupDraft>, above: usize) -> usize {
-    let mut child = group(&groups[above].path);
-    child.bound = groups[above].bound.clone();
-    groups.push(child);
-    let index = groups.len() - 1;
-    groups[above].children.push(index);
-    index
-}
-
-/// Puts items into a group, or halves of them into two below it.
-fn halve(body: &Body, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
-    if items.len() <= most {
-        groups[into].items = items;
-        return;
-    }
-    let centers: Vec<Vec3> = items.iter().filter_map(|item| center(body, *item)).collect();
-    let Some(first) = centers.first() else { return };
-    let (low, high) = centers.iter().fold((*first, *first), |(low, high), c| (low.inf(c), high.sup(c)));
-    let axis = (high - low).imax();
-    let along = |item: &Item| center(body, *item).map_or(0.0, |center| center[axis]);
-    // Equal places keep the order of the items: the same tree every time.
-    items.sort_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
-    let rest = items.split_off(items.len() / 2);
-    for half in [items, rest] {
-        let child = push(groups, into);
-        halve(body, half, most, child, groups);
-    }
-}
-
-/// The middle of an element's box, m; `None` if it is unbounded.
-fn center(body: &Body, item: Item) -> Option<Vec3> {
-    let (low, high) = Element::new(body, item).extent();
-    let middle = 0.5 * (low + high);
-    middle.iter().all(|x| x.is_finite()).then_some(middle)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Item;
     use crate::parse;
 
     fn model() -> Model {

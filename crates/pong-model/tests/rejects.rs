@@ -179,6 +179,25 @@ fn faults_of_groups() {
         &format!("(name: \"r\", /*!*/movable: false, surface: \"s\", primitives: [{p}])"),
     );
     root("root-pose", "r", &format!("(name: \"r\", /*!*/pose: (), surface: \"s\", primitives: [{p}])"));
+    root(
+        "bound-above",
+        "r",
+        &format!("(name: \"r\",\n bound: /*!*/Above, surface: \"s\", primitives: [{p}])"),
+    );
+    root(
+        "bound-above",
+        "r/g",
+        &format!(
+            "(name: \"r\", surface: \"s\", groups: [(name: \"g\", movable: true,\n bound: /*!*/Above, primitives: [{p}])])"
+        ),
+    );
+    for size in ["0", "-3", "2.5"] {
+        root(
+            "leaf-size",
+            "r",
+            &format!("(name: \"r\",\n leaf_size: /*!*/{size}, surface: \"s\", primitives: [{p}])"),
+        );
+    }
     root("empty-group", "r", "/*!*/(name: \"r\", surface: \"s\")");
     root("empty-group", "r", "/*!*/(name: \"r\", surface: \"s\", primitives: [])");
     root("empty-group", "r/g", "(name: \"r\", surface: \"s\", groups: [\n/*!*/(name: \"g\", groups: [])])");

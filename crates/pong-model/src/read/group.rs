@@ -10,7 +10,8 @@ use pong_geometry::Pose;
 use pong_geometry::bounding::BoundKind;
 use std::collections::HashSet;
 
-const FIELDS: [&str; 7] = ["name", "movable", "pose", "bound", "surface", "groups", "primitives"];
+const FIELDS: [&str; 8] =
+    ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"];
 
 /// What reading a group needs and fills.
 pub(super) struct GroupReader<'r, 'a> {
@@ -63,7 +64,8 @@ fn read_group(
         Some(node) => surface_index(groups.reader, groups.surfaces, node, &path),
         None => above.surface,
     };
-    let bound = read_bound(groups.reader, &fields, &path);
+    let bound = read_bound(groups.reader, &fields, &path, movable);
+    let leaf_size = read_leaf_size(groups.reader, &fields, &path);
     let x_bg = above.x_bg.compose(&x_pg);
     let mut place = if movable {
         new_body(groups, above, name, path, x_bg)
@@ -72,7 +74,9 @@ fn read_group(
     };
     place.surface = surface;
     let draft = &mut groups.bodies[place.body].groups[place.group];
-    draft.bound = bound;
+    draft.above = bound.is_none();
+    draft.bound = bound.unwrap_or(BoundKind::Aabb);
+    draft.leaf_size = leaf_size;
     draft.at = node.at;
     read_contents(groups, &fields, &place);
 }
@@ -110,7 +114,7 @@ fn same_body(groups: &mut GroupReader<'_, '_>, above: &Above, path: String, x_bg
 }
 
 fn empty_group(path: &str) -> GroupDraft {
-    GroupDraft { path: path.into(), at: 0, bound: BoundKind::Aabb, children: Vec::new(), items: Vec::new() }
+    GroupDraft::new(&path.into())
 }
 
 fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &Place) {
@@ -226,14 +230,34 @@ fn read_pose(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: 
     }
 }
 
-fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> BoundKind {
-    let Some(node) = fields.optional("bound") else { return BoundKind::Aabb };
-    match reader.variant(node, path, &["Aabb", "Sphere", "Obb", "Custom"]) {
-        Some("Sphere") => BoundKind::Sphere,
-        Some("Obb") => BoundKind::Obb,
-        Some("Custom") => custom_bound(reader, node, path),
-        _ => BoundKind::Aabb,
+/// The kind of a group's volume; `None` if it has none of its own.
+fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable: bool) -> Option<BoundKind> {
+    let Some(node) = fields.optional("bound") else { return Some(BoundKind::Aabb) };
+    match reader.variant(node, path, &["Aabb", "Sphere", "Obb", "Above", "Custom"]) {
+        Some("Sphere") => Some(BoundKind::Sphere),
+        Some("Obb") => Some(BoundKind::Obb),
+        Some("Custom") => Some(custom_bound(reader, node, path)),
+        Some("Above") if movable => {
+            let cause = "a movable group moves by itself and cannot do without a bounding volume";
+            let cure = "give it `Aabb`, `Sphere` or `Obb`, or leave `bound` out";
+            reader.fault(node.at, path, "bound-above", cause, cure);
+            None
+        }
+        Some("Above") => None,
+        _ => Some(BoundKind::Aabb),
     }
+}
+
+fn read_leaf_size(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> Option<usize> {
+    let node = fields.optional("leaf_size")?;
+    let size = reader.number(node, path)?;
+    // Beyond 2³² a leaf is never cut: no body has so many elements.
+    if size >= 1.0 && size == libm::trunc(size) {
+        return Some(size.min(f64::from(u32::MAX)) as usize);
+    }
+    let cause = format!("the size of a leaf is {size}");
+    reader.fault(node.at, path, "leaf-size", cause, "give a whole number of elements, at least 1");
+    None
 }
 
 fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {

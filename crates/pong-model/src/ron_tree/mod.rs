@@ -10,7 +10,7 @@ mod parser;
 mod tests;
 mod text;
 
-pub(crate) use parser::parse;
+pub(crate) use parser::{end_of_value, parse};
 
 /// A value and the byte offset at which it begins.
 #[derive(Clone, Debug, PartialEq)]

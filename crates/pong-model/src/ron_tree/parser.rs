@@ -35,6 +35,13 @@ pub(crate) fn parse(text: &str) -> Parsed<Node> {
     }
 }
 
+/// The byte offset behind a value that begins at another, in a text that [`parse`] has read.
+pub(crate) fn end_of_value(text: &str, at: u32) -> Parsed<usize> {
+    let mut parser = Parser { text, position: at as usize, depth: 0 };
+    parser.value()?;
+    Ok(parser.position)
+}
+
 impl Parser<'_> {
     pub(super) fn error(&self, rule: &'static str, cause: impl Into<String>) -> SyntaxError {
         self.error_at(self.position, rule, cause)

@@ -1,0 +1,223 @@
+//! The groups of a model file as its text has them, and the same text with other bounding volumes and other leaves:
+//! other times, the same answers.
+//!
+//! A text is changed where it must be and nowhere else: comments, order and numbers stay as they are, byte for byte.
+//! Every name stays too, since a group without a volume of its own is still a group: paths of primitives do not change.
+
+use crate::ron_tree::{self, Field, Node, Value};
+use pong_geometry::bounding::BoundKind;
+
+/// What bounds a group.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// A volume of this kind around all below, down to the next movable groups.
+    Around(BoundKind),
+    /// Nothing of its own: what it holds counts to the group above.
+    Above,
+}
+
+impl std::fmt::Display for Bound {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Around(BoundKind::Custom(kind)) => write!(f, "Custom(\"{}\")", kind.escape_default()),
+            Self::Around(kind) => f.write_str(kind.name()),
+            Self::Above => f.write_str("Above"),
+        }
+    }
+}
+
+/// A group of a model file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Path of names from the root.
+    pub path: String,
+    /// Index of the group above; `None` for the root.
+    pub above: Option<usize>,
+    /// Whether it is a body of its own; the root is.
+    pub movable: bool,
+    /// What bounds it.
+    pub bound: Bound,
+    /// Most elements of a leaf, if that is limited.
+    pub leaf_size: Option<usize>,
+    /// Whether it holds primitives, not groups.
+    pub holds_primitives: bool,
+}
+
+/// What a group is to be given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Regrouped {
+    /// Path of the group.
+    pub path: String,
+    /// What is to bound it.
+    pub bound: Bound,
+    /// Most elements of a leaf; `None` for no limit.
+    pub leaf_size: Option<usize>,
+}
+
+/// The groups of the text of a model file, each before those below it, in the order of the file.
+///
+/// # Errors
+/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts.
+pub fn groups(text: &str) -> Result<Vec<Group>, String> {
+    let found = read(text.strip_prefix(BOM).unwrap_or(text))?;
+    Ok(found.into_iter().map(|places| places.group).collect())
+}
+
+/// The text with other bounds and leaf sizes for some of its groups.
+///
+/// # Errors
+/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts, or has no such group.
+pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
+    let (mark, plain) = text.strip_prefix(BOM).map_or(("", text), |plain| (&text[..BOM.len_utf8()], plain));
+    let found = read(plain)?;
+    let mut edits = Vec::new();
+    for change in changes {
+        let Some(places) = found.iter().find(|places| places.group.path == change.path) else {
+            return Err(format!("there is no group {}; name one of the file's", change.path));
+        };
+        edits.extend(places.edits(plain, change));
+    }
+    edits.sort_by_key(|edit| edit.from);
+    let mut out = mark.to_owned();
+    let mut done = 0;
+    for Edit { from, to, put } in edits {
+        out.push_str(&plain[done..from]);
+        out.push_str(&put);
+        done = to;
+    }
+    out.push_str(&plain[done..]);
+    Ok(out)
+}
+
+const BOM: char = '\u{feff}';
+
+/// Where the fields of a group stand in the text, in bytes from and to.
+struct Places {
+    bound: Option<(usize, usize)>,
+    leaf_size: Option<(usize, usize)>,
+    /// Where the name's field begins, and where its value ends.
+    name: (usize, usize),
+    group: Group,
+}
+
+struct Edit {
+    from: usize,
+    to: usize,
+    put: String,
+}
+
+impl Places {
+    /// What must be written where; nothing where the text says so already.
+    fn edits(&self, text: &str, change: &Regrouped) -> Vec<Edit> {
+        let mut edits = Vec::new();
+        let mut added = String::new();
+        let mut set = |place: Option<(usize, usize)>, name: &str, value: Option<String>| match (place, value)
+        {
+            (Some((from, to)), value) => {
+                edits.push(Edit { from, to, put: value.unwrap_or_else(|| "None".to_owned()) });
+            }
+            (None, Some(value)) => added += &format!("{}{name}: {value}", self.separator(text)),
+            (None, None) => {}
+        };
+        if change.bound != self.group.bound {
+            set(self.bound, "bound", Some(change.bound.to_string()));
+        }
+        if change.leaf_size != self.group.leaf_size {
+            set(self.leaf_size, "leaf_size", change.leaf_size.map(|size| size.to_string()));
+        }
+        if !added.is_empty() {
+            edits.push(Edit { from: self.name.1, to: self.name.1, put: added });
+        }
+        edits
+    }
+
+    /// What stands between the name and a field behind it: a line's end if the name begins a line.
+    fn separator(&self, text: &str) -> String {
+        let line = text[..self.name.0].rfind('\n').map_or(0, |end| end + 1);
+        let before = &text[line..self.name.0];
+        let end = if text[..line].ends_with("\r\n") { "\r\n" } else { "\n" };
+        if before.trim().is_empty() && line > 0 { format!(",{end}{before}") } else { ", ".to_owned() }
+    }
+}
+
+/// The groups of a text, each before those below it.
+fn read(text: &str) -> Result<Vec<Places>, String> {
+    let refused = || "the text is no model; check it with `pong check`".to_owned();
+    let node =
+        ron_tree::parse(text).map_err(|error| format!("{}; check it with `pong check`", error.cause))?;
+    let root = fields(&node).and_then(|top| field(top, "root")).ok_or_else(refused)?;
+    let mut found = Vec::new();
+    walk(text, &root.value, None, &mut found).ok_or_else(refused)?;
+    Ok(found)
+}
+
+/// Adds a group and those below it; `None` if something is not as in a model that loads.
+fn walk(text: &str, node: &Node, above: Option<usize>, found: &mut Vec<Places>) -> Option<()> {
+    let own = fields(within_some(node))?;
+    let span = |field: &Field| {
+        let end = ron_tree::end_of_value(text, field.value.at).ok()?;
+        Some((field.value.at as usize, end))
+    };
+    let name = field(own, "name")?;
+    let Value::Text(word) = &within_some(&name.value).value else { return None };
+    let path = above.map_or(word.clone(), |above| format!("{}/{word}", found[above].group.path));
+    let (bound, leaf_size) = (field(own, "bound"), field(own, "leaf_size"));
+    let list = |name: &str| match &within_some(&field(own, name)?.value).value {
+        Value::List(items) if !items.is_empty() => Some(items),
+        _ => None,
+    };
+    let movable = field(own, "movable").map(|field| within_some(&field.value).value.clone());
+    found.push(Places {
+        bound: bound.and_then(span),
+        leaf_size: leaf_size.and_then(span),
+        name: (name.at as usize, span(name)?.1),
+        group: Group {
+            path,
+            above,
+            movable: above.is_none() || movable == Some(Value::Bool(true)),
+            bound: bound.map_or(Some(Bound::Around(BoundKind::Aabb)), |field| bound_of(&field.value))?,
+            leaf_size: leaf_size.and_then(|field| match within_some(&field.value).value {
+                Value::Number(size) => Some(size as usize),
+                _ => None,
+            }),
+            holds_primitives: list("primitives").is_some(),
+        },
+    });
+    let index = found.len() - 1;
+    list("groups").into_iter().flatten().try_for_each(|below| walk(text, below, Some(index), found))
+}
+
+fn bound_of(node: &Node) -> Option<Bound> {
+    match &within_some(node).value {
+        Value::Name(word) => match word.as_ref() {
+            "Sphere" => Some(Bound::Around(BoundKind::Sphere)),
+            "Obb" => Some(Bound::Around(BoundKind::Obb)),
+            "Above" => Some(Bound::Above),
+            _ => Some(Bound::Around(BoundKind::Aabb)),
+        },
+        Value::Tuple(_, items) => match &items.first()?.value {
+            Value::Text(kind) => Some(Bound::Around(BoundKind::Custom(kind.clone()))),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// `Some(x)` is `x`.
+fn within_some(node: &Node) -> &Node {
+    match &node.value {
+        Value::Tuple(Some(word), items) if word.as_ref() == "Some" && items.len() == 1 => &items[0],
+        _ => node,
+    }
+}
+
+fn fields(node: &Node) -> Option<&[Field]> {
+    match &node.value {
+        Value::Struct(_, fields) => Some(fields),
+        _ => None,
+    }
+}
+
+fn field<'n>(fields: &'n [Field], name: &str) -> Option<&'n Field> {
+    fields.iter().find(|field| field.name.as_ref() == name)
+}
