@@ -13,6 +13,7 @@ mod replay;
 mod run;
 mod text;
 mod trade;
+mod tune;
 mod verify;
 mod view;
 
@@ -37,6 +38,7 @@ enum Command {
     Log(log::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
+    Tune(tune::Arguments),
     Verify(verify::Arguments),
     View(view::Arguments),
 }
@@ -51,6 +53,7 @@ fn main() -> ExitCode {
         Command::Log(arguments) => log::main(&arguments),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
+        Command::Tune(arguments) => tune::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),
     }

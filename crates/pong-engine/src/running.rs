@@ -6,7 +6,9 @@ use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
-use crate::state::{Books, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block};
+use crate::state::{
+    Books, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block, write_packed,
+};
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
 use std::time::Duration;
@@ -199,13 +201,17 @@ impl Running {
         write_block(&self.memory, self.sealed.hash, out)
     }
 
-    pub fn restore_state(&mut self, block: &[u8]) -> Result<(), StateError> {
+    pub fn save_state_packed(&self, out: &mut Vec<u8>) {
+        write_packed(&self.memory, self.sealed.hash, out);
+    }
+
+    pub fn restore_state(&mut self, block: &[u8], packed: bool) -> Result<(), StateError> {
         self.let_go_of_memory();
         let hash = self.sealed.hash;
         let mut outcome = Ok(());
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            outcome = read_block(next, hash, block);
+            outcome = read_block(next, hash, block, packed);
         });
         outcome?;
         self.changed();

@@ -437,7 +437,20 @@ impl World {
     /// Restores a contact state that a world built by the same calls saved. The states of the movable groups are
     /// the host's and are not part of it.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        Ok(self.running_mut("restore the contact state")?.restore_state(block)?)
+        Ok(self.running_mut("restore the contact state")?.restore_state(block, false)?)
+    }
+
+    /// Saves the committed contact state as [`save_state`](Self::save_state) does, without the room for contacts that there
+    /// are not, into a buffer that becomes as long as it must: for keeping many. Its last eight bytes, too, are a hash of
+    /// the whole state.
+    pub fn save_state_packed(&self, out: &mut Vec<u8>) -> Result<(), EngineError> {
+        self.running("save the contact state")?.save_state_packed(out);
+        Ok(())
+    }
+
+    /// Restores what [`save_state_packed`](Self::save_state_packed) saved.
+    pub fn restore_state_packed(&mut self, block: &[u8]) -> Result<(), EngineError> {
+        Ok(self.running_mut("restore the contact state")?.restore_state(block, true)?)
     }
 
     /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.

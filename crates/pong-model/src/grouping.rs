@@ -89,6 +89,36 @@ pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
     Ok(out)
 }
 
+/// The mesh files that the text of a model file names, each once, in the order of the file.
+///
+/// # Errors
+/// Cause and cure, if the text is none that [`parse`](crate::parse) accepts.
+pub fn mesh_files(text: &str) -> Result<Vec<String>, String> {
+    let node = ron_tree::parse(text.strip_prefix(BOM).unwrap_or(text));
+    let node = node.map_err(|error| format!("{}; check it with `pong check`", error.cause))?;
+    let mut files = Vec::new();
+    meshes(&node, &mut files);
+    Ok(files)
+}
+
+/// Fields called `file` of primitives, wherever they are.
+fn meshes(node: &Node, files: &mut Vec<String>) {
+    match &node.value {
+        Value::Struct(kind, fields) => {
+            let may = matches!(kind.as_deref(), Some("TriangleMesh" | "Polyhedron"));
+            if let Some(file) = field(fields, "file").filter(|_| may)
+                && let Value::Text(file) = &within_some(&file.value).value
+                && !files.contains(file)
+            {
+                files.push(file.clone());
+            }
+            fields.iter().for_each(|field| meshes(&field.value, files));
+        }
+        Value::List(items) | Value::Tuple(_, items) => items.iter().for_each(|item| meshes(item, files)),
+        _ => {}
+    }
+}
+
 const BOM: char = '\u{feff}';
 
 /// Where the fields of a group stand in the text, in bytes from and to.

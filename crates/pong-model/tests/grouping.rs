@@ -4,7 +4,7 @@ mod common;
 
 use pong_geometry::bounding::{BoundKind, Volume};
 use pong_geometry::extension::Extensions;
-use pong_model::grouping::{Bound, Regrouped, groups, regrouped};
+use pong_model::grouping::{Bound, Regrouped, groups, mesh_files, regrouped};
 use pong_model::{Item, Model, Tree};
 
 fn load(text: &str) -> Model {
@@ -192,4 +192,12 @@ fn unbounded_elements_stand_apart_in_a_leaf_that_is_cut() {
     let volumes: Vec<_> =
         tree.nodes.iter().map(|node| (matches!(node.volume, Volume::Unbounded), node.items.len())).collect();
     assert_eq!(volumes, [(true, 0), (false, 9), (true, 1)]);
+}
+
+#[test]
+fn meshes_are_told_by_their_files() {
+    let text = "(root: (groups: [(primitives: [TriangleMesh(name: \"a\", file: \"x/a.stl\"), Polyhedron(file: Some(\"b.obj\"))]), \
+                (primitives: [Polyhedron(file: \"b.obj\"), Custom(file: \"no\")])]))";
+    assert_eq!(mesh_files(text).unwrap(), ["x/a.stl", "b.obj"]);
+    assert_eq!(mesh_files(&self::text()).unwrap(), Vec::<String>::new());
 }

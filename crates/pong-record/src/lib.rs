@@ -27,7 +27,7 @@ pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};
 pub use replay::{
-    Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, RerunOptions, replay, rerun,
+    Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, RerunOptions, replay, rerun, world_of_log,
 };
 pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};

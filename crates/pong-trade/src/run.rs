@@ -86,6 +86,7 @@ pub(crate) fn build(scene: &Scene, level: &Level, frames: &Frames) -> Result<Bui
         workers: (level.workers > 0).then_some(workers),
         alternative: level.alternative.as_deref(),
         rewrite: Some(&rewrite),
+        ..Variation::default()
     };
     scene.build_varied(&variation).map_err(|errors| TradeError(errors.to_string()))
 }

@@ -8,7 +8,8 @@
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
-//! Little-endian. The size depends on the sealed world alone.
+//! Little-endian. The size depends on the sealed world alone. A *packed* block has no unused places, and the checksum of
+//! the block that has them: for keeping many.
 
 use super::books::{Books, PairBook};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
@@ -101,6 +102,25 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
         return Err(StateError::Length { expected, got: out.len() });
     }
     out.fill(0);
+    let used = write_used(memory, world_hash, out);
+    let checksum = fnv1a_with_zeros(&out[..used], expected - CHECKSUM_LEN - used);
+    out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
+    Ok(())
+}
+
+/// Writes the packed block, however long it is.
+pub(crate) fn write_packed(memory: &ContactMemory, world_hash: u64, out: &mut Vec<u8>) {
+    let used =
+        used_len(memory.poses.len(), memory.records.len(), memory.custom_stride) + accounts_len(memory);
+    out.clear();
+    out.resize(used, 0);
+    write_used(memory, world_hash, out);
+    let checksum = fnv1a_with_zeros(out, expected_len(memory) - CHECKSUM_LEN - used);
+    out.extend(checksum.to_le_bytes());
+}
+
+/// Writes all but unused places and checksum; answers how many bytes that is.
+fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize {
     let mut writer = Writer { out, at: 0 };
     writer.bytes(&MAGIC);
     writer.u32(VERSION);
@@ -114,13 +134,10 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
         writer.record(record);
         custom.iter().for_each(|x| writer.f64(*x));
     }
-    let used = writer.at;
-    let checksum = fnv1a_with_zeros(&out[..used], expected - CHECKSUM_LEN - used);
-    out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
-    Ok(())
+    writer.at
 }
 
-/// Reads a block into a memory of the world that it belongs to.
+/// Reads a block, whole or packed, into a memory of the world that it belongs to.
 ///
 /// # Errors
 /// A block that is refused leaves the memory as it was.
@@ -128,8 +145,9 @@ pub(crate) fn read_block(
     memory: &mut ContactMemory,
     world_hash: u64,
     block: &[u8],
+    packed: bool,
 ) -> Result<(), StateError> {
-    let count = check(memory, world_hash, block)?;
+    let count = check(memory, world_hash, block, packed)?;
     let mut reader = Reader { block, at: TOTALS_AT };
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
@@ -147,8 +165,13 @@ pub(crate) fn read_block(
 }
 
 /// Everything that may be wrong with a block; answers the number of its records.
-fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, StateError> {
-    let expected = expected_len(like);
+fn check(
+    like: &ContactMemory,
+    world_hash: u64,
+    block: &[u8],
+    packed: bool,
+) -> Result<usize, StateError> {
+    let whole = expected_len(like);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);
     }
@@ -161,17 +184,20 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8]) -> Result<usize, S
     if reader.u64() != world_hash {
         return Err(StateError::World);
     }
+    // A count beyond the capacity would give any length.
+    let possible = count.min(like.records.capacity());
+    let used = used_len(like.poses.len(), possible, like.custom_stride) + accounts_len(like);
+    let expected = if packed { used + CHECKSUM_LEN } else { whole };
     if block.len() != expected {
         return Err(StateError::Length { expected, got: block.len() });
     }
-    if count > like.records.capacity() {
+    if count > possible {
         return Err(StateError::Damaged);
     }
     let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
-    let used = used_len(like.poses.len(), count, like.custom_stride) + accounts_len(like);
     let (used, unused) = body.split_at(used);
-    if unused.iter().any(|byte| *byte != 0) || fnv1a_with_zeros(used, unused.len()).to_le_bytes() != checksum
-    {
+    let zeros = whole - CHECKSUM_LEN - used.len();
+    if unused.iter().any(|byte| *byte != 0) || fnv1a_with_zeros(used, zeros).to_le_bytes() != checksum {
         return Err(StateError::Damaged);
     }
     reader.at = TOTALS_AT;

@@ -1,6 +1,6 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
-use super::block::{StateError, block_len, fnv1a, read_block, write_block};
+use super::block::{StateError, block_len, fnv1a, write_block, write_packed};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
 use super::merge::Remembered;
 use pong_geometry::{Pose, Quat, Vec3};
@@ -8,6 +8,14 @@ use pong_geometry::{Pose, Quat, Vec3};
 const GROUP_PAIRS: usize = 5;
 const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
+
+fn read_block(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
+    super::block::read_block(memory, world, block, false)
+}
+
+fn read_packed(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
+    super::block::read_block(memory, world, block, true)
+}
 
 /// Numbers from a fixed seed.
 struct Random(u64);
@@ -255,6 +263,38 @@ fn a_damaged_byte_anywhere_is_refused_and_changes_nothing() {
     }
     assert_eq!(read_block(&mut memory, WORLD + 1, &block), Err(StateError::World));
     assert!(memory == before);
+}
+
+/// A packed block is the whole one without its unused places: it gives back the same, and refuses what is damaged.
+#[test]
+fn a_packed_block_gives_back_what_was_saved_and_no_more() {
+    let mut random = Random(9);
+    let mut packed = vec![1, 2, 3];
+    for round in 0..100 {
+        let (memory, mut other) = two_memories(&mut random, round);
+        write_packed(&memory, WORLD, &mut packed);
+        let whole = block_of(&memory);
+        let used = packed.len() - 8;
+        assert_eq!((&packed[..used], &packed[used..]), (&whole[..used], &whole[whole.len() - 8..]));
+        assert!(whole[used..whole.len() - 8].iter().all(|byte| *byte == 0));
+        let before = other.clone();
+        assert!(packed.len() == whole.len() || read_block(&mut other, WORLD, &packed).is_err());
+        assert!(read_packed(&mut other, WORLD + 1, &packed).is_err() && other == before);
+        read_packed(&mut other, WORLD, &packed).unwrap();
+        assert!(other == memory);
+    }
+    let mut memory = random.memory(5, 1);
+    let before = memory.clone();
+    write_packed(&random.memory(9, 1), WORLD, &mut packed);
+    for at in 0..packed.len() {
+        let mut damaged = packed.clone();
+        damaged[at] ^= 1 << (at % 8);
+        assert!(read_packed(&mut memory, WORLD, &damaged).is_err() && memory == before, "byte {at}");
+    }
+    for len in [0, 7, 8, 39, 40, packed.len() - 1] {
+        assert!(read_packed(&mut memory, WORLD, &packed[..len]).is_err() && memory == before, "{len} bytes");
+    }
+    assert!(read_packed(&mut memory, WORLD, &[&packed[..], &[0]].concat()).is_err());
 }
 
 /// Where a record begins in the block, and its words in it.

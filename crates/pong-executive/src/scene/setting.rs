@@ -157,7 +157,12 @@ fn load_models<'a>(
             faults.note(&thing, "the name is given twice", "keep one of them or rename one");
             continue;
         }
-        let model = match pong_model::load(&folder.join(file), extensions) {
+        let file = folder.join(file);
+        if let Some(model) = variation.instead.and_then(|instead| instead(&file)) {
+            named.push((name, Some(model)));
+            continue;
+        }
+        let model = match pong_model::load(&file, extensions) {
             Ok(model) => Some(model),
             Err(errors) => {
                 errors.0.iter().for_each(|error| faults.note(&thing, error.to_string(), ""));

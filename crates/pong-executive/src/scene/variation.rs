@@ -6,10 +6,14 @@ use super::error::Faults;
 use crate::integrate::Integrator;
 use pong_engine::WorkerSettings;
 use pong_model::Model;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What a rewritten model is made by; an error is a line of cause and cure.
 type Rewrite<'a> = &'a dyn Fn(Model) -> Result<Model, String>;
+
+/// A model that is at hand for a file.
+type Instead<'a> = &'a dyn Fn(&Path) -> Option<Arc<Model>>;
 
 /// What is to differ from a scene file; by default nothing is.
 #[derive(Clone, Default)]
@@ -24,6 +28,8 @@ pub struct Variation<'a> {
     pub alternative: Option<&'a str>,
     /// Every model, once loaded, is replaced by what this makes of it.
     pub rewrite: Option<Rewrite<'a>>,
+    /// Where this has a model for the file of one, that is taken as it is, and the file is not read.
+    pub instead: Option<Instead<'a>>,
 }
 
 impl Variation<'_> {

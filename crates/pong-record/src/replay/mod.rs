@@ -5,7 +5,7 @@ mod rebuild;
 mod rerun;
 
 pub use compare::Difference;
-pub use rerun::{RerunFrame, RerunOptions, rerun};
+pub use rerun::{RerunFrame, RerunOptions, rerun, world_of_log};
 
 use crate::error::LogError;
 use crate::event::{Event, LoggedEvent};
@@ -164,7 +164,7 @@ struct Replay {
 
 impl Replay {
     fn new(log: &Log, options: &ReplayOptions) -> Result<Self, LogError> {
-        let (world, models) = rebuild::world(log, options, None)?;
+        let (world, models) = rebuild::world(log, options, &rebuild::Models::default())?;
         Self::of_world(log, options, world, models)
     }
 

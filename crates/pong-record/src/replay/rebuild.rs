@@ -7,14 +7,20 @@ use pong_engine::{Config, ModelId, World};
 use pong_model::Model;
 use std::sync::Arc;
 
-/// What becomes of a model, by its index.
-type Rewrite<'a> = &'a dyn Fn(usize, Model) -> Result<Model, String>;
+/// Other models than the log's.
+#[derive(Default)]
+pub(super) struct Models<'a> {
+    /// What becomes of a model, by its index.
+    pub rewrite: Option<&'a dyn Fn(usize, Model) -> Result<Model, String>>,
+    /// A model that is at hand for one of the log.
+    pub instead: Option<&'a dyn Fn(usize) -> Option<Arc<Model>>>,
+}
 
 /// The sealed world and the ids of its models.
 pub(super) fn world(
     log: &Log,
     options: &ReplayOptions,
-    rewrite: Option<Rewrite<'_>>,
+    other: &Models<'_>,
 ) -> Result<(World, Vec<ModelId>), LogError> {
     let run = log.run();
     let config = Config {
@@ -33,8 +39,12 @@ pub(super) fn world(
     }
     let mut models = Vec::new();
     for (index, model) in run.models.iter().enumerate() {
+        if let Some(at_hand) = other.instead.and_then(|instead| instead(index)) {
+            models.push(world.add_model(at_hand)?);
+            continue;
+        }
         let loaded = load_model(&world, log, index, &model.name, model.hash)?;
-        let wanted = match rewrite {
+        let wanted = match other.rewrite {
             None => Ok(loaded),
             Some(rewrite) => rewrite(index, loaded),
         };

@@ -6,9 +6,13 @@ use crate::read::{Frame, Log};
 use pong_engine::{InterfaceId, Laws, WorkerSettings, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
+use std::sync::Arc;
 
 /// What becomes of a model of the log, by its index; an error is a line of cause and cure.
 type Rewrite<'a> = &'a dyn Fn(usize, Model) -> Result<Model, String>;
+
+/// A model that is at hand for one of the log, by its index.
+type Instead<'a> = &'a dyn Fn(usize) -> Option<Arc<Model>>;
 
 /// What is to differ from the log.
 #[derive(Default)]
@@ -17,6 +21,8 @@ pub struct RerunOptions<'a> {
     pub workers: Option<WorkerSettings>,
     /// Every model, once loaded and checked against the log, is replaced by what this makes of it.
     pub rewrite: Option<Rewrite<'a>>,
+    /// Where this has a model for one of the log, that is taken as it is, and the log's is not read.
+    pub instead: Option<Instead<'a>>,
     /// Only every so many frames, beginning with the first, are handed to the engine; 0 counts as 1.
     pub every: u64,
     /// The force laws that the host of the log had registered.
@@ -39,6 +45,15 @@ pub struct RerunFrame<'a> {
     pub took_ns: u64,
 }
 
+/// The world of a log, built again with something else than the log says: sealed, and nothing is set or remembered yet.
+///
+/// # Errors
+/// A world that cannot be built: a model that was changed, a law of the host's.
+pub fn world_of_log(log: &Log, options: RerunOptions<'_>) -> Result<World, LogError> {
+    let other = rebuild::Models { rewrite: options.rewrite, instead: options.instead };
+    Ok(rebuild::world(log, &replay_options(options), &other)?.0)
+}
+
 /// Runs a log through the engine with something else than it says, open loop: the motions stay those of the log. Calls
 /// back with every frame, of which there are at most so many.
 ///
@@ -54,14 +69,9 @@ pub fn rerun(
     each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), LogError>,
 ) -> Result<(), LogError> {
     let every = options.every.max(1);
-    // With a tolerance the hash of the world need not be that of the log.
-    let replay = ReplayOptions {
-        workers: options.workers,
-        tolerance: Some(0.0),
-        laws: options.laws,
-        extensions: options.extensions,
-    };
-    let (world, models) = rebuild::world(log, &replay, options.rewrite)?;
+    let other = rebuild::Models { rewrite: options.rewrite, instead: options.instead };
+    let replay = replay_options(options);
+    let (world, models) = rebuild::world(log, &replay, &other)?;
     let mut replay = Replay::of_world(log, &replay, world, models)?;
     let mut frame = Frame::default();
     for index in 0..log.frame_count().min(frames) {
@@ -77,4 +87,14 @@ pub fn rerun(
         each(&RerunFrame { index, logged: &frame, world, bodies, took_ns })?;
     }
     Ok(())
+}
+
+/// With a tolerance the hash of the world need not be that of the log.
+fn replay_options(options: RerunOptions<'_>) -> ReplayOptions {
+    ReplayOptions {
+        workers: options.workers,
+        tolerance: Some(0.0),
+        laws: options.laws,
+        extensions: options.extensions,
+    }
 }

@@ -1,0 +1,102 @@
+//! `pong tune`: bounds and leaves that lower the frame time of a run, for the same bits.
+
+use crate::text::print;
+use indicatif::{ProgressBar, ProgressStyle};
+use pong_tune::{Output, Progress, Settings, TuneError, Tuned, report, tune};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Duration;
+
+/// Looks for bounding volumes and leaves with which the frames of a run take less time, and writes new model files
+/// (docs/tune.md).
+///
+/// Every frame of the run must come out the same, bit for bit; what is not faster by more than noise is not taken. Files
+/// are called `<model>_tuned.ron`; nothing is replaced.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// The scene file, or the folder of a response log.
+    #[arg(value_name = "SCENE.ron|LOG")]
+    subject: PathBuf,
+    /// Another run that the models are to serve as well; may be given several times. All count the same.
+    #[arg(long, value_name = "SCENE.ron|LOG")]
+    also: Vec<PathBuf>,
+    /// Folder for the tuned models, with the meshes that they need; beside each model unless given, for a log
+    /// `<log>_tuned`.
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replaces tuned models that are there.
+    #[arg(long)]
+    force: bool,
+    /// Another duration than the run's, s.
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+    /// How often every proposal is timed; before and after three times as often.
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    rounds: u32,
+    /// Frames of each run that are timed in the end, spread over it; the search has a quarter of them.
+    #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(16..=1_000_000))]
+    frames: u64,
+    /// No progress and no page; warnings and errors stay.
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+    match run(arguments) {
+        Ok(tuned) => {
+            if !arguments.quiet {
+                print(&report::page(&tuned));
+            }
+            for line in tuned.refused.iter().filter(|_| arguments.quiet) {
+                eprintln!("warning: a proposal was thrown away: {line}");
+            }
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<Tuned, TuneError> {
+    let mut runs: Vec<&Path> = vec![&arguments.subject];
+    runs.extend(arguments.also.iter().map(PathBuf::as_path));
+    let settings = Settings {
+        rounds: arguments.rounds,
+        frames: arguments.frames,
+        duration_s: arguments.duration,
+        output: Output { folder: folder(arguments), force: arguments.force },
+    };
+    let bar = progress_bar(arguments.quiet);
+    let mut watch = |progress: &Progress| match progress {
+        Progress::Running { doing, done, of } => {
+            bar.set_message(format!("{doing}: frame {done} of {of}"));
+        }
+        Progress::Searching(doing) => bar.set_message(doing.clone()),
+    };
+    let tuned = tune(&runs, &settings, &mut watch);
+    bar.finish_and_clear();
+    tuned
+}
+
+/// A log keeps copies of its models for itself: what is tuned goes elsewhere.
+fn folder(arguments: &Arguments) -> Option<PathBuf> {
+    let log = || {
+        let name = arguments.subject.file_name().unwrap_or_default().to_string_lossy();
+        arguments.subject.is_dir().then(|| PathBuf::from(format!("{name}_tuned")))
+    };
+    arguments.output.clone().or_else(log)
+}
+
+/// What is done now, on standard error, if that is a terminal.
+fn progress_bar(quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new_spinner();
+    let template = "{spinner} {elapsed} {msg}";
+    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

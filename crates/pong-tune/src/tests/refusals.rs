@@ -1,0 +1,127 @@
+//! Proposals that change an answer are refused, and named. Code is broken on purpose here.
+
+use super::{Folder, Priced, Ready, ball_on_sheet};
+use crate::counts::Counts;
+use crate::error::TuneError;
+use crate::play::Compared;
+use crate::search::{Judge, Proposal, search};
+use pong_model::Model;
+use std::sync::Arc;
+
+fn models(ready: &Ready) -> Vec<Arc<Model>> {
+    ready.bench().models(&ready.authored()).unwrap().0
+}
+
+/// The ball's radius is one unit in the last place larger.
+fn by_one_bit(ready: &Ready) -> Vec<Arc<Model>> {
+    let mut models = models(ready);
+    let ball = Arc::make_mut(&mut models[0]);
+    ball.bodies[0].spheres[0].radius = ball.bodies[0].spheres[0].radius.next_up();
+    models
+}
+
+#[test]
+fn one_bit_of_one_primitive_is_seen_in_the_sample_and_in_the_whole_run() {
+    let folder = Folder::new("one_bit");
+    let ready = Ready::new(&ball_on_sheet(&folder));
+    let (run, motions) = (&ready.runs[0], &ready.motions[0]);
+    let same = run.player(&models(&ready)).unwrap().compare(motions, 1).unwrap();
+    assert!(matches!(same, Compared::Same(counts) if counts.frames == 101));
+    assert_eq!(run.differs(&models(&ready), motions, &mut |_| {}).unwrap(), None);
+
+    let mut player = run.player(&by_one_bit(&ready)).unwrap();
+    let Compared::Differs(what) = player.compare(motions, 1).unwrap() else { panic!("a bit was missed") };
+    assert_eq!(what, "the wrenches of frame 0");
+    let what = run.differs(&by_one_bit(&ready), motions, &mut |_| {}).unwrap();
+    assert_eq!(what.as_deref(), Some("the wrenches of frame 0"));
+}
+
+/// The bristle is part of what is remembered: other friction shows in contact state though the ball only rests on it.
+#[test]
+fn each_part_of_an_answer_is_compared() {
+    let folder = Folder::new("parts");
+    let ready = Ready::new(&ball_on_sheet(&folder));
+    let mut motions = Ready::new(&ball_on_sheet(&folder)).motions;
+    // What differs is told by comparing the run with one whose ball has other names and numbers.
+    let other = folder.write("other.ron", "");
+    drop(other);
+    let answers = motions[0].answers.clone();
+    let parts = |frame: usize| answers[frame].difference(&answers[frame + 1]);
+    assert_eq!(parts(0), Some("the wrenches"));
+    motions[0].answers[7] = answers[8];
+    let refused = crate::bench::Bench::new(&ready.subjects, &ready.runs, &motions, 1).compare(&ready.authored());
+    let why = refused.unwrap().unwrap_err();
+    assert!(why.contains("frame 7") && why.contains("ball and sheet") && why.contains("not be the same bits"), "{why}");
+}
+
+/// A judge whose engine answers otherwise as soon as the ball has a ball for a volume.
+struct Broken<'a>(Priced<'a>);
+
+impl Judge for Broken<'_> {
+    fn trees(&mut self, proposal: &Proposal) -> Result<u64, String> {
+        self.0.trees(proposal)
+    }
+
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, TuneError> {
+        if proposal[0].iter().any(|setting| setting.bound == pong_model::grouping::Bound::Above) {
+            return Ok(Err("the contacts of frame 3".to_owned()));
+        }
+        self.0.compare(proposal)
+    }
+
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, TuneError> {
+        self.0.time(proposals, rounds)
+    }
+}
+
+#[test]
+fn what_is_refused_is_never_taken_and_told() {
+    let folder = Folder::new("broken");
+    let ready = Ready::new(&ball_on_sheet(&folder));
+    let shapes: Vec<_> = ready.subjects.iter().map(|subject| &subject.shape).collect();
+    let mut judge = Broken(Priced { bench: ready.bench(), timings: 0 });
+    let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
+    assert!(judge.0.timings > 0);
+    assert!(found.refused.iter().all(|(model, _, why)| *model == 0 && why.contains("frame 3")));
+    assert!(!found.refused.is_empty());
+    let above = |model: usize| {
+        found.best[model].iter().filter(|s| s.bound == pong_model::grouping::Bound::Above).count()
+    };
+    assert_eq!((above(0), above(1)), (0, 2));
+}
+
+/// A clock that goes up and down by more than any gain: nothing is taken.
+struct Noisy<'a>(Priced<'a>, u32);
+
+impl Judge for Noisy<'_> {
+    fn trees(&mut self, proposal: &Proposal) -> Result<u64, String> {
+        self.0.trees(proposal)
+    }
+
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, TuneError> {
+        self.0.compare(proposal)
+    }
+
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, TuneError> {
+        let mut times = self.0.time(proposals, rounds)?;
+        times.iter_mut().for_each(|time| {
+            self.1 += 1;
+            *time *= 1.0 + f64::from(self.1 % 2);
+        });
+        // The same thing, first and last, differs twofold.
+        let last = times.len() - 1;
+        (times[0], times[last]) = (1.0, 2.0);
+        Ok(times)
+    }
+}
+
+#[test]
+fn what_is_not_beyond_noise_is_not_taken() {
+    let folder = Folder::new("noise");
+    let ready = Ready::new(&ball_on_sheet(&folder));
+    let shapes: Vec<_> = ready.subjects.iter().map(|subject| &subject.shape).collect();
+    let mut judge = Noisy(Priced { bench: ready.bench(), timings: 0 }, 0);
+    let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
+    assert_eq!(found.best, ready.authored());
+    assert!(found.timed > 0);
+}
