@@ -168,7 +168,7 @@ def _group(group: Group, path: str, place: Affine, found: dict[str, Volume]) -> 
         if not below.movable:
             parts.append(inner)
     things = together(parts)
-    volume = fit(group.bound or "Aabb", things)
+    volume = None if group.bound == "Above" else fit(group.bound or "Aabb", things)
     if volume is not None:
         found[path] = volume
     return things

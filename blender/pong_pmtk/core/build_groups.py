@@ -44,6 +44,7 @@ class GroupBuilder:
             cause = f"a group that is a {thing.type.lower()}: what it shows would not be exported"
             self.findings.error("group-type", where, cause, "use an empty, and hang the object below it")
         group.bound = self.bound(thing)
+        group.leaf_size = mark.leaf_size or None
         group.surface = self.surface(thing)
         items = self.items(thing, Affine(rest, np.zeros(3)), transforms.is_identity(rest))
         self.contents(thing, group, items, group.surface or above_surface)
@@ -181,6 +182,9 @@ class GroupBuilder:
         if thing.mark.bound not in BOUNDS:
             cause = f'its bounding volume is "{thing.mark.bound}"'
             self.findings.error("unknown-bound", self.scene.where(thing), cause, f"choose from: {', '.join(BOUNDS)}")
+        if thing.mark.bound == "Above" and (thing.mark.movable or thing.mark.role == "root"):
+            cause = "it moves by itself and cannot do without a bounding volume"
+            self.findings.error("bound-above", self.scene.where(thing), cause, "give it a box, a sphere or an oriented box")
         return thing.mark.bound
 
     def check_name(self, siblings, name: str, thing: SnapshotObject) -> None:

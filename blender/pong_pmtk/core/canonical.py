@@ -36,6 +36,7 @@ def _group(group: Group, is_root: bool = False) -> Group:
         group.surface,
         [_group(below) for below in group.groups],
         [_primitive(primitive) for primitive in group.primitives],
+        group.leaf_size,
     )
 
 

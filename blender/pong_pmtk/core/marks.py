@@ -26,7 +26,7 @@ KINDS = (
     "Custom",
 )
 
-BOUNDS = ("Aabb", "Sphere", "Obb")
+BOUNDS = ("Aabb", "Sphere", "Obb", "Above")
 
 
 @dataclass
@@ -77,6 +77,7 @@ class Mark:
     movable: bool = False
     bound: str = "Aabb"
     custom_bound: str = ""  # name of a registered kind of volume, instead of `bound`
+    leaf_size: int = 0  # most elements of a leaf; 0 for no limit
     # primitives
     kind: str = ""
     radius: float = 0.0  # before the object's scale

@@ -25,10 +25,11 @@ class Group:
     movable: bool = False
     position: tuple[float, float, float] | None = None  # in the frame of the group above
     orientation: tuple[float, float, float, float] | None = None
-    bound: str | None = None  # "Aabb", "Sphere", "Obb" or "Custom:kind"
+    bound: str | None = None  # "Aabb", "Sphere", "Obb", "Above" or "Custom:kind"
     surface: str | None = None
     groups: list[Group] = field(default_factory=list)
     primitives: list[Primitive] = field(default_factory=list)
+    leaf_size: int | None = None  # most elements of a leaf
 
 
 @dataclass

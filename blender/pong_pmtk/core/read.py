@@ -14,7 +14,7 @@ from .read_values import Fault, ModelFaults, Unreadable, ValueReader
 from .ron_tree import Map, Node, RonError, Struct, Tuple, describe, parse
 from .schema import PRIMITIVES, names
 
-GROUP_FIELDS = ["name", "movable", "pose", "bound", "surface", "groups", "primitives"]
+GROUP_FIELDS = ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"]
 MODEL_FIELDS = ["format", "version", "name", "entry_memory", "surfaces", "pairs", "root"]
 KINDS_WITH_FILE = {"TriangleMesh": "triangles", "Polyhedron": "faces"}
 
@@ -190,6 +190,11 @@ class ModelReader(ValueReader):
         group = Group(name or "", movable=bool(movable) and not is_root)
         self.pose(fields, path, group, is_root)
         group.bound = self.attempt(self.bound, self.optional(fields, "bound"), path)
+        if group.bound == "Above" and (is_root or group.movable):
+            cause = "a movable group moves by itself and cannot do without a bounding volume"
+            cure = "give it `Aabb`, `Sphere` or `Obb`, or leave `bound` out"
+            self.fault(fields["bound"].at, path, "bound-above", cause, cure)
+        group.leaf_size = self.attempt(self.leaf_size, self.optional(fields, "leaf_size"), path)
         group.surface = self.surface_name(self.optional(fields, "surface"), path)
         self.contents(node, fields, path, group)
         return group
@@ -207,12 +212,20 @@ class ModelReader(ValueReader):
         group.orientation = self.attempt(self.rotation, self.optional(parts, "orientation"), path)
 
     def bound(self, node: Node, path: str) -> str | None:
-        kind = self.variant(node, path, ["Aabb", "Sphere", "Obb", "Custom"])
+        kind = self.variant(node, path, ["Aabb", "Sphere", "Obb", "Above", "Custom"])
         if kind != "Custom":
             return None if kind == "Aabb" else kind
         if not isinstance(node.value, Tuple) or len(node.value.items) != 1:
             self.wrong_type(node, path, 'Custom("kind")')
         return f"Custom:{self.text_value(node.value.items[0], path)}"
+
+    def leaf_size(self, node: Node, path: str) -> int | None:
+        size = self.number(node, path)
+        if size >= 1.0 and size == int(size):
+            return int(size)
+        cause = f"the size of a leaf is {size:g}"
+        self.fault(node.at, path, "leaf-size", cause, "give a whole number of elements, at least 1")
+        return None
 
     def name(self, node: Node, fields: dict, path: str, siblings: set) -> str | None:
         name = self.attempt_required(node, fields, "name", path, self.text_value, path)

@@ -108,6 +108,8 @@ def group(node: Group) -> Block:
         items.append(("pose: ", pose(node)))
     if node.bound is not None:
         items.append(("bound: ", bound(node.bound)))
+    if node.leaf_size is not None:
+        items.append(("leaf_size: ", str(node.leaf_size)))
     if node.surface is not None:
         items.append(("surface: ", text(node.surface)))
     if node.groups:

@@ -32,6 +32,7 @@ BOUND_ITEMS = [
     ("Aabb", "Box", "Box along the axes of the movable group"),
     ("Sphere", "Sphere", "Ball"),
     ("Obb", "Oriented Box", "Box that fits best"),
+    ("Above", "None", "No volume of its own: what it holds counts to the group above"),
 ]
 
 
@@ -54,6 +55,7 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
     movable: bpy.props.BoolProperty(name="Movable", description="A rigid body of its own, whose state the host gives")
     bound: bpy.props.EnumProperty(name="Bound", items=BOUND_ITEMS, description="Bounding volume around all below")
     custom_bound: bpy.props.StringProperty(name="Custom Bound", description="A registered kind of volume instead")
+    leaf_size: bpy.props.IntProperty(name="Leaf Size", min=0, description="Most elements of a leaf. 0: no limit")
     order: bpy.props.IntProperty(name="Order", min=0, description="Place among siblings, from 1. 0: behind, by name")
     kind: bpy.props.EnumProperty(name="Kind", items=KIND_ITEMS)
     radius: numbers.number("radius_64", name="Radius", min=0.0, precision=4)
@@ -93,7 +95,10 @@ class PONG_PG_model(bpy.types.PropertyGroup):
 
 
 # In the mark and in the property group.
-SAME = ("role", "surface", "order", "movable", "bound", "custom_bound", "response", "two_sided", "file", "custom_kind")
+SAME = (
+    "role", "surface", "order", "movable", "bound", "custom_bound", "leaf_size", "response", "two_sided", "file",
+    "custom_kind",
+)
 # Kept in full precision, and left out where not given.
 NUMBERS = ("radius", "length", "reach", "thickness", "file_scale")
 LISTS = {"semi_axes": tuple, "parameters": list}

@@ -80,6 +80,7 @@ class PONG_PT_object(Panel, bpy.types.Panel):
             layout.prop(mark, "movable")
         layout.prop(mark, "bound")
         layout.prop(mark, "custom_bound")
+        layout.prop(mark, "leaf_size")
 
     def _primitive(self, layout, mark):
         layout.prop(mark, "kind")

@@ -193,6 +193,11 @@ def unknown_bound():
     return with_change("arm", bound="Capsule")
 
 
+@faulty
+def bound_above():
+    return with_change("arm", bound="Above", movable=True)
+
+
 def _named(name):
     s = good()
     part(s, "ball").mark.name = name

@@ -62,6 +62,9 @@ def random_group(name, depth):
         name, random.random() < 0.3, random_vector(), random_rotation(),
         random.choice([None, "Sphere", "Obb", "Custom:torus"]), random.choice([None, "ice"]),
     )  # fmt: skip
+    group.leaf_size = random.choice([None, None, 1, 32])
+    if depth < 3 and not group.movable and random.random() < 0.2:
+        group.bound = "Above"
     if depth and random.random() < 0.6:
         names = random.sample([f"g{i}" for i in range(12)], 3)
         group.groups = [random_group(below, depth - 1) for below in names]

@@ -70,7 +70,9 @@ impl<'a> Bench<'a> {
         for ((mut player, run), motions) in players.into_iter().zip(self.runs).zip(self.motions) {
             match player.compare(motions, self.stride).map_err(|error| run.refused(&error))? {
                 Compared::Same(counted) => counts.push(counted),
-                Compared::Differs(what) => return Ok(Err(format!("{what} of `{}` would not be the same bits", run.name))),
+                Compared::Differs(what) => {
+                    return Ok(Err(format!("{what} of `{}` would not be the same bits", run.name)));
+                }
             }
         }
         Ok(Ok(counts))

@@ -2,7 +2,7 @@
 //! engine knew before the first of them. So every proposal is asked for the same frames, in the midst of the run.
 
 use crate::answer::{Answer, Reader};
-use pong_engine::{EngineError, InterfaceId, State, World};
+use pong_engine::{EngineError, InterfaceId, State, StatusBits, World};
 use pong_model::Surface;
 
 /// Frames in a row.
@@ -14,8 +14,8 @@ pub(crate) struct Motions {
     pub answers: Vec<Answer>,
     /// The rows, in the order of the run.
     pub windows: Vec<Window>,
-    /// Frames that had to leave something out.
-    pub incomplete: u64,
+    /// Frames in which a limit was hit.
+    pub limited: u64,
 }
 
 /// Some frames in a row.
@@ -122,7 +122,7 @@ pub(crate) struct Gatherer {
 impl Gatherer {
     pub fn new(rows: Vec<(u64, u64)>) -> Self {
         let mut rows = rows.into_iter();
-        let motions = Motions { answers: Vec::new(), windows: Vec::new(), incomplete: 0 };
+        let motions = Motions { answers: Vec::new(), windows: Vec::new(), limited: 0 };
         Self { row: rows.next(), rows, reader: Reader::default(), motions }
     }
 
@@ -145,7 +145,9 @@ impl Gatherer {
     ) -> Result<(), EngineError> {
         let frame = self.motions.answers.len() as u64;
         self.motions.answers.push(self.reader.read(world, bodies, true)?);
-        self.motions.incomplete += u64::from(!world.report().status.is_complete());
+        let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
+        let is_limited = limits.into_iter().any(|limit| world.report().status.contains(limit));
+        self.motions.limited += u64::from(is_limited);
         let Some((first, end)) = self.row.filter(|(first, _)| frame >= *first) else { return Ok(()) };
         if let Some(window) = self.motions.windows.last_mut().filter(|window| window.first == first) {
             let mut states = Vec::new();

@@ -130,11 +130,7 @@ fn of_group(shape: &Shape, now: &Grouping, group: usize) -> Vec<Move> {
 }
 
 /// Something set for some groups. Volumes of a host's own kind are not touched: nobody else knows what they are for.
-fn set<'g>(
-    now: &Grouping,
-    groups: impl Iterator<Item = &'g usize>,
-    change: impl Fn(&mut Setting),
-) -> Move {
+fn set<'g>(now: &Grouping, groups: impl Iterator<Item = &'g usize>, change: impl Fn(&mut Setting)) -> Move {
     let known = groups.filter(|group| !matches!(now[**group].bound, Bound::Around(BoundKind::Custom(_))));
     Move(
         known

@@ -83,7 +83,12 @@ impl Player {
     }
 
     /// Plays every `stride`-th row of frames and keeps the shorter time of each frame, ns.
-    pub fn time(&mut self, motions: &Motions, stride: usize, times: &mut Vec<u64>) -> Result<(), EngineError> {
+    pub fn time(
+        &mut self,
+        motions: &Motions,
+        stride: usize,
+        times: &mut Vec<u64>,
+    ) -> Result<(), EngineError> {
         let rows = || motions.windows.iter().step_by(stride);
         times.resize(rows().map(|window: &Window| window.frames.len()).sum(), u64::MAX);
         let mut kept = times.iter_mut();
@@ -114,7 +119,8 @@ impl Player {
             Commit::All => world.commit(),
             Commit::Nothing => Ok(()),
             Commit::Pairs(pairs) => {
-                let pairs: Vec<PairId> = pairs.iter().filter_map(|pair| self.pairs.get(*pair)).copied().collect();
+                let pairs: Vec<PairId> =
+                    pairs.iter().filter_map(|pair| self.pairs.get(*pair)).copied().collect();
                 world.commit_pairs(&pairs)
             }
         }

@@ -38,12 +38,11 @@ fn compared(run: &RunTuned) -> String {
         run.frames,
         run.times_ns[0].len()
     );
-    if run.incomplete > 0 {
+    if run.limited > 0 {
         let _ = write!(
             text,
-            " In {} frames the engine had to leave something out: what it leaves out may hang on bounds and leaves. Raise the \
-             contact capacity.",
-            run.incomplete
+            " In {} frames a limit left contacts out; which may hang on bounds and leaves. Raise the contact capacity.",
+            run.limited
         );
     }
     text
@@ -55,7 +54,9 @@ fn verdict(tuned: &Tuned) -> String {
     let tried = format!("{compared} proposals were compared, {timed} of them timed.");
     if tuned.taken {
         let gain = percent(tuned.gain);
-        return format!("**{gain} less time** for the same bits; the same models timed twice differ by {noise}. {tried}\n");
+        return format!(
+            "**{gain} less time** for the same bits; the same models timed twice differ by {noise}. {tried}\n"
+        );
     }
     format!(
         "The models are as good as this finds: nothing is faster by more than noise, which is {noise}, or 1 %. Nothing was \
@@ -87,7 +88,8 @@ fn percent(share: f64) -> String {
 }
 
 fn table(run: &RunTuned, changed: bool) -> String {
-    let mut rows = vec![["".to_owned(), "before".to_owned(), "again".to_owned(), "after".to_owned(), "×".to_owned()]];
+    let mut rows =
+        vec![["".to_owned(), "before".to_owned(), "again".to_owned(), "after".to_owned(), "×".to_owned()]];
     let times = run.times_ns.each_ref().map(|times| Times::of(times));
     let parts: [(&str, fn(&Times) -> f64); 3] = [
         ("median frame, µs", |times| times.median),
@@ -105,7 +107,8 @@ fn table(run: &RunTuned, changed: bool) -> String {
     };
     add("tests of bounds per frame", &|counts| counts.volumes_tested()[0]);
     add("of which apart", &|counts| counts.volumes_tested()[0] - counts.volumes_tested()[1]);
-    let kinds: std::collections::BTreeSet<_> = before.volumes.keys().chain(after.volumes.keys()).copied().collect();
+    let kinds: std::collections::BTreeSet<_> =
+        before.volumes.keys().chain(after.volumes.keys()).copied().collect();
     for kind in kinds {
         let name = format!("{} × {}", kind.0, kind.1);
         add(&name, &|counts| counts.volumes.get(&kind).map_or(0, |tally| tally[0]));
@@ -163,14 +166,22 @@ fn lay_out(rows: &[[String; 5]]) -> String {
             .iter()
             .zip(widths)
             .enumerate()
-            .map(|(column, (cell, width))| if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") })
+            .map(
+                |(column, (cell, width))| {
+                    if column == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") }
+                },
+            )
             .collect();
         let _ = writeln!(out, "| {} |", cells.join(" | "));
         if index == 0 {
             let rules: Vec<String> = widths
                 .iter()
                 .enumerate()
-                .map(|(column, width)| if column == 0 { "-".repeat(width + 2) } else { "-".repeat(width + 1) + ":" })
+                .map(
+                    |(column, width)| {
+                        if column == 0 { "-".repeat(width + 2) } else { "-".repeat(width + 1) + ":" }
+                    },
+                )
                 .collect();
             let _ = writeln!(out, "|{}|", rules.join("|"));
         }

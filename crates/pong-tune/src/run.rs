@@ -31,11 +31,23 @@ pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64);
 
 impl Run {
     /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
-    pub fn load(path: &Path, duration_s: Option<f64>, subjects: &mut Vec<Subject>) -> Result<Self, TuneError> {
-        if path.is_dir() { Self::of_log(path, duration_s, subjects) } else { Self::of_scene(path, duration_s, subjects) }
+    pub fn load(
+        path: &Path,
+        duration_s: Option<f64>,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, TuneError> {
+        if path.is_dir() {
+            Self::of_log(path, duration_s, subjects)
+        } else {
+            Self::of_scene(path, duration_s, subjects)
+        }
     }
 
-    fn of_scene(path: &Path, duration_s: Option<f64>, subjects: &mut Vec<Subject>) -> Result<Self, TuneError> {
+    fn of_scene(
+        path: &Path,
+        duration_s: Option<f64>,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, TuneError> {
         let scene = Scene::load(path).map_err(|errors| TuneError(errors.to_string()))?;
         let built = scene.build().map_err(|errors| TuneError(errors.to_string()))?;
         let mut models = Vec::new();
@@ -66,9 +78,7 @@ impl Run {
     /// Runs it as it is and keeps its motions: at most so many frames.
     pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions, TuneError> {
         let motions = match &self.source {
-            Source::Scene(scene) => {
-                self.follow(build(scene, None)?, rows(self.frames, wanted, &[]), tick)
-            }
+            Source::Scene(scene) => self.follow(build(scene, None)?, rows(self.frames, wanted, &[]), tick),
             Source::Log(path) => {
                 let mut log = open(path)?;
                 let events = places_of_events(&mut log, self.frames)?;
@@ -82,7 +92,12 @@ impl Run {
     }
 
     /// Runs all of it again with other models, one for each subject, and tells the first frame whose answer is another.
-    pub fn differs(&self, made: &[Arc<Model>], motions: &Motions, tick: Tick<'_>) -> Result<Option<String>, TuneError> {
+    pub fn differs(
+        &self,
+        made: &[Arc<Model>],
+        motions: &Motions,
+        tick: Tick<'_>,
+    ) -> Result<Option<String>, TuneError> {
         let again = match &self.source {
             Source::Scene(scene) => self.follow(build(scene, Some((self, made)))?, Vec::new(), tick),
             Source::Log(path) => self.rerun(open(path)?, made, Vec::new(), tick),

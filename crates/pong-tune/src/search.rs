@@ -123,7 +123,8 @@ impl Search<'_> {
         }
         let gains = self.gains(finalists.iter().collect(), 2 * self.rounds)?;
         let winner = (0..gains.len()).filter(|index| gains[*index].is_some());
-        let winner = winner.max_by(|a, b| gains[*a].partial_cmp(&gains[*b]).expect("gains are numbers").then(b.cmp(a)));
+        let winner = winner
+            .max_by(|a, b| gains[*a].partial_cmp(&gains[*b]).expect("gains are numbers").then(b.cmp(a)));
         if let Some(winner) = winner {
             self.found.best = finalists.swap_remove(winner);
         }

@@ -74,9 +74,11 @@ impl Shape {
 impl Subject {
     /// Reads a model file.
     pub fn load(file: &Path, in_log: bool) -> Result<Self, TuneError> {
-        let text = std::fs::read_to_string(file)
-            .map_err(|reason| TuneError::file(file, format!("{reason}; name a run whose models can be read")))?;
-        let model = pong_model::load(file, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
+        let text = std::fs::read_to_string(file).map_err(|reason| {
+            TuneError::file(file, format!("{reason}; name a run whose models can be read"))
+        })?;
+        let model =
+            pong_model::load(file, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
         let groups = grouping::groups(&text).map_err(|line| TuneError::file(file, line))?;
         let elements = elements(&model, &groups);
         let shape = Shape { name: model.name.clone(), groups, elements };
@@ -103,8 +105,9 @@ impl Subject {
     pub fn make(&self, grouping: &Grouping) -> Result<Made, TuneError> {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let text = self.text(grouping)?;
-        let model = pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &Extensions::new())
-            .map_err(|errors| TuneError(errors.to_string()))?;
+        let model =
+            pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &Extensions::new())
+                .map_err(|errors| TuneError(errors.to_string()))?;
         if model.hash != self.hash {
             let line = "its meshes were changed meanwhile; run it again and leave them as they are";
             return Err(TuneError::file(&self.file, line));

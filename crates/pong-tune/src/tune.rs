@@ -75,8 +75,8 @@ pub struct RunTuned {
     pub name: String,
     /// Frames of the whole run, every one of which was compared.
     pub frames: u64,
-    /// Frames that had to leave contacts out.
-    pub incomplete: u64,
+    /// Frames in which the engine left contacts out because a limit was hit.
+    pub limited: u64,
     /// Before, before once more, and after: the shortest time of each of the frames that were timed, ns.
     pub times_ns: [Vec<u64>; 3],
     /// What was counted over these frames before and after.
@@ -116,8 +116,12 @@ pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tu
 }
 
 fn check(settings: &Settings) -> Result<(), TuneError> {
-    if let Some(duration) = settings.duration_s.filter(|duration| !(*duration > 0.0 && duration.is_finite())) {
-        return Err(TuneError::new("--duration", format!("it is {duration} s; give a finite time above zero")));
+    if let Some(duration) = settings.duration_s.filter(|duration| !(*duration > 0.0 && duration.is_finite()))
+    {
+        return Err(TuneError::new(
+            "--duration",
+            format!("it is {duration} s; give a finite time above zero"),
+        ));
     }
     if settings.rounds == 0 || settings.frames == 0 {
         return Err(TuneError::new("settings", "nothing is timed; give at least 1 round and 1 frame"));
@@ -217,7 +221,7 @@ impl Job<'_> {
             runs.push(RunTuned {
                 name: run.name.clone(),
                 frames: run.frames,
-                incomplete: motions.incomplete,
+                limited: motions.limited,
                 times_ns: [one[index].clone(), two[index].clone(), new[index].clone()],
                 counts: [before[index].clone(), after[index].clone()],
             });

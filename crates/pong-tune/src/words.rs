@@ -4,11 +4,22 @@ use crate::subject::{Grouping, Setting, Shape};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::Bound;
 
-/// A line for every group that is not as before; neighbours that changed alike share one.
+/// A line for every group that is not as before; groups that change as one, and neighbours that change alike, share one.
 pub(crate) fn changes(shape: &Shape, before: &Grouping, after: &Grouping) -> Vec<String> {
     let mut lines: Vec<(Vec<usize>, String)> = Vec::new();
+    let mut told = vec![false; shape.groups.len()];
     for group in (0..shape.groups.len()).filter(|group| before[*group] != after[*group]) {
-        let what = change(&before[group], &after[group], &name_above(shape, group));
+        let above = name_above(shape, group);
+        let branch = branch(shape, group);
+        let merged = |group: &usize| after[*group].bound == Bound::Above && before[*group] != after[*group];
+        let what = if told[group] {
+            continue;
+        } else if branch.len() > 1 && branch.iter().all(merged) {
+            branch.iter().for_each(|group| told[*group] = true);
+            format!("with all below no volume of its own, what it holds counts to {above}")
+        } else {
+            change(&before[group], &after[group], &above)
+        };
         match lines.last_mut() {
             Some((groups, words))
                 if *words == what && shape.groups[groups[0]].above == shape.groups[group].above =>
@@ -19,6 +30,12 @@ pub(crate) fn changes(shape: &Shape, before: &Grouping, after: &Grouping) -> Vec
         }
     }
     lines.into_iter().map(|(groups, what)| format!("{}: {what}", names(shape, &groups))).collect()
+}
+
+/// A group and all below it that are of its body.
+fn branch(shape: &Shape, group: usize) -> Vec<usize> {
+    let below = shape.below(group).filter(|below| !shape.groups[*below].movable);
+    std::iter::once(group).chain(below.flat_map(|below| branch(shape, below))).collect()
 }
 
 fn names(shape: &Shape, groups: &[usize]) -> String {

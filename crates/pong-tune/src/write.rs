@@ -29,7 +29,8 @@ impl Output {
         for subject in subjects {
             let place = self.place(subject);
             if subject.in_log && self.folder.is_none() {
-                let line = "it is the copy that a log keeps for itself; name a folder for tuned models with -o";
+                let line =
+                    "it is the copy that a log keeps for itself; name a folder for tuned models with -o";
                 return Err(TuneError::file(&subject.file, line));
             }
             if !self.force && place.exists() {
@@ -71,7 +72,8 @@ impl Output {
     /// Meshes are found beside a model or below: in another folder they are needed as well.
     fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<(), TuneError> {
         let home = subject.file.parent().unwrap_or(Path::new(""));
-        let files = grouping::mesh_files(&subject.text).map_err(|line| TuneError::file(&subject.file, line))?;
+        let files =
+            grouping::mesh_files(&subject.text).map_err(|line| TuneError::file(&subject.file, line))?;
         for file in files {
             let (from, to) = (home.join(&file), folder.join(&file));
             let fails = |reason: std::io::Error| {
@@ -85,7 +87,8 @@ impl Output {
                 let line = "another mesh of that name is there; name another folder with -o, or replace it with --force";
                 return Err(TuneError::file(&to, line));
             }
-            let written = to.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&to, bytes));
+            let written =
+                to.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&to, bytes));
             written.map_err(fails)?;
         }
         Ok(())
@@ -94,7 +97,8 @@ impl Output {
 
 /// The file as it will be read: the same model in the trees that were measured.
 fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<(), TuneError> {
-    let model = pong_model::load(staged, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
+    let model =
+        pong_model::load(staged, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
     if model.hash == subject.hash && hash_of_trees(&model) == trees {
         return Ok(());
     }

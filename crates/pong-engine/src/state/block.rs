@@ -165,12 +165,7 @@ pub(crate) fn read_block(
 }
 
 /// Everything that may be wrong with a block; answers the number of its records.
-fn check(
-    like: &ContactMemory,
-    world_hash: u64,
-    block: &[u8],
-    packed: bool,
-) -> Result<usize, StateError> {
+fn check(like: &ContactMemory, world_hash: u64, block: &[u8], packed: bool) -> Result<usize, StateError> {
     let whole = expected_len(like);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);

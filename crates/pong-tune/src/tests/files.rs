@@ -9,7 +9,8 @@ use std::path::PathBuf;
 
 fn best_of(ready: &Ready) -> (Vec<String>, crate::search::Proposal) {
     let best = ready.search().best;
-    let texts = ready.subjects.iter().zip(&best).map(|(subject, best)| headed(&subject.text(best).unwrap(), "a run"));
+    let texts =
+        ready.subjects.iter().zip(&best).map(|(subject, best)| headed(&subject.text(best).unwrap(), "a run"));
     (texts.collect(), best)
 }
 
@@ -38,13 +39,15 @@ fn a_tuned_file_reads_back() {
         };
         assert_eq!(paths(&again.make(&best[index]).unwrap().model), paths(&own));
         let bytes = std::fs::read(&place).unwrap();
-        let replaced = Output { force: true, ..Output::default() }.write(subject, &texts[index], trees).unwrap();
+        let replaced =
+            Output { force: true, ..Output::default() }.write(subject, &texts[index], trees).unwrap();
         assert_eq!(std::fs::read(replaced).unwrap(), bytes);
     }
     assert_eq!(headed(&texts[0], "a run"), texts[0]);
     // A head with a line's end in it would be read as part of the model.
     assert!(headed("()", "a\nb").starts_with("// Bounds and leaves by `pong tune` for `ab`;"));
-    let left: Vec<_> = std::fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let left: Vec<_> =
+        std::fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 5, "{left:?}");
 }
 
@@ -110,7 +113,9 @@ fn what_cannot_be_tuned_is_refused_with_a_cure() {
     }
     assert!(refused(Settings { rounds: 0, ..Settings::default() }).contains("at least 1 round"));
     let missing = PathBuf::from("nowhere.ron");
-    assert!(tune(&[&missing], &Settings::default(), &mut |_| {}).unwrap_err().to_string().contains("nowhere.ron"));
+    assert!(
+        tune(&[&missing], &Settings::default(), &mut |_| {}).unwrap_err().to_string().contains("nowhere.ron")
+    );
 }
 
 /// The same models in two runs are tuned once, and both runs are told of.
@@ -122,7 +127,9 @@ fn runs_share_the_models_that_they_share() {
     let settings = Settings { rounds: 2, frames: 64, ..Settings::default() };
     let tuned = tune(&[&scene, &other], &settings, &mut |_| {}).unwrap();
     assert_eq!((tuned.runs.len(), tuned.models.len()), (2, 2));
-    assert!(tuned.runs.iter().all(|run| run.frames == 101 && run.times_ns.iter().all(|times| times.len() == 64)));
+    assert!(
+        tuned.runs.iter().all(|run| run.frames == 101 && run.times_ns.iter().all(|times| times.len() == 64))
+    );
     let written = tuned.models.iter().filter(|model| model.written.is_some()).count();
     assert_eq!(written > 0, tuned.taken);
     let page = crate::report::page(&tuned);
@@ -146,4 +153,9 @@ fn changes_are_told_group_by_group() {
     ];
     assert_eq!(told, expected);
     assert_eq!(words::changes(shape, &after, &before).len(), 2);
+    // A branch that is merged as a whole is one line.
+    after[3].leaf_size = None;
+    (1..4).for_each(|group| after[group].bound = pong_model::grouping::Bound::Above);
+    let told = words::changes(shape, &before, &after);
+    assert_eq!(told, ["ball/a: with all below no volume of its own, what it holds counts to ball"]);
 }

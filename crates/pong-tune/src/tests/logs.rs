@@ -85,7 +85,10 @@ fn a_log_with_events_is_played_as_it_was() {
     assert!(counts.primitives_tested()[1] > 200, "{counts:?}");
     let found = ready.search();
     let made = ready.bench().models(&found.best).unwrap().0;
-    assert_eq!(ready.counts(&found.best).volumes_tested()[0], ready.counts(&found.best).frames - switched_off(&ready));
+    assert_eq!(
+        ready.counts(&found.best).volumes_tested()[0],
+        ready.counts(&found.best).frames - switched_off(&ready)
+    );
     assert_eq!(ready.runs[0].differs(&made, &ready.motions[0], &mut |_| {}).unwrap(), None);
 }
 
@@ -108,7 +111,8 @@ fn what_is_not_restored_would_be_seen() {
     let first = early[0].windows.swap_remove(0);
     moved.before = first.before;
     early[0].windows = vec![moved];
-    let compared = crate::bench::Bench::new(&ready.subjects, &ready.runs, &early, 1).compare(&ready.authored());
+    let compared =
+        crate::bench::Bench::new(&ready.subjects, &ready.runs, &early, 1).compare(&ready.authored());
     assert!(compared.unwrap().is_err());
 }
 

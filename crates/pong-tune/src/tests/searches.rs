@@ -44,7 +44,9 @@ const BLOCK: &str = "primitives: [Polyhedron(name: \"block\", vertices: [(-0.1, 
 #[test]
 fn a_leaf_of_clusters_far_apart_is_cut() {
     let folder = Folder::new("clusters");
-    let points = two_clusters(1000, |name, x, y, z| format!("Point(name: \"{name}\", position: ({x:?}, {y:?}, {z:?}))"));
+    let points = two_clusters(1000, |name, x, y, z| {
+        format!("Point(name: \"{name}\", position: ({x:?}, {y:?}, {z:?}))")
+    });
     let cloud = format!("primitives: [{points}]");
     let ready = Ready::new(&scene(&folder, ("cloud", &cloud), ("block", BLOCK), "position: (0, 0, 0)"));
     assert_cut(&ready, 512);
@@ -56,7 +58,12 @@ fn a_mesh_of_clusters_far_apart_is_cut() {
     let folder = Folder::new("far_triangles");
     let triangles = two_clusters(1000, |name, x, y, z| {
         let corner = |dx: f64, dy: f64| format!("({:?}, {:?}, {z:?})", x + dx, y + dy);
-        format!("Triangle(name: \"{name}\", vertices: ({}, {}, {}))", corner(0.0, 0.0), corner(0.05, 0.0), corner(0.0, 0.05))
+        format!(
+            "Triangle(name: \"{name}\", vertices: ({}, {}, {}))",
+            corner(0.0, 0.0),
+            corner(0.05, 0.0),
+            corner(0.0, 0.05)
+        )
     });
     let far = format!("primitives: [{triangles}]");
     let ball = "primitives: [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1)]";
@@ -81,8 +88,12 @@ fn equal_measurements_give_equal_proposals() {
     let searched = || {
         let ready = Ready::new(&scene);
         let found = ready.search();
-        let texts: Vec<String> =
-            ready.subjects.iter().zip(&found.best).map(|(subject, best)| subject.text(best).unwrap()).collect();
+        let texts: Vec<String> = ready
+            .subjects
+            .iter()
+            .zip(&found.best)
+            .map(|(subject, best)| subject.text(best).unwrap())
+            .collect();
         (texts, found.compared, found.timed)
     };
     assert_eq!(searched(), searched());

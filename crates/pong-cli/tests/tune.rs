@@ -1,0 +1,97 @@
+//! `pong tune` as a terminal user meets it. What is faster is not for a test to say: all that is said is held to be true.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces: { "soft": (stiffness: 1e5) },
+    // The skin of the ball.
+    root: (name: "ball", surface: "soft", groups: [(name: "inner", groups: [(name: "core", primitives: [
+        Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)])])]))"#;
+const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfaces: { "rigid": (stiffness: inf) },
+    root: (name: "ground", surface: "rigid", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
+const REST: &str = r#"(format: "pong-scene", version: 1, name: "rest",
+    models: { "ball": "ball.ron", "ground": "ground.ron" },
+    objects: [
+        (name: "ball", model: "ball", bodies: [
+            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.0999))]),
+        (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
+    pairs: [("ball", "ground")], gravity: (0, 0, -9.81),
+    integrator: RungeKutta4, step: 1e-3, duration: 0.2)"#;
+
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("tune_{test}"));
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    for (name, text) in [("ball", BALL), ("ground", GROUND), ("rest", REST)] {
+        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
+    }
+    folder
+}
+
+fn pong(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_pong")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn told(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+}
+
+/// A scene and its log. A file is written if and only if the page says so; it loads, and runs of it answer the same bytes.
+#[test]
+fn a_scene_and_its_log_are_tuned() {
+    let folder = folder("tuned");
+    let found = pong(&folder, &["tune", "rest.ron", "--rounds", "2", "--frames", "128"]);
+    assert!(found.status.success(), "{}", told(&found));
+    let page = told(&found);
+    assert!(page.contains("201 frames, every one compared") && page.contains("128 of them"), "{page}");
+    let tuned = folder.join("ball_tuned.ron");
+    assert_eq!(
+        page.contains("less time"),
+        tuned.exists() || folder.join("ground_tuned.ron").exists(),
+        "{page}"
+    );
+    assert!(page.contains("less time") || page.contains("Nothing was written"), "{page}");
+    assert_eq!(std::fs::read_to_string(folder.join("ball.ron")).unwrap(), BALL);
+    if tuned.exists() {
+        let text = std::fs::read_to_string(&tuned).unwrap();
+        assert!(
+            text.contains("// The skin of the ball.") && text.contains("`pong tune` for `rest`"),
+            "{text}"
+        );
+        assert!(pong(&folder, &["check", "ball_tuned.ron"]).status.success());
+        let scene = REST.replace("\"ball.ron\"", "\"ball_tuned.ron\"");
+        std::fs::write(folder.join("again.ron"), scene).unwrap();
+        for scene in ["rest.ron", "again.ron"] {
+            let folder_of = format!("{scene}_out");
+            assert!(pong(&folder, &["run", scene, "-q", "-o", &folder_of]).status.success());
+        }
+        for table in ["states.csv", "wrenches.csv", "contacts.csv"] {
+            let read = |scene: &str| std::fs::read(folder.join(format!("{scene}_out")).join(table)).unwrap();
+            assert_eq!(read("rest.ron"), read("again.ron"), "{table}");
+        }
+    }
+    assert!(pong(&folder, &["run", "rest.ron", "--log", "log", "--every-step", "-q"]).status.success());
+    let found = pong(&folder, &["tune", "log", "--rounds", "2", "--frames", "64", "--duration", "0.1"]);
+    assert!(found.status.success() && told(&found).contains("64 of them"), "{}", told(&found));
+    assert!(!folder.join("log/models/ball/ball_tuned.ron").exists());
+    let found = pong(&folder, &["tune", "rest.ron", "--also", "log", "-q", "-o", "both", "--rounds", "2"]);
+    assert!(found.status.success() && found.stdout.is_empty(), "{}", told(&found));
+}
+
+#[test]
+fn what_is_wrong_is_told_with_a_cure() {
+    let folder = folder("refused");
+    let refused = |arguments: &[&str], words: &[&str]| {
+        let found = pong(&folder, &[&["tune"], arguments].concat());
+        assert!(!found.status.success(), "{arguments:?}");
+        for word in words {
+            assert!(told(&found).contains(word), "{arguments:?}: {}", told(&found));
+        }
+    };
+    refused(&["nowhere.ron"], &["nowhere.ron"]);
+    refused(&["rest.ron", "--duration", "0"], &["--duration", "above zero"]);
+    refused(&["rest.ron", "--rounds", "1"], &["rounds"]);
+    std::fs::write(folder.join("ball_tuned.ron"), "mine").unwrap();
+    refused(&["rest.ron"], &["ball_tuned.ron", "--force", "-o"]);
+    assert_eq!(std::fs::read_to_string(folder.join("ball_tuned.ron")).unwrap(), "mine");
+}
