@@ -95,3 +95,35 @@ fn what_is_wrong_is_told_with_a_cure() {
     refused(&["rest.ron"], &["ball_tuned.ron", "--force", "-o"]);
     assert_eq!(std::fs::read_to_string(folder.join("ball_tuned.ron")).unwrap(), "mine");
 }
+
+/// `pong check` draws the groups as the file has them, whatever bounds them.
+#[test]
+fn groups_without_volumes_and_cut_leaves_are_drawn() {
+    let folder = folder("drawn");
+    let balls = |name: &str| {
+        let ball = |k: i32| format!("Sphere(name: \"{name}_{k}\", center: ({k}, 0, 0), radius: 0.1)");
+        (0..4).map(ball).collect::<Vec<_>>().join(", ")
+    };
+    let text = format!(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ \"s\": (stiffness: 1e5) }}, root: (name: \"m\", surface: \"s\", \
+         groups: [(name: \"a\", bound: Above, groups: [(name: \"b\", bound: Above, primitives: [{}]), \
+         (name: \"c\", bound: Obb, leaf_size: 2, primitives: [{}])]), (name: \"d\", movable: true, primitives: [{}])]))",
+        balls("b"),
+        balls("c"),
+        balls("d")
+    );
+    std::fs::write(folder.join("drawn.ron"), text).unwrap();
+    let found = told(&pong(&folder, &["check", "drawn.ron"]));
+    let lines = [
+        "  m (Aabb movable)\n",
+        "    a (Above)\n",
+        "      b (Above): 4 Sphere\n",
+        "      c (Obb, 2 leaves): 4 Sphere\n",
+        "    d (Aabb movable): 4 Sphere\n",
+    ];
+    let mut rest = found.as_str();
+    for line in lines {
+        let at = rest.find(line).unwrap_or_else(|| panic!("no {line:?} in {found}"));
+        rest = &rest[at + line.len()..];
+    }
+}

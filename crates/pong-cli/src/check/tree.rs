@@ -37,30 +37,46 @@ pub(super) fn description(name: &str, model: &Model) -> String {
     text
 }
 
-/// The authored groups of a body; the loader's own subdivisions keep the path of their leaf and are one with it.
+/// The authored groups of a body in the order of the file, with and without volumes of their own; the loader's own
+/// subdivisions keep the path of their leaf and are one with it.
 fn groups_of(body: &Body) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
-    for node in &body.tree.nodes {
-        let found = groups.iter().position(|group| *group.path == *node.group);
-        let index = found.unwrap_or_else(|| {
-            let bound = node.volume.kind_name().to_owned();
-            let movable = *node.group == *body.path;
-            groups.push(Group { path: node.group.to_string(), movable, bound, holds: BTreeMap::new() });
-            groups.len() - 1
-        });
-        let items = &body.tree.items[node.items.start as usize..node.items.end as usize];
-        for item in items {
-            let kind = body.primitives[item.primitive as usize].kind;
-            groups[index].holds.entry(kind).or_default().1 += 1;
+    let mut paths: Vec<&str> = vec![&body.path];
+    for info in &body.primitives {
+        let from = paths.len();
+        let owners = std::iter::successors(above(&info.path), |path| above(path));
+        paths.extend(owners.take_while(|path| path.len() > body.path.len()));
+        paths[from..].reverse();
+    }
+    for path in paths {
+        if !groups.iter().any(|group| group.path == path) {
+            groups.push(group_at(body, path));
         }
     }
     for info in &body.primitives {
         let owner = info.path.rsplit_once('/').map_or("", |(group, _)| group);
         if let Some(group) = groups.iter_mut().find(|group| group.path == owner) {
-            group.holds.entry(info.kind).or_default().0 += 1;
+            let (primitives, elements) = group.holds.entry(info.kind).or_default();
+            *primitives += 1;
+            *elements += info.elements.len();
         }
     }
     groups
+}
+
+/// The path of the group above.
+fn above(path: &str) -> Option<&str> {
+    path.rsplit_once('/').map(|(above, _)| above)
+}
+
+fn group_at(body: &Body, path: &str) -> Group {
+    let mut nodes = body.tree.nodes.iter().filter(|node| *node.group == *path).peekable();
+    let mut bound = nodes.peek().map_or("Above", |node| node.volume.kind_name()).to_owned();
+    let leaves = nodes.filter(|node| !node.items.is_empty()).count();
+    if leaves > 1 {
+        bound += &format!(", {leaves} leaves");
+    }
+    Group { path: path.to_owned(), movable: path == body.path, bound, holds: BTreeMap::new() }
 }
 
 fn draw(groups: &[Group], path: &str, depth: usize, text: &mut String) {
