@@ -91,15 +91,13 @@ fn table(run: &RunTuned, changed: bool) -> String {
     let mut rows =
         vec![["".to_owned(), "before".to_owned(), "again".to_owned(), "after".to_owned(), "×".to_owned()]];
     let times = run.times_ns.each_ref().map(|times| Times::of(times));
-    let parts: [(&str, fn(&Times) -> f64); 3] = [
-        ("median frame, µs", |times| times.median),
-        ("99th percentile, µs", |times| times.tail),
-        ("mean, µs", |times| times.mean),
-    ];
-    for (name, value) in parts {
+    let mut time = |name: &str, value: &dyn Fn(&Times) -> f64| {
         let [before, again, after] = times.each_ref().map(value);
         rows.push(row(name, [before, again], after));
-    }
+    };
+    time("median frame, µs", &|times| times.median);
+    time("99th percentile, µs", &|times| times.tail);
+    time("mean, µs", &|times| times.mean);
     let [before, after] = &run.counts;
     let mut add = |name: &str, value: &dyn Fn(&Counts) -> u64| {
         let mean = |counts: &Counts| value(counts) as f64 / counts.frames.max(1) as f64;
@@ -131,7 +129,7 @@ fn row(name: &str, [before, again]: [f64; 2], after: f64) -> [String; 5] {
 /// Three digits, all of them if there are more before the point.
 fn number(value: f64) -> String {
     match value {
-        v if v == 0.0 => "0".to_owned(),
+        0.0 => "0".to_owned(),
         v if v < 10.0 => format!("{v:.2}"),
         v if v < 100.0 => format!("{v:.1}"),
         v => format!("{v:.0}"),
