@@ -119,7 +119,8 @@ fn accounts(simulation: &Simulation) -> String {
             [total.taken, total.returned, total.stored, total.damping_loss, total.friction_loss, total.made];
         let mut row = vec![format!("{first}, {second}")];
         row.extend(energies.map(number));
-        row.extend([(pair.touches + u64::from(pair.touching)).to_string(), returned_more(&pair)]);
+        row.push((pair.touches + u64::from(pair.touching)).to_string());
+        row.extend([Verdict::ReturnedMore, Verdict::Unresolved].map(|verdict| touches_with(&pair, verdict)));
         row
     };
     let rows: Vec<Vec<String>> = touched.map(row).collect();
@@ -136,12 +137,14 @@ fn accounts(simulation: &Simulation) -> String {
         "made by holding J",
         "touches",
         "returned more",
+        "unresolved",
     ];
     table(&heading, &rows)
 }
 
-/// How many touches returned more than they took, the one that lasts too.
-fn returned_more(pair: &PairAccount) -> String {
-    let lasting = pair.touch.verdict() == Verdict::ReturnedMore;
-    (pair.returned_more + u64::from(lasting)).to_string()
+/// How many touches of a pair have a verdict, the one that lasts too.
+fn touches_with(pair: &PairAccount, verdict: Verdict) -> String {
+    let ended = if verdict == Verdict::ReturnedMore { pair.returned_more } else { pair.unresolved };
+    let lasts = pair.touching && pair.touch.verdict() == verdict;
+    (ended + u64::from(lasts)).to_string()
 }
