@@ -227,6 +227,13 @@ def roll_scene(kind):
     rig = f"rig_{kind}"
     about = f"One wheel ({kind}) past a stone beside its way and over a bar of {BAR:g} m."
     motor = drive(rig, f"{rig}/wheel", RIG_SPEED)
-    return rig_scene(
+    text = rig_scene(
         f"roll_{kind}", about, rig, "track", RIG_START, tyre.STATIC_HEIGHT, RIG_SPEED, motor, 6.0
     )
+    return with_alternatives(text, rig, ("ellipsoid", "sphere")) if kind == "balls" else text
+
+
+def with_alternatives(text, rig, kinds):
+    """A scene that names other wheels, for `pong trade`."""
+    others = ", ".join(f'(name: "{kind}", models: {{ "{rig}": "rig_{kind}.ron" }})' for kind in kinds)
+    return text.removesuffix(")\n") + f"    alternatives: [{others}],\n)\n"
