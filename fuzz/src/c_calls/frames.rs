@@ -14,7 +14,7 @@ const LARGEST: f64 = 1e100;
 
 impl Session<'_> {
     pub fn call_of_a_frame(&mut self) {
-        match self.input.below(16) {
+        match self.input.below(17) {
             0..=3 => self.move_one(),
             4 => self.set_many(),
             5 => self.set_any(),
@@ -25,6 +25,7 @@ impl Session<'_> {
             12 => self.wrench(),
             13 => self.contacts(),
             14 => self.report(),
+            15 => self.accounts(),
             _ => self.get_state(),
         }
     }
@@ -249,7 +250,7 @@ impl Session<'_> {
         let place = self.place::<pong_report>();
         if self.call("report", known.and(place.sure), || unsafe { pong_get_report(world, place.pointer) }) {
             let report = place.get();
-            assert!(report.contacts <= report.contacts_wanted && report.flags <= 3, "{report:?}");
+            assert!(report.contacts <= report.contacts_wanted && report.flags <= 7, "{report:?}");
         }
         let place = self.place::<pong_ledger>();
         if self.call("ledger", known.and(place.sure), || unsafe { pong_get_ledger(world, place.pointer) }) {

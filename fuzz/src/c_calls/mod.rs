@@ -9,11 +9,13 @@
 //! | `host.rs` | a world and what its host knows of it |
 //! | `laws.rs` | laws by callback, well behaved or not |
 //! | `set_up.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
+//! | `accounts.rs` | energy accounts |
 //! | `misuse.rs` | two threads on one world |
 //!
 //! Some inputs run twice: the second time without the calls that were refused the first time. Every frame must come
 //! out with the same bits, since a refused call changes nothing that a later frame can see.
 
+mod accounts;
 mod between;
 mod frames;
 mod host;
