@@ -244,7 +244,10 @@ impl Session<'_> {
                 0 => config.cookie ^= 1,
                 1 => config.struct_size ^= 8,
                 2 => config.abi_version ^= 1,
-                _ => config.reserved[self.input.below(8)] = 1,
+                _ => {
+                    let place = self.input.below(config.reserved.len());
+                    config.reserved[place] = 1;
+                }
             }
             sure = Sure::Wrong;
         }
