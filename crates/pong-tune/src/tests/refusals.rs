@@ -99,8 +99,8 @@ fn what_is_refused_is_never_taken_and_told() {
     assert_eq!((above(0), above(1)), (0, 2));
 }
 
-/// A clock that goes up and down by more than any gain: nothing is taken.
-struct Noisy<'a>(Priced<'a>, u32);
+/// A clock by which every proposal takes half the time, and the best so far, timed twice, differs by a part of itself.
+struct Noisy<'a>(Priced<'a>, f64);
 
 impl Judge for Noisy<'_> {
     fn trees(&mut self, proposal: &Proposal) -> Result<u64, String> {
@@ -111,26 +111,36 @@ impl Judge for Noisy<'_> {
         self.0.compare(proposal)
     }
 
-    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, TuneError> {
-        let mut times = self.0.time(proposals, rounds)?;
-        times.iter_mut().for_each(|time| {
-            self.1 += 1;
-            *time *= 1.0 + f64::from(self.1 % 2);
-        });
-        // The same thing, first and last, differs twofold.
-        let last = times.len() - 1;
-        (times[0], times[last]) = (1.0, 2.0);
+    fn time(&mut self, proposals: &[&Proposal], _: u32) -> Result<Vec<f64>, TuneError> {
+        let mut times = vec![0.5; proposals.len()];
+        times[0] = 1.0;
+        times[proposals.len() - 1] = 1.0 + self.1;
         Ok(times)
     }
 }
 
+/// Half the time is a gain of 0.5: taken where the same thing differs by less than half of that.
 #[test]
 fn what_is_not_beyond_noise_is_not_taken() {
     let folder = Folder::new("noise");
     let ready = Ready::new(&ball_on_sheet(&folder));
     let shapes: Vec<_> = ready.subjects.iter().map(|subject| &subject.shape).collect();
-    let mut judge = Noisy(Priced { bench: ready.bench(), timings: 0 }, 0);
-    let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
-    assert_eq!(found.best, ready.authored());
-    assert!(found.timed > 0);
+    for (noise, taken) in [(0.0, true), (0.24, true), (0.26, false), (1.0, false)] {
+        let mut judge = Noisy(Priced { bench: ready.bench(), timings: 0 }, noise);
+        let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
+        assert_eq!(found.best != ready.authored(), taken, "{noise}");
+        assert!(found.timed > 0);
+    }
+}
+
+/// A frame in which nothing touches, and one in which something does.
+#[test]
+fn contacts_are_part_of_an_answer() {
+    let folder = Folder::new("contacts");
+    let start = "position: (0, 0, 0.11), linear_velocity: (0, 0, -0.2)";
+    let ready = Ready::new(&scene(&folder, ("ball", super::BALL), ("sheet", super::SHEET), start));
+    let answers = &ready.motions[0].answers;
+    assert_eq!(answers[0].contacts, answers[10].contacts);
+    assert_ne!(answers[0].contacts, answers[54].contacts);
+    assert_ne!(answers[54].contacts, answers[55].contacts);
 }
