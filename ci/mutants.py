@@ -1,6 +1,7 @@
 """What a run of ci/mutants found: numbers, and the mutants that no test saw and docs/mutants.md does not judge.
 
-    python3 ci/mutants.py GROUP FOLDER    FOLDER holds what cargo-mutants wrote
+    python3 ci/mutants.py rest FOLDER      a pattern of those that lived through the quick tests
+    python3 ci/mutants.py report FOLDER    FOLDER holds what cargo-mutants wrote, in quick/ and rest/
 """
 
 import json
@@ -10,15 +11,15 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 JUDGED = ROOT / "docs" / "mutants.md"
-# Their numbers stay those of the run with the quick tests: the second run leaves them out.
-FIRST_RUN = ("CaughtMutant", "Unviable")
+# Those that met the other tests as well.
+LIVED = ("MissedMutant", "Timeout")
 
 
-def outcomes(path):
-    """(mutant, verdict) of every mutant of one run."""
-    for outcome in json.loads(path.read_text())["outcomes"]:
-        if outcome["scenario"] != "Baseline":
-            yield outcome["scenario"]["Mutant"], outcome["summary"]
+def outcomes(folder):
+    """(mutant, verdict) of every mutant of one run; none if there was no such run."""
+    path = folder / "mutants.out" / "outcomes.json"
+    entries = json.loads(path.read_text())["outcomes"] if path.exists() else []
+    return [(entry["scenario"]["Mutant"], entry["summary"]) for entry in entries if entry["scenario"] != "Baseline"]
 
 
 def row(mutant):
@@ -40,14 +41,18 @@ def judged():
     return rows
 
 
-def main(group, folder):
-    folder = pathlib.Path(folder)
-    quick = list(outcomes(folder / "quick.json"))
-    rest = list(outcomes(folder / "mutants.out" / "outcomes.json"))
-    told = [entry for entry in quick if entry[1] in FIRST_RUN] + [entry for entry in rest if entry[1] != "Unviable"]
+def print_rest(folder):
+    names = [mutant["name"] for mutant, verdict in outcomes(folder / "quick") if verdict in LIVED]
+    if names:
+        print("^(" + "|".join(map(re.escape, names)) + ")$")
+
+
+def report(folder):
+    quick, rest = outcomes(folder / "quick"), outcomes(folder / "rest")
+    told = [entry for entry in quick if entry[1] not in LIVED] + rest
     count = lambda verdict: sum(1 for _, other in told if other == verdict)
     print(
-        f"{group}: {len(quick)} mutants, {count('CaughtMutant')} caught, {count('Timeout')} ran too long, "
+        f"{folder.name}: {len(quick)} mutants, {count('CaughtMutant')} caught, {count('Timeout')} ran too long, "
         f"{count('Unviable')} do not build, {count('MissedMutant')} missed"
     )
     known = judged()
@@ -57,4 +62,4 @@ def main(group, folder):
     sys.exit(1 if new else 0)
 
 
-main(*sys.argv[1:])
+{"rest": print_rest, "report": report}[sys.argv[1]](pathlib.Path(sys.argv[2]))

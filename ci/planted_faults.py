@@ -15,7 +15,8 @@ import sys
 import time
 import tomllib
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from copied_tree import ROOT, copy_tree
+
 LISTS = ROOT / "ci" / "planted"
 TARGET = pathlib.Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "planted_faults"
 TREE = TARGET / "tree"
@@ -82,22 +83,6 @@ def read_list():
     return faults
 
 
-def copy_tree():
-    """The files of the repository, without rewriting what has not changed: what was built stays good."""
-    listing = subprocess.run(
-        ["git", "ls-files", "--cached", "--others", "--exclude-standard"], cwd=ROOT, check=True, capture_output=True, text=True
-    )
-    wanted = {line for line in listing.stdout.splitlines() if (ROOT / line).is_file()}
-    for path in [path for path in TREE.rglob("*") if path.is_file() and str(path.relative_to(TREE)) not in wanted]:
-        path.unlink()
-    for line in wanted:
-        source, place = ROOT / line, TREE / line
-        if not place.exists() or place.read_bytes() != source.read_bytes():
-            place.parent.mkdir(parents=True, exist_ok=True)
-            place.write_bytes(source.read_bytes())
-            place.chmod(source.stat().st_mode)
-
-
 def cargo(arguments, **options):
     return subprocess.run(
         ["cargo", "test", *arguments], cwd=TREE, env=ENVIRONMENT, capture_output=True, text=True, errors="replace", **options
@@ -138,7 +123,7 @@ def read_verdict(fault, done):
     if f"test {fault.test} ... FAILED" not in output:
         return False, f"did not end as a test: {output[-300:]}"
     panic = PANIC.search(output)
-    place, message = (panic[1], " ".join(panic[2].split())) if panic else ("", output[-300:])
+    place, message = (panic[1], " ".join(panic[2].split("\nnote: ")[0].split())) if panic else ("", output[-300:])
     # An assertion of the code itself counts as well.
     is_own = "/tests/" in place or place.startswith("crates/") and (fault.binary == "lib" or message.startswith("assertion"))
     if not is_own or STUMBLES.match(message):
@@ -148,8 +133,7 @@ def read_verdict(fault, done):
 
 def plant_all(faults):
     started = time.monotonic()
-    TREE.mkdir(parents=True, exist_ok=True)
-    copy_tree()
+    copy_tree(TREE)
     run_clean(faults)
     missed = []
     print(f"\n{'fault':<40} {'build':>6} {'test':>6}  what the test said")

@@ -229,3 +229,29 @@ fn degenerate_lines_and_ties() {
     let walls = hull_with_walls(&cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0)), &|_, _| true);
     assert_eq!((shallowest_face(&middle, &walls), face_most_along(&Vec3::x(), &walls)), (None, None));
 }
+
+/// Equally deep below two faces: the lower one pushes, and memory goes the way of the lower one.
+#[test]
+fn ties_go_to_the_lower_face() {
+    let cube = cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0));
+    for (a, b) in [(Vec3::x(), Vec3::y()), (Vec3::z(), Vec3::x()), (-Vec3::y(), Vec3::z())] {
+        let p = (a + b) * 0.5;
+        let tied: Vec<usize> = (0..6).filter(|&f| cube.faces[f].height(&p) == -0.5).collect();
+        assert_eq!(tied.len(), 2);
+        for &reached in &tied {
+            assert_eq!(pushing_face(&p, &cube, reached), tied[0]);
+        }
+    }
+    // A tall prism of eight sides around z, seen from its middle: from the top both ways down are equally short.
+    let outline = [(0.5, 3.0), (1.0, 2.5), (1.0, -2.5), (0.5, -3.0)];
+    let corners = outline
+        .iter()
+        .flat_map(|&(x, y)| [(x, -9.0), (x, 9.0), (-x, -9.0), (-x, 9.0)].map(|(x, z)| Vec3::new(x, y, z)));
+    let prism = common::hull(&corners.collect::<Vec<_>>());
+    let face = |n: Vec3| prism.faces.iter().position(|f| f.normal.dot(&n) > 0.99).expect("face");
+    let slopes = [1.0, -1.0].map(|x| face(Vec3::new(x, 1.0, 0.0).normalize()));
+    let heights = slopes.map(|slope| prism.faces[slope].height(&Vec3::zeros()));
+    assert_eq!(heights[0], heights[1]);
+    let side = if slopes[0] < slopes[1] { 1.0 } else { -1.0 };
+    assert_eq!(follow(&Vec3::zeros(), &prism, face(Vec3::y())), face(Vec3::x() * side));
+}

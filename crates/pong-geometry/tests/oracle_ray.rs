@@ -150,12 +150,15 @@ fn polyhedra_against_their_polygons() {
     let mut worst = Worst::new("ray–polyhedron: distance × slope");
     let shapes = [
         stretched_hull(12, Vec3::new(1.0, 0.7, 0.5)),
+        // Few faces are kept in registers, many are not.
+        stretched_hull(18, Vec3::new(1.0, 0.7, 0.5)),
+        stretched_hull(60, Vec3::new(1.0, 0.7, 0.5)),
         hull_with_walls(&cuboid_corners(Vec3::repeat(-0.6), Vec3::repeat(0.7)), &|n, _| n.x > 0.9),
     ]
     .map(|shape| moved(&shape, &random.motion(0.2)));
     let (mut hits, mut border) = (0, 0);
     while hits < 10_000 {
-        let shape = &shapes[(random.bits() % 2) as usize];
+        let shape = &shapes[(random.bits() % 4) as usize];
         let mut r = random_ray(&mut random);
         r.direction = (random.direction() * 0.7 - r.origin).normalize();
         if random.bits().is_multiple_of(4) {
