@@ -242,16 +242,24 @@ fn ties_go_to_the_lower_face() {
             assert_eq!(pushing_face(&p, &cube, reached), tied[0]);
         }
     }
-    // A tall prism of eight sides around z, seen from its middle: from the top both ways down are equally short.
+    // A tall prism of eight sides around z, seen from its middle: from the top, and from the bottom, both ways to the side
+    // are equally short. Turned by quarters, so that its faces are listed in other orders.
     let outline = [(0.5, 3.0), (1.0, 2.5), (1.0, -2.5), (0.5, -3.0)];
-    let corners = outline
-        .iter()
-        .flat_map(|&(x, y)| [(x, -9.0), (x, 9.0), (-x, -9.0), (-x, 9.0)].map(|(x, z)| Vec3::new(x, y, z)));
-    let prism = common::hull(&corners.collect::<Vec<_>>());
-    let face = |n: Vec3| prism.faces.iter().position(|f| f.normal.dot(&n) > 0.99).expect("face");
-    let slopes = [1.0, -1.0].map(|x| face(Vec3::new(x, 1.0, 0.0).normalize()));
-    let heights = slopes.map(|slope| prism.faces[slope].height(&Vec3::zeros()));
-    assert_eq!(heights[0], heights[1]);
-    let side = if slopes[0] < slopes[1] { 1.0 } else { -1.0 };
-    assert_eq!(follow(&Vec3::zeros(), &prism, face(Vec3::y())), face(Vec3::x() * side));
+    let turns: [fn(f64, f64) -> (f64, f64); 3] = [|x, y| (x, y), |x, y| (-y, x), |x, y| (y, x)];
+    for turned in turns {
+        let at = |x: f64, y: f64, z: f64| Vec3::new(turned(x, y).0, turned(x, y).1, z);
+        let corners = outline
+            .iter()
+            .flat_map(|&(x, y)| [(x, -9.0), (x, 9.0), (-x, -9.0), (-x, 9.0)].map(|(x, z)| at(x, y, z)));
+        let prism = common::hull(&corners.collect::<Vec<_>>());
+        let face = |n: Vec3| prism.faces.iter().position(|f| f.normal.dot(&n) > 0.99).expect("face");
+        for start in [1.0, -1.0] {
+            let slopes = [1.0, -1.0].map(|x| face(at(x, start, 0.0).normalize()));
+            let heights = slopes.map(|slope| prism.faces[slope].height(&Vec3::zeros()));
+            assert_eq!(heights[0], heights[1]);
+            let side = if slopes[0] < slopes[1] { 1.0 } else { -1.0 };
+            let reached = follow(&Vec3::zeros(), &prism, face(at(0.0, start, 0.0)));
+            assert_eq!(reached, face(at(side, 0.0, 0.0)));
+        }
+    }
 }
