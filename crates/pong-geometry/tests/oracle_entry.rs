@@ -243,11 +243,11 @@ fn ties_go_to_the_lower_face() {
         }
     }
     // A tall prism of eight sides around z, seen from its middle: from the top, and from the bottom, both ways to the side
-    // are equally short. Turned by quarters, so that its faces are listed in other orders.
+    // are equally short. Turned and mirrored, so that its faces are listed in other orders.
     let outline = [(0.5, 3.0), (1.0, 2.5), (1.0, -2.5), (0.5, -3.0)];
-    let turns: [fn(f64, f64) -> (f64, f64); 3] = [|x, y| (x, y), |x, y| (-y, x), |x, y| (y, x)];
-    for turned in turns {
-        let at = |x: f64, y: f64, z: f64| Vec3::new(turned(x, y).0, turned(x, y).1, z);
+    let frames = [(Vec3::x(), Vec3::y()), (Vec3::y(), -Vec3::x()), (Vec3::y(), Vec3::x())];
+    for (e_x, e_y) in frames {
+        let at = |x: f64, y: f64, z: f64| e_x * x + e_y * y + Vec3::z() * z;
         let corners = outline
             .iter()
             .flat_map(|&(x, y)| [(x, -9.0), (x, 9.0), (-x, -9.0), (-x, 9.0)].map(|(x, z)| at(x, y, z)));
