@@ -59,8 +59,8 @@ fn verdict(tuned: &Tuned) -> String {
         );
     }
     format!(
-        "The models are as good as this finds: nothing is faster by more than noise, which is {noise}, or 1 %. Nothing was \
-         written. {tried}\n"
+        "The models are as good as this finds: nothing is faster by more than 1 % and twice the noise, which is {noise}. \
+         Nothing was written. {tried}\n"
     )
 }
 
