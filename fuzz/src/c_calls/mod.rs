@@ -8,7 +8,7 @@
 //! | `session.rs` | what every call is checked for; ids, places, texts and numbers as arguments |
 //! | `host.rs` | a world and what its host knows of it |
 //! | `laws.rs` | laws by callback, well behaved or not |
-//! | `set_up.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
+//! | `set_up.rs`, `step_plans.rs`, `look_up.rs`, `frames.rs`, `between.rs`, `logs.rs` | the calls, by phase |
 //! | `accounts.rs` | energy accounts |
 //! | `misuse.rs` | two threads on one world |
 //!
@@ -25,6 +25,7 @@ mod look_up;
 mod misuse;
 mod session;
 mod set_up;
+mod step_plans;
 
 use crate::count;
 use crate::input::Input;

@@ -76,12 +76,9 @@ pub(super) fn surely_stable_step(coupling: Coupling, k: f64, c: f64, ratio: f64)
     let most = longest_stable_step(coupling, k, c, 1.0);
     let least = || longest_stable_step(coupling, k, k * ratio.min(c / k), 1.0);
     match coupling {
-        // As the damping ratio ½c/√k rises the region's reach grows a little, then falls to its narrowest place, then
-        // widens: the ends are the least on this side of that place. A mode with damping alone has its real end.
-        Coupling::StageWise => {
-            let narrowest = if c > 2.0 * 0.54 * k.sqrt() { 2.6155 / k.sqrt() } else { most.min(least()) };
-            narrowest.min(2.785 / c.max(f64::MIN_POSITIVE))
-        }
+        // As the damping ratio ½c/√k rises to 0.54 the region's reach grows a little, then falls to its narrowest place: of
+        // any stretch the ends are the least. Beyond, the real end of a mode with damping alone is nearer still.
+        Coupling::StageWise => most.min(least()).min(2.785 / c.max(f64::MIN_POSITIVE)),
         Coupling::OncePerStep => most,
         Coupling::Held { .. } => most.min(least()).min(ratio / coupling.lag()),
     }

@@ -70,13 +70,13 @@ pub(super) fn largest_eigenvalue(matrix: DMatrix<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// A rod of 3 kg and 2 m struck at its end: 1/m + l²/I = 1/3 + 1/1 = 4/3, a quarter of the mass.
+    /// A rod of 3 kg and 4 m struck at its end: 1/m + l²/I = 1/3 + 4/4 = 4/3, a quarter of the mass.
     #[test]
     fn a_rod_struck_at_its_end_weighs_a_quarter() {
-        let mass = GroupMass { mass: 3.0, inertia: [1.0, 1.0, 1e-3, 0.0, 0.0, 0.0], mass_center: [0.0; 3] };
+        let mass = GroupMass { mass: 3.0, inertia: [4.0, 4.0, 1e-3, 0.0, 0.0, 0.0], mass_center: [0.0; 3] };
         let rod = Mobility::new(&mass).unwrap();
         let mut sum = Mat6::zeros();
-        rod.add(&mut sum, 1.0, &Vec3::x(), &Vec3::z());
+        rod.add(&mut sum, 1.0, &Vec3::x(), &(2.0 * Vec3::z()));
         assert!((sum.symmetric_eigenvalues().max() - 4.0 / 3.0).abs() < 1e-14);
         assert!((rod.softest(0.0) - 1.0 / 3.0).abs() < 1e-15);
         assert!(Mobility::new(&GroupMass::immovable()).is_none());
