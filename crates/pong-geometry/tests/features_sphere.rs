@@ -269,14 +269,15 @@ fn abutting_pieces_have_no_gaps() {
     }
 }
 
-/// A centre exactly on the line where two pieces abut, the wall coming before the top in both.
-#[test]
-fn a_centre_on_a_seam_is_pushed() {
+/// Two pieces of a plate that abut at x = 0, the wall coming before the top in both.
+fn abutting_pieces(size: f64) -> [pong_geometry::primitive::Polyhedron; 2] {
     let wall = |n: &Vec3, d: f64| n.x.abs() > 0.9 && d == 0.0;
-    let mut left = common::cuboid_corners(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(0.0, 1.0, 0.5));
+    let corners = |low: f64, high: f64| {
+        common::cuboid_corners(Vec3::new(low, -1.0, -1.0) * size, Vec3::new(high, 1.0, 0.5) * size)
+    };
+    let mut left = corners(-1.0, 0.0);
     left.reverse();
-    let right = common::cuboid_corners(Vec3::new(0.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 0.5));
-    let mut pieces = [left, right].map(|corners| common::hull_with_walls(&corners, &wall));
+    let mut pieces = [left, corners(0.0, 1.0)].map(|corners| common::hull_with_walls(&corners, &wall));
     for piece in &pieces {
         let first =
             |is: &dyn Fn(&pong_geometry::primitive::PolyhedronFace) -> bool| piece.faces.iter().position(is);
@@ -284,10 +285,31 @@ fn a_centre_on_a_seam_is_pushed() {
     }
     oracle_support::close_lower_walls(&mut pieces);
     oracle_support::join_pieces(&mut pieces);
+    pieces
+}
+
+/// A centre exactly on the line where two pieces abut.
+#[test]
+fn a_centre_on_a_seam_is_pushed() {
+    let pieces = abutting_pieces(1.0);
     for x in [nudge(0.0, -1), 0.0, nudge(0.0, 1)] {
         let sphere = Sphere { center: Vec3::new(x, 0.25, 0.5), radius: 0.1 };
         let contacts: Vec<_> =
             pieces.iter().filter_map(|piece| sphere_outside_polyhedron(&sphere, piece)).collect();
         assert!((shared_push(&contacts) - Vec3::z() * 0.1).norm() < 1e-16, "{x}: {contacts:?}");
+    }
+}
+
+/// What is not on the seam but beside it, by a billionth of the size, is pushed by the piece below it alone, at any size.
+#[test]
+fn beside_a_seam_one_piece_pushes() {
+    for size in [1e-4, 1.0, 1e4] {
+        let pieces = abutting_pieces(size);
+        for side in [-1.0, 1.0] {
+            let center = Vec3::new(1e-9 * side, 0.25, 0.55) * size;
+            let sphere = Sphere { center, radius: 0.1 * size };
+            let pushed = pieces.each_ref().map(|piece| sphere_outside_polyhedron(&sphere, piece).is_some());
+            assert_eq!(pushed, [side < 0.0, side > 0.0], "size {size}");
+        }
     }
 }

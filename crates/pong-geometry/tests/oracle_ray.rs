@@ -397,3 +397,47 @@ fn exact_slanted_rays_between_pieces_hit() {
         }
     }
 }
+
+/// A ray that starts on a face exactly: what is at no distance lies within a reach, and without one is not before it.
+#[test]
+fn a_ray_that_starts_on_a_face_hits_it_within_its_reach() {
+    let solid = common::hull(&cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0)));
+    for (reach, hits) in [(None, false), (Some(0.0), false), (Some(1e-9), true), (Some(0.5), true)] {
+        let origin = Vec3::new(0.25, -0.5, 1.0);
+        let direction = Vec3::new(0.6, 0.0, -0.8);
+        let ray = Ray { origin, direction, length: 0.5, reach, response: RayResponse::Normal };
+        let hit = ray_polyhedron(&ray, &solid);
+        assert_eq!(hit.map(|hit| (hit.distance, hit.normal)), hits.then_some((0.0, Vec3::z())), "{reach:?}");
+    }
+}
+
+/// Rays exactly along an axis, either way, onto a triangle across it: they hit inside its outline and nowhere else.
+#[test]
+fn rays_along_the_axes_hit_inside_the_outline_alone() {
+    let mut random = Random(307);
+    for axis in 0..3 {
+        let place = |along: f64, u: f64, v: f64| {
+            let mut place = Vec3::zeros();
+            (place[axis], place[(axis + 1) % 3], place[(axis + 2) % 3]) = (along, u, v);
+            place
+        };
+        // Seen from where the axis points to it runs counter-clockwise, and its mirror image does so from the other side.
+        for side in [1.0, -1.0] {
+            let mut corners = vec![place(0.0, 0.0, 0.0), place(0.0, 1.0, 0.0), place(0.0, 0.0, 1.0)];
+            if side < 0.0 {
+                corners.swap(1, 2);
+            }
+            let set = common::triangle_set(corners, &[[0, 1, 2]]);
+            for _ in 0..500 {
+                let (u, v) = (random.between(-0.5, 1.5), random.between(-0.5, 1.5));
+                let (origin, direction) = (place(side, u, v), place(-side, 0.0, 0.0));
+                let down = Ray { origin, direction, length: 2.0, reach: None, response: RayResponse::Normal };
+                let inside = u > 0.0 && v > 0.0 && u + v < 1.0;
+                let hit = ray_triangle(&down, &set, 0, 0.0).map(|hit| hit.distance);
+                assert_eq!(hit, inside.then_some(1.0), "axis {axis}, side {side}: {u} {v}");
+                let behind = Ray { origin: place(-side, u, v), direction: -direction, ..down };
+                assert!(ray_triangle(&behind, &set, 0, 0.0).is_none());
+            }
+        }
+    }
+}
