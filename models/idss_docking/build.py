@@ -63,7 +63,7 @@ def ring(radii, heights, prefix):
         sectors = []
         for i in range(third * FACETS // 3, (third + 1) * FACETS // 3):
             sectors.append(ring_sector(f"{prefix}_{i:02}", i * STEP, radii, heights))
-        thirds.append(a.group(f"{prefix}_third_{third}", primitives=sectors, bound="Obb"))
+        thirds.append(a.group(f"{prefix}_third_{third}", primitives=sectors, bound="Above"))
     return thirds
 
 
@@ -121,10 +121,10 @@ def petal_groups(azimuths):
     for i, azimuth in enumerate(azimuths):
         body, segments = petal(azimuth)
         parts = [
-            a.group("solid", primitives=[body], bound="Obb"),
-            a.group("edges", primitives=segments, bound="Aabb"),
+            a.group("solid", primitives=[body], bound="Above"),
+            a.group("edges", primitives=segments, bound="Above"),
         ]
-        groups.append(a.group(f"petal_{i}", groups=parts, bound="Sphere"))
+        groups.append(a.group(f"petal_{i}", groups=parts, bound="Above"))
     return groups
 
 
@@ -178,14 +178,14 @@ def striker(i, azimuth):
         return a.segment(name, g.sub(inner, half), g.add(inner, half))
 
     contents = [a.polyhedron("bar", half_spaces), edge("front_edge", STRIKER_FRONT), edge("back_edge", STRIKER_BACK)]
-    return a.group(f"striker_{i}", primitives=contents, bound="Obb")
+    return a.group(f"striker_{i}", primitives=contents, bound="Above")
 
 
 # --- the two sides -------------------------------------------------------------------------------------------------
 
 def hard_ring(z):
     radii = (HARD_RING_INNER_RADIUS, HARD_RING_OUTER_RADIUS)
-    return a.group("hard_ring", groups=ring(radii, (z - HARD_RING_HEIGHT, z), "hard"), bound="Aabb")
+    return a.group("hard_ring", groups=ring(radii, (z - HARD_RING_HEIGHT, z), "hard"), bound="Above")
 
 
 def active():
@@ -197,9 +197,9 @@ def active():
         pads.append(a.point(f"pad_{i:02}", g.on_circle(PAD_RADIUS, (i + 0.5) * 360.0 / PADS_PER_RING)))
     body = (RIM_RADIUS, RING_OUTER_RADIUS)
     ring_parts = [
-        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, 0.0), "sector"), bound="Aabb"),
-        a.group("rim", primitives=rim_segments(ACTIVE_PETALS, 0.0), bound="Aabb"),
-        a.group("pads", primitives=pads, bound="Aabb"),
+        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, 0.0), "sector"), bound="Above"),
+        a.group("rim", primitives=rim_segments(ACTIVE_PETALS, 0.0), bound="Above"),
+        a.group("pads", primitives=pads, bound="Above"),
     ]
     ring_parts += petal_groups(ACTIVE_PETALS)
     ring_parts += [latch(i, azimuth) for i, azimuth in enumerate(ACTIVE_PETALS)]
@@ -223,9 +223,9 @@ def passive():
     body = (RIM_RADIUS, RING_OUTER_RADIUS)
     parts = [
         hard_ring(-RING_HEIGHT),
-        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, -PLATE_RELIEF), "sector"), bound="Aabb"),
-        a.group("striker_plates", primitives=plates, bound="Aabb"),
-        a.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Aabb"),
+        a.group("ring_body", groups=ring(body, (-RING_HEIGHT, -PLATE_RELIEF), "sector"), bound="Above"),
+        a.group("striker_plates", primitives=plates, bound="Above"),
+        a.group("rim", primitives=rim_segments(PASSIVE_PETALS, -PLATE_RELIEF), bound="Above"),
     ]
     parts += petal_groups(PASSIVE_PETALS)
     # Mated, azimuth a of the active side is -a here.
