@@ -101,6 +101,12 @@ class Faults(unittest.TestCase):
             str(fault), "m.ron:2:48: r/a: [not-positive] the radius is -1.0; the radius must be above zero"
         )
 
+    def test_stiffness_has_a_range(self):
+        for stiffness in ("1e101", "1e-101"):
+            text = (HEAD + 'Point(name: "a", position: (0, 0, 0))' + TAIL).replace("stiffness: 1.0", f"stiffness: {stiffness}")
+            self.assertEqual([fault.rule for fault in self.faults(text)], ["stiffness-range"])
+        read_text((HEAD + 'Point(name: "a", position: (0, 0, 0))' + TAIL).replace("stiffness: 1.0", "stiffness: inf"))
+
     def test_rules(self):
         for body, rule in {
             'Sphere(name: "a", center: (0, 0, 0))': "missing-field",
