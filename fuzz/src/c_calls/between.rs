@@ -45,6 +45,9 @@ impl Session<'_> {
         let sure = known.only_if(sealed);
         // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
         self.call("size", sure, || unsafe { pong_contact_state_size(world, &mut needed) });
+        if !self.may_copy(needed) {
+            return;
+        }
         let size = match self.input.below(4) {
             0 => needed / 2,
             1 => needed + 64,
@@ -68,6 +71,10 @@ impl Session<'_> {
     fn restore(&mut self) {
         let (world, known) = self.world();
         let sealed = self.host().is_some_and(|host| host.sealed);
+        let saved = self.host().and_then(|host| host.saved.as_ref().map(Vec::len)).unwrap_or(0);
+        if !self.may_copy(saved) {
+            return;
+        }
         let saved = self.host().and_then(|host| host.saved.clone());
         let (mut block, mut sure) = match saved {
             Some(block) => (block, known.only_if(sealed)),

@@ -61,6 +61,9 @@ static mut CROOKED: [u64; 512] = [0; 512];
 /// How many worlds a host has at a time.
 pub const WORLDS: usize = 3;
 
+/// Most bytes of contact state that an input copies: a second's worth under the sanitizer.
+const COPIED_MAX: usize = 256 << 20;
+
 pub struct Session<'a> {
     pub input: Input<'a>,
     hosts: [Option<Box<Host>>; WORLDS],
@@ -77,6 +80,8 @@ pub struct Session<'a> {
     pub alone: bool,
     /// Expensive things done so far.
     pub costs: u32,
+    /// Sizes of contact states saved and restored so far, bytes.
+    copied: usize,
 }
 
 impl<'a> Session<'a> {
@@ -92,6 +97,7 @@ impl<'a> Session<'a> {
             frames: 0xcbf2_9ce4_8422_2325,
             alone: true,
             costs: 0,
+            copied: 0,
         }
     }
 
@@ -124,6 +130,12 @@ impl<'a> Session<'a> {
             self.refused.push(self.made);
         }
         status == pong_status::Ok
+    }
+
+    /// Whether contact state of so many bytes may still be copied: blocks of some scenes are megabytes.
+    pub fn may_copy(&mut self, bytes: usize) -> bool {
+        self.copied = self.copied.saturating_add(bytes);
+        self.copied <= COPIED_MAX
     }
 
     /// Calls so far.
