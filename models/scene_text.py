@@ -83,15 +83,16 @@ def on(body, position=None, orientation=None):
     return f"On({', '.join(given)})"
 
 
-def scene(name, about, models, objects, pairs, duration, record_every, loads=(), springs=(), step=1e-3):
-    """`models` are names of files beside the scene, without their ending; `objects`, `loads`, `springs` are lines."""
+def scene(name, about, models, objects, pairs, duration, record_every, loads=(), springs=(), step="1e-3"):
+    """`models` are names of files beside the scene, without their ending; `objects`, `loads`, `springs` are lines, `step` as
+    it is to be written, s."""
     lines = [f"// {line}" for line in about]
     lines += ["(", '    format: "pong-scene",', "    version: 1,", f'    name: "{name}",']
     lines += ["    models: { " + ", ".join(f'"{model}": "{model}.ron"' for model in models) + " },"]
     lines += _block("objects", objects)
     lines += ["    pairs: [" + ", ".join(f'("{first}", "{second}")' for first, second in pairs) + "],"]
     lines += _block("loads", loads) + _block("springs", springs)
-    lines += ["    integrator: RungeKutta4,", f"    step: {step!r},", f"    duration: {duration!r},"]
+    lines += ["    integrator: RungeKutta4,", f"    step: {step},", f"    duration: {duration!r},"]
     lines += [f"    record_every: {record_every},", "    ledger: true,", ")"]
     return "\n".join(lines) + "\n"
 

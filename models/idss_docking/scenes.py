@@ -26,7 +26,7 @@ SPEED = 0.10
 ASIDE = (0.05, 0.0, 0.0)  # of the middle of the ring's face
 GAP = 0.16  # between the two faces; petals meet at about 0.14
 ROLL_DEG, PITCH_DEG = 2.0, 1.0
-STEP = 5e-4
+STEP = "5e-4"
 DURATION = 8.0
 
 

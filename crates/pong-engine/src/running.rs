@@ -7,7 +7,8 @@ use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTim
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    Books, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block, write_packed,
+    Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block,
+    write_packed,
 };
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
@@ -205,13 +206,17 @@ impl Running {
         write_packed(&self.memory, self.sealed.hash, out);
     }
 
-    pub fn restore_state(&mut self, block: &[u8], packed: bool) -> Result<(), StateError> {
+    pub fn restore_state(&mut self, scene: &Scene, block: &[u8], packed: bool) -> Result<(), StateError> {
         self.let_go_of_memory();
-        let hash = self.sealed.hash;
+        let sealed = Arc::clone(&self.sealed);
+        let exists = |key: &ContactKey| {
+            let (body_a, _) = sealed.bodies_of(key);
+            (key.primitive_a as usize) < scene.body(body_a).primitives.len()
+        };
         let mut outcome = Ok(());
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            outcome = read_block(next, hash, block, packed);
+            outcome = read_block(next, sealed.hash, block, packed, exists);
         });
         outcome?;
         self.changed();

@@ -437,7 +437,8 @@ impl World {
     /// Restores a contact state that a world built by the same calls saved. The states of the movable groups are
     /// the host's and are not part of it.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        Ok(self.running_mut("restore the contact state")?.restore_state(block, false)?)
+        let scene = Arc::clone(&self.scene);
+        Ok(self.running_mut("restore the contact state")?.restore_state(&scene, block, false)?)
     }
 
     /// Saves the committed contact state as [`save_state`](Self::save_state) does, without the room for contacts that there
@@ -450,7 +451,8 @@ impl World {
 
     /// Restores what [`save_state_packed`](Self::save_state_packed) saved.
     pub fn restore_state_packed(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        Ok(self.running_mut("restore the contact state")?.restore_state(block, true)?)
+        let scene = Arc::clone(&self.scene);
+        Ok(self.running_mut("restore the contact state")?.restore_state(&scene, block, true)?)
     }
 
     /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.

@@ -101,10 +101,7 @@ fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_ri
         for number in [f64::NAN, f64::INFINITY] {
             let mut block = good.clone();
             block[at..at + 8].copy_from_slice(&number.to_le_bytes());
-            let checksum = block[..body].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-                (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-            });
-            block[body..].copy_from_slice(&checksum.to_le_bytes());
+            make_checksum_right(&mut block);
             match rig.world.restore_state(&block) {
                 Err(error) => {
                     assert_eq!(error, EngineError::State(StateError::Damaged));
@@ -183,4 +180,34 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
         }
     }
     assert_eq!(rig.world.surface(model, "s").unwrap(), &good);
+}
+
+/// FNV-1a of all before it.
+fn make_checksum_right(block: &mut [u8]) {
+    let body = block.len() - CHECKSUM;
+    let checksum = block[..body].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    block[body..].copy_from_slice(&checksum.to_le_bytes());
+}
+
+/// Whatever whole number of a block is another one: it is refused, or frames go on, also when nothing touches any more.
+#[test]
+fn a_block_that_names_what_is_not_there_is_refused_or_harmless() {
+    let mut rig = Rig::new("1e6", "1.0");
+    rig.world.step().unwrap();
+    let good = rig.saved();
+    for at in (HEAD..good.len() - CHECKSUM - 3).step_by(4) {
+        for number in [1, 2, 0x4b6e_6f69, u32::MAX] {
+            let mut block = good.clone();
+            block[at..at + 4].copy_from_slice(&u32::to_le_bytes(number));
+            make_checksum_right(&mut block);
+            if rig.world.restore_state(&block).is_ok() {
+                rig.set(1, [5.0, 0.0, 0.0], 0.0);
+                rig.world.step().unwrap();
+                rig.set(1, [1.9, 0.1, 0.0], 0.1);
+            }
+            rig.world.restore_state(&good).unwrap();
+        }
+    }
 }

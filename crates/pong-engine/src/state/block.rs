@@ -137,7 +137,8 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.at
 }
 
-/// Reads a block, whole or packed, into a memory of the world that it belongs to.
+/// Reads a block, whole or packed, into a memory of the world that it belongs to. `exists` tells whether the primitive of A
+/// that a key names is there; it is asked of pairs that are.
 ///
 /// # Errors
 /// A block that is refused leaves the memory as it was.
@@ -146,8 +147,9 @@ pub(crate) fn read_block(
     world_hash: u64,
     block: &[u8],
     packed: bool,
+    exists: impl Fn(&ContactKey) -> bool,
 ) -> Result<(), StateError> {
-    let count = check(memory, world_hash, block, packed)?;
+    let count = check(memory, world_hash, block, packed, exists)?;
     let mut reader = Reader { block, at: TOTALS_AT };
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
@@ -165,7 +167,13 @@ pub(crate) fn read_block(
 }
 
 /// Everything that may be wrong with a block; answers the number of its records.
-fn check(like: &ContactMemory, world_hash: u64, block: &[u8], packed: bool) -> Result<usize, StateError> {
+fn check(
+    like: &ContactMemory,
+    world_hash: u64,
+    block: &[u8],
+    packed: bool,
+    exists: impl Fn(&ContactKey) -> bool,
+) -> Result<usize, StateError> {
     let whole = expected_len(like);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);
@@ -200,7 +208,7 @@ fn check(like: &ContactMemory, world_hash: u64, block: &[u8], packed: bool) -> R
     let poses_make_sense = like.poses.iter().all(|_| is_finite_pose(&reader.pair_pose()));
     let accounts_make_sense = (0..accounts_len(like) / 8).all(|_| reader.f64().is_finite());
     let finite = totals.iter().all(|x| x.is_finite()) && poses_make_sense && accounts_make_sense;
-    match finite && records_make_sense(like, reader, count) {
+    match finite && records_make_sense(like, reader, count, exists) {
         true => Ok(count),
         false => Err(StateError::Damaged),
     }
@@ -218,7 +226,12 @@ fn is_finite_record(record: &ContactRecord) -> bool {
 }
 
 /// Whether every record is possible, and their keys in order: all that looks them up relies on it.
-fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize) -> bool {
+fn records_make_sense(
+    like: &ContactMemory,
+    mut reader: Reader<'_>,
+    count: usize,
+    exists: impl Fn(&ContactKey) -> bool,
+) -> bool {
     let mut last = ContactKey::default();
     (0..count).all(|_| {
         let record = reader.record();
@@ -230,6 +243,7 @@ fn records_make_sense(like: &ContactMemory, mut reader: Reader<'_>, count: usize
                 && is_finite_record(&record)
                 && (record.key.group_pair as usize) < like.poses.len()
                 && record.key.flipped < 2
+                && exists(&record.key)
         })
     })
 }

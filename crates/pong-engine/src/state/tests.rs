@@ -10,11 +10,11 @@ const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
 
 fn read_block(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
-    super::block::read_block(memory, world, block, false)
+    super::block::read_block(memory, world, block, false, |_| true)
 }
 
 fn read_packed(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
-    super::block::read_block(memory, world, block, true)
+    super::block::read_block(memory, world, block, true, |_| true)
 }
 
 /// Numbers from a fixed seed.
