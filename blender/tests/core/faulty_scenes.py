@@ -626,6 +626,11 @@ def not_positive():
 
 
 @faulty
+def stiffness_range():
+    return _with_surface(stiffness=1e101)
+
+
+@faulty
 def negative():
     return _with_surface(stiffness=1e6, friction=Tagged("Bristle", {"mu": -0.2}))
 
