@@ -31,6 +31,11 @@ impl StatusBits {
         self.0 & other.0 == other.0
     }
 
+    /// Whether a limit was hit, so that contacts were left out.
+    pub fn leaves_contacts_out(self) -> bool {
+        self.contains(Self::CONTACT_LIMIT) || self.contains(Self::SHARING_LIMIT)
+    }
+
     /// The bits as a number.
     pub fn bits(self) -> u32 {
         self.0

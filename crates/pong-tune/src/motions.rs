@@ -2,7 +2,7 @@
 //! engine knew before the first of them. So every proposal is asked for the same frames, in the midst of the run.
 
 use crate::answer::{Answer, Reader};
-use pong_engine::{EngineError, InterfaceId, State, StatusBits, World};
+use pong_engine::{EngineError, InterfaceId, State, World};
 use pong_model::Surface;
 
 /// Frames in a row.
@@ -145,9 +145,7 @@ impl Gatherer {
     ) -> Result<(), EngineError> {
         let frame = self.motions.answers.len() as u64;
         self.motions.answers.push(self.reader.read(world, bodies, true)?);
-        let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
-        let is_limited = limits.into_iter().any(|limit| world.report().status.contains(limit));
-        self.motions.limited += u64::from(is_limited);
+        self.motions.limited += u64::from(world.report().status.leaves_contacts_out());
         let Some((first, end)) = self.row.filter(|(first, _)| frame >= *first) else { return Ok(()) };
         if let Some(window) = self.motions.windows.last_mut().filter(|window| window.first == first) {
             let mut states = Vec::new();

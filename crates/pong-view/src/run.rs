@@ -176,7 +176,9 @@ fn notes(log: &Log, run: &Run, frames: &Frames, thinning: &Thinning, origin: &Or
         notes.push(format!("{} frames were lost while the log was written", run.lost));
     }
     if frames.rows.iter().any(|row| row.flags != 0) {
-        notes.push("Some frames left contacts out: they are marked in the frame's header".to_owned());
+        notes.push(
+            "In some frames contacts were left out or missed: the frame's header marks them".to_owned(),
+        );
     }
     if !frames.times_increase() {
         notes.push("The times of the frames do not always increase: the run is played by frames".to_owned());

@@ -103,8 +103,7 @@ impl Statistics {
                 self.first_passage = passage_in_words(simulation).unwrap_or_default();
             }
         }
-        let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
-        if limits.into_iter().any(|limit| report.status.contains(limit)) {
+        if report.status.leaves_contacts_out() {
             self.contacts_wanted = self.contacts_wanted.max(Some(report.contacts_wanted));
         }
         self.last_energy = simulation.energy();

@@ -121,7 +121,7 @@ impl Direction {
         let partners = distinct(body_b);
         let mut pressers = Vec::new();
         let mut cached: Vec<(PrimitiveKind, u32, Option<ContactSprings>)> = Vec::new();
-        for info in &body_a.primitives {
+        for (index, info) in body_a.primitives.iter().enumerate() {
             let known =
                 cached.iter().find(|(kind, surface, _)| (*kind, *surface) == (info.kind, info.surface));
             let made = match known {
@@ -135,7 +135,7 @@ impl Direction {
                     made
                 }
             };
-            pressers.extend(made.and_then(|springs| presser(body_a, info, springs, mobility_a.as_ref())));
+            pressers.extend(made.and_then(|springs| presser(body_a, index, springs, mobility_a.as_ref())));
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
@@ -278,22 +278,23 @@ fn distinct(body: &Body) -> Vec<&PrimitiveInfo> {
 
 fn presser(
     body: &Body,
-    info: &PrimitiveInfo,
+    primitive: usize,
     springs: ContactSprings,
     mobility: Option<&Mobility>,
 ) -> Option<Presser> {
-    let index = info.elements.start as usize;
+    let info = &body.primitives[primitive];
+    let element = info.elements.start as usize;
     let (center, radius) = match info.kind {
-        PrimitiveKind::Point => (body.points[index].position, 0.0),
-        PrimitiveKind::Sphere => (body.spheres[index].center, body.spheres[index].radius),
+        PrimitiveKind::Point => (body.points[element].position, 0.0),
+        PrimitiveKind::Sphere => (body.spheres[element].center, body.spheres[element].radius),
         PrimitiveKind::LineSegment => {
             let from = mobility.map_or_else(Vec3::zeros, |mobility| *mobility.center());
-            let [one, other] = body.segments[index].ends;
+            let [one, other] = body.segments[element].ends;
             (if (one - from).norm() > (other - from).norm() { one } else { other }, 0.0)
         }
         // Box of an ellipsoid, of a ray with its tip, of a kind of the host's.
         PrimitiveKind::Ellipsoid | PrimitiveKind::Ray | PrimitiveKind::Custom => {
-            let item = Item { primitive: primitive_index(body, info)?, element: info.elements.start };
+            let item = Item { primitive: primitive as u32, element: info.elements.start };
             let (low, high) = Element::new(body, item).extent();
             (0.5 * (low + high), 0.5 * (high - low).norm())
         }
@@ -304,10 +305,6 @@ fn presser(
         radius,
         springs,
     })
-}
-
-fn primitive_index(body: &Body, info: &PrimitiveInfo) -> Option<u32> {
-    body.primitives.iter().position(|other| std::ptr::eq(other, info)).map(|index| index as u32)
 }
 
 /// Boxes around the surfaces of a body that can be touched, planes left out: convex pieces of one shell are one surface, a

@@ -106,18 +106,8 @@ impl Keeper<'_> {
         numbers.bristle = now.stored[1];
         let begins = before.is_none();
         let before = before.unwrap_or_default();
-        let (mut done, mut followed) = (0.0, Followed { normal: 0.0, friction: 0.0 });
-        if let Some(displacement) = displacement {
-            followed = displacement.followed(&before, Some(&now));
-            let record = earlier.map(|earlier| &self.memory.records[earlier]);
-            done = match self.wrench_use {
-                WrenchUse::Held { late } => {
-                    let sent = record.map_or_else(Wrench::zero, |record| displacement.held(record));
-                    displacement.origin_work(&numbers.exchange(sent, late as usize))
-                }
-                _ => followed.sum(),
-            };
-        }
+        let record = earlier.map(|earlier| &self.memory.records[earlier]);
+        let (done, followed) = self.work(&mut numbers, record, (&before, Some(&now)), displacement);
         let interval = &mut self.intervals[pair];
         interval.pushes = true;
         let mut one = self.entry(&before, &now, &followed, begins);
@@ -146,18 +136,30 @@ impl Keeper<'_> {
         let record = &self.memory.records[earlier];
         let mut numbers = Numbers::new(Some(self.before(earlier)));
         let before = Pressed::before(record, numbers.bristle);
-        let (mut done, mut followed) = (0.0, Followed { normal: 0.0, friction: 0.0 });
-        if let Some(displacement) = displacement {
-            followed = displacement.followed(&before, None);
-            done = match self.wrench_use {
-                WrenchUse::Held { late } => {
-                    displacement.origin_work(&numbers.exchange(displacement.held(record), late as usize))
-                }
-                _ => followed.sum(),
-            };
-        }
+        let (done, followed) = self.work(&mut numbers, Some(record), (&before, None), displacement);
         let one = self.entry(&before, &Pressed::default(), &followed, true);
         self.note(record.key.group_pair as usize, &one, done, &followed);
+    }
+
+    /// Work since the last commit, of the wrench as the host uses it and as it would have followed the motion; none without
+    /// an earlier pose.
+    fn work(
+        &self,
+        numbers: &mut Numbers,
+        record: Option<&ContactRecord>,
+        (before, now): (&Pressed, Option<&Pressed>),
+        displacement: Option<&Displacement>,
+    ) -> (f64, Followed) {
+        let Some(displacement) = displacement else { return (0.0, Followed { normal: 0.0, friction: 0.0 }) };
+        let followed = displacement.followed(before, now);
+        let done = match self.wrench_use {
+            WrenchUse::Held { late } => {
+                let sent = record.map_or_else(Wrench::zero, |record| displacement.held(record));
+                displacement.origin_work(&numbers.exchange(sent, late as usize))
+            }
+            WrenchUse::Stages | WrenchUse::SemiImplicit => followed.sum(),
+        };
+        (done, followed)
     }
 
     /// Losses of a contact since the last commit.

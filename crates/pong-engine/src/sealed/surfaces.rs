@@ -21,9 +21,7 @@ impl SurfaceTable {
         let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
         entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
     }
-}
 
-impl SurfaceTable {
     /// Stiffness and damping of the stiffest pair of surfaces whose force is linear in the depth.
     pub fn stiffest(&self) -> Option<(f64, f64)> {
         let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {

@@ -250,8 +250,7 @@ impl Bench {
             assert!(world.counts().testers().count() > 0 || world.contact_count() == 0);
             seen.shared += u32::from(world.lane_work().skip(1).any(|lane| lane.blocks > 0));
             seen.frames += 1;
-            let limits = [StatusBits::CONTACT_LIMIT, StatusBits::SHARING_LIMIT];
-            seen.limited += u32::from(limits.into_iter().any(|limit| report.status.contains(limit)));
+            seen.limited += u32::from(report.status.leaves_contacts_out());
             seen.empty += u32::from(world.contact_count() == 0);
             seen.most_contacts = seen.most_contacts.max(world.contact_count());
             assert!(world.is_evaluated() || report.contacts as usize == world.contact_count());

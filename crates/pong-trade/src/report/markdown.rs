@@ -147,7 +147,7 @@ fn marks(study: &Study, index: usize, row: &Row) -> String {
         marks.push(format!("diverged at {}", seconds(time_s)));
     }
     if let Answer::Reached { incomplete: 1.., .. } = row.answer {
-        marks.push("left contacts out".to_owned());
+        marks.push("contacts missing".to_owned());
     }
     if study.same_bits(row) == Some(false) {
         marks.push("NOT THE SAME BITS".to_owned());
