@@ -1,7 +1,7 @@
 //! Bytes from the fuzzer as choices and numbers. When they end, every further one is zero.
 
 /// Numbers at which arithmetic or a check may change its mind.
-const NUMBERS: [f64; 24] = [
+pub(crate) const NUMBERS: [f64; 24] = [
     0.0,
     -0.0,
     1.0,

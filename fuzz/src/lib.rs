@@ -20,3 +20,4 @@ pub mod obj;
 pub mod scene;
 #[cfg(feature = "meshes")]
 pub mod stl;
+pub mod text;

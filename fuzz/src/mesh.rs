@@ -1,7 +1,7 @@
 //! The mesh readers: the importer's and, for OBJ and STL, that of the model loader.
 
 use crate::input::Input;
-use crate::{count, exercise, files};
+use crate::{count, exercise, files, text};
 use pong_geometry::extension::Extensions;
 use pong_import::{DefaultSurface, Options};
 use std::path::Path;
@@ -16,6 +16,7 @@ pub fn import(data: &[u8], ending: &str) {
     match pong_import::import(&file, &output, &options, &mut |_| ()) {
         Ok(_) => {
             count::accepted();
+            text::accepted(data);
             // A model that needs a law or a kind of the host's is written and cannot be loaded here.
             if let Ok(model) = pong_model::load(&output, &Extensions::new()) {
                 exercise::run(model, &mut Input::new(data));

@@ -1,16 +1,17 @@
 //! The model parser: text to a model, or to a list of faults that can be read.
 
 use crate::input::Input;
-use crate::{count, exercise};
+use crate::{count, exercise, text};
 use pong_geometry::extension::Extensions;
 
 /// Text, with the states of the frames taken from the same bytes.
 pub fn run(data: &[u8]) {
     count::input();
-    let Ok(text) = std::str::from_utf8(data) else { return };
-    match pong_model::parse(text, "fuzz.ron", None, &Extensions::new()) {
+    let Ok(words) = std::str::from_utf8(data) else { return };
+    match pong_model::parse(words, "fuzz.ron", None, &Extensions::new()) {
         Ok(model) => {
             count::accepted();
+            text::accepted(data);
             exercise::run(model, &mut states(data));
         }
         Err(errors) => {

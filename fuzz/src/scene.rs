@@ -1,6 +1,6 @@
 //! The scene parser; a scene that can be built is run for some steps.
 
-use crate::{count, files};
+use crate::{count, files, text};
 use pong_executive::scene::Scene;
 use std::sync::Once;
 
@@ -25,13 +25,13 @@ pub fn run(data: &[u8]) {
             files::write(name, text.as_bytes());
         }
     });
-    let Ok(text) = std::str::from_utf8(data) else { return };
-    let scene = match Scene::parse(text, "fuzz.ron", files::folder()) {
+    let Ok(words) = std::str::from_utf8(data) else { return };
+    let scene = match Scene::parse(words, "fuzz.ron", files::folder()) {
         Ok(scene) => scene,
         Err(errors) => return assert!(!errors.to_string().is_empty()),
     };
     // Any number of sub-steps is allowed, and takes its time.
-    if substeps(text) > WORK_MAX {
+    if substeps(words) > WORK_MAX {
         return;
     }
     let mut built = match scene.build() {
@@ -39,6 +39,7 @@ pub fn run(data: &[u8]) {
         Err(errors) => return assert!(!errors.to_string().is_empty()),
     };
     count::accepted();
+    text::accepted(data);
     for _ in 0..STEPS.min(built.steps) {
         if built.simulation.step().is_err() {
             return;

@@ -16,7 +16,6 @@ from .schema import PRIMITIVES, names
 
 GROUP_FIELDS = ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"]
 MODEL_FIELDS = ["format", "version", "name", "entry_memory", "surfaces", "pairs", "root"]
-SOFTEST, STIFFEST = 1e-100, 1e100  # N/m, of what is not rigid: as the engine has it
 KINDS_WITH_FILE = {"TriangleMesh": "triangles", "Polyhedron": "faces"}
 
 
@@ -127,12 +126,6 @@ class ModelReader(ValueReader):
             self.in_range(node, path, "stiffness", value, ", or `inf`")
         return value
 
-    def in_range(self, node: Node, path: str, what: str, value: float, otherwise: str) -> float:
-        if not SOFTEST <= value <= STIFFEST:
-            cure = f"give {SOFTEST:g} to {STIFFEST:g} N/m{otherwise}"
-            self.refuse(node, path, "stiffness-range", f"the {what} is {value:g}", cure)
-        return value
-
     def check_restitution(self, node: Node, law, stiffness: float | None, path: str) -> None:
         if law.name == "Linear" and "restitution" in law.fields and stiffness == float("inf"):
             cause = "a rigid surface has no damping that a restitution could set"
@@ -158,8 +151,7 @@ class ModelReader(ValueReader):
         names = self.required(node, fields, "surfaces", path)
         pair = {"surfaces": self.pair_names(names, path, surfaces)}
         if stiffness := self.optional(fields, "stiffness"):
-            what = "stiffness of a pair"
-            pair["stiffness"] = self.in_range(stiffness, path, what, self.positive(stiffness, path, what), "")
+            pair["stiffness"] = self.finite_stiffness(stiffness, path, "stiffness of a pair")
         if normal := self.optional(fields, "normal"):
             pair["normal"] = self.normal_law(normal, path)
             if "restitution" in pair["normal"].fields and pair["normal"].name == "Linear" and "stiffness" not in pair:

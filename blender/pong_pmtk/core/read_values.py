@@ -15,6 +15,8 @@ from .schema import FRICTION_LAWS, NORMAL_LAWS, REQUIRED, RESPONSES, RESTITUTION
 from .model import Tagged
 
 QUATERNION_NORM_TOLERANCE = 1e-3
+LARGEST = 1e100  # of every number but a rigid stiffness, either sign: as the engine has it
+SOFTEST, STIFFEST = 1e-100, LARGEST  # N/m, of what is not rigid
 
 
 @dataclass(frozen=True)
@@ -126,16 +128,34 @@ class ValueReader:
             self.wrong_type(node, path, "a number")
         return node.value
 
-    def number(self, node: Node, path: str, _what: str = "") -> float:
+    def finite(self, node: Node, path: str) -> float:
         value = self.any_number(node, path)
         if not math.isfinite(value):
             self.refuse(node, path, "not-finite", f"{value} is no finite number", "give a finite number")
         return value
 
+    def number(self, node: Node, path: str, _what: str = "") -> float:
+        value = self.finite(node, path)
+        if abs(value) > LARGEST:
+            cure = "give a smaller number; check its unit"
+            self.refuse(node, path, "too-large", f"{value:g} is beyond ±{LARGEST:g}", cure)
+        return value
+
     def positive(self, node: Node, path: str, what: str) -> float:
-        value = self.number(node, path)
+        return self.above_zero(node, path, what, self.number(node, path))
+
+    def above_zero(self, node: Node, path: str, what: str, value: float) -> float:
         if value <= 0.0:
             self.refuse(node, path, "not-positive", f"the {what} is {value}", f"the {what} must be above zero")
+        return value
+
+    def finite_stiffness(self, node: Node, path: str, what: str) -> float:
+        return self.in_range(node, path, what, self.above_zero(node, path, what, self.finite(node, path)))
+
+    def in_range(self, node: Node, path: str, what: str, value: float, otherwise: str = "") -> float:
+        if not SOFTEST <= value <= STIFFEST:
+            cure = f"give {SOFTEST:g} to {STIFFEST:g} N/m{otherwise}"
+            self.refuse(node, path, "stiffness-range", f"the {what} is {value:g}", cure)
         return value
 
     def not_negative(self, node: Node, path: str, what: str) -> float:
@@ -275,6 +295,10 @@ class ValueReader:
         if len(bad):
             cure = "write three finite numbers (x, y, z)"
             self.refuse(node, f"{path}/{what}[{bad[0]}]", "not-finite", "a coordinate is not finite", cure)
+        bad = np.flatnonzero(~(np.abs(vertices) <= LARGEST).all(axis=1))
+        if len(bad):
+            cause, cure = f"a coordinate is beyond ±{LARGEST:g}", "give smaller numbers; check their unit"
+            self.refuse(node, f"{path}/{what}[{bad[0]}]", "too-large", cause, cure)
         return vertices
 
     def faces(self, node: Node, path: str, what: str = "faces") -> list[np.ndarray] | np.ndarray:

@@ -72,7 +72,7 @@ FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
     "Bristle": _fields(
         ("mu", "not_negative", REQUIRED),
         ("static_excess", "not_negative"),
-        ("stiffness", "positive"),
+        ("stiffness", "finite_stiffness"),
         ("damping", "not_negative"),
     ),
     "Coulomb": _fields(("mu", "not_negative", REQUIRED), ("slip_speed", "positive", REQUIRED)),

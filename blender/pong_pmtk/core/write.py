@@ -167,6 +167,7 @@ _SHOWN = {
     "vectors3": _places,
     "number": number,
     "positive": number,
+    "finite_stiffness": number,
     "not_negative": number,
     "text_value": text,
     "boolean": lambda value: "true" if value else "false",

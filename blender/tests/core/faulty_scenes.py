@@ -631,6 +631,11 @@ def stiffness_range():
 
 
 @faulty
+def too_large():
+    return _with_surface(stiffness=1e6, friction=Tagged("Bristle", {"mu": 1e101}))
+
+
+@faulty
 def negative():
     return _with_surface(stiffness=1e6, friction=Tagged("Bristle", {"mu": -0.2}))
 

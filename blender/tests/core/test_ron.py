@@ -105,6 +105,9 @@ class Faults(unittest.TestCase):
         for stiffness in ("1e101", "1e-101"):
             text = (HEAD + 'Point(name: "a", position: (0, 0, 0))' + TAIL).replace("stiffness: 1.0", f"stiffness: {stiffness}")
             self.assertEqual([fault.rule for fault in self.faults(text)], ["stiffness-range"])
+            bristle = f"stiffness: 1.0, friction: Bristle(mu: 0.1, stiffness: {stiffness})"
+            text = (HEAD + 'Point(name: "a", position: (0, 0, 0))' + TAIL).replace("stiffness: 1.0", bristle)
+            self.assertEqual([fault.rule for fault in self.faults(text)], ["stiffness-range"])
         read_text((HEAD + 'Point(name: "a", position: (0, 0, 0))' + TAIL).replace("stiffness: 1.0", "stiffness: inf"))
 
     def test_rules(self):
@@ -115,6 +118,8 @@ class Faults(unittest.TestCase):
             'Point(name: "a", position: (0, 0, 0), color: 1)': "unknown-field",
             'Point(name: "a", name: "b", position: (0, 0, 0))': "repeated-field",
             'Point(name: "a", position: (0, 0, inf))': "not-finite",
+            'Point(name: "a", position: (0, 0, -1e101))': "too-large",
+            'TriangleMesh(name: "a", vertices: [(0, 0, 0), (1, 0, 1e154), (0, 1, 0)], triangles: [(0, 1, 2)])': "too-large",
             'Point(name: "", position: (0, 0, 0))': "empty-name",
             'Point(name: "a/b", position: (0, 0, 0))': "slash-in-name",
             'Point(name: "a", position: (0, 0, 0)), Point(name: "a", position: (0, 0, 0))': "repeated-name",
@@ -172,8 +177,8 @@ class Layout(unittest.TestCase):
 
     def test_numbers_keep_every_bit(self):
         random.seed(1)
-        numbers = [random.uniform(-1, 1) * 10.0 ** random.randint(-300, 300) for _ in range(300)]
-        numbers += [0.1, 1e22, 1e-7, 5e-324, 1.7976931348623157e308, -0.0, 123456789.123456789]
+        numbers = [random.uniform(-1, 1) * 10.0 ** random.randint(-300, 100) for _ in range(300)]
+        numbers += [0.1, 1e22, 1e-7, 5e-324, 1e100, -0.0, 123456789.123456789]
         vertices = np.array(numbers[: len(numbers) // 3 * 3]).reshape(-1, 3)
         triangles = np.arange(len(vertices) // 3 * 3).reshape(-1, 3)
         vertices = vertices[: len(triangles) * 3]

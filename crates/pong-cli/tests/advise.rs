@@ -1,7 +1,8 @@
 //! `pong advise` as a terminal user meets it.
 
+mod common;
+
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
     surfaces: { "rigid": (stiffness: inf) },
@@ -9,9 +10,6 @@ const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
         Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
 
 fn folder(test: &str, surface: &str, integrator: &str, step: f64) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
     let point = format!(
         r#"(format: "pong-model", version: 1, name: "point", surfaces: {{ {surface} }},
             root: (name: "point", surface: "advised", primitives: [Point(name: "tip", position: (0, 0, 0))]))"#
@@ -24,17 +22,12 @@ fn folder(test: &str, surface: &str, integrator: &str, step: f64) -> PathBuf {
                 (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
             pairs: [("point", "ground")], integrator: {integrator}, step: {step:?}, duration: 1)"#
     );
-    for (name, text) in [("point", point.as_str()), ("ground", GROUND), ("scene", scene.as_str())] {
-        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
-    }
-    folder
+    let files = [("point.ron", point.as_str()), ("ground.ron", GROUND), ("scene.ron", scene.as_str())];
+    common::folder(&format!("advise/{test}"), &files)
 }
 
 fn pong(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_pong"));
-    let output = command.args(arguments.split(' ')).current_dir(folder).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    common::pong(folder, &arguments.split(' ').collect::<Vec<_>>())
 }
 
 /// The number after a word at the start of a line.

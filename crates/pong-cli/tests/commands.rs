@@ -1,7 +1,9 @@
 //! The program as a terminal user meets it: output, files, exit codes.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use common::pong;
+use std::path::PathBuf;
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball",
     surfaces: { "soft": (stiffness: 1e5, normal: Linear(damping: 632.4)) },
@@ -30,21 +32,8 @@ const DROP: &str = r#"(format: "pong-scene", version: 1, name: "drop",
     integrator: RungeKutta4, step: 1e-3, duration: 0.5, record_every: 100, ledger: true)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    let files = [("ball", BALL), ("ground", GROUND), ("frame", FRAME), ("drop", DROP)];
-    for (name, text) in files {
-        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
-    }
-    folder
-}
-
-fn pong(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output: Output =
-        Command::new(env!("CARGO_BIN_EXE_pong")).args(arguments).current_dir(folder).output().unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    let files = [("ball.ron", BALL), ("ground.ron", GROUND), ("frame.ron", FRAME), ("drop.ron", DROP)];
+    common::folder(&format!("commands/{test}"), &files)
 }
 
 fn assert_holds(text: &str, parts: &[&str]) {

@@ -12,7 +12,7 @@ const ELL: &str = "v 0 0 0\nv 2 0 0\nv 2 0 1\nv 1 0 1\nv 1 0 2\nv 0 0 2\n\
                    f 1 7 8 2\nf 2 8 9 3\nf 3 9 10 4\nf 4 10 11 5\nf 5 11 12 6\nf 6 12 7 1\n";
 
 fn folder(test: &str) -> PathBuf {
-    common::folder(&format!("decompose/{test}"), "ell.obj", ELL)
+    common::folder(&format!("decompose/{test}"), &[("ell.obj", ELL)])
 }
 
 #[test]

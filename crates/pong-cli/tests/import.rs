@@ -8,7 +8,7 @@ use std::path::PathBuf;
 const TETRAHEDRON: &str = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 fn folder(test: &str) -> PathBuf {
-    common::folder(&format!("import/{test}"), "part.obj", TETRAHEDRON)
+    common::folder(&format!("import/{test}"), &[("part.obj", TETRAHEDRON)])
 }
 
 #[test]

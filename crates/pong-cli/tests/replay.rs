@@ -1,5 +1,7 @@
 //! Logs as a terminal user meets them: `pong run --log`, `pong log`, `pong replay`; a run that is killed; a full disk.
 
+mod common;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
@@ -23,23 +25,12 @@ const SLIDE: &str = r#"(format: "pong-scene", version: 1, name: "slide",
     integrator: RungeKutta4, step: 2e-4, duration: 0.2, record_every: 10, ledger: true)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("replay_{test}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    for (name, text) in [("block", BLOCK), ("table", TABLE), ("slide", SLIDE)] {
-        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
-    }
-    folder
+    let files = [("block.ron", BLOCK), ("table.ron", TABLE), ("slide.ron", SLIDE)];
+    common::folder(&format!("replay/{test}"), &files)
 }
 
 fn pong(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_pong"))
-        .args(arguments.split(' '))
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    common::pong(folder, &arguments.split(' ').collect::<Vec<_>>())
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! `pong trade` as a terminal user meets it.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use common::pong;
+use std::path::PathBuf;
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces: { "soft": (stiffness: 1e5) },
     root: (name: "ball", surface: "soft", primitives: [Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)]))"#;
@@ -17,49 +19,34 @@ const REST: &str = r#"(format: "pong-scene", version: 1, name: "rest",
     integrator: RungeKutta4, step: 1e-3, duration: 0.064)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("trade_{test}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    for (name, text) in [("ball", BALL), ("ground", GROUND), ("rest", REST)] {
-        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
-    }
-    folder
-}
-
-fn pong(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pong")).current_dir(folder).args(arguments).output().unwrap()
-}
-
-fn told(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+    let files = [("ball.ron", BALL), ("ground.ron", GROUND), ("rest.ron", REST)];
+    common::folder(&format!("trade/{test}"), &files)
 }
 
 /// The page and the files, for a scene and for its log; what was stopped in between does not show in errors.csv.
 #[test]
 fn a_scene_and_its_log_are_studied() {
     let folder = folder("studied");
-    let found = pong(&folder, &["trade", "rest.ron", "--rounds", "1", "--within", "5%"]);
-    assert!(found.status.success(), "{}", told(&found));
-    assert!(told(&found).contains("cheapest level within 5 %"), "{}", told(&found));
+    let study = ["trade", "rest.ron", "--rounds", "1", "--within", "5%"];
+    let (code, page, err) = pong(&folder, &study);
+    assert_eq!(code, 0, "{page}{err}");
+    assert!(page.contains("cheapest level within 5 %"), "{page}");
     let read = |name: &str| std::fs::read_to_string(folder.join("rest_trade").join(name)).unwrap();
-    assert!(told(&found).starts_with(&read("trade.md")));
+    assert!(page.starts_with(&read("trade.md")));
     assert!(read("trade.svg").starts_with("<svg") && read("trade.csv").lines().count() > 20);
     let errors = read("errors.csv");
-    let again = pong(&folder, &["trade", "rest.ron", "--rounds", "1", "--within", "5%", "--fresh", "-q"]);
-    assert!(again.status.success() && told(&again).is_empty(), "{}", told(&again));
+    let again = pong(&folder, &[&study[..], &["--fresh", "-q"]].concat());
+    assert_eq!(again, (0, String::new(), String::new()));
     assert_eq!(read("errors.csv"), errors);
 
-    assert!(pong(&folder, &["run", "rest.ron", "--log", "log", "--every-step", "-q"]).status.success());
-    let found = pong(&folder, &["trade", "log", "--rounds", "1", "--alternative", "same:ball=ball.ron"]);
-    assert!(found.status.success(), "{}", told(&found));
-    assert!(told(&found).contains("the log's own wrenches bit for bit"), "{}", told(&found));
-    assert!(told(&found).contains("every frame, `same`"), "{}", told(&found));
-    let found = pong(&folder, &["trade", "log", "--of", "pose"]);
-    assert!(
-        !found.status.success() && told(&found).contains("any of wrench, impulse, peak"),
-        "{}",
-        told(&found)
-    );
+    assert_eq!(pong(&folder, &["run", "rest.ron", "--log", "log", "--every-step", "-q"]).0, 0);
+    let (code, page, err) =
+        pong(&folder, &["trade", "log", "--rounds", "1", "--alternative", "same:ball=ball.ron"]);
+    assert_eq!(code, 0, "{page}{err}");
+    assert!(page.contains("the log's own wrenches bit for bit"), "{page}");
+    assert!(page.contains("every frame, `same`"), "{page}");
+    let (code, _, err) = pong(&folder, &["trade", "log", "--of", "pose"]);
+    assert!(code != 0 && err.contains("any of wrench, impulse, peak"), "{err}");
 }
 
 #[test]
@@ -75,8 +62,8 @@ fn what_cannot_be_studied_is_told() {
         (&["trade", "none.ron"], 1, "name a scene file that can be read"),
     ];
     for (arguments, code, cause) in cases {
-        let found = pong(&folder, arguments);
-        assert_eq!(found.status.code(), Some(code), "{arguments:?}: {}", told(&found));
-        assert!(told(&found).contains(cause), "{arguments:?}: {}", told(&found));
+        let (ended, _, err) = pong(&folder, arguments);
+        assert_eq!(ended, code, "{arguments:?}: {err}");
+        assert!(err.contains(cause), "{arguments:?}: {err}");
     }
 }

@@ -1,7 +1,9 @@
 //! `pong tune` as a terminal user meets it. What is faster is not for a test to say: all that is said is held to be true.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod common;
+
+use common::pong;
+use std::path::PathBuf;
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces: { "soft": (stiffness: 1e5) },
     // The skin of the ball.
@@ -19,30 +21,16 @@ const REST: &str = r#"(format: "pong-scene", version: 1, name: "rest",
     integrator: RungeKutta4, step: 1e-3, duration: 0.2)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("tune_{test}"));
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    for (name, text) in [("ball", BALL), ("ground", GROUND), ("rest", REST)] {
-        std::fs::write(folder.join(format!("{name}.ron")), text).unwrap();
-    }
-    folder
-}
-
-fn pong(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_pong")).current_dir(folder).args(arguments).output().unwrap()
-}
-
-fn told(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
+    let files = [("ball.ron", BALL), ("ground.ron", GROUND), ("rest.ron", REST)];
+    common::folder(&format!("tune/{test}"), &files)
 }
 
 /// A scene and its log. A file is written if and only if the page says so; it loads, and runs of it answer the same bytes.
 #[test]
 fn a_scene_and_its_log_are_tuned() {
     let folder = folder("tuned");
-    let found = pong(&folder, &["tune", "rest.ron", "--rounds", "2", "--frames", "128"]);
-    assert!(found.status.success(), "{}", told(&found));
-    let page = told(&found);
+    let (code, page, err) = pong(&folder, &["tune", "rest.ron", "--rounds", "2", "--frames", "128"]);
+    assert_eq!(code, 0, "{page}{err}");
     assert!(page.contains("201 frames, every one compared") && page.contains("128 of them"), "{page}");
     let tuned = folder.join("ball_tuned.ron");
     assert_eq!(
@@ -58,34 +46,36 @@ fn a_scene_and_its_log_are_tuned() {
             text.contains("// The skin of the ball.") && text.contains("`pong tune` for `rest`"),
             "{text}"
         );
-        assert!(pong(&folder, &["check", "ball_tuned.ron"]).status.success());
+        assert_eq!(pong(&folder, &["check", "ball_tuned.ron"]).0, 0);
         let scene = REST.replace("\"ball.ron\"", "\"ball_tuned.ron\"");
         std::fs::write(folder.join("again.ron"), scene).unwrap();
         for scene in ["rest.ron", "again.ron"] {
             let folder_of = format!("{scene}_out");
-            assert!(pong(&folder, &["run", scene, "-q", "-o", &folder_of]).status.success());
+            assert_eq!(pong(&folder, &["run", scene, "-q", "-o", &folder_of]).0, 0);
         }
         for table in ["states.csv", "wrenches.csv", "contacts.csv"] {
             let read = |scene: &str| std::fs::read(folder.join(format!("{scene}_out")).join(table)).unwrap();
             assert_eq!(read("rest.ron"), read("again.ron"), "{table}");
         }
     }
-    assert!(pong(&folder, &["run", "rest.ron", "--log", "log", "--every-step", "-q"]).status.success());
-    let found = pong(&folder, &["tune", "log", "--rounds", "2", "--frames", "64", "--duration", "0.1"]);
-    assert!(found.status.success() && told(&found).contains("64 of them"), "{}", told(&found));
+    assert_eq!(pong(&folder, &["run", "rest.ron", "--log", "log", "--every-step", "-q"]).0, 0);
+    let (code, page, err) =
+        pong(&folder, &["tune", "log", "--rounds", "2", "--frames", "64", "--duration", "0.1"]);
+    assert!(code == 0 && page.contains("64 of them"), "{page}{err}");
     assert!(!folder.join("log/models/ball/ball_tuned.ron").exists());
-    let found = pong(&folder, &["tune", "rest.ron", "--also", "log", "-q", "-o", "both", "--rounds", "2"]);
-    assert!(found.status.success() && found.stdout.is_empty(), "{}", told(&found));
+    let (code, out, err) =
+        pong(&folder, &["tune", "rest.ron", "--also", "log", "-q", "-o", "both", "--rounds", "2"]);
+    assert!(code == 0 && out.is_empty(), "{out}{err}");
 }
 
 #[test]
 fn what_is_wrong_is_told_with_a_cure() {
     let folder = folder("refused");
     let refused = |arguments: &[&str], words: &[&str]| {
-        let found = pong(&folder, &[&["tune"], arguments].concat());
-        assert!(!found.status.success(), "{arguments:?}");
+        let (code, _, err) = pong(&folder, &[&["tune"], arguments].concat());
+        assert_ne!(code, 0, "{arguments:?}");
         for word in words {
-            assert!(told(&found).contains(word), "{arguments:?}: {}", told(&found));
+            assert!(err.contains(word), "{arguments:?}: {err}");
         }
     };
     refused(&["nowhere.ron"], &["nowhere.ron"]);
@@ -113,7 +103,7 @@ fn groups_without_volumes_and_cut_leaves_are_drawn() {
         balls("d")
     );
     std::fs::write(folder.join("drawn.ron"), text).unwrap();
-    let found = told(&pong(&folder, &["check", "drawn.ron"]));
+    let (_, found, _) = pong(&folder, &["check", "drawn.ron"]);
     let lines = [
         "  m (Aabb movable)\n",
         "    a (Above)\n",

@@ -111,7 +111,7 @@ pub struct State {
 
 impl State {
     /// Largest component that is accepted: products of any two, with any stiffness, stay finite.
-    pub const LARGEST: f64 = 1e100;
+    pub const LARGEST: f64 = pong_model::LARGEST;
 
     /// At rest at the common origin.
     pub fn identity() -> Self {

@@ -131,11 +131,17 @@ fn dented_faces_are_cut_within_their_outline() {
 #[test]
 fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
     let folder = folder("damaged");
-    let cases: [(&str, Vec<u8>, &str); 12] = [
+    let cases: [(&str, Vec<u8>, &str); 14] = [
         ("a.ply", b"ply".to_vec(), "unknown-format"),
         ("empty.stl", binary_stl(&[]), "empty-mesh"),
         ("short.stl", binary_stl(&cube())[..300].to_vec(), "damaged"),
         ("nan.stl", binary_stl(&[[[f64::NAN, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]]), "not-finite"),
+        ("far.obj", b"v 0 0 0\nv 1 0 0\nv 0 1e154 0\nf 1 2 3\n".to_vec(), "too-large"),
+        (
+            "positions.gltf",
+            cube_file().text("gone.bin").replace("\"POSITION\":0", "\"POSITION\":6").into_bytes(),
+            "damaged",
+        ),
         ("empty.obj", b"# nothing\n".to_vec(), "empty-mesh"),
         ("index.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "damaged"),
         ("curve.obj", b"v 0 0 0\ncstype bezier\n".to_vec(), "free-form"),
@@ -154,7 +160,7 @@ fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
     }
     assert_eq!(rules(&run(&folder.join("missing.stl"), &options()).unwrap_err()), ["unreadable"]);
     let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(left.len(), 12, "{left:?}");
+    assert_eq!(left.len(), 14, "{left:?}");
 }
 
 #[test]

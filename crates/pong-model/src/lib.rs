@@ -38,6 +38,10 @@ use pong_geometry::extension::Extensions;
 use read::Reader;
 use std::path::Path;
 
+/// Largest number of a model that is not a rigid stiffness, of either sign: with places, lengths and factors of laws within
+/// it, products of any two, with any stiffness, are finite.
+pub const LARGEST: f64 = 1e100;
+
 /// Reads a model file; meshes are looked for beside it.
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
     let file = path.display().to_string();

@@ -18,7 +18,7 @@ impl Surface {
     /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
     /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
     /// do sums of stiffnesses.
-    pub const STIFFEST: f64 = 1e100;
+    pub const STIFFEST: f64 = crate::LARGEST;
     /// The softest, N/m: its inverse and its share of the yield stay within that range.
     pub const SOFTEST: f64 = 1e-100;
 

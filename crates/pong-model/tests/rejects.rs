@@ -99,7 +99,18 @@ fn faults_of_surfaces() {
     surface(
         "restitution-range",
         "surfaces/t",
-        "\"t\": (stiffness: 1e100, normal: Linear(/*!*/restitution: (e: 0.5, mass: 1e300)))",
+        "\"t\": (stiffness: 1e100, normal: Linear(/*!*/restitution: (e: 0.01, mass: 1e100)))",
+    );
+    surface(
+        "restitution-range",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, normal: HuntCrossley(exponent: 1, /*!*/restitution: (e: 0.01, speed: 1e-99)))",
+    );
+    surface("too-large", "surfaces/t", "\"t\": (stiffness: 1, normal: Linear(/*!*/damping: 1.1e100))");
+    surface(
+        "too-large",
+        "surfaces/t",
+        "\"t\": (stiffness: 1, normal: Linear(restitution: (e: 1, /*!*/mass: 1e300)))",
     );
     surface("repeated-surface", "surfaces/s", "/*!*/\"s\": (stiffness: 1)");
     surface("empty-name", "surfaces/", "/*!*/\"\": (stiffness: 1)");
@@ -233,6 +244,7 @@ fn faults_of_groups() {
 fn faults_of_simple_primitives() {
     primitive("missing-field", "root/p", "/*!*/Point(name: \"p\")");
     primitive("not-finite", "root/p", "Point(name: \"p\", /*!*/position: (0, NaN, 0))");
+    primitive("too-large", "root/p", "Point(name: \"p\", /*!*/position: (0, -1.1e100, 0))");
     primitive("zero-direction", "root/p", "Plane(name: \"p\", /*!*/normal: (0, 0, 0), offset: 0)");
     primitive("zero-length", "root/p", "LineSegment(name: \"p\", /*!*/ends: ((1, 0, 0), (1, 0, 0)))");
     primitive(
@@ -280,6 +292,7 @@ fn faults_of_triangles_and_meshes() {
     primitive("not-an-index", "root/m/triangles[0]", &mesh(flat, "/*!*/(0,1,-1)"));
     primitive("not-a-triangle", "root/m/triangles[0]", &mesh(flat, "/*!*/(0,1,2,3)"));
     primitive("not-finite", "root/m/vertices[1]", &mesh("(0,0,0),\n/*!*/(1,0,inf),(0,1,0)", "(0,1,2)"));
+    primitive("too-large", "root/m/vertices[1]", &mesh("(0,0,0),\n/*!*/(1,0,1e154),(0,1,0)", "(0,1,2)"));
     primitive("wrong-type", "root/m/vertices[1]", &mesh("(0,0,0),\n/*!*/(1,0),(0,1,0)", "(0,1,2)"));
     primitive("wrong-type", "root/m/vertices", &mesh("(0,0,0),\n/*!*/(1,0,\"a\"),(0,1,0)", "(0,1,2)"));
     primitive(

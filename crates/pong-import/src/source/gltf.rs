@@ -164,7 +164,7 @@ impl Reader<'_> {
         }
         shape.vertices = welder.vertices;
         shape.vertices.iter_mut().for_each(|place| *place = self.up.turned(*place) * self.unit_m);
-        super::all_finite(&shape, path, findings).then_some(shape)
+        super::all_in_range(&shape, path, findings).then_some(shape)
     }
 
     /// What the `extras.pong` of a material says.

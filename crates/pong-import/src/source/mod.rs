@@ -102,14 +102,18 @@ fn stem(path: &Path) -> String {
     path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Whether all coordinates are finite; else a fault is noted.
-fn all_finite(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
-    let bad = shape.vertices.iter().position(|place| !place.iter().all(|x| x.is_finite()));
-    if let Some(index) = bad {
-        let cause = format!("vertex {index} is not finite");
-        findings.fault(path, "not-finite", cause, "repair the mesh where it was made");
-    }
-    bad.is_none()
+/// Whether all coordinates are numbers that a model may hold; else a fault is noted.
+fn all_in_range(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
+    let in_range = |x: &f64| x.abs() <= pong_model::LARGEST;
+    let Some(index) = shape.vertices.iter().position(|place| !place.iter().all(in_range)) else {
+        return true;
+    };
+    let (rule, cause) = match shape.vertices[index].iter().all(|x| x.is_finite()) {
+        true => ("too-large", format!("vertex {index} lies beyond {:e} m", pong_model::LARGEST)),
+        false => ("not-finite", format!("vertex {index} is not finite")),
+    };
+    findings.fault(path, rule, cause, "repair the mesh where it was made");
+    false
 }
 
 impl Shape {

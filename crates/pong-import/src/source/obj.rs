@@ -49,7 +49,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
         let path = format!("{file}: {}", node.path);
         if let Some(shape) = &mut node.mesh {
             weld(shape);
-            super::all_finite(shape, &path, findings);
+            super::all_in_range(shape, &path, findings);
         }
     }
     if source.nodes.is_empty() {

@@ -1,6 +1,6 @@
 //! STL, binary and text.
 
-use super::{Node, Reading, Shape, Source, Welder, all_finite, stem};
+use super::{Node, Reading, Shape, Source, Welder, all_in_range, stem};
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use std::io::Cursor;
@@ -50,7 +50,7 @@ pub(super) fn read(
         return None;
     }
     let mut shape = Shape { vertices: welder.vertices, triangles: corners, ..Shape::default() };
-    if !all_finite(&shape, &file, findings) {
+    if !all_in_range(&shape, &file, findings) {
         return None;
     }
     let up = reading.up.unwrap_or(Up::Z);

@@ -2,6 +2,7 @@
 
 use super::polygon::{area_vector, edges, longest_edge, plane_of, width};
 use super::{Hull, PLANE_TOLERANCE, Problem};
+use crate::read::out_of_range;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 
@@ -18,9 +19,8 @@ fn verdict(problems: Vec<Problem>) -> Checked {
 pub(super) fn authored(vertices: &[Vec3], faces: &[&[u32]]) -> Checked {
     let mut problems = Vec::new();
     for (index, vertex) in vertices.iter().enumerate() {
-        if !vertex.iter().all(|x| x.is_finite()) {
-            let cause = format!("vertex {index} is not finite");
-            problems.push(Problem::new(None, "not-finite", cause, "give finite numbers"));
+        if let Some((rule, cause, cure)) = vertex.iter().find_map(|&x| out_of_range(x)) {
+            problems.push(Problem::new(None, rule, format!("vertex {index}: {cause}"), cure));
         }
     }
     if faces.len() < 4 {

@@ -1,7 +1,7 @@
 //! Triangles, meshes of triangles, and polyhedra: inline or from a file.
 
 use super::mesh_file::{self, Mesh};
-use super::{LISTED_PER_MESH, Reader, primitive::Primitive};
+use super::{LISTED_PER_MESH, Reader, out_of_range, primitive::Primitive};
 use crate::hull::{self, Hull};
 use crate::model::PrimitiveInfo;
 use crate::ron_tree::{Node, Value};
@@ -147,10 +147,10 @@ fn triangle_corners(mesh: &Mesh, face: usize, x: &pong_geometry::Transform) -> R
             let cause = format!("there is no vertex {index} among {}", mesh.vertices.len());
             return Err(("index-out-of-range", cause, "indices count from 0"));
         };
-        if !vertex.iter().all(|x| x.is_finite()) {
-            return Err(("not-finite", format!("vertex {index} is not finite"), "give finite numbers"));
-        }
         *corner = x.point(vertex);
+        if let Some((rule, cause, cure)) = vertex.iter().chain(corner.iter()).find_map(|&x| out_of_range(x)) {
+            return Err((rule, format!("vertex {index}: {cause}"), cure));
+        }
     }
     if indices[0] == indices[1] || indices[1] == indices[2] || indices[2] == indices[0] {
         return Err((
@@ -315,20 +315,18 @@ fn vertices(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Vec<Vec3
     let mut faults = 0;
     let path = format!("{path}/vertices");
     rows(reader, node, &path, "(x, y, z)", |reader, index, at, row| {
-        if let &[x, y, z] = row
-            && row.iter().all(|x| x.is_finite())
-        {
+        let fault = row.iter().find_map(|&x| out_of_range(x));
+        if let (&[x, y, z], None) = (row, &fault) {
             vertices.push(Vec3::new(x, y, z));
             return;
         }
         faults += 1;
         if faults <= LISTED_PER_MESH {
             let path = format!("{path}[{index}]");
-            let (rule, cause) = match row.len() {
-                3 => ("not-finite", "a coordinate is not finite".to_owned()),
-                n => ("wrong-type", format!("expected (x, y, z), found {n} numbers")),
-            };
-            reader.fault(at, &path, rule, cause, "write three finite numbers (x, y, z)");
+            let cure = "write three finite numbers (x, y, z)";
+            let found = || ("wrong-type", format!("expected (x, y, z), found {} numbers", row.len()), cure);
+            let (rule, cause, cure) = fault.filter(|_| row.len() == 3).unwrap_or_else(found);
+            reader.fault(at, &path, rule, cause, cure);
         }
     })?;
     (faults == 0).then_some(vertices)

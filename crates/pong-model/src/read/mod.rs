@@ -13,6 +13,7 @@ mod surface;
 
 pub(crate) use document::document;
 pub(crate) use fields::Fields;
+pub(crate) use scalar::out_of_range;
 
 use crate::error::ModelError;
 use crate::ron_tree::SyntaxError;

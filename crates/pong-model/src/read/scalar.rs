@@ -1,8 +1,20 @@
 //! Numbers, texts, vectors and rotations, each refused with a reason where it makes no sense.
 
 use super::Reader;
+use crate::LARGEST;
 use crate::ron_tree::{Node, Value};
 use pong_geometry::{Quat, Vec3};
+
+/// What is wrong with a number that must be finite and not beyond [`LARGEST`]: rule, cause and cure.
+pub(crate) fn out_of_range(value: f64) -> Option<(&'static str, String, &'static str)> {
+    if !value.is_finite() {
+        return Some(("not-finite", format!("{value} is no finite number"), "give a finite number"));
+    }
+    let beyond = value.abs() > LARGEST;
+    beyond.then(|| {
+        ("too-large", format!("{value:e} is beyond ±{LARGEST:e}"), "give a smaller number; check its unit")
+    })
+}
 
 /// How far the norm of an authored quaternion may be from 1.
 const QUATERNION_NORM_TOLERANCE: f64 = 1e-3;
@@ -24,28 +36,27 @@ impl Reader<'_> {
         }
     }
 
-    /// A finite number.
+    /// A finite number, not beyond [`LARGEST`].
     pub(crate) fn number(&mut self, node: &Node, path: &str) -> Option<f64> {
         let value = self.any_number(node, path)?;
-        self.require_finite(node.at, path, value).then_some(value)
+        self.require_in_range(node.at, path, value).then_some(value)
     }
 
-    pub(crate) fn require_finite(&mut self, at: u32, path: &str, value: f64) -> bool {
-        if !value.is_finite() {
-            self.fault(
-                at,
-                path,
-                "not-finite",
-                format!("{value} is no finite number"),
-                "give a finite number",
-            );
+    fn require_in_range(&mut self, at: u32, path: &str, value: f64) -> bool {
+        let fault = out_of_range(value);
+        if let Some((rule, cause, cure)) = &fault {
+            self.fault(at, path, rule, cause.clone(), *cure);
         }
-        value.is_finite()
+        fault.is_none()
     }
 
-    /// A finite number above zero.
+    /// A number above zero, not beyond [`LARGEST`].
     pub(crate) fn positive(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
         let value = self.number(node, path)?;
+        self.above_zero(node, path, what, value)
+    }
+
+    pub(crate) fn above_zero(&mut self, node: &Node, path: &str, what: &str, value: f64) -> Option<f64> {
         if value > 0.0 {
             return Some(value);
         }
@@ -104,7 +115,7 @@ impl Reader<'_> {
     fn tuple<const N: usize>(&mut self, node: &Node, path: &str, form: &str) -> Option<[f64; N]> {
         match &node.value {
             Value::Numbers(numbers) if numbers.len() == N => {
-                let all = numbers.iter().all(|&x| self.require_finite(node.at, path, x));
+                let all = numbers.iter().all(|&x| self.require_in_range(node.at, path, x));
                 all.then(|| std::array::from_fn(|i| numbers[i]))
             }
             Value::Tuple(None, items) if items.len() == N => {

@@ -1,6 +1,7 @@
 //! The tables of surfaces and of pairs of surfaces.
 
 use super::{Fields, Reader};
+use crate::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
@@ -90,7 +91,12 @@ fn in_range(
 
 /// Finite, above zero and within the range of stiffnesses.
 fn finite_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str, what: &str) -> Option<f64> {
-    let value = reader.positive(node, path, what)?;
+    let value = reader.any_number(node, path)?;
+    if !value.is_finite() {
+        reader.fault(node.at, path, "not-finite", format!("{what} is {value}"), "give a finite number");
+        return None;
+    }
+    let value = reader.above_zero(node, path, what, value)?;
     in_range(reader, node, path, value, what, "")
 }
 
@@ -136,10 +142,11 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
         return None;
     }
     let damping = 2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt();
-    if damping.is_finite() {
+    if damping <= LARGEST {
         return Some(damping);
     }
-    let cause = format!("a mass of {mass:e} kg on {stiffness:e} N/m makes more damping than a number holds");
+    let cause =
+        format!("a mass of {mass:e} kg on {stiffness:e} N/m makes a damping beyond {LARGEST:e} N·s/m");
     reader.fault(node.at, path, "restitution-range", cause, "give a smaller mass or stiffness");
     None
 }
@@ -172,7 +179,14 @@ fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
     let fields = Fields::open(reader, node, path, &["e", "speed"])?;
     let e = fields.required(reader, "e").and_then(|node| restitution(reader, node, path));
     let speed = fields.required(reader, "speed").and_then(|node| reader.positive(node, path, "the speed"));
-    Some(chi_for_restitution(e?, speed?))
+    let (e, speed) = (e?, speed?);
+    let chi = chi_for_restitution(e, speed);
+    if chi <= LARGEST {
+        return Some(chi);
+    }
+    let cause = format!("a restitution of {e:e} at {speed:e} m/s makes a dissipation beyond {LARGEST:e} s/m");
+    reader.fault(node.at, path, "restitution-range", cause, "give a larger restitution or speed");
+    None
 }
 
 fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
