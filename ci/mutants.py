@@ -30,12 +30,13 @@ def row(mutant):
 
 
 def judged():
-    """The rows of docs/mutants.md that have a judgement."""
+    """What docs/mutants.md has judged; a row may name several changes of one line."""
     rows = set()
     for line in JUDGED.read_text().splitlines() if JUDGED.exists() else []:
-        cells = [cell.strip().strip("`") for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
         if len(cells) == 4 and cells[3]:
-            rows.add(tuple(cells[:3]))
+            file, code, changes, _ = cells
+            rows.update((file.strip("`"), code.strip("`"), change) for change in re.findall("`([^`]*)`", changes))
     return rows
 
 
@@ -51,20 +52,23 @@ def print_rest(folder):
 
 
 def report(folder):
-    quick, rest = outcomes(folder / "quick"), outcomes(folder / "rest")
-    # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well.
-    names = lived(quick)
-    told = [entry for entry in quick if entry[0]["name"] not in names]
-    told += [entry for entry in rest if entry[0]["name"] in names]
+    quick = outcomes(folder / "quick")
+    # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well: those are not asked for.
+    rest = {mutant["name"]: verdict for mutant, verdict in outcomes(folder / "rest")}
+    told = [(mutant, rest.get(mutant["name"], verdict) if verdict == "MissedMutant" else verdict) for mutant, verdict in quick]
     count = lambda verdict: sum(1 for _, other in told if other == verdict)
     print(
         f"{folder.name}: {len(quick)} mutants, {count('CaughtMutant')} caught, {count('Timeout')} ran too long, "
         f"{count('Unviable')} do not build, {count('MissedMutant')} missed"
     )
     known = judged()
-    new = [row(mutant) for mutant, verdict in told if verdict == "MissedMutant" and row(mutant) not in known]
-    for file, code, change in new:
-        print(f"| `{file}` | `{code}` | `{change}` | |")
+    new = {}
+    for file, code, change in (row(mutant) for mutant, verdict in told if verdict == "MissedMutant"):
+        if (file, code, change) not in known:
+            # At two places of a line it is the same change.
+            new.setdefault((file, code), {})[f"`{change}`"] = None
+    for (file, code), changes in new.items():
+        print(f"| `{file}` | `{code}` | {', '.join(changes)} | |")
     sys.exit(1 if new else 0)
 
 
