@@ -52,8 +52,9 @@ fn contacts(sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) -
     found
 }
 
-/// No pair that is left out finds anything, at any level of instructions; most pairs without contacts are left out,
-/// though none whose centre is behind the triangle and near its plane. Where the face alone may push nothing else does.
+/// No pair that is left out finds anything, at any level of instructions and of any size; most pairs without contacts are
+/// left out, though none whose centre is behind the triangle and near its plane. Where the face alone may push nothing else
+/// does.
 #[test]
 fn pairs_that_are_left_out_find_nothing() {
     let mut random = Random(71);
@@ -63,6 +64,10 @@ fn pairs_that_are_left_out_find_nothing() {
             if round % 2 == 0 {
                 mark_pushing(&mut set);
             }
+            // By a power of two, which rounds nothing: a kilometre, a millimetre.
+            let scale = f64::exp2(f64::from(round % 3 - 1) * 10.0);
+            let mut scaled = set.clone();
+            scaled.vertices.iter_mut().for_each(|vertex| *vertex *= scale);
             for _ in 0..20 {
                 let used = 1 + random.bits() as usize % LANES;
                 let drawn: Vec<(Sphere, u32, f64)> = (0..used)
@@ -70,23 +75,26 @@ fn pairs_that_are_left_out_find_nothing() {
                         let (sphere, there) = sphere(&set, &mut random);
                         let any = (random.bits() % set.triangles.len() as u64) as u32;
                         let triangle = if random.bits().is_multiple_of(4) { there } else { any };
+                        let sphere = Sphere { center: sphere.center * scale, radius: sphere.radius * scale };
                         (sphere, triangle, sphere.radius * random.between(0.0, 2.0))
                     })
                     .collect();
                 for level in Level::available() {
                     set_level(level);
                     let mut pairs = SphereTrianglePairs::default();
-                    drawn.iter().for_each(|(sphere, t, thickness)| pairs.add(sphere, &set, *t, *thickness));
+                    drawn
+                        .iter()
+                        .for_each(|(sphere, t, thickness)| pairs.add(sphere, &scaled, *t, *thickness));
                     let PairsTold { near, over_face } = pairs.take();
                     assert_eq!(pairs.count(), 0);
                     assert_eq!(over_face & !near, 0);
                     assert!(used == LANES || near >> used == 0);
                     for (lane, (sphere, t, thickness)) in drawn.iter().enumerate() {
-                        let found = contacts(sphere, &set, *t, *thickness);
+                        let found = contacts(sphere, &scaled, *t, *thickness);
                         let is_near = near >> lane & 1 == 1;
                         assert!(is_near || found.is_empty(), "{name} {level:?} {sphere:?} {t} {found:?}");
                         if over_face >> lane & 1 == 1 {
-                            let alone = sphere_over_face(sphere, &set, *t);
+                            let alone = sphere_over_face(sphere, &scaled, *t);
                             assert_eq!(alone.as_slice(), found, "{name} {level:?} {sphere:?} {t}");
                             faces += found.len();
                         }
@@ -102,6 +110,21 @@ fn pairs_that_are_left_out_find_nothing() {
     println!("{left_out} left out of {idle} without contact; {touching} with, {faces} by a face alone");
     assert!(faces > 500);
     assert!(touching > 2000 && f64::from(left_out) > 0.6 * f64::from(idle));
+}
+
+#[test]
+fn pairs_are_counted_and_forgotten() {
+    let set = regular_plate(2);
+    let mut pairs = SphereTrianglePairs::default();
+    let touching = Sphere { center: set.corners(0)[0], radius: 0.1 };
+    for count in 1..=3 {
+        pairs.add(&touching, &set, 0, 0.1);
+        assert_eq!(pairs.count(), count);
+    }
+    pairs.clear();
+    assert_eq!((pairs.count(), pairs.take().near), (0, 0));
+    pairs.add(&touching, &set, 0, 0.1);
+    assert_eq!(pairs.take().near, 1);
 }
 
 /// A pair with a number that is none is tested.
