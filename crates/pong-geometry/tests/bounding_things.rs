@@ -142,6 +142,23 @@ fn things_reach_as_far_as_their_points() {
     all.iter().for_each(|known| check(known, &mut random));
 }
 
+/// The search for the farthest point of an ellipsoid does not hang on the unit of length.
+#[test]
+fn farthest_scales_with_the_scene() {
+    let axes = common::Random(34).rotation();
+    let mut random = Random(35);
+    for _ in 0..100 {
+        let from = random.in_cube() * 4.0;
+        let farthest = |scale: f64| {
+            let e = Ellipsoid { center: CENTER * scale, axes, semi_axes: HALF * scale };
+            e.farthest(&(from * scale)) / scale
+        };
+        for scale in [f64::exp2(-20.0), f64::exp2(20.0)] {
+            assert!((farthest(scale) / farthest(1.0) - 1.0).abs() < 1e-14);
+        }
+    }
+}
+
 /// Of what tells nothing but its support the box along the axes stands for it.
 #[test]
 fn a_thing_of_ones_own_is_asked_for_six_supports() {
