@@ -1,7 +1,7 @@
 """What a run of ci/mutants found: numbers, and the mutants that no test saw and docs/mutants.md does not judge.
 
-    python3 ci/mutants.py rest FOLDER      a pattern of those that lived through the quick tests
-    python3 ci/mutants.py report FOLDER    FOLDER holds what cargo-mutants wrote, in quick/ and rest/
+    python3 ci/mutants.py rest FOLDER      a pattern of those that have lived so far
+    python3 ci/mutants.py report FOLDER    FOLDER holds what cargo-mutants wrote: in quick/, rest/, again_1/, …
 """
 
 import json
@@ -14,10 +14,21 @@ JUDGED = ROOT / "docs" / "mutants.md"
 
 
 def outcomes(folder):
-    """(mutant, verdict) of every mutant of one run; none if there was no such run."""
-    path = folder / "mutants.out" / "outcomes.json"
-    entries = json.loads(path.read_text())["outcomes"] if path.exists() else []
+    """(mutant, verdict) of every mutant of one run."""
+    entries = json.loads((folder / "mutants.out" / "outcomes.json").read_text())["outcomes"]
     return [(entry["scenario"]["Mutant"], entry["summary"]) for entry in entries if entry["scenario"] != "Baseline"]
+
+
+def verdicts(folder):
+    """(mutant, verdict) of every mutant of a group; a later run speaks of those that had lived until then."""
+    runs = [folder / "quick", folder / "rest", *sorted(folder.glob("again_*"))]
+    told = {}
+    for run in (run for run in runs if (run / "mutants.out" / "outcomes.json").exists()):
+        for mutant, verdict in outcomes(run):
+            # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well: no matter.
+            if run.name == "quick" or told.get(mutant["name"], (None, ""))[1] == "MissedMutant":
+                told[mutant["name"]] = (mutant, verdict)
+    return list(told.values())
 
 
 def row(mutant):
@@ -40,25 +51,17 @@ def judged():
     return rows
 
 
-def lived(quick):
-    """Names of those that the quick tests let live."""
-    return [mutant["name"] for mutant, verdict in quick if verdict == "MissedMutant"]
-
-
 def print_rest(folder):
-    names = lived(outcomes(folder / "quick"))
+    names = [mutant["name"] for mutant, verdict in verdicts(folder) if verdict == "MissedMutant"]
     if names:
         print("^(" + "|".join(map(re.escape, names)) + ")$")
 
 
 def report(folder):
-    quick = outcomes(folder / "quick")
-    # A pattern of names does not keep cargo-mutants from deleting fields elsewhere as well: those are not asked for.
-    rest = {mutant["name"]: verdict for mutant, verdict in outcomes(folder / "rest")}
-    told = [(mutant, rest.get(mutant["name"], verdict) if verdict == "MissedMutant" else verdict) for mutant, verdict in quick]
+    told = verdicts(folder)
     count = lambda verdict: sum(1 for _, other in told if other == verdict)
     print(
-        f"{folder.name}: {len(quick)} mutants, {count('CaughtMutant')} caught, {count('Timeout')} ran too long, "
+        f"{folder.name}: {len(told)} mutants, {count('CaughtMutant')} caught, {count('Timeout')} ran too long, "
         f"{count('Unviable')} do not build, {count('MissedMutant')} missed"
     )
     known = judged()

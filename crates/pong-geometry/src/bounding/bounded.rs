@@ -172,7 +172,7 @@ impl Bounded for Volume {
         match self {
             Self::Unbounded => f64::INFINITY,
             Self::Aabb { center, half } => direction.dot(center) + direction.abs().dot(half),
-            Self::Sphere { center, radius } => direction.dot(center) + radius * direction.norm(),
+            Self::Sphere { center, radius } => direction.dot(center) + radius,
             Self::Obb { center, axes, half } => {
                 direction.dot(center) + axes.tr_mul(direction).abs().dot(half)
             }
