@@ -8,16 +8,12 @@ pub mod contact_state;
 pub mod count;
 pub mod exercise;
 pub mod files;
-#[cfg(feature = "meshes")]
 pub mod gltf;
 pub mod input;
 pub mod log;
-#[cfg(feature = "meshes")]
 pub mod mesh;
 pub mod model;
-#[cfg(feature = "meshes")]
 pub mod obj;
 pub mod scene;
-#[cfg(feature = "meshes")]
 pub mod stl;
 pub mod text;

@@ -9,6 +9,7 @@
 
 mod affine;
 mod build;
+#[cfg(feature = "decompose")]
 mod decompose;
 mod files;
 mod findings;
@@ -22,6 +23,7 @@ mod source;
 mod write;
 
 pub use affine::Up;
+#[cfg(feature = "decompose")]
 pub use decompose::{DecomposeOptions, Decomposed, Deviation, Distances, Method, Report, decompose};
 pub use findings::{Finding, Findings};
 pub use import::{Imported, Options, import};

@@ -24,7 +24,7 @@ mod regroup;
 pub mod restitution;
 mod ron_tree;
 pub mod surface;
-mod t_junctions;
+pub mod t_junctions;
 mod tree;
 mod triangle_topology;
 mod weld;

@@ -6,9 +6,7 @@
 use pong_geometry::Vec3;
 
 /// A vertex nearer to an edge than this share of its length lies on it.
-const ON_EDGE: f64 = 1e-9;
-/// More are not worth telling.
-const ENOUGH: usize = 1000;
+pub const ON_EDGE: f64 = 1e-9;
 const LEAF: usize = 8;
 
 struct Node {
@@ -26,8 +24,9 @@ struct KdTree<'v> {
     nodes: Vec<Node>,
 }
 
-/// Pairs of a vertex and the index of the free edge within which it lies.
-pub(crate) fn find(vertices: &[Vec3], free_edges: &[[u32; 2]]) -> Vec<(u32, usize)> {
+/// Pairs of a vertex and the index of the free edge within which it lies, by edge; the search ends when it has more than
+/// `enough` of them.
+pub fn find(vertices: &[Vec3], free_edges: &[[u32; 2]], enough: usize) -> Vec<(u32, usize)> {
     let mut ends: Vec<u32> = free_edges.iter().flatten().copied().collect();
     ends.sort_unstable();
     ends.dedup();
@@ -38,7 +37,7 @@ pub(crate) fn find(vertices: &[Vec3], free_edges: &[[u32; 2]]) -> Vec<(u32, usiz
     let mut found = Vec::new();
     for (index, edge) in free_edges.iter().enumerate() {
         tree.vertices_within(edge, |vertex| found.push((vertex, index)));
-        if found.len() > ENOUGH {
+        if found.len() > enough {
             break;
         }
     }

@@ -9,6 +9,9 @@ use pong_geometry::interference::triangle_features::mark_pushing;
 use pong_geometry::primitive::{NO_NEIGHBOR, PrimitiveKind, TriangleRecord, TriangleSet};
 use std::collections::BTreeSet;
 
+/// More T-junctions are not worth telling.
+const JUNCTIONS_TOLD: usize = 1000;
+
 /// An oddity of a mesh.
 pub(crate) enum Oddity {
     /// An edge shared by three or more triangles.
@@ -42,7 +45,7 @@ pub(crate) fn knit(body: &mut Body) -> Findings {
         let mut found = connect(set, &part);
         lead_shells(set, &part, &mut findings.shell_leader);
         if !mirrors {
-            let junctions = t_junctions::find(&set.vertices, &found.free_edges);
+            let junctions = t_junctions::find(&set.vertices, &found.free_edges, JUNCTIONS_TOLD);
             let odd =
                 |(vertex, edge): (u32, usize)| Oddity::TJunction { triangle: found.free_owner[edge], vertex };
             found.oddities.extend(junctions.into_iter().map(odd));

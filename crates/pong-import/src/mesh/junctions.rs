@@ -1,13 +1,9 @@
 //! T-junctions: vertices within a free edge of another triangle. The triangle is split there, which closes the crack.
 
 use super::{Adjacency, Mesh, ring};
-use nalgebra::Vector3;
-use parry3d_f64::bounding_volume::Aabb;
-use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use pong_model::t_junctions::{self, ON_EDGE};
 use std::collections::BTreeMap;
 
-/// A vertex nearer to an edge than this share of its length lies on it, as model files judge it.
-const ON_EDGE: f64 = 1e-9;
 /// Every round splits one edge of a triangle; three edges may need it, and the pieces again.
 const ROUNDS: usize = 8;
 
@@ -34,48 +30,36 @@ type Junctions = BTreeMap<u32, (u8, Vec<u32>)>;
 /// For each triangle at most one free edge and the vertices within it, in order.
 fn find(mesh: &Mesh) -> Junctions {
     let free = Adjacency::new(&mesh.triangles).free;
-    let mut ends: Vec<u32> =
-        free.iter().map(|&(triangle, corner)| mesh.triangles[triangle as usize][corner as usize]).collect();
-    ends.extend(
-        free.iter().map(|&(triangle, corner)| mesh.triangles[triangle as usize][(corner as usize + 1) % 3]),
-    );
-    ends.sort_unstable();
-    ends.dedup();
+    let edges: Vec<[u32; 2]> = free
+        .iter()
+        .map(|&(triangle, corner)| {
+            [0, 1].map(|k| mesh.triangles[triangle as usize][(corner as usize + k) % 3])
+        })
+        .collect();
     let mut found = Junctions::new();
-    if ends.len() < 3 {
-        return found;
-    }
-    let place = |vertex: u32| mesh.vertices[vertex as usize];
-    let boxes: Vec<Aabb> = ends.iter().map(|&vertex| box_of([place(vertex); 2], 0.0)).collect();
-    let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-    for &(triangle, corner) in &free {
-        let [a, b] = [0, 1].map(|k| mesh.triangles[triangle as usize][(corner as usize + k) % 3]);
-        let length = (place(b) - place(a)).norm();
-        let along = (place(b) - place(a)) / length;
-        let mut within: Vec<(f64, u32)> = Vec::new();
-        for leaf in tree.intersect_aabb(&box_of([place(a), place(b)], ON_EDGE * length)) {
-            let vertex = ends[leaf as usize];
-            let arm = place(vertex) - place(a);
-            let t = arm.dot(&along);
-            let inside = t > ON_EDGE * length && t < length * (1.0 - ON_EDGE);
-            if inside && vertex != a && vertex != b && (arm - along * t).norm() <= ON_EDGE * length {
-                within.push((t, vertex));
-            }
-        }
-        within.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        within.retain(|(_, vertex)| !mesh.triangles[triangle as usize].contains(vertex));
+    let all = t_junctions::find(&mesh.vertices, &edges, usize::MAX);
+    for of_edge in all.chunk_by(|one, other| one.1 == other.1) {
+        let edge = of_edge[0].1;
+        let (triangle, corner) = free[edge];
+        let others = of_edge.iter().map(|(vertex, _)| *vertex);
+        let others = others.filter(|vertex| !mesh.triangles[triangle as usize].contains(vertex));
+        let within = in_order(mesh, &edges[edge], others);
         if !within.is_empty() {
-            let within = within.into_iter().map(|(_, vertex)| vertex).collect();
             found.entry(triangle).or_insert((corner, within));
         }
     }
     found
 }
 
-fn box_of([a, b]: [Vector3<f64>; 2], margin: f64) -> Aabb {
-    let vector = |v: Vector3<f64>| parry3d_f64::math::Vector::new(v.x, v.y, v.z);
-    let margin = Vector3::repeat(margin);
-    Aabb::new(vector(a.inf(&b) - margin), vector(a.sup(&b) + margin))
+/// Those of the vertices on an edge that are not at its ends, from its start on.
+fn in_order(mesh: &Mesh, edge: &[u32; 2], vertices: impl Iterator<Item = u32>) -> Vec<u32> {
+    let [a, b] = edge.map(|vertex| mesh.vertices[vertex as usize]);
+    let share = |vertex: &u32| (mesh.vertices[*vertex as usize] - a).dot(&(b - a)) / (b - a).norm_squared();
+    let inside = |share: f64| share > ON_EDGE && share < 1.0 - ON_EDGE;
+    let mut within: Vec<(f64, u32)> = vertices.map(|vertex| (share(&vertex), vertex)).collect();
+    within.retain(|(share, _)| inside(*share));
+    within.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
+    within.into_iter().map(|(_, vertex)| vertex).collect()
 }
 
 /// A fan from the opposite corner over the edge's new parts; the winding stays.
