@@ -113,9 +113,6 @@ fn emit_edge(
         return;
     }
     let foot = first + along * (from_first.dot(&along) / along.norm_squared());
-    if is_out_of_reach(sphere, &foot) {
-        return;
-    }
     let other_normal = match edges.class(k) {
         EdgeClass::Silent { .. } => return,
         EdgeClass::Free if height < 0.0 => return,
@@ -142,12 +139,6 @@ fn emit_vertex(
     if direction.norm_squared() >= sphere.radius * sphere.radius || !view.may_own_vertex(set, corner) {
         return;
     }
-    // Most vertices fail at the two edges of their own triangle: no need to walk around them.
-    for other in [view.corners[(corner + 1) % 3], view.corners[(corner + 2) % 3]] {
-        if points_along(&direction, &(other - apex)) {
-            return;
-        }
-    }
     let mut in_front = |t: &TriangleView| t.height(&sphere.center) >= 0.0;
     let Some(strictly) = vertex_pushes(set, view.index, corner, &direction, &mut in_front) else { return };
     let vertex = set.triangles[view.index as usize].vertices[corner];
@@ -158,19 +149,6 @@ fn emit_vertex(
         mean
     });
     emit_at(contact, standing, emit);
-}
-
-/// Whether a point is certainly farther from the centre than the radius.
-fn is_out_of_reach(sphere: &Sphere, point: &Vec3) -> bool {
-    const SLACK: f64 = 1e-12;
-    (sphere.center - point).norm_squared() > sphere.radius * sphere.radius * (1.0 + SLACK)
-}
-
-/// Whether the cosine between two vectors exceeds a slack far beyond rounding.
-fn points_along(direction: &Vec3, edge: &Vec3) -> bool {
-    const SLACK: f64 = 1e-9;
-    let product = direction.dot(edge);
-    product > 0.0 && product > SLACK * direction.norm() * edge.norm()
 }
 
 fn emit_at(contact: Option<Interference>, standing: Standing, emit: &mut dyn FnMut(TriangleContact)) {
