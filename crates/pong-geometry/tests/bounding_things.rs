@@ -4,9 +4,12 @@
 mod bounding_support;
 mod common;
 
-use bounding_support::Random;
+use bounding_support::{KINDS, Random};
 use common::{fibonacci_sphere, stretched_hull};
-use pong_geometry::bounding::{Bounded, CustomBounds, CustomVolume, Dilated, PointCloud, Volume};
+use pong_geometry::bounding::{
+    BoundKind, Bounded, CustomBounds, CustomVolume, Dilated, PointCloud, Volume, fit,
+};
+use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{
     CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, Ray, RayResponse, Sphere,
 };
@@ -20,6 +23,24 @@ struct Known<'a> {
     points: Vec<Vec3>,
     missed: f64,
     stand_for_it: Vec<Vec3>,
+}
+
+/// A post that stands on the plane z = 0 and has no upper end, or hangs from it and has no lower one.
+#[derive(Debug)]
+struct Post {
+    up: f64,
+}
+
+impl CustomPrimitive for Post {
+    fn kind_name(&self) -> &str {
+        "Post"
+    }
+    fn support(&self, direction: &Vec3) -> f64 {
+        if direction.z * self.up > 0.0 { f64::INFINITY } else { direction.xy().abs().sum() }
+    }
+    fn as_any(&self) -> &dyn std::any::Any {
+        self
+    }
 }
 
 /// A ball that tells its support alone, as primitive and as volume.
@@ -193,5 +214,33 @@ fn what_has_no_end_is_infinitely_far() {
             (thing.support(&Vec3::x()), thing.farthest(&Vec3::zeros())),
             (f64::INFINITY, f64::INFINITY)
         );
+    }
+}
+
+#[test]
+fn what_has_one_end_has_no_volume() {
+    for up in [1.0, -1.0] {
+        for kind in KINDS {
+            let fitted = fit(&kind, &[&CustomBounds(&Post { up })], &Extensions::new());
+            assert!(matches!(fitted, Ok(Volume::Unbounded)), "{kind:?}: {fitted:?}");
+        }
+    }
+}
+
+/// Squares of such numbers are none: what comes of them is told, or holds.
+#[test]
+fn what_is_beyond_all_squares_is_refused_or_bounded() {
+    for size in [1e160, 1e300] {
+        let points =
+            [Vec3::new(size, 0.0, 0.0), Vec3::new(-size, 0.5 * size, 0.0), Vec3::new(0.0, 0.0, size)];
+        for kind in KINDS {
+            let Ok(volume) = fit(&kind, &[&PointCloud(&points)], &Extensions::new()) else { continue };
+            for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+                let most = points.iter().map(|p| p.dot(&axis)).fold(0.0, f64::max);
+                assert!(volume.support(&axis) >= most, "{kind:?} {size}: {volume:?}");
+            }
+        }
+        let ball = fit(&BoundKind::Sphere, &[&PointCloud(&points)], &Extensions::new());
+        assert!(ball.is_err_and(|cause| cause.contains("not finite")));
     }
 }

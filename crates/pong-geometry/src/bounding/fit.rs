@@ -24,15 +24,15 @@ pub const RELATIVE_MARGIN: f64 = 1e-12;
 pub fn fit(kind: &BoundKind, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
     let Some((min, max)) = bounds(things)? else { return Ok(Volume::Unbounded) };
     let volume = match kind {
-        BoundKind::Aabb => return Ok(aabb::fit_aabb_bounds(min, max)),
-        BoundKind::Sphere => sphere::fit_sphere(things, &((min + max) * 0.5)),
-        BoundKind::Obb => obb::fit_obb(things),
+        BoundKind::Aabb => aabb::fit_aabb_bounds(min, max),
+        BoundKind::Sphere => sphere::fit_sphere(things, &((min + max) * 0.5)).inflated(),
+        BoundKind::Obb => obb::fit_obb(things).inflated(),
         BoundKind::Custom(name) => fit_custom(name, things, ext)?,
     };
     if !volume.is_finite() {
         return Err(format!("the {} volume around these things is not finite", kind.name()));
     }
-    Ok(volume.inflated())
+    Ok(volume)
 }
 
 fn fit_custom(name: &str, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
