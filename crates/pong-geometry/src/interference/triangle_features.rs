@@ -103,12 +103,6 @@ impl TriangleView {
         (self.corners[(k + 1) % 3] - self.corners[k]).cross(&self.normal).normalize()
     }
 
-    /// Signed distance of a point beyond edge `k`, along the plane, m.
-    #[inline]
-    pub fn beyond_edge(&self, k: usize, p: &Vec3) -> f64 {
-        self.outward(k).dot(&(p - self.edge_ends(k)[0]))
-    }
-
     /// What edge `k` may do.
     pub fn classify_edge(&self, set: &TriangleSet, k: usize) -> EdgeClass {
         let neighbor = set.triangles[self.index as usize].neighbors[k];
@@ -206,7 +200,7 @@ impl<'a> TriangleEdges<'a> {
         *self.classes[k].get_or_init(|| self.view.classify_edge(self.set, k))
     }
 
-    /// As [`TriangleView::beyond_edge`].
+    /// Signed distance of a point beyond edge `k`, along the plane, m.
     #[inline]
     pub fn beyond(&self, k: usize, p: &Vec3) -> f64 {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
@@ -367,6 +361,6 @@ fn edge_towards(set: &TriangleSet, triangle: u32, neighbor: u32) -> usize {
 
 /// The order in which both faces of an edge see its ends.
 #[inline]
-pub fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
+fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
     (a.x, a.y, a.z) < (b.x, b.y, b.z)
 }
