@@ -31,10 +31,10 @@ def verdicts(folder):
     return list(told.values())
 
 
-def row(mutant):
+def row(mutant, tree):
     """A mutant as docs/mutants.md names it: file, line of code, change."""
     path = mutant["file"]
-    code = (ROOT / path).read_text().splitlines()[mutant["span"]["start"]["line"] - 1].strip()
+    code = (tree / path).read_text().splitlines()[mutant["span"]["start"]["line"] - 1].strip()
     change = re.sub(r"^\S+:\d+:\d+: ", "", mutant["name"])
     file = re.sub(r"^crates/pong-[a-z]+/src/", "", path)
     return tuple(text.replace("|", "\\|") for text in (file, code, change))
@@ -66,7 +66,7 @@ def report(folder):
     )
     known = judged()
     new = {}
-    for file, code, change in (row(mutant) for mutant, verdict in told if verdict == "MissedMutant"):
+    for file, code, change in (row(mutant, folder.parent / "tree") for mutant, verdict in told if verdict == "MissedMutant"):
         if (file, code, change) not in known:
             # At two places of a line it is the same change.
             new.setdefault((file, code), {})[f"`{change}`"] = None
