@@ -395,3 +395,32 @@ fn hollow_solids_stay_surfaces_and_a_placeholder_stands_in_for_a_surface() {
     assert_eq!(model.surfaces[0].name, "placeholder");
     assert_eq!(model.bodies[0].triangles.triangles.len(), 24);
 }
+
+/// glTF's nodes are trees. Where they are not, a walk from the top could take longer than anybody waits.
+#[test]
+fn nodes_that_are_no_trees_are_refused() {
+    let folder = folder("no_trees");
+    let chain = || {
+        let mut gltf = Gltf::new();
+        let mesh = gltf.triangles(&cube());
+        let top = gltf.node(None, json!({"name": "top"}));
+        let middle = gltf.node(Some(top), json!({"name": "middle"}));
+        gltf.node(Some(middle), json!({"name": "cube", "mesh": mesh}));
+        gltf
+    };
+    assert!(run(&chain().save(&folder, "good.glb"), &options()).is_ok());
+    let spoils: [(&str, fn(&mut Value)); 5] = [
+        ("a circle, twice", |json| json["nodes"][1]["children"] = json!([0, 1])),
+        ("its own child", |json| json["nodes"][2]["children"] = json!([2])),
+        ("two parents", |json| json["nodes"][0]["children"] = json!([1, 2])),
+        ("twice below one", |json| json["nodes"][1]["children"] = json!([2, 2])),
+        ("on top and below", |json| json["scenes"][0]["nodes"] = json!([0, 2])),
+    ];
+    for (name, spoil) in spoils {
+        let mut gltf = chain();
+        spoil(&mut gltf.json);
+        let findings = run(&gltf.save(&folder, "spoiled.glb"), &options()).unwrap_err();
+        assert_eq!(rules(&findings), ["damaged"], "{name}: {findings}");
+        assert!(findings.to_string().contains("stands below"), "{name}: {findings}");
+    }
+}

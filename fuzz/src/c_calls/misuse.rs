@@ -50,8 +50,10 @@ impl Session<'_> {
             }
         };
         std::thread::scope(|scope| {
-            scope.spawn(calls);
+            let other = scope.spawn(calls);
             calls();
+            // The end of the scope would wait for the calls alone, and what the thread leaves last would look like a leak.
+            other.join().expect("no panic");
         });
         if let Some(host) = self.host() {
             host.has_frame = false;

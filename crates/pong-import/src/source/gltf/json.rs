@@ -5,6 +5,7 @@ use crate::findings::{Finding, Findings};
 use crate::number::widened;
 use nalgebra::{Matrix3, Vector3};
 use serde_json::Value;
+use std::collections::HashSet;
 
 /// Required extensions that change nothing about geometry.
 const HARMLESS: [&str; 6] =
@@ -80,9 +81,34 @@ fn check_positions(value: &Value, file: &str) -> Result<(), Finding> {
     }
 }
 
+/// Whether the nodes are trees, with the roots of scenes at their tops: by other ways a node could be reached without end.
+fn check_nodes(value: &Value, file: &str) -> Result<(), Finding> {
+    let listed =
+        |owner: &Value, key: &str| owner.list(key).iter().filter_map(Value::as_u64).collect::<Vec<_>>();
+    let mut below = HashSet::new();
+    for child in value.list("nodes").iter().flat_map(|node| listed(node, "children")) {
+        if !below.insert(child) {
+            return Err(damaged(file, format!("node {child} stands below two nodes, or twice below one")));
+        }
+    }
+    for scene in value.list("scenes") {
+        let mut roots = HashSet::new();
+        for root in listed(scene, "nodes") {
+            if below.contains(&root) || !roots.insert(root) {
+                return Err(damaged(
+                    file,
+                    format!("node {root}, which a scene lists, stands below another or twice"),
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The document for the crate, checked by its rules.
 pub(super) fn document(value: &Value, file: &str) -> Result<::gltf::Document, Finding> {
     check_positions(value, file)?;
+    check_nodes(value, file)?;
     let mut plain = value.clone();
     if let Some(fields) = plain.as_object_mut() {
         fields.remove("extensionsRequired");
