@@ -11,11 +11,7 @@ pub(super) fn fit_sphere(things: &[&dyn Bounded], box_center: &Vec3) -> Volume {
     let points = representatives(things);
     let radius_about = |center: &Vec3| largest(things.iter().map(|thing| thing.farthest(center)));
     let mut best = Ball { center: *box_center, radius: radius_about(box_center) };
-    if let Some(center) = growing_ball(&points) {
-        for center in [center, drawn_to_farthest(&points, center)] {
-            best.take_if_smaller(center, &radius_about);
-        }
-    }
+    best.take_if_smaller(drawn_to_farthest(&points, *box_center), &radius_about);
     best.refine(&radius_about);
     Volume::Sphere { center: best.center, radius: best.radius }
 }
@@ -54,23 +50,6 @@ impl Ball {
 fn farthest_point<'a>(points: &'a [Vec3], from: &Vec3) -> Option<&'a Vec3> {
     let distance = |p: &Vec3| (p - from).norm_squared();
     points.iter().reduce(|far, p| if distance(p) > distance(far) { p } else { far })
-}
-
-/// Centre of a ball around points: from a far pair, grown towards each point that is still outside (Ritter 1990).
-fn growing_ball(points: &[Vec3]) -> Option<Vec3> {
-    let one_end = farthest_point(points, points.first()?)?;
-    let other_end = farthest_point(points, one_end)?;
-    let mut center = (one_end + other_end) * 0.5;
-    let mut radius = (one_end - other_end).norm() * 0.5;
-    for p in points {
-        let distance = (p - center).norm();
-        if distance > radius {
-            let grown = 0.5 * (radius + distance);
-            center += (p - center) * ((distance - grown) / distance);
-            radius = grown;
-        }
-    }
-    Some(center)
 }
 
 /// Centre of the smallest ball around points, by steps of 1/(k+1) towards the farthest of them (Bădoiu and
