@@ -646,7 +646,7 @@ typedef struct pong_worker {
 } pong_worker;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
-/// do not use are 0 when got and ignored when set.
+/// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
 typedef struct pong_surface_values {
     /// Which normal law the surface has: PONG_NORMAL_...
     int32_t normal_law;

@@ -28,7 +28,7 @@ pub const PONG_FRICTION_COULOMB: i32 = 2;
 pub const PONG_FRICTION_CUSTOM: i32 = 3;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
-/// do not use are 0 when got and ignored when set.
+/// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_surface_values {

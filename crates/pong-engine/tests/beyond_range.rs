@@ -2,8 +2,10 @@
 //! been. Found by the fuzz targets (docs/fuzzing.md).
 
 use pong_engine::{
-    Config, EngineError, FrictionProps, InterfaceId, Laws, State, StateError, World, combine_surfaces,
+    Config, EngineError, FrictionProps, InterfaceId, Laws, NormalForce, NormalInput, State, StateError,
+    World, combine_surfaces,
 };
+use pong_geometry::extension::Extensions;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
 
@@ -17,15 +19,18 @@ struct Rig {
 }
 
 impl Rig {
-    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m) and damping (N·s/m).
-    fn new(stiffness: &str, damping: &str) -> Self {
+    /// A ball of 1 m on a ball of 1 m, of this stiffness (N/m) and normal law.
+    fn new(stiffness: &str, normal: &str) -> Self {
         let text = format!(
             r#"(format: "pong-model", version: 1, name: "ball",
                 surfaces: {{"s": (stiffness: 1.0, normal: Linear(damping: 1.0), friction: Bristle(mu: 0.3))}},
-                pairs: [(surfaces: ("s", "s"), stiffness: {stiffness}, normal: Linear(damping: {damping}))],
+                pairs: [(surfaces: ("s", "s"), stiffness: {stiffness}, normal: {normal})],
                 root: (name: "ball", surface: "s", primitives: [Sphere(name: "b", center: (0, 0, 0), radius: 1)]))"#
         );
-        let mut world = World::new(Config { ledger: true, contact_capacity: Some(2), ..Config::default() });
+        let mut laws = Laws::default();
+        laws.add_normal("steep", Arc::new(Steep));
+        let config = Config { ledger: true, contact_capacity: Some(2), ..Config::default() };
+        let mut world = World::with_extensions(config, Extensions::new(), laws);
         let model = pong_model::parse(&text, "ball", None, world.extensions()).unwrap();
         let model = world.add_model(Arc::new(model)).unwrap();
         let objects = ["a", "b"].map(|name| world.create_object(model, name).unwrap());
@@ -56,12 +61,26 @@ impl Rig {
     }
 }
 
-/// Near the largest number there is: at 0.1 m/s it is a force, at 100 m/s none.
-const DAMPING: &str = "1e307";
+/// A host's law near the largest number there is: at 0.1 m/s it is a force, at 100 m/s none.
+#[derive(Debug)]
+struct Steep;
+
+impl NormalForce for Steep {
+    fn force(&self, input: &NormalInput<'_>) -> f64 {
+        1e307 * input.rate.abs()
+    }
+
+    fn stored(&self, _: &NormalInput<'_>) -> f64 {
+        0.0
+    }
+}
+
+const STEEP: &str = r#"Custom(name: "steep", parameters: [])"#;
+const SOFT: &str = "Linear(damping: 1.0)";
 
 #[test]
 fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
-    let mut rig = Rig::new("1e6", DAMPING);
+    let mut rig = Rig::new("1e6", STEEP);
     rig.set(1, [1.999, 0.0, 0.0], 0.1);
     rig.world.step().unwrap();
     let before = rig.saved();
@@ -83,7 +102,7 @@ fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
     rig.set(1, [1.999, 0.0, 0.0], 0.1);
     rig.world.restore_state(&before).unwrap();
     rig.world.evaluate().unwrap();
-    let mut other = Rig::new("1e6", DAMPING);
+    let mut other = Rig::new("1e6", STEEP);
     other.world.restore_state(&before).unwrap();
     other.set(1, [1.999, 0.0, 0.0], 0.1);
     other.world.evaluate().unwrap();
@@ -92,7 +111,7 @@ fn a_frame_beyond_the_range_of_numbers_is_refused_and_leaves_no_trace() {
 
 #[test]
 fn a_block_with_a_number_that_is_not_finite_is_refused_though_its_checksum_is_right() {
-    let mut rig = Rig::new("1e6", "1.0");
+    let mut rig = Rig::new("1e6", SOFT);
     rig.world.step().unwrap();
     let good = rig.saved();
     let body = good.len() - CHECKSUM;
@@ -152,10 +171,23 @@ fn stiffnesses_at_the_ends_of_their_range_are_springs_in_series() {
     }
 }
 
+/// Whatever the built-in laws can be told, at the greatest speeds and turns that a state may have: a frame of numbers.
+#[test]
+fn what_a_model_may_say_stays_within_the_range_of_numbers() {
+    for normal in ["Linear(damping: 1e100)", "HuntCrossley(dissipation: 1e100, exponent: 1.0)"] {
+        let mut rig = Rig::new("1e100", normal);
+        for speed in [0.1, 1e50, State::LARGEST, -State::LARGEST] {
+            rig.set(1, [0.1, 0.0, 0.0], speed);
+            rig.world.step().unwrap_or_else(|error| panic!("{normal} at {speed}: {error}"));
+            assert!(rig.wrench_bits().iter().all(|bits| f64::from_bits(*bits).is_finite()));
+        }
+    }
+}
+
 /// As stiff as may be, a metre deep and more: a frame of numbers.
 #[test]
 fn the_stiffest_contact_has_a_force() {
-    let mut rig = Rig::new("1e100", "1.0");
+    let mut rig = Rig::new("1e100", SOFT);
     rig.set(1, [0.1, 0.0, 0.0], 0.1);
     rig.world.step().unwrap();
     let force = rig.world.wrench(rig.interfaces[0]).unwrap().force.norm();
@@ -164,7 +196,7 @@ fn the_stiffest_contact_has_a_force() {
 
 #[test]
 fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
-    let mut rig = Rig::new("1e6", "1.0");
+    let mut rig = Rig::new("1e6", SOFT);
     let model = rig.world.models().next().unwrap().0;
     let good = rig.world.surface(model, "s").unwrap().clone();
     for k in [1.01e100, f64::MAX, 0.99e-100, 5e-324] {
@@ -178,6 +210,13 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
                 other => panic!("{k}: {other:?}"),
             }
         }
+    }
+    for damping in [1.01e100, f64::MAX] {
+        let bad = Surface { normal: NormalLaw::Linear { damping, ramp: 0.0 }, ..good.clone() };
+        assert!(matches!(rig.world.set_surface(model, &bad), Err(EngineError::BadValue { .. })), "{damping}");
+        let rough = FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping };
+        let bad = Surface { friction: rough, ..good.clone() };
+        assert!(matches!(rig.world.set_surface(model, &bad), Err(EngineError::BadValue { .. })), "{damping}");
     }
     assert_eq!(rig.world.surface(model, "s").unwrap(), &good);
 }
@@ -194,7 +233,7 @@ fn make_checksum_right(block: &mut [u8]) {
 /// Whatever whole number of a block is another one: it is refused, or frames go on, also when nothing touches any more.
 #[test]
 fn a_block_that_names_what_is_not_there_is_refused_or_harmless() {
-    let mut rig = Rig::new("1e6", "1.0");
+    let mut rig = Rig::new("1e6", SOFT);
     rig.world.step().unwrap();
     let good = rig.saved();
     for at in (HEAD..good.len() - CHECKSUM - 3).step_by(4) {

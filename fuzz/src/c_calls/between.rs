@@ -165,7 +165,7 @@ impl Session<'_> {
                 // Others may belong to a law that the surface has not.
                 match which {
                     0 => (1e-100..=1e100).contains(&number) || number == f64::INFINITY,
-                    1 | 2 if linear => number >= 0.0 && number.is_finite(),
+                    1 | 2 if linear => (0.0..=1e100).contains(&number),
                     _ => true,
                 }
             }

@@ -4,7 +4,7 @@ use super::{GroupPair, can_be_tested, kind_name};
 use crate::error::EngineError;
 use crate::law::{FrictionProps, NormalProps, PairProps, combine};
 use crate::scene::Scene;
-use pong_model::{Body, Exponent, FrictionLaw, Model, NormalLaw, PairOverride, Surface};
+use pong_model::{Body, Exponent, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface};
 use std::collections::BTreeSet;
 
 /// Values of all pairs of surfaces of two models, A's model first.
@@ -184,20 +184,20 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
         NormalLaw::Custom { parameters, .. } => parameters,
     };
     let custom = matches!(new.normal, NormalLaw::Custom { .. });
-    if numbers.iter().any(|x| !x.is_finite() || (!custom && *x < 0.0)) {
-        return bad("damping values must be finite and not negative");
+    if numbers.iter().any(|x| !x.is_finite() || (!custom && !(0.0..=LARGEST).contains(x))) {
+        return bad("damping values must lie within 0 and 1e100");
     }
     let rough: &[f64] = match &new.friction {
         FrictionLaw::None => &[],
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
             &[*mu, *static_excess, stiffness.unwrap_or(0.0), *damping]
         }
-        FrictionLaw::Coulomb { mu, slip_speed } if *slip_speed > 0.0 => &[*mu],
+        FrictionLaw::Coulomb { mu, slip_speed } if *slip_speed > 0.0 => &[*mu, *slip_speed],
         FrictionLaw::Coulomb { .. } => return bad("the slip speed must be positive"),
         FrictionLaw::Custom { .. } => &[],
     };
-    if rough.iter().any(|x| !x.is_finite() || *x < 0.0) {
-        return bad("friction values must be finite and not negative");
+    if rough.iter().any(|x| !(0.0..=LARGEST).contains(x)) {
+        return bad("friction values must lie within 0 and 1e100");
     }
     Ok(())
 }
