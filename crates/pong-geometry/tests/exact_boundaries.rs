@@ -206,3 +206,20 @@ fn edges_and_vertices_are_told_by_their_numbers() {
     }
     assert_eq!((edges, vertices), (12, 8));
 }
+
+/// A feature is its kind and its index, and is ordered by them.
+#[test]
+fn features_differ_by_kind_and_index() {
+    let last = (1 << 30) - 1;
+    let mut all = Vec::new();
+    for make in [Feature::face, Feature::edge, Feature::vertex] {
+        for index in [0, 1, 2, 5, last] {
+            let feature = make(index);
+            assert_eq!(feature.index(), index);
+            assert_eq!(feature.is_face(), feature == Feature::face(index));
+            all.push(feature);
+        }
+    }
+    assert!(all.is_sorted_by(|a, b| a < b), "{all:?}");
+    assert_eq!(Feature::WHOLE, Feature::face(0));
+}
