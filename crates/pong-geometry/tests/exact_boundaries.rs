@@ -223,3 +223,21 @@ fn features_differ_by_kind_and_index() {
     assert!(all.is_sorted_by(|a, b| a < b), "{all:?}");
     assert_eq!(Feature::WHOLE, Feature::face(0));
 }
+
+/// Two faces folded to 53° about the y axis, their fronts inside the fold: what is below the fold and in front of one of
+/// them is outside, and nothing pushes; what is behind both within the thickness is pushed by the lower one, once.
+#[test]
+fn below_a_sharp_fold_only_what_is_behind_both_faces_is_pushed() {
+    let rows = [-1.0, 1.0].map(|y| [at(-0.5, y, 1.0), at(0.0, y, 0.0), at(0.5, y, 1.0)]);
+    let set = surface(rows.concat(), &[[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4]]);
+    assert!(set.normal(1).x > 0.8 && set.normal(2).x < -0.8, "the fronts face each other");
+    let standings = |x: f64, z: f64| {
+        let found = all_contacts(&ball(at(x, 0.25, z), 0.5), &set, 0.5);
+        found.iter().map(|contact| (contact.interference.feature, contact.standing)).collect::<Vec<_>>()
+    };
+    for x in [0.125, -0.125] {
+        assert_eq!(standings(x, -0.125), [], "below the fold, in front of one face");
+    }
+    assert_eq!(standings(0.0, -0.125), [(Feature::face(1), Standing::Behind)]);
+    assert!(standings(0.0, 0.5).iter().all(|(_, standing)| *standing == Standing::Front));
+}
