@@ -12,8 +12,8 @@ use oracle_support::{
     moved_surface, regular_plate, rounded_to_f32, shared_push, shuffled, skin, surface, winding_number,
 };
 use pong_geometry::Vec3;
-use pong_geometry::interference::Interference;
 use pong_geometry::interference::triangle_features::Standing;
+use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Sphere, TriangleSet};
 
 /// Compares the contacts of one sphere with the local minima that may push; answers whether they agree.
@@ -209,6 +209,49 @@ fn rounded_plates_push_like_one_plane() {
             worst.note((push - normal * depth).norm() / (slope * 0.3 + off), 4.0);
         }
     }
+}
+
+/// The tip of a slanting cone of few or many faces, of any proportions, pushes what lies above all its edges if its fronts are
+/// outside; as the bottom of a pit, seen through the solid, it does not.
+#[test]
+fn slanting_tips_push_from_their_front_alone() {
+    let mut random = Random(250);
+    let (mut tried, mut aslant) = (0, 0);
+    while tried < 2000 {
+        let axis = -(random.direction() + Vec3::z() * 0.5).normalize();
+        let side = axis.cross(&random.direction()).normalize();
+        let (count, width) = (3 + random.bits() % 6, random.between(0.1, 1.0));
+        let ring: Vec<Vec3> = (0..count)
+            .map(|k| {
+                let angle = std::f64::consts::TAU * (k as f64 + random.between(0.1, 0.9)) / count as f64;
+                let out = side * angle.cos() + axis.cross(&side) * angle.sin();
+                (axis + out * width).normalize() * random.between(1.0, 4.0)
+            })
+            .collect();
+        if ring.iter().any(|edge| edge.z > -0.05) {
+            continue;
+        }
+        tried += 1;
+        // Whether the foot of the axis z lies beside the cone.
+        aslant += usize::from(axis.z > -1.0 / (1.0 + width * width).sqrt());
+        let count = count as u32;
+        let fan = |out: bool| -> Vec<[u32; 3]> {
+            let turned = |k: u32| [0, 1 + (k + 1) % count, 1 + k];
+            let straight = |k: u32| [0, 1 + k, 1 + (k + 1) % count];
+            (0..count).map(|k| if out { turned(k) } else { straight(k) }).collect()
+        };
+        let sphere = Sphere { center: Vec3::z() * 0.125, radius: 0.25 };
+        let pushes = |triangles: &[[u32; 3]]| {
+            let set =
+                surface(std::iter::once(Vec3::zeros()).chain(ring.iter().copied()).collect(), triangles);
+            let found = all_contacts(&sphere, &set, 0.0);
+            let mut of_tip = found.iter().filter(|c| c.interference.feature == Feature::vertex(0));
+            of_tip.next().map(|contact| (contact.standing, contact.interference.normal))
+        };
+        assert_eq!(pushes(&fan(true)), Some((Standing::Front, Vec3::z())), "{ring:?}");
+        assert_eq!(pushes(&fan(false)), None, "{ring:?}");
+    }
+    assert!(aslant > 300, "{aslant}");
 }
 
 #[test]
