@@ -409,7 +409,8 @@ fn nodes_that_are_no_trees_are_refused() {
         gltf
     };
     assert!(run(&chain().save(&folder, "good.glb"), &options()).is_ok());
-    let spoils: [(&str, fn(&mut Value)); 5] = [
+    type Spoil = fn(&mut Value);
+    let spoils: [(&str, Spoil); 5] = [
         ("a circle, twice", |json| json["nodes"][1]["children"] = json!([0, 1])),
         ("its own child", |json| json["nodes"][2]["children"] = json!([2])),
         ("two parents", |json| json["nodes"][0]["children"] = json!([1, 2])),
