@@ -74,6 +74,8 @@ impl CustomVolume for Told {
 const CENTER: Vec3 = Vec3::new(0.5, -2.0, 1.25);
 const HALF: Vec3 = Vec3::new(0.25, 0.5, 1.5);
 const RADIUS: f64 = 0.75;
+/// Tens of units in the last place of places some metres away, m; as a share, of what does not hang on the scale.
+const ROUNDING: f64 = 1e-14;
 
 fn along_axes(axes: &Mat3, reach: &Vec3) -> Vec<Vec3> {
     (0..3).flat_map(|i| [1.0, -1.0].map(|sign| CENTER + axes.column(i) * (sign * reach[i]))).collect()
@@ -91,7 +93,7 @@ fn check(known: &Known<'_>, random: &mut Random) {
     let Known { name, thing, points, missed, stand_for_it } = known;
     let mut told = Vec::new();
     thing.representatives(&mut told);
-    let near = |p: &Vec3, all: &[Vec3]| all.iter().any(|q| (p - q).norm() < 1e-14);
+    let near = |p: &Vec3, all: &[Vec3]| all.iter().any(|q| (p - q).norm() < ROUNDING);
     assert_eq!(told.len(), stand_for_it.len(), "{name}");
     assert!(told.iter().all(|p| near(p, stand_for_it)), "{name}: {told:?}");
     assert!(stand_for_it.iter().all(|p| near(p, &told)), "{name}: {told:?}");
@@ -99,13 +101,13 @@ fn check(known: &Known<'_>, random: &mut Random) {
         let direction = random.direction();
         let reached = points.iter().map(|p| direction.dot(p)).fold(f64::NEG_INFINITY, f64::max);
         let support = thing.support(&direction);
-        assert!(support >= reached - 1e-14, "{name}: support {support}, but {reached}");
-        assert!(support <= reached + missed + 1e-14, "{name}: support {support}, reached {reached}");
+        assert!(support >= reached - ROUNDING, "{name}: support {support}, but {reached}");
+        assert!(support <= reached + missed + ROUNDING, "{name}: support {support}, reached {reached}");
         let from = random.in_cube() * 4.0;
         let reached = points.iter().map(|p| (p - from).norm()).fold(0.0, f64::max);
         let farthest = thing.farthest(&from);
-        assert!(farthest >= reached - 1e-14, "{name}: farthest {farthest}, but {reached}");
-        assert!(farthest <= reached + missed + 1e-14, "{name}: farthest {farthest}, reached {reached}");
+        assert!(farthest >= reached - ROUNDING, "{name}: farthest {farthest}, but {reached}");
+        assert!(farthest <= reached + missed + ROUNDING, "{name}: farthest {farthest}, reached {reached}");
     }
 }
 
@@ -175,7 +177,7 @@ fn farthest_scales_with_the_scene() {
             e.farthest(&(from * scale)) / scale
         };
         for scale in [f64::exp2(-20.0), f64::exp2(20.0)] {
-            assert!((farthest(scale) / farthest(1.0) - 1.0).abs() < 1e-14);
+            assert!((farthest(scale) / farthest(1.0) - 1.0).abs() < ROUNDING);
         }
     }
 }
@@ -198,7 +200,7 @@ fn a_thing_of_ones_own_is_asked_for_six_supports() {
             let direction = random.direction();
             assert_eq!(thing.support(&direction), told.0.support(&direction));
             let from = random.in_cube() * 4.0;
-            assert!((thing.farthest(&from) - cube.farthest(&from)).abs() < 1e-14);
+            assert!((thing.farthest(&from) - cube.farthest(&from)).abs() < ROUNDING);
         }
     }
 }

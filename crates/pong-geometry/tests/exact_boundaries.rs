@@ -29,6 +29,8 @@ use pong_geometry::primitive::{
 use pong_geometry::{Mat3, Vec3};
 
 const EIGHTH: f64 = 0.125;
+/// Some units in the last place of a depth of an eighth of a metre and of a unit vector: roots round.
+const ROUNDING: f64 = 1e-15;
 
 fn at(x: f64, y: f64, z: f64) -> Vec3 {
     Vec3::new(x, y, z)
@@ -119,7 +121,7 @@ fn what_touches_does_not_push_and_what_is_deeper_does() {
         assert_eq!(lowered(0.0), None, "{name}: only touches");
         assert_eq!(lowered(-EIGHTH), None, "{name}: apart");
         let depth = lowered(EIGHTH).unwrap_or_else(|| panic!("{name}: an eighth deep and no contact"));
-        assert!((depth - EIGHTH).abs() < 1e-15, "{name}: {depth}");
+        assert!((depth - EIGHTH).abs() < ROUNDING, "{name}: {depth}");
     }
 }
 
@@ -188,7 +190,7 @@ fn edges_and_vertices_are_told_by_their_numbers() {
             let found = all_contacts(&ball(center, 0.5), &block, 0.0);
             let told: Vec<_> = found.iter().map(|c| (c.interference.feature, c.standing)).collect();
             assert_eq!(told, [(Feature::edge(3 * index + k), Standing::Front)]);
-            assert!((found[0].interference.normal - sum.normalize()).norm() < 1e-15, "{found:?}");
+            assert!((found[0].interference.normal - sum.normalize()).norm() < ROUNDING, "{found:?}");
             edges += 1;
         }
     }

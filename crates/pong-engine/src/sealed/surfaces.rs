@@ -176,7 +176,10 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
     let springs =
         [Some(new.stiffness).filter(|k| k.is_finite()), bristle.filter(|k| k.is_finite() && *k > 0.0)];
     if springs.into_iter().flatten().any(|k| !Surface::can_be_so_stiff(k)) {
-        return bad("stiffnesses must lie within 1e-100 and 1e100 N/m, beyond which forces are no numbers");
+        let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
+        return bad(&format!(
+            "stiffnesses must lie within {least:e} and {most:e} N/m, beyond which forces are no numbers"
+        ));
     }
     let numbers: &[f64] = match &new.normal {
         NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
@@ -185,7 +188,7 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
     };
     let custom = matches!(new.normal, NormalLaw::Custom { .. });
     if numbers.iter().any(|x| !x.is_finite() || (!custom && !(0.0..=LARGEST).contains(x))) {
-        return bad("damping values must lie within 0 and 1e100");
+        return bad(&format!("damping values must lie within 0 and {LARGEST:e}"));
     }
     let rough: &[f64] = match &new.friction {
         FrictionLaw::None => &[],
@@ -197,7 +200,7 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
         FrictionLaw::Custom { .. } => &[],
     };
     if rough.iter().any(|x| !(0.0..=LARGEST).contains(x)) {
-        return bad("friction values must lie within 0 and 1e100");
+        return bad(&format!("friction values must lie within 0 and {LARGEST:e}"));
     }
     Ok(())
 }

@@ -5,15 +5,19 @@ use crate::LARGEST;
 use crate::ron_tree::{Node, Value};
 use pong_geometry::{Quat, Vec3};
 
-/// What is wrong with a number that must be finite and not beyond [`LARGEST`]: rule, cause and cure.
-pub(crate) fn out_of_range(value: f64) -> Option<(&'static str, String, &'static str)> {
-    if !value.is_finite() {
-        return Some(("not-finite", format!("{value} is no finite number"), "give a finite number"));
-    }
-    let beyond = value.abs() > LARGEST;
-    beyond.then(|| {
-        ("too-large", format!("{value:e} is beyond ±{LARGEST:e}"), "give a smaller number; check its unit")
-    })
+/// What is wrong with a number: rule, cause and cure.
+type NumberFault = (&'static str, String, &'static str);
+
+fn not_finite(value: f64) -> Option<NumberFault> {
+    let told = || ("not-finite", format!("{value} is no finite number"), "give a finite number");
+    (!value.is_finite()).then(told)
+}
+
+/// Of a number that must be finite and not beyond [`LARGEST`].
+pub(crate) fn out_of_range(value: f64) -> Option<NumberFault> {
+    let beyond = || format!("{value:e} is beyond ±{LARGEST:e}");
+    let too_large = || ("too-large", beyond(), "give a smaller number; check its unit");
+    not_finite(value).or_else(|| (value.abs() > LARGEST).then(too_large))
 }
 
 /// How far the norm of an authored quaternion may be from 1.
@@ -36,18 +40,23 @@ impl Reader<'_> {
         }
     }
 
+    /// Whether a number has no fault; else it is noted.
+    fn has_none(&mut self, at: u32, path: &str, fault: Option<NumberFault>) -> bool {
+        let Some((rule, cause, cure)) = fault else { return true };
+        self.fault(at, path, rule, cause, cure);
+        false
+    }
+
+    /// A finite number of any size.
+    pub(crate) fn finite(&mut self, node: &Node, path: &str) -> Option<f64> {
+        let value = self.any_number(node, path)?;
+        self.has_none(node.at, path, not_finite(value)).then_some(value)
+    }
+
     /// A finite number, not beyond [`LARGEST`].
     pub(crate) fn number(&mut self, node: &Node, path: &str) -> Option<f64> {
         let value = self.any_number(node, path)?;
-        self.require_in_range(node.at, path, value).then_some(value)
-    }
-
-    fn require_in_range(&mut self, at: u32, path: &str, value: f64) -> bool {
-        let fault = out_of_range(value);
-        if let Some((rule, cause, cure)) = &fault {
-            self.fault(at, path, rule, cause.clone(), *cure);
-        }
-        fault.is_none()
+        self.has_none(node.at, path, out_of_range(value)).then_some(value)
     }
 
     /// A number above zero, not beyond [`LARGEST`].
@@ -115,7 +124,7 @@ impl Reader<'_> {
     fn tuple<const N: usize>(&mut self, node: &Node, path: &str, form: &str) -> Option<[f64; N]> {
         match &node.value {
             Value::Numbers(numbers) if numbers.len() == N => {
-                let all = numbers.iter().all(|&x| self.require_in_range(node.at, path, x));
+                let all = numbers.iter().all(|&x| self.has_none(node.at, path, out_of_range(x)));
                 all.then(|| std::array::from_fn(|i| numbers[i]))
             }
             Value::Tuple(None, items) if items.len() == N => {

@@ -91,11 +91,7 @@ fn in_range(
 
 /// Finite, above zero and within the range of stiffnesses.
 fn finite_stiffness(reader: &mut Reader<'_>, node: &Node, path: &str, what: &str) -> Option<f64> {
-    let value = reader.any_number(node, path)?;
-    if !value.is_finite() {
-        reader.fault(node.at, path, "not-finite", format!("{what} is {value}"), "give a finite number");
-        return None;
-    }
+    let value = reader.finite(node, path)?;
     let value = reader.above_zero(node, path, what, value)?;
     in_range(reader, node, path, value, what, "")
 }

@@ -83,22 +83,19 @@ fn check_positions(value: &Value, file: &str) -> Result<(), Finding> {
 
 /// Whether the nodes are trees, with the roots of scenes at their tops: by other ways a node could be reached without end.
 fn check_nodes(value: &Value, file: &str) -> Result<(), Finding> {
-    let listed =
-        |owner: &Value, key: &str| owner.list(key).iter().filter_map(Value::as_u64).collect::<Vec<_>>();
     let mut below = HashSet::new();
-    for child in value.list("nodes").iter().flat_map(|node| listed(node, "children")) {
+    let children = value.list("nodes").iter().flat_map(|node| node.list("children"));
+    for child in children.filter_map(Value::as_u64) {
         if !below.insert(child) {
             return Err(damaged(file, format!("node {child} stands below two nodes, or twice below one")));
         }
     }
     for scene in value.list("scenes") {
         let mut roots = HashSet::new();
-        for root in listed(scene, "nodes") {
+        for root in scene.list("nodes").iter().filter_map(Value::as_u64) {
             if below.contains(&root) || !roots.insert(root) {
-                return Err(damaged(
-                    file,
-                    format!("node {root}, which a scene lists, stands below another or twice"),
-                ));
+                let cause = format!("node {root}, which a scene lists, stands below another or twice");
+                return Err(damaged(file, cause));
             }
         }
     }
