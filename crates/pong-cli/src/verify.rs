@@ -1,10 +1,12 @@
 //! `pong verify`: the cases with known answers and the extremes, and their reports.
 
 use crate::text::print;
-use pong_verify::extremes::{self, Extreme, Finding, Length};
-use pong_verify::{Case, Verdict, cases, report};
+use pong_verify::extremes::{self, Extreme, Length};
+use pong_verify::{Case, cases, report};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Runs cases with known answers through engine and executive and prints what came out.
 #[derive(clap::Args)]
@@ -42,8 +44,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         print(&lines.collect::<String>());
         return ExitCode::SUCCESS;
     }
-    let verdicts: Vec<Verdict> =
-        chosen.iter().enumerate().map(|(index, case)| run(case, index + 1, chosen.len())).collect();
+    let verdicts = on_all_cores(&chosen, |case: &Case| {
+        let verdict = case.run();
+        (format!("{:<4} {}", case.id, case.title), verdict.passes(), verdict)
+    });
     print(&report::text(&verdicts));
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     print(&format!("\n{} of {} cases pass\n", verdicts.len() - failed, verdicts.len()));
@@ -79,18 +83,14 @@ fn main_of_extremes(arguments: &Arguments) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let length = Length { long: arguments.long };
-    let findings: Vec<Finding> = chosen.iter().map(|extreme| run_extreme(extreme, length)).collect();
+    let findings = on_all_cores(&chosen, |extreme| {
+        let finding = extreme.run(length);
+        (format!("{:<4} {}", extreme.id, extreme.asked), finding.passes(), finding)
+    });
     print(&extremes::text(&findings));
     let failed = findings.iter().filter(|finding| !finding.passes()).count();
     print(&format!("\n{} of {} extremes hold\n", findings.len() - failed, findings.len()));
     finish(arguments, &extremes::markdown(&findings), failed)
-}
-
-fn run_extreme(extreme: &Extreme, length: Length) -> Finding {
-    eprint!("{:<4} {} … ", extreme.id, extreme.asked);
-    let finding = extreme.run(length);
-    eprintln!("{}", if finding.passes() { "holds" } else { "FAILS" });
-    finding
 }
 
 /// The cases of these ids, all if there are none, or the first id that no case has.
@@ -101,9 +101,29 @@ fn choose(ids: &[String]) -> Result<Vec<Case>, &String> {
     ids.iter().map(|id| pong_verify::find(id).ok_or(id)).collect()
 }
 
-fn run(case: &Case, number: usize, of: usize) -> Verdict {
-    eprint!("[{number}/{of}] {:<4} {} … ", case.id, case.title);
-    let verdict = case.run();
-    eprintln!("{}", if verdict.passes() { "pass" } else { "FAIL" });
-    verdict
+/// Runs all, as many at a time as there are cores, and says which one is done and whether it holds. What came out, in
+/// the order of the items.
+fn on_all_cores<T: Sync, R: Send + Sync>(
+    items: &[T],
+    run: impl Fn(&T) -> (String, bool, R) + Sync,
+) -> Vec<R> {
+    let results: Vec<OnceLock<R>> = items.iter().map(|_| OnceLock::new()).collect();
+    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(index) else { break };
+            let (name, holds, answer) = run(item);
+            let number = done.fetch_add(1, Ordering::Relaxed) + 1;
+            eprintln!("[{number}/{}] {name} … {}", items.len(), if holds { "holds" } else { "FAILS" });
+            let _ = results[index].set(answer);
+        }
+    };
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..cores.min(items.len()) {
+            scope.spawn(work);
+        }
+    });
+    results.into_iter().filter_map(OnceLock::into_inner).collect()
 }
