@@ -3,7 +3,8 @@
 mod common;
 
 use common::pong;
-use std::path::PathBuf;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball",
     surfaces: { "soft": (stiffness: 1e5, normal: Linear(damping: 632.4)) },
@@ -103,7 +104,8 @@ fn run_writes_csv_files_that_can_be_read() {
     let folder = folder("csv");
     let (code, out, _) = pong(&folder, &["run", "drop.ron", "-q", "-o", "made/here"]);
     assert_eq!((code, out.as_str()), (0, ""));
-    for (name, lines) in [("states", 13), ("wrenches", 13), ("contacts", 6), ("energies", 7)] {
+    for (name, lines) in [("states", 13), ("wrenches", 13), ("contacts", 6), ("energies", 7), ("accounts", 6)]
+    {
         let text = std::fs::read_to_string(folder.join(format!("made/here/{name}.csv"))).unwrap();
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
         assert_eq!(rows.len(), lines, "{name}\n{text}");
@@ -116,8 +118,28 @@ fn run_writes_csv_files_that_can_be_read() {
     assert_eq!([last[1], last[3]], ["ball/ball/skin", "ground/ground/floor"]);
     let depth: f64 = last[13].parse().unwrap();
     assert!((depth / 9.81e-5 - 1.0).abs() < 1e-9);
+    accounts_close_and_hold_what_the_contacts_store(&folder.join("made/here"));
     let (code, _, _) = pong(&folder, &["run", "drop.ron", "--csv"]);
     assert!(code == 0 && folder.join("drop_out/states.csv").exists());
+}
+
+fn accounts_close_and_hold_what_the_contacts_store(folder: &Path) {
+    let last = |name: &str| -> HashMap<String, String> {
+        let text = std::fs::read_to_string(folder.join(name)).unwrap();
+        let cells = |line: Option<&str>| line.unwrap().split(',').map(str::to_owned).collect::<Vec<_>>();
+        cells(text.lines().next()).into_iter().zip(cells(text.lines().last())).collect()
+    };
+    let (account, energies) = (last("accounts.csv"), last("energies.csv"));
+    let sum = |table: &HashMap<String, String>, columns: &[&str]| -> f64 {
+        columns.iter().map(|column| table[*column].parse::<f64>().unwrap()).sum()
+    };
+    let went_in = sum(&account, &["taken_j", "put_in_j", "made_j"]);
+    let came_of_it = sum(&account, &["returned_j", "stored_j", "damping_loss_j", "friction_loss_j"]);
+    assert!(went_in > 0.0 && (came_of_it / went_in - 1.0).abs() < 1e-12, "{account:?}");
+    let [stored, in_all] = [sum(&account, &["stored_j"]), sum(&energies, &["contacts_j"])];
+    assert!(stored > 0.0 && (stored / in_all - 1.0).abs() < 1e-12, "{account:?} {energies:?}");
+    assert_eq!([&account["a"], &account["b"]], ["ball", "ground"]);
+    assert_eq!([&account["touching"], &account["touches"], &account["returned_more"]], ["1", "0", "0"]);
 }
 
 #[test]

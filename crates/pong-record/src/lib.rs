@@ -8,7 +8,7 @@
 //! | `table/` | the rows of the NumPy tables, and tables as they are read |
 //! | `write/` | [`Recorder`] on the frame's path, and the thread that writes the files |
 //! | `read/` | [`Log`]: whole frames by number |
-//! | `csv.rs` | the same rows as text |
+//! | `csv/` | the same rows as text; energy accounts |
 //! | `replay/` | a log goes through the engine again |
 
 #![forbid(unsafe_code)]
@@ -22,7 +22,7 @@ mod run;
 pub mod table;
 mod write;
 
-pub use csv::{CsvTables, Look};
+pub use csv::{AccountsTable, CsvTables, Look};
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};

@@ -24,8 +24,8 @@ pub(crate) struct Arguments {
     /// Folder for the CSV files; made if it is not there. Asks for CSV files by itself.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Writes states.csv, wrenches.csv and contacts.csv (with the ledger also energies.csv), into `<scene>_out`
-    /// unless -o says otherwise.
+    /// Writes states.csv, wrenches.csv and contacts.csv (with the ledger also energies.csv and accounts.csv), into
+    /// `<scene>_out` unless -o says otherwise.
     #[arg(long)]
     csv: bool,
     /// Writes a response log into this folder (docs/response_logs.md).

@@ -1,9 +1,12 @@
 //! What a run leaves behind: CSV files, a response log, or both, of the same rows.
 
 use super::Arguments;
+use pong_engine::World;
 use pong_executive::scene::BuiltScene;
 use pong_executive::{Integrator, Simulation};
-use pong_record::{CsvTables, EnergyRow, Frame, LogError, Look, ModelSource, RecordOptions, Recorder};
+use pong_record::{
+    AccountsTable, CsvTables, EnergyRow, Frame, LogError, Look, ModelSource, RecordOptions, Recorder,
+};
 use std::path::{Path, PathBuf};
 
 /// The open files of a run.
@@ -19,6 +22,7 @@ pub(super) struct Outputs {
 struct Csv {
     look: Look,
     tables: CsvTables,
+    accounts: Option<AccountsTable>,
     frame: Frame,
 }
 
@@ -46,8 +50,7 @@ impl Outputs {
         let (world, time) = (simulation.world(), simulation.time());
         if let Some(csv) = self.csv.as_mut().filter(|_| done.is_multiple_of(self.csv_every)) {
             csv.frame.energies = energies;
-            csv.look.frame(world, time, &mut csv.frame).map_err(of_csv)?;
-            csv.tables.write(&csv.frame).map_err(of_csv)?;
+            csv.write(world, time).map_err(of_csv)?;
         }
         if let Some(log) = &mut self.log {
             log.evaluated();
@@ -61,7 +64,7 @@ impl Outputs {
 
     /// Writes out what is still in memory.
     pub fn finish(self) -> Result<(), String> {
-        let csv = self.csv.map_or(Ok(()), |csv| csv.tables.finish().map_err(of_csv));
+        let csv = self.csv.map_or(Ok(()), |csv| csv.finish().map_err(of_csv));
         let log = self.log.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(|error| of_log(&error)));
         csv.and(log)
     }
@@ -69,9 +72,22 @@ impl Outputs {
 
 impl Csv {
     fn create(folder: &Path, built: &BuiltScene) -> Result<Self, LogError> {
-        let look = Look::new(built.simulation.world())?;
+        let world = built.simulation.world();
+        let look = Look::new(world)?;
         let tables = CsvTables::create(folder, look.run(), built.ledger)?;
-        Ok(Self { look, tables, frame: Frame::default() })
+        let accounts = built.ledger.then(|| AccountsTable::create(folder, world, look.run())).transpose()?;
+        Ok(Self { look, tables, accounts, frame: Frame::default() })
+    }
+
+    fn write(&mut self, world: &World, time: f64) -> Result<(), LogError> {
+        self.look.frame(world, time, &mut self.frame)?;
+        self.tables.write(&self.frame)?;
+        self.accounts.as_mut().map_or(Ok(()), |accounts| accounts.write(world, time))
+    }
+
+    fn finish(self) -> Result<(), LogError> {
+        self.tables.finish()?;
+        self.accounts.map_or(Ok(()), AccountsTable::finish)
     }
 }
 

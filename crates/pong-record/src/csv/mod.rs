@@ -1,4 +1,9 @@
-//! The rows of a log as CSV. Every number is written so that it reads back to the same bits.
+//! The rows of a log, and accounts, as CSV. Every number is written so that it reads back to the same bits.
+
+mod accounts;
+mod table;
+
+pub use accounts::AccountsTable;
 
 use crate::error::LogError;
 use crate::read::Frame;
@@ -6,10 +11,8 @@ use crate::run::Run;
 use crate::table::{ContactRow, EnergyRow};
 use crate::write::{Capture, RecordOptions, describe};
 use pong_engine::World;
-use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use table::{Table, quoted};
 
 const STATES: &str = "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,\
                       wx_rad_per_s,wy_rad_per_s,wz_rad_per_s";
@@ -51,13 +54,6 @@ impl Look {
     }
 }
 
-/// One CSV file.
-#[derive(Debug)]
-struct Table {
-    path: PathBuf,
-    out: BufWriter<File>,
-}
-
 /// The CSV files of a run: states, wrenches, contacts and, if wanted, energies.
 #[derive(Debug)]
 pub struct CsvTables {
@@ -65,7 +61,6 @@ pub struct CsvTables {
     wrenches: Table,
     contacts: Table,
     energies: Option<Table>,
-    line: String,
     /// Names as CSV writes them.
     bodies: Vec<String>,
     primitives: Vec<String>,
@@ -77,7 +72,6 @@ impl CsvTables {
     /// # Errors
     /// A folder that cannot be written.
     pub fn create(folder: &Path, run: &Run, energies: bool) -> Result<Self, LogError> {
-        std::fs::create_dir_all(folder).map_err(|reason| LogError::unwritable(folder, &reason))?;
         let energies = if energies { Some(Table::create(folder, "energies.csv", ENERGIES)?) } else { None };
         let primitives = 0..run.primitives.len();
         Ok(Self {
@@ -85,7 +79,6 @@ impl CsvTables {
             wrenches: Table::create(folder, "wrenches.csv", WRENCHES)?,
             contacts: Table::create(folder, "contacts.csv", CONTACTS)?,
             energies,
-            line: String::new(),
             bodies: run.bodies.iter().map(|body| quoted(&body.name)).collect(),
             primitives: primitives
                 .map(|index| quoted(&run.primitive_name(index).unwrap_or_default()))
@@ -99,50 +92,51 @@ impl CsvTables {
     /// Files that cannot be written.
     pub fn write(&mut self, frame: &Frame) -> Result<(), LogError> {
         let time = frame.row.time;
-        for body in 0..self.bodies.len() {
-            let (state, wrench) = (&frame.states[body], &frame.wrenches[body]);
-            self.begin(time);
-            self.text(|own| &own.bodies[body]);
-            self.numbers(&state.position);
-            self.numbers(&state.orientation);
-            self.numbers(&state.linear_velocity);
-            self.numbers(&state.angular_velocity);
-            self.states.line(&self.line)?;
-            self.begin(time);
-            self.text(|own| &own.bodies[body]);
-            self.numbers(&wrench.force);
-            self.numbers(&wrench.moment);
-            self.wrenches.line(&self.line)?;
+        for ((name, state), wrench) in self.bodies.iter().zip(&frame.states).zip(&frame.wrenches) {
+            self.states.begin(time);
+            self.states.cell(name);
+            self.states.numbers(&state.position);
+            self.states.numbers(&state.orientation);
+            self.states.numbers(&state.linear_velocity);
+            self.states.numbers(&state.angular_velocity);
+            self.states.end()?;
+            self.wrenches.begin(time);
+            self.wrenches.cell(name);
+            self.wrenches.numbers(&wrench.force);
+            self.wrenches.numbers(&wrench.moment);
+            self.wrenches.end()?;
         }
         frame.contacts.iter().try_for_each(|contact| self.contact(time, contact))?;
         frame.energies.as_ref().map_or(Ok(()), |energies| self.energy(time, energies))
     }
 
     fn contact(&mut self, time: f64, contact: &ContactRow) -> Result<(), LogError> {
-        self.begin(time);
+        let table = &mut self.contacts;
+        table.begin(time);
         for (primitive, element) in
             [(contact.primitive_a, contact.element_a), (contact.primitive_b, contact.element_b)]
         {
-            self.text(|own| &own.primitives[primitive as usize]);
-            let _ = write!(self.line, ",{element}");
+            table.cell(&self.primitives[primitive as usize]);
+            table.cell(element);
         }
-        let feature = contact.feature_kind << 30 | contact.feature_index;
-        let _ = write!(self.line, ",{feature},{}", contact.end);
-        self.numbers(&contact.point);
-        self.numbers(&contact.normal);
-        self.numbers(&[contact.depth, contact.rate, contact.weight, contact.normal_force]);
-        self.numbers(&contact.friction_force);
-        self.numbers(&contact.slip_velocity);
-        let _ = write!(self.line, ",{}", contact.sticks);
-        self.numbers(&[contact.stored]);
-        self.contacts.line(&self.line)
+        table.cell(contact.feature_kind << 30 | contact.feature_index);
+        table.cell(contact.end);
+        table.numbers(&contact.point);
+        table.numbers(&contact.normal);
+        table.numbers(&[contact.depth, contact.rate, contact.weight, contact.normal_force]);
+        table.numbers(&contact.friction_force);
+        table.numbers(&contact.slip_velocity);
+        table.cell(contact.sticks);
+        table.numbers(&[contact.stored]);
+        table.end()
     }
 
     fn energy(&mut self, time: f64, e: &EnergyRow) -> Result<(), LogError> {
-        self.begin(time);
-        self.numbers(&[e.kinetic, e.potential, e.springs, e.contacts]);
-        self.numbers(&[e.contact_loss, e.spring_loss, e.work_in, e.balance]);
-        self.energies.as_mut().map_or(Ok(()), |table| table.line(&self.line))
+        let Some(table) = &mut self.energies else { return Ok(()) };
+        table.begin(time);
+        table.numbers(&[e.kinetic, e.potential, e.springs, e.contacts]);
+        table.numbers(&[e.contact_loss, e.spring_loss, e.work_in, e.balance]);
+        table.end()
     }
 
     /// Writes out what is still in memory.
@@ -151,49 +145,6 @@ impl CsvTables {
     /// Files that cannot be written.
     pub fn finish(self) -> Result<(), LogError> {
         let tables = [Some(self.states), Some(self.wrenches), Some(self.contacts), self.energies];
-        let mut tables = tables.into_iter().flatten();
-        tables.try_for_each(|mut table| {
-            table.out.flush().map_err(|reason| LogError::unwritable(&table.path, &reason))
-        })
-    }
-
-    fn begin(&mut self, time: f64) {
-        self.line.clear();
-        let _ = write!(self.line, "{time:?}");
-    }
-
-    fn numbers(&mut self, values: &[f64]) {
-        for value in values {
-            let _ = write!(self.line, ",{value:?}");
-        }
-    }
-
-    fn text(&mut self, text: impl Fn(&Self) -> &str) {
-        let mut line = std::mem::take(&mut self.line);
-        line.push(',');
-        line.push_str(text(self));
-        self.line = line;
-    }
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
-impl Table {
-    fn create(folder: &Path, name: &str, heading: &str) -> Result<Self, LogError> {
-        let path = folder.join(name);
-        let file = File::create(&path).map_err(|reason| LogError::unwritable(&path, &reason))?;
-        let mut table = Self { path, out: BufWriter::new(file) };
-        table.line(heading)?;
-        Ok(table)
-    }
-
-    fn line(&mut self, line: &str) -> Result<(), LogError> {
-        writeln!(self.out, "{line}").map_err(|reason| LogError::unwritable(&self.path, &reason))
+        tables.into_iter().flatten().try_for_each(Table::finish)
     }
 }

@@ -1,0 +1,74 @@
+//! The energy accounts of a run as CSV.
+
+use super::table::{Table, quoted};
+use crate::error::LogError;
+use crate::run::Run;
+use pong_engine::{EngineError, InterfaceId, World};
+use std::path::Path;
+
+const ACCOUNTS: &str = "time_s,a,b,taken_j,returned_j,put_in_j,made_j,stored_j,damping_loss_j,friction_loss_j,\
+                        resolution_j,touching,touches,returned_more,unresolved,excess_j";
+
+/// `accounts.csv`: what the contacts of each pair of movable groups took, returned, hold and lost since the world began, of
+/// every pair that has touched.
+#[derive(Debug)]
+pub struct AccountsTable {
+    table: Table,
+    bodies: Vec<(InterfaceId, String)>,
+}
+
+impl AccountsTable {
+    /// Begins the file in a folder, which is made if it is not there.
+    ///
+    /// # Errors
+    /// A folder that cannot be written; a world that is not the one of `run`.
+    pub fn create(folder: &Path, world: &World, run: &Run) -> Result<Self, LogError> {
+        let interfaces = interfaces(world)?;
+        let names = run.bodies.iter().map(|body| quoted(&body.name));
+        Ok(Self {
+            table: Table::create(folder, "accounts.csv", ACCOUNTS)?,
+            bodies: interfaces.into_iter().zip(names).collect(),
+        })
+    }
+
+    /// A line for each pair that has touched, at the last commit of the world. None if it keeps no accounts.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write(&mut self, world: &World, time: f64) -> Result<(), LogError> {
+        for pair in world.pair_accounts().filter(|pair| pair.touching || pair.touches > 0) {
+            self.table.begin(time);
+            for interface in pair.interfaces {
+                let name = self.bodies.iter().find(|(known, _)| *known == interface);
+                self.table.cell(name.map_or("", |(_, name)| name));
+            }
+            let total = &pair.total;
+            self.table.numbers(&[total.taken, total.returned, total.put_in, total.made, total.stored]);
+            self.table.numbers(&[total.damping_loss, total.friction_loss, total.resolution]);
+            self.table.cell(u8::from(pair.touching));
+            for number in [pair.touches, pair.returned_more, pair.unresolved] {
+                self.table.cell(number);
+            }
+            self.table.numbers(&[pair.excess]);
+            self.table.end()?;
+        }
+        Ok(())
+    }
+
+    /// Writes out what is still in memory.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn finish(self) -> Result<(), LogError> {
+        self.table.finish()
+    }
+}
+
+/// All movable groups, as a run lists them.
+fn interfaces(world: &World) -> Result<Vec<InterfaceId>, EngineError> {
+    let mut all = Vec::new();
+    for object in world.objects() {
+        all.extend(world.interfaces(object)?);
+    }
+    Ok(all)
+}
