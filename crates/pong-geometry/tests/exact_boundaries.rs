@@ -12,7 +12,9 @@ use pong_geometry::interference::line_segment_plane::line_segment_plane;
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
 use pong_geometry::interference::point_ellipsoid::point_ellipsoid;
 use pong_geometry::interference::point_plane::point_plane;
-use pong_geometry::interference::point_polyhedron::point_polyhedron;
+use pong_geometry::interference::point_polyhedron::{
+    entry_of_line, face_most_along, point_below_face, point_polyhedron,
+};
 use pong_geometry::interference::point_sphere::point_sphere;
 use pong_geometry::interference::ray_plane::ray_plane;
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
@@ -150,6 +152,29 @@ fn rays_end_before_their_length_and_begin_behind_their_reach() {
     assert_eq!(hits(&turned(Vec3::z()))[..2], [None; 2], "from behind");
     let along = Ray { origin: at(-4.0, 0.25, 0.0), ..turned(Vec3::x()) };
     assert_eq!(hits(&along), [None; 3], "in the surface");
+}
+
+/// A line through an edge enters by the lower of its faces; one that only touches it does not, and one that ends on a wall
+/// does if the wall is closed.
+#[test]
+fn lines_enter_by_the_lower_face_and_not_where_they_only_touch() {
+    let mut block = block();
+    let face_of = |normal: Vec3| block.faces.iter().position(|face| face.normal == normal).unwrap();
+    let [front, side, top] = [Vec3::x(), Vec3::y(), Vec3::z()].map(face_of);
+    let entry = |block: &Polyhedron, from: Vec3, to: Vec3| {
+        entry_of_line(&from, &to, block).map(|entry| (entry.face, entry.at))
+    };
+    let middle = at(0.0, 0.0, -1.0);
+    assert_eq!(entry(&block, at(4.0, 4.0, -1.0), middle), Some((front.min(side), 0.5)), "through an edge");
+    assert_eq!(entry(&block, at(4.0, 0.0, -1.0), at(0.0, 4.0, -1.0)), None, "touches an edge");
+    assert_eq!(face_most_along(&at(1.0, 1.0, 0.0), &block), Some(front.min(side)));
+    assert_eq!(point_below_face(&Vec3::zeros(), &block, top), None, "on the face");
+
+    let onto_top = |block: &Polyhedron, end: f64| entry(block, at(0.0, 0.0, 2.0), at(0.0, 0.0, end));
+    assert_eq!(onto_top(&block, 0.0), None);
+    block.change(|parts| (parts.faces[top].active, parts.faces[top].closed) = (false, true));
+    assert_eq!(onto_top(&block, 0.0), Some((top, 1.0)));
+    assert_eq!(onto_top(&block, 1.0), None, "ends above");
 }
 
 /// Behind a face: as deep as the thickness is too deep; in the plane is in front, with no thickness too.

@@ -10,7 +10,7 @@ use super::highest_face::{Highest, Whereabouts, has_few, highest_of_few, highest
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Polyhedron;
-use crate::simd::{Simd, is_moderate, run_at_level};
+use crate::simd::{Simd, run_at_level};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
 /// across anything sharper it stays (physics contract, 2.4).
@@ -63,31 +63,16 @@ fn below_highest(p: &Vec3, polyhedron: &Polyhedron, highest: &Highest) -> Option
     })
 }
 
-/// The active face under which the point lies least deep; `None` if no face is active.
+/// The active face under which the point lies least deep; `None` if no face is active. Heights above the faces must be
+/// finite, as those of numbers within 1e100 are.
 #[inline]
 pub fn shallowest_face(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
-    if !(is_moderate(p) && polyhedron.planes().moderate) {
-        return shallowest_face_one_by_one(p, polyhedron);
-    }
     run_at_level!(shallowest_face_in(p: Vec3, polyhedron: Polyhedron) -> Option<usize>)
 }
 
 #[inline(always)]
 fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
     highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
-}
-
-/// With heights that may be infinite or no numbers: the first active face stands until one is less deep.
-#[cold]
-fn shallowest_face_one_by_one(p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
-    let mut best: Option<(usize, f64)> = None;
-    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
-        let depth = -face.height(p);
-        if best.is_none_or(|(_, least)| depth < least) {
-            best = Some((index, depth));
-        }
-    }
-    best.map(|(index, _)| index)
 }
 
 /// The active face whose normal is nearest to a direction; `None` if no face is active.

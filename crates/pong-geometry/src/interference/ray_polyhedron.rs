@@ -19,7 +19,7 @@ const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = usize::MAX;
 
 /// Where a ray enters a polyhedron through an active face. The origin may lie inside, up to the reach behind
-/// the face, but not beyond the far side.
+/// the face, but not beyond the far side. Heights above the faces must be finite, as those of numbers within 1e100 are.
 #[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     match polyhedron.planes().blocks.len() {
@@ -62,9 +62,6 @@ fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &P
             return None;
         }
     }
-    if simd.bits(passage.entered_at_numbers) != LaneBits::MAX {
-        return hit_one_by_one(ray, polyhedron);
-    }
     let entry = passage.entry.found()?;
     let distance = match entry.number {
         // Of which sign the zero is, is told by one face alone.
@@ -79,8 +76,6 @@ struct Passage<S: Simd, F: Finder<S>> {
     simd: S,
     /// By which face it enters last.
     entry: F,
-    /// Lane by lane, whether no distance at which it enters is a NaN.
-    entered_at_numbers: S::Mask,
     /// Minus the distance at which it first leaves, lane by lane.
     leave: S::Eight,
     wall_slack: f64,
@@ -93,7 +88,6 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         Self {
             simd,
             entry: F::above(simd, nowhere),
-            entered_at_numbers: simd.mask(LaneBits::MAX),
             leave: simd.splat(nowhere),
             wall_slack: WALL_SLACK * diameter,
         }
@@ -116,7 +110,6 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         // Minus the distances.
         let before = simd.div(heights, climbs);
         let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
-        self.entered_at_numbers = simd.and(self.entered_at_numbers, simd.equal(entered, entered));
         self.entry.offer(index, entered);
         let leave = match block.active & block.own == block.own {
             true => before,
@@ -159,30 +152,4 @@ fn hit_at(
         return None;
     }
     Some(RayHit { distance, normal: face.normal, feature: Feature::face(index) })
-}
-
-/// Where a distance is no number: the first stands until one is greater.
-#[cold]
-fn hit_one_by_one(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
-    let mut entry: Option<(f64, usize)> = None;
-    let mut leave = f64::INFINITY;
-    for (index, face) in polyhedron.faces.iter().enumerate() {
-        let height = face.height(&ray.origin);
-        let climb = ray.direction.dot(&face.normal);
-        if climb == 0.0 {
-            if height > 0.0 || (height == 0.0 && !face.closed) {
-                return None;
-            }
-        } else if climb < 0.0 {
-            let distance = -height / climb;
-            if entry.is_none_or(|(best, _)| distance > best) {
-                entry = Some((distance, index));
-            }
-        } else {
-            let slack = if face.active { 0.0 } else { WALL_SLACK * polyhedron.diameter };
-            leave = leave.min(-height / climb + slack);
-        }
-    }
-    let (distance, index) = entry?;
-    hit_at(ray, polyhedron, distance, index, distance < leave && leave > 0.0)
 }

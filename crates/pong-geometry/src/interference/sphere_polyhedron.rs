@@ -8,7 +8,7 @@ use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
-use crate::simd::{LANES, LaneBits, Simd, Splat, is_moderate, run_at_level};
+use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
 /// Where a sphere is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,7 +141,7 @@ impl<'a, S: Simd> Near<'a, S> {
     fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
         // Beside inner walls outlines are wider.
-        let lowest = match planes.simple && planes.moderate && is_moderate(&self.sphere.center) {
+        let lowest = match planes.simple {
             true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
             false => 0.0,
         };
