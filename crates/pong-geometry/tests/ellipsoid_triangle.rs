@@ -139,6 +139,32 @@ fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
     println!("{checked} contacts, {several} with more than one minimum");
 }
 
+/// A rod stands 0.3 m deep in a plateau, beside a step down of 1 cm. Below the step's slant it lies less deep, but far below
+/// its foot: the slant does not push, so the plateau must.
+#[test]
+fn a_face_beside_a_small_step_pushes_a_rod_that_reaches_below_the_step() {
+    let profile = [(-1.0, 0.0), (0.0, 0.0), (0.01, -0.01), (1.0, -0.01)];
+    let corners = [-1.0, 1.0].map(|y| profile.map(|(x, z)| Vec3::new(x, y, z)));
+    let strips = [[0, 1, 5], [0, 5, 4], [1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6]];
+    let set = triangle_set(corners.concat(), &strips);
+    for y in [-0.5, 0.25] {
+        let rod = Ellipsoid {
+            center: Vec3::new(-0.05, y, 0.1),
+            axes: Mat3::identity(),
+            semi_axes: Vec3::new(0.1, 0.1, 0.4),
+        };
+        let slant = set.normal(2);
+        let below_slant = rod.half_width(&slant) - slant.dot(&(rod.center - set.corners(2)[0]));
+        assert!(below_slant < 0.3);
+        let found: Vec<_> =
+            pushing(&rod, &set, 0.0).iter().map(|c| (c.interference.normal, c.interference.depth)).collect();
+        assert!(
+            matches!(found[..], [(normal, depth)] if normal == Vec3::z() && (depth - 0.3).abs() < 1e-15),
+            "{found:?}"
+        );
+    }
+}
+
 fn touched(contact: &TriangleContact) -> Vec3 {
     contact.interference.point_a + contact.interference.normal * contact.interference.depth
 }
