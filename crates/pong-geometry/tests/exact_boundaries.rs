@@ -31,6 +31,8 @@ use pong_geometry::primitive::{
 use pong_geometry::{Mat3, Vec3};
 
 const EIGHTH: f64 = 0.125;
+/// A depth that squares of distances of metres still tell from none: 1.8e-12 m.
+const LEAST: f64 = 1.0 / (1_u64 << 39) as f64;
 /// Some units in the last place of a depth of an eighth of a metre and of a unit vector: roots round.
 const ROUNDING: f64 = 1e-15;
 
@@ -122,6 +124,7 @@ fn what_touches_does_not_push_and_what_is_deeper_does() {
     for (name, lowered) in pairs {
         assert_eq!(lowered(0.0), None, "{name}: only touches");
         assert_eq!(lowered(-EIGHTH), None, "{name}: apart");
+        assert!(lowered(LEAST).is_some_and(|depth| depth > 0.0), "{name}: the least depth");
         let depth = lowered(EIGHTH).unwrap_or_else(|| panic!("{name}: an eighth deep and no contact"));
         assert!((depth - EIGHTH).abs() < ROUNDING, "{name}: {depth}");
     }

@@ -10,10 +10,12 @@ use common::{Random, cuboid, hull, hull_with_walls, moved, stretched_hull};
 use oracle_support::{Worst, join_pieces, nearest_on_polyhedron, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_plane::point_plane;
-use pong_geometry::interference::point_polyhedron::{point_below_face, shallowest_face};
+use pong_geometry::interference::point_polyhedron::{point_below_face, point_polyhedron, shallowest_face};
 use pong_geometry::interference::point_sphere::point_sphere;
 use pong_geometry::interference::sphere_plane::sphere_plane;
-use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
+use pong_geometry::interference::sphere_polyhedron::{
+    sphere_inside_polyhedron, sphere_outside_polyhedron, sphere_polyhedron,
+};
 use pong_geometry::interference::sphere_sphere::sphere_sphere;
 use pong_geometry::primitive::{Plane, Point, Polyhedron, Sphere};
 
@@ -175,12 +177,14 @@ fn points_and_spheres_inside_find_the_least_depth() {
             assert_eq!(shape.contains(&p), least > 0.0);
         }
         if least < 1e-13 {
+            assert!(least > -1e-13 || point_polyhedron(&p, shape).is_none());
             continue;
         }
         inside += 1;
         let face = shallowest_face(&p, shape).expect("active faces");
         let contact = point_below_face(&p, shape, face).expect("inside");
         worst.note((contact.depth - least).abs(), 1e-14);
+        assert_eq!(point_polyhedron(&p, shape), Some(contact), "in one pass");
         // Nearest face, nearest surface point and minimum translation are one and the same for a point.
         let (foot, _) = nearest_on_polyhedron(shape, &p);
         worst.note(((foot - p).norm() - contact.depth).abs(), 1e-14);
@@ -189,6 +193,7 @@ fn points_and_spheres_inside_find_the_least_depth() {
         worst.note((ball.depth - (least + radius)).abs(), 1e-14);
         worst.note((ball.point_a - (p - contact.normal * radius)).norm(), 1e-14);
         assert_eq!((ball.normal, ball.feature), (contact.normal, contact.feature));
+        assert_eq!(sphere_polyhedron(&Sphere { center: p, radius }, shape), Some(ball));
     }
 }
 

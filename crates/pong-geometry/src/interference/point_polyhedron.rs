@@ -6,7 +6,7 @@
 //! Degenerate cases: a point on an active face is outside; one on an inner wall belongs to the piece whose face
 //! is `closed`. Ties go to the lower index.
 
-use super::highest_face::{Highest, Whereabouts, has_few, highest_of_few, highest_of_many};
+use super::highest_face::{Whereabouts, has_few, highest_of_few, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Polyhedron;
@@ -21,37 +21,18 @@ const FOLLOWED_COSINE_MIN: f64 = 0.3;
 /// The same as [`Polyhedron::contains`], [`shallowest_face`] and [`point_below_face`], in one pass over the faces.
 #[inline]
 pub fn point_polyhedron(p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    if has_few(polyhedron.planes()) {
-        run_at_level!(point_few(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
-    } else {
-        run_at_level!(point_many(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
-    }
+    run_at_level!(point_polyhedron_in(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
 }
 
 /// [`point_polyhedron`] within a kernel.
 #[inline(always)]
 pub fn point_polyhedron_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    if has_few(polyhedron.planes()) {
-        point_few(simd, p, polyhedron)
+    let planes = polyhedron.planes();
+    let highest = if has_few(planes) {
+        highest_of_few(simd, p, planes, Whereabouts::Inside)?
     } else {
-        point_many(simd, p, polyhedron)
-    }
-}
-
-#[inline(always)]
-fn point_few<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    let highest = highest_of_few(simd, p, polyhedron.planes(), Whereabouts::Inside)?;
-    below_highest(p, polyhedron, &highest)
-}
-
-#[inline(always)]
-fn point_many<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    let highest = highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Inside)?;
-    below_highest(p, polyhedron, &highest)
-}
-
-#[inline(always)]
-fn below_highest(p: &Vec3, polyhedron: &Polyhedron, highest: &Highest) -> Option<Interference> {
+        highest_of_many(simd, p, planes, Whereabouts::Inside)?
+    };
     if highest.height >= 0.0 {
         return None;
     }

@@ -29,16 +29,6 @@ pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     }
 }
 
-/// [`ray_polyhedron`] within a kernel.
-#[inline(always)]
-pub fn ray_polyhedron_in<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
-    match polyhedron.planes().blocks.len() {
-        0 => None,
-        1..=FEW => hit_few(simd, ray, polyhedron),
-        _ => hit_many(simd, ray, polyhedron),
-    }
-}
-
 #[inline(always)]
 fn hit_few<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     hit::<S, FirstOf<S, FEW>, FEW>(simd, ray, polyhedron)

@@ -10,34 +10,6 @@ use crate::Vec3;
 use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
-/// Where a sphere is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpherePlace {
-    /// It does not touch, or what it touches may not push.
-    Apart,
-    /// The centre is outside, and the sphere touches.
-    Outside(Interference),
-    /// The centre is inside.
-    Inside,
-}
-
-/// Where a sphere is: [`Polyhedron::contains`] and [`sphere_outside_polyhedron`] in one pass over the faces.
-#[inline]
-pub fn place_of_sphere(sphere: &Sphere, polyhedron: &Polyhedron) -> SpherePlace {
-    run_at_level!(place_of_sphere_in(sphere: Sphere, polyhedron: Polyhedron) -> SpherePlace)
-}
-
-/// [`place_of_sphere`] within a kernel.
-#[inline(always)]
-pub fn place_of_sphere_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> SpherePlace {
-    let near = Near::new(simd, sphere, polyhedron);
-    match near.survey() {
-        None => SpherePlace::Apart,
-        Some(Survey { is_inside: true, .. }) => SpherePlace::Inside,
-        Some(survey) => near.contact(&survey).map_or(SpherePlace::Apart, SpherePlace::Outside),
-    }
-}
-
 /// The contact of a sphere that remembers no side: outside with the nearest feature, inside below the active face under
 /// which the centre lies least deep.
 #[inline]
@@ -45,13 +17,8 @@ pub fn sphere_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Int
     run_at_level!(sphere_polyhedron_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
 }
 
-/// [`sphere_polyhedron`] within a kernel.
 #[inline(always)]
-pub fn sphere_polyhedron_in<S: Simd>(
-    simd: S,
-    sphere: &Sphere,
-    polyhedron: &Polyhedron,
-) -> Option<Interference> {
+fn sphere_polyhedron_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     let near = Near::new(simd, sphere, polyhedron);
     let survey = near.survey()?;
     if !survey.is_inside {
