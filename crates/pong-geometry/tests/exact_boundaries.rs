@@ -151,6 +151,8 @@ fn rays_end_before_their_length_and_begin_behind_their_reach() {
     assert_eq!(hits(&ray(0.0, 1.0, 0.0)), [None; 3], "begins on the surface, without reach");
     assert_eq!(hits(&ray(-0.25, 1.0, 0.25)), [None; 3], "as far behind as it reaches");
     assert_eq!(hits(&ray(-0.25, 1.0, 0.25 + EIGHTH)), [Some(-0.25); 3]);
+    let from_surface = ray_polyhedron(&ray(0.0, 1.0, 0.25), &block()).map(|hit| hit.distance.to_bits());
+    assert_eq!(from_surface, Some(0.0_f64.to_bits()), "without a sign");
     let turned = |direction: Vec3| Ray { direction, ..ray(-1.0, 4.0, 2.0) };
     assert_eq!(hits(&turned(Vec3::z()))[..2], [None; 2], "from behind");
     let along = Ray { origin: at(-4.0, 0.25, 0.0), ..turned(Vec3::x()) };

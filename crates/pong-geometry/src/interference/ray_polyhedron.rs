@@ -7,7 +7,7 @@
 
 use super::Feature;
 use super::ray_plane::RayHit;
-use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, PolyhedronFace, Ray};
+use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
 
 /// Rounding in a distance along the ray, relative to the polyhedron's diameter.
@@ -22,10 +22,10 @@ const MANY: usize = usize::MAX;
 /// the face, but not beyond the far side. Heights above the faces must be finite, as those of numbers within 1e100 are.
 #[inline]
 pub fn ray_polyhedron(ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
-    match polyhedron.planes().blocks.len() {
-        0 => None,
-        1..=FEW => run_at_level!(hit_few(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>),
-        _ => run_at_level!(hit_many(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>),
+    if polyhedron.planes().blocks.len() <= FEW {
+        run_at_level!(hit_few(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>)
+    } else {
+        run_at_level!(hit_many(ray: Ray, polyhedron: Polyhedron) -> Option<RayHit>)
     }
 }
 
@@ -36,9 +36,10 @@ fn hit_few<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHi
 
 #[inline(always)]
 fn hit_many<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
-    match polyhedron.planes().blocks.len() {
-        0..=SOME => hit::<S, FirstOf<S, SOME>, SOME>(simd, ray, polyhedron),
-        _ => hit::<S, First<S>, MANY>(simd, ray, polyhedron),
+    if polyhedron.planes().blocks.len() <= SOME {
+        hit::<S, FirstOf<S, SOME>, SOME>(simd, ray, polyhedron)
+    } else {
+        hit::<S, First<S>, MANY>(simd, ray, polyhedron)
     }
 }
 
@@ -53,11 +54,8 @@ fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &P
         }
     }
     let entry = passage.entry.found()?;
-    let distance = match entry.number {
-        // Of which sign the zero is, is told by one face alone.
-        0.0 => distance_to(ray, &polyhedron.faces[entry.place()]),
-        distance => distance,
-    };
+    // Of two zeros the lanes may find either: never the negative one.
+    let distance = entry.number + 0.0;
     hit_at(ray, polyhedron, distance, entry.place(), passage.leaves_after(distance))
 }
 
@@ -120,11 +118,6 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         let on = simd.bits(simd.equal(heights, zero)) & !block.closed;
         along & (above | on) != 0
     }
-}
-
-#[cold]
-fn distance_to(ray: &Ray, face: &PolyhedronFace) -> f64 {
-    -face.height(&ray.origin) / ray.direction.dot(&face.normal)
 }
 
 /// The hit on the face by which the line enters the solid, if it leaves after that and the ray ends there.
