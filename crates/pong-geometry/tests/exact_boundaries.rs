@@ -182,6 +182,26 @@ fn lines_enter_by_the_lower_face_and_not_where_they_only_touch() {
     assert_eq!(onto_top(&block, 1.0), None, "ends above");
 }
 
+/// A line in the plane of an inner wall enters the piece that the wall is closed for.
+#[test]
+fn a_line_along_a_closed_wall_enters() {
+    let plain = block();
+    let middle = at(0.0, 0.0, -1.0);
+    for (wall, entry) in (0..6).flat_map(|wall| (0..6).map(move |entry| (wall, entry))) {
+        let [across, along] = [wall, entry].map(|face| plain.faces[face].normal);
+        if across.dot(&along) != 0.0 {
+            continue;
+        }
+        let to = middle - across * plain.height(wall, &middle);
+        let from = to - along * (2.0 * plain.height(entry, &to));
+        let enters = |block: &Polyhedron| entry_of_line(&from, &to, block);
+        assert_eq!(enters(&plain), None);
+        let mut block = plain.clone();
+        block.change(|parts| (parts.faces[wall].active, parts.faces[wall].closed) = (false, true));
+        assert_eq!(enters(&block).map(|found| (found.face, found.at)), Some((entry, 0.5)));
+    }
+}
+
 /// Behind a face: as deep as the thickness is too deep; in the plane is in front, with no thickness too.
 #[test]
 fn a_centre_in_the_plane_is_in_front() {

@@ -131,7 +131,7 @@ fn dented_faces_are_cut_within_their_outline() {
 #[test]
 fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
     let folder = folder("damaged");
-    let cases: [(&str, Vec<u8>, &str); 14] = [
+    let cases: [(&str, Vec<u8>, &str); 15] = [
         ("a.ply", b"ply".to_vec(), "unknown-format"),
         ("empty.stl", binary_stl(&[]), "empty-mesh"),
         ("short.stl", binary_stl(&cube())[..300].to_vec(), "damaged"),
@@ -147,6 +147,7 @@ fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
         ("curve.obj", b"v 0 0 0\ncstype bezier\n".to_vec(), "free-form"),
         ("line.obj", b"v 0 0 0\nl 1 7\n".to_vec(), "damaged"),
         ("text.glb", b"glTF\x02\0\0\0".to_vec(), "damaged"),
+        ("length.glb", b"glTF\x02\0\0\0\x0b\0\0\0\0\0\0\0JSON".to_vec(), "damaged"),
         ("syntax.gltf", b"{".to_vec(), "damaged"),
         ("old.gltf", br#"{"asset": {"version": "1.0"}}"#.to_vec(), "version"),
         ("gone.gltf", cube_file().text("gone.bin").into_bytes(), "buffer"),
@@ -160,7 +161,7 @@ fn damaged_and_strange_files_are_refused_and_nothing_is_written() {
     }
     assert_eq!(rules(&run(&folder.join("missing.stl"), &options()).unwrap_err()), ["unreadable"]);
     let left: Vec<_> = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    assert_eq!(left.len(), 14, "{left:?}");
+    assert_eq!(left.len(), 15, "{left:?}");
 }
 
 #[test]

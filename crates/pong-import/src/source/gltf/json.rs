@@ -37,12 +37,22 @@ fn damaged(file: &str, cause: String) -> Finding {
     Finding { path: file.to_owned(), rule: "damaged", cause, cure }
 }
 
+fn unpack<'a>(bytes: &'a [u8], file: &str) -> Result<::gltf::Glb<'a>, Finding> {
+    /// Magic number, version and length of the file, four bytes each.
+    const HEADER: u32 = 12;
+    // The crate takes the header from the length without a look.
+    if let Some(&length) = bytes.get(8..).and_then(<[u8]>::first_chunk)
+        && u32::from_le_bytes(length) < HEADER
+    {
+        let length = u32::from_le_bytes(length);
+        return Err(damaged(file, format!("its header says that the file has {length} bytes")));
+    }
+    ::gltf::Glb::from_slice(bytes).map_err(|reason| damaged(file, reason.to_string()))
+}
+
 /// The JSON and the bytes that come with it in a `.glb` file.
 pub(super) fn parse(bytes: &[u8], file: &str) -> Result<(Value, Option<Vec<u8>>), Finding> {
-    let glb = match bytes.starts_with(b"glTF") {
-        true => Some(::gltf::Glb::from_slice(bytes).map_err(|reason| damaged(file, reason.to_string()))?),
-        false => None,
-    };
+    let glb = if bytes.starts_with(b"glTF") { Some(unpack(bytes, file)?) } else { None };
     let text: &[u8] = glb.as_ref().map_or(bytes, |glb| &glb.json);
     let value: Value = serde_json::from_slice(text).map_err(|reason| damaged(file, reason.to_string()))?;
     let version = value.get("asset").and_then(|asset| asset.text("version")).unwrap_or("");
