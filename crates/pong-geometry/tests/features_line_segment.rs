@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved};
+use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, scaled, stretched_hull};
 use oracle_support::{Worst, close_lower_walls, join_pieces};
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
 use pong_geometry::primitive::{LineSegment, Polyhedron};
@@ -52,6 +52,38 @@ fn a_bar_lying_flat_carries_all_of_it() {
         worst.note((wrench.moment - motion.point(&middle).cross(&wrench.force)).norm(), 1e-14);
         worst.note((energy - 0.5 * depth * depth).abs(), 1e-14);
     }
+}
+
+/// Where bounds of the energy leave the range of numbers every face is asked: the answer is the same, scaled.
+#[test]
+fn a_scene_beyond_all_scenes_is_answered_as_a_small_one() {
+    let mut random = Random(613);
+    let shapes =
+        [brick(), stretched_hull(14, Vec3::new(1.0, 0.8, 0.6)), stretched_hull(40, Vec3::repeat(1.0))];
+    for scale in [f64::exp2(280.0), f64::exp2(-280.0)] {
+        let large = shapes.each_ref().map(|shape| scaled(shape, scale));
+        let mut touching = 0;
+        for round in 0..2000 {
+            let (shape, large) = (&shapes[round % 3], &large[round % 3]);
+            let segment =
+                bar(random.direction() * random.unit(), random.direction() * random.between(0.5, 1.5));
+            let grown = bar(segment.ends[0] * scale, segment.ends[1] * scale);
+            let [near, far] =
+                [line_segment_polyhedron(&segment, shape), line_segment_polyhedron(&grown, large)];
+            for (near, far) in near.iter().zip(&far) {
+                assert_eq!(near.is_some(), far.is_some(), "{segment:?}");
+                let (Some(near), Some(far)) = (near, far) else { continue };
+                touching += 1;
+                assert_eq!((near.depth * scale, near.feature), (far.depth, far.feature), "{segment:?}");
+                assert_eq!((near.normal, near.point_a * scale), (far.normal, far.point_a), "{segment:?}");
+            }
+        }
+        assert!(touching > 1000);
+    }
+    // A short one in such a solid.
+    let short = bar(Vec3::new(0.5, 0.25, -0.25), Vec3::new(0.75, 0.25, -0.25));
+    let large = scaled(&brick(), f64::exp2(280.0));
+    assert_eq!(line_segment_polyhedron(&short, &large), line_segment_polyhedron(&short, &brick()));
 }
 
 /// The least overlap over all directions in which a segment and a convex solid can be in line.

@@ -33,24 +33,10 @@ const TIE: f64 = 1.0 - 1e-12;
 /// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
-    match polyhedron.planes().blocks.len() {
-        0 => [None, None],
-        1..=FEW => run_at_level!(test_few(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts),
-        _ => run_at_level!(test_many(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts),
-    }
-}
-
-/// [`line_segment_polyhedron`] within a kernel.
-#[inline(always)]
-pub fn line_segment_polyhedron_in<S: Simd>(
-    simd: S,
-    segment: &LineSegment,
-    polyhedron: &Polyhedron,
-) -> EndContacts {
-    match polyhedron.planes().blocks.len() {
-        0 => [None, None],
-        1..=FEW => test_few(simd, segment, polyhedron),
-        _ => test_many(simd, segment, polyhedron),
+    if polyhedron.planes().blocks.len() <= FEW {
+        run_at_level!(test_few(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts)
+    } else {
+        run_at_level!(test_many(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts)
     }
 }
 
