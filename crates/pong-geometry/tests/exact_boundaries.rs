@@ -4,7 +4,7 @@
 mod common;
 mod oracle_support;
 
-use common::cuboid;
+use common::{cuboid, hull};
 use oracle_support::{all_contacts, skin, surface};
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -53,6 +53,12 @@ fn block() -> Polyhedron {
     cuboid(at(-2.0, -2.0, -2.0), at(2.0, 2.0, 0.0))
 }
 
+/// Its ridge is the x axis from −2 to 2.
+fn tent() -> Polyhedron {
+    let side = |y: f64, z: f64| [at(-2.0, y, z), at(2.0, y, z)];
+    hull(&[side(-2.0, -2.0), side(2.0, -2.0), side(0.0, 0.0)].concat())
+}
+
 /// The top of the block in two triangles, all edges but the diagonal free.
 fn sheet() -> TriangleSet {
     let corners = vec![at(-2.0, -2.0, 0.0), at(2.0, -2.0, 0.0), at(2.0, 2.0, 0.0), at(-2.0, 2.0, 0.0)];
@@ -78,7 +84,7 @@ type Lowered<'a> = (&'a str, &'a dyn Fn(f64) -> Option<f64>);
 fn what_touches_does_not_push_and_what_is_deeper_does() {
     let depth = |contact: Option<Interference>| contact.map(|contact| contact.depth);
     let bar = |low: f64| LineSegment { ends: [at(-0.5, 0.0, -low), at(0.5, 0.0, 1.0 - low)] };
-    let pairs: [Lowered<'_>; 18] = [
+    let pairs: [Lowered<'_>; 19] = [
         ("point, plane", &|d| depth(point_plane(&Point { position: at(0.5, 0.25, -d) }, &floor()))),
         ("point, sphere", &|d| {
             depth(point_sphere(&Point { position: at(1.0 - d, 0.0, 0.0) }, &ball(Vec3::zeros(), 1.0)))
@@ -98,6 +104,7 @@ fn what_touches_does_not_push_and_what_is_deeper_does() {
         ("sphere, face", &|d| depth(sphere_polyhedron(&ball(at(0.5, 0.25, 1.0 - d), 1.0), &block()))),
         // Distances 3-4-5 and 1-2-2 from an edge and a corner.
         ("sphere, edge", &|d| depth(sphere_polyhedron(&ball(at(2.75, 0.5, 1.0), 1.25 + d), &block()))),
+        ("sphere, ridge", &|d| depth(sphere_polyhedron(&ball(at(1.5, 0.0, 1.0 - d), 1.0), &tent()))),
         ("sphere, corner", &|d| depth(sphere_polyhedron(&ball(at(3.0, 4.0, 2.0), 3.0 + d), &block()))),
         ("sphere, triangle", &|d| on_sheet(&ball(at(0.5, 0.25, 1.0 - d), 1.0))),
         ("sphere, over one face", &|d| {
