@@ -210,6 +210,30 @@ fn on_axes_and_symmetry_planes() {
     assert!((foot.depth - 0.25).abs() < 1e-15);
 }
 
+/// Beyond the ellipse of the centres of curvature the nearest point lies in the plane across the shortest axis, as for the
+/// ellipse in that plane; the other minimum has gone.
+#[test]
+fn in_the_plane_across_the_shortest_axis_near_the_rim() {
+    let a = Vec3::new(3.0, 2.0, 1.0);
+    let mut beyond = 0;
+    for (x, y) in (0..48).flat_map(|i| (0..32).map(move |j| (f64::from(i) / 16.0, f64::from(j) / 16.0))) {
+        let inside = x * x / 9.0 + y * y / 4.0 < 1.0;
+        // aᵢ·yᵢ/(aᵢ² − 1), of which neither must exceed 1 by itself.
+        let (u, v) = (3.0 * x / 8.0, 2.0 * y / 3.0);
+        if !inside || u * u + v * v <= 1.0 {
+            continue;
+        }
+        beyond += usize::from(u < 1.0 && v < 1.0);
+        let place = Vec3::new(x, -y, 0.0);
+        let foot = nearest_on_ellipsoid(&a, &place);
+        let flat = nearest_on_ellipse([3.0, 2.0], [x, -y]);
+        assert!((foot.depth - flat.depth).abs() < 4e-15, "{place:?}: {foot:?} {flat:?}");
+        assert_eq!(foot.normal[2], 0.0);
+        assert_eq!(second_nearest_on_ellipsoid(&a, &place), None, "{place:?}");
+    }
+    assert!(beyond > 50);
+}
+
 #[test]
 fn at_the_focal_curve_the_depth_stays_exact() {
     // The centre of curvature of the long axis' end.
