@@ -262,24 +262,103 @@ fn a_ball_that_goes_round_the_rim_is_stopped_in_front() {
     assert!((put(0.04, 0.1).x - 0.5 * K * 0.01).abs() < 1e-9 * K);
 }
 
-/// With its centre behind both faces of a ridge a ball is pushed by the less deep one alone, as by a solid.
+/// A sheet whose height falls by as much as |x| grows, its front above; cut along these x, and every 5 cm along y.
+fn ridge(cuts: &[f64]) -> String {
+    let rows = 41;
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    for row in 0..rows {
+        let y = -1.0 + 0.05 * row as f64;
+        vertices.extend(cuts.iter().map(|x| format!("({x:?},{y:?},{:?})", -x.abs())));
+    }
+    for (row, column) in (0..rows - 1).flat_map(|row| (0..cuts.len() - 1).map(move |column| (row, column))) {
+        let a = row * cuts.len() + column;
+        let [b, c, d] = [a + 1, a + 1 + cuts.len(), a + cuts.len()];
+        triangles.push(format!("({a},{b},{c}),({a},{c},{d})"));
+    }
+    let (vertices, triangles) = (vertices.join(","), triangles.join(","));
+    model(
+        "ridge",
+        &steel(),
+        &format!("TriangleMesh(name: \"m\", vertices: [{vertices}], triangles: [{triangles}])"),
+    )
+}
+
+/// With its centre behind both faces of a ridge a ball is pushed by the less deep one alone, as by a solid; into how many
+/// triangles the faces are cut does not matter.
 #[test]
 fn behind_a_ridge_only_the_less_deep_face_pushes() {
-    let ridge = "TriangleMesh(name: \"m\", vertices: [(-1,-1,-1),(0,-1,0),(1,-1,-1),(-1,1,-1),(0,1,0),(1,1,-1)], \
-                 triangles: [(0,1,4),(0,4,3),(1,2,5),(1,5,4)])";
-    let ridge = model("ridge", &steel(), ridge);
-    for side in [-1.0, 1.0] {
-        let mut rig = Rig::new(&ball(0.1), &ridge);
-        let mut put = |x: f64, z: f64| {
-            rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
+    let fine = [-1.0, -0.05, -0.01, -0.005, 0.0, 0.005, 0.01, 0.05, 1.0];
+    for (ridge, side) in [ridge(&[-1.0, 0.0, 1.0]), ridge(&fine)].iter().flat_map(|r| [(r, -1.0), (r, 1.0)]) {
+        for y in [0.1, 0.11, 0.13] {
+            let mut rig = Rig::new(&ball(0.1), ridge);
+            // Without an earlier pose: 14 mm below the nearer face and 28 mm below the other.
+            rig.place_a(Vec3::new(side * 0.01, y, -0.03), Quat::identity());
             rig.world.step().unwrap();
-            (rig.wrench(0).force, rig.world.contact_count())
+            let force = rig.wrench(0).force;
+            let depth = (0.03 - 0.01) / 2.0_f64.sqrt();
+            let outward = Vec3::new(side, 0.0, 1.0).normalize();
+            assert_eq!(rig.world.contact_count(), 1);
+            assert!((force - outward * (0.5 * K * (0.1 + depth))).norm() < 1e-6, "{force:?}");
+        }
+    }
+}
+
+/// A cube from −0.5 to 0.5, every side in `n` × `n` squares of two triangles.
+fn cube_of_triangles(n: usize) -> String {
+    let mut corners: Vec<[usize; 3]> = Vec::new();
+    let mut triangles = Vec::new();
+    for (axis, top) in (0..3).flat_map(|axis| [(axis, false), (axis, true)]) {
+        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
+            let mut corner = |i: usize, j: usize| {
+                let mut at = [0; 3];
+                (at[axis], at[(axis + 1) % 3], at[(axis + 2) % 3]) = (if top { n } else { 0 }, i, j);
+                corners.iter().position(|known| *known == at).unwrap_or_else(|| {
+                    corners.push(at);
+                    corners.len() - 1
+                })
+            };
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            let [b, d] = if top { [b, d] } else { [d, b] };
+            triangles.push(format!("({a},{b},{c}),({a},{c},{d})"));
+        }
+    }
+    let place = |k: usize| k as f64 / n as f64 - 0.5;
+    let vertices: Vec<_> = corners
+        .iter()
+        .map(|at| format!("({:?},{:?},{:?})", place(at[0]), place(at[1]), place(at[2])))
+        .collect();
+    let (vertices, triangles) = (vertices.join(","), triangles.join(","));
+    let mesh = format!("TriangleMesh(name: \"m\", vertices: [{vertices}], triangles: [{triangles}])");
+    model("cube", &steel(), &mesh)
+}
+
+/// With its centre below the surface by less than its thickness an ellipsoid is pushed by a mesh as by a solid.
+#[test]
+fn below_the_surface_of_a_cube_a_mesh_pushes_as_the_solid() {
+    let egg =
+        model("egg", &steel(), "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (0.05, 0.06, 0.08))");
+    let solid = model("solid", &steel(), &box_polyhedron("w", [0.0; 3], [0.5; 3], ""));
+    let meshes = [cube_of_triangles(1), cube_of_triangles(12)];
+    let mut random = Random(7);
+    for _ in 0..40 {
+        // Below the top, beside an edge.
+        let place = Vec3::new(
+            0.5 - random.between(0.0, 0.049),
+            random.between(-0.4, 0.4),
+            0.5 - random.between(0.0, 0.049),
+        );
+        let turn = random.rotation();
+        let force_of = |body: &str| {
+            let mut rig = Rig::new(&egg, body);
+            rig.place_a(place, turn);
+            rig.world.step().unwrap();
+            rig.wrench(0).force
         };
-        // Without an earlier pose: 14 mm below the nearer face and 28 mm below the other.
-        let (force, count) = put(side * 0.01, -0.03);
-        let depth = (0.03 - 0.01) / 2.0_f64.sqrt();
-        let outward = Vec3::new(side, 0.0, 1.0).normalize();
-        assert_eq!(count, 1);
-        assert!((force - outward * (0.5 * K * (0.1 + depth))).norm() < 1e-6, "{force:?}");
+        let expected = force_of(&solid);
+        for mesh in &meshes {
+            let force = force_of(mesh);
+            assert!((force - expected).norm() < 1e-9 * K, "{place:?} {turn:?}: {force:?}, {expected:?}");
+        }
     }
 }

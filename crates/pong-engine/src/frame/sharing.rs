@@ -91,26 +91,42 @@ fn settle_surface(
 /// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
 fn drop_deeper_of_convex_faces(group: &mut [Found], triangles: &TriangleSet) {
     for i in 0..group.len() {
-        if group[i].stance != Stance::Behind {
+        let contact = &group[i];
+        if contact.stance != Stance::Behind {
             continue;
         }
-        let view = TriangleView::new(triangles, group[i].element_b);
-        let covered = (0..3).any(|k| match view.classify_edge(triangles, k) {
-            EdgeClass::Convex { neighbor, .. } => group.iter().any(|other| {
-                let is_neighbor = other.kind_b == PrimitiveKind::Triangle
-                    && other.feature.is_face()
-                    && other.element_b == neighbor
-                    && other.role == Role::Pushes;
-                is_neighbor
-                    && (other.depth < group[i].depth
-                        || (other.depth == group[i].depth && neighbor < group[i].element_b))
-            }),
-            EdgeClass::Free | EdgeClass::Silent { .. } => false,
+        let is_covered = group.iter().any(|other| {
+            let less_deep = other.depth < contact.depth
+                || (other.depth == contact.depth && other.element_b < contact.element_b);
+            let counts = other.role == Role::Pushes && is_triangles_face(other);
+            counts && less_deep && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other))
         });
-        if covered {
+        if is_covered {
             group[i].role = Role::Silent;
         }
     }
+}
+
+fn is_triangles_face(contact: &Found) -> bool {
+    contact.kind_b == PrimitiveKind::Triangle && contact.feature.is_face()
+}
+
+/// Whether the triangles of two contacts meet convexly in an edge.
+fn meet_in_an_edge(contact: &Found, other: &Found, triangles: &TriangleSet) -> bool {
+    let view = TriangleView::new(triangles, contact.element_b);
+    (0..3).any(|k| match view.classify_edge(triangles, k) {
+        EdgeClass::Convex { neighbor, .. } => neighbor == other.element_b,
+        EdgeClass::Free | EdgeClass::Silent { .. } => false,
+    })
+}
+
+/// Whether two faces meet convexly, however many triangles lie between the two that push: the centre is behind both, and
+/// where each is touched lies below the plane of the other. Beside a concave edge it lies above.
+fn meet_below(contact: &Found, other: &Found) -> bool {
+    let touched = |of: &Found| of.point_a + of.normal * of.depth;
+    let apart = touched(other) - touched(contact);
+    let are_faces = other.stance == Stance::Behind && is_triangles_face(contact);
+    are_faces && contact.normal.dot(&apart) < 0.0 && other.normal.dot(&apart) > 0.0
 }
 
 /// A spare contact counts only where rounding has left nothing else that is as deep.

@@ -5,8 +5,9 @@
 //! no single nearest point: what decides between features is where the deepest point's foot lies and between which
 //! normals a minimum lies. While the depth is less than the smallest radius of curvature, as for a sphere, exactly one
 //! of the features that meet convexly claims a place. Deeper, several may; then only the less deep pushes, as in a
-//! polyhedron: a face yields to its edges' minima, and to a convex neighbour that is less deep and holds its own foot
-//! (with the centre behind: that is less deep at all). So depth stays continuous where one hands over to the other.
+//! polyhedron: a face yields to its edges' minima, and to a convex neighbour that is less deep and holds its own foot.
+//! So depth stays continuous where one hands over to the other. With the centre behind more faces push than may: which of
+//! them count is for the sharing to say, which sees them all.
 //!
 //! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex across the
 //! normal at hand. What only rounding keeps from pushing is emitted as spare.
@@ -216,7 +217,7 @@ impl Tester<'_> {
                 let other_depth = self.prepared.widened(&normal).norm() - height;
                 let less = other_depth < depth || (other_depth == depth && neighbor < self.view.index);
                 let holds = || other.holds_foot(self.set, &self.foot_on(&normal, other_depth));
-                if less && (self.height < 0.0 || holds()) {
+                if less && holds() {
                     return true;
                 }
                 let bound = self.prepared.arc_bound(&[self.view.normal, normal], &[self.height, height]);
