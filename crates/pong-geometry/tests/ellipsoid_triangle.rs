@@ -7,6 +7,7 @@
 mod common;
 
 use common::{Random, cuboid, patch, scaled_ellipsoid, stretched_hull, surface_of, triangle_set};
+use pong_geometry::interference::Feature;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
@@ -164,6 +165,80 @@ fn a_face_beside_a_small_step_pushes_a_rod_that_reaches_below_the_step() {
             "{z}: {found:?}"
         );
     }
+}
+
+fn upright(center: Vec3, semi_axes: Vec3) -> Ellipsoid {
+    Ellipsoid { center, axes: Mat3::identity(), semi_axes }
+}
+
+/// A sheet that falls to both sides of the y axis at 45°, one triangle each.
+fn roof() -> TriangleSet {
+    let corners = [(0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, -1.0), (-1.0, 0.0, -1.0)]
+        .map(|(x, y, z)| Vec3::new(x, y, z));
+    triangle_set(corners.to_vec(), &[[0, 2, 1], [0, 1, 3]])
+}
+
+#[test]
+fn a_rod_exactly_above_a_ridge_is_pushed_by_one_of_two_equal_faces() {
+    let found = pushing(&upright(Vec3::new(0.0, 0.0, 0.1), Vec3::new(0.1, 0.1, 0.4)), &roof(), 0.0);
+    let features: Vec<_> = found.iter().map(|contact| contact.interference.feature).collect();
+    assert_eq!(features, [Feature::face(0)], "{found:?}");
+}
+
+/// Deep beside a free edge the way out is sideways, if the centre is not too far behind for it; else upwards. Never both.
+#[test]
+fn beside_a_free_edge_either_the_edge_or_the_face_pushes_a_rod() {
+    let plate = triangle_set(
+        [(-1.0, -1.0), (0.0, -1.0), (0.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec(),
+        &[[0, 1, 2], [0, 2, 3]],
+    );
+    let rod = upright(Vec3::new(-0.05, 0.25, 0.1), Vec3::new(0.1, 0.1, 0.4));
+    let alone = |thickness: f64| {
+        let found = pushing(&rod, &plate, thickness);
+        assert_eq!(found.len(), 1, "{thickness}: {found:?}");
+        found[0].interference
+    };
+    let sideways = alone(0.1);
+    assert!(sideways.normal.x > 0.9 && (0.14..0.15).contains(&sideways.depth), "{sideways:?}");
+    let upwards = alone(0.0);
+    assert!(upwards.normal == Vec3::z() && (upwards.depth - 0.3).abs() < 1e-15, "{upwards:?}");
+}
+
+#[test]
+fn a_centre_on_an_edge_or_a_vertex_is_in_front() {
+    let (roof, cube) = (roof(), surface_of(&cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0))));
+    for (set, center) in
+        [(&roof, Vec3::zeros()), (&cube, Vec3::new(1.0, 0.25, 1.0)), (&cube, Vec3::repeat(1.0))]
+    {
+        for semi_axes in [Vec3::new(0.25, 0.375, 0.5), Vec3::new(0.5, 0.375, 0.125)] {
+            let found = pushing(&upright(center, semi_axes), set, 0.0);
+            assert!(!found.is_empty(), "{center:?} {semi_axes:?}");
+            assert!(found.iter().all(|contact| contact.standing != Standing::Behind), "{found:?}");
+        }
+    }
+}
+
+/// Where the foot is on a convex edge, within rounding, the face or the edge has the contact.
+#[test]
+fn a_foot_on_a_convex_edge_is_not_lost() {
+    let mut random = Random(107);
+    let cube = surface_of(&cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0)));
+    let mut spare = 0;
+    for _ in 0..5000 {
+        let e = Ellipsoid {
+            center: Vec3::zeros(),
+            axes: random.rotation(),
+            semi_axes: Vec3::from_fn(|_, _| random.between(0.1, 0.3)),
+        };
+        let deepest = e.axes
+            * (e.axes.tr_mul(&Vec3::z()).component_mul(&e.semi_axes.component_mul(&e.semi_axes)))
+            / -e.half_width(&Vec3::z());
+        let lowered = Vec3::new(1.0, random.between(-0.5, 0.5), 1.0 - 1e-3);
+        let found = contacts(&Ellipsoid { center: lowered - deepest, ..e }, &cube, 0.0);
+        assert!(found.iter().any(|c| (c.interference.depth - 1e-3).abs() < 1e-12), "{e:?}: {found:?}");
+        spare += usize::from(found.iter().all(|c| c.standing == Standing::Spare));
+    }
+    println!("{spare} held by a spare contact alone");
 }
 
 fn touched(contact: &TriangleContact) -> Vec3 {

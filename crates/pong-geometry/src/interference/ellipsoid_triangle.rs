@@ -179,8 +179,7 @@ struct Tester<'a> {
 struct EdgeMinimum {
     depth: f64,
     normal: Vec3,
-    /// Not only within rounding.
-    strictly: bool,
+    standing: Standing,
 }
 
 impl Tester<'_> {
@@ -232,8 +231,9 @@ impl Tester<'_> {
     }
 
     fn minimum_less_deep_than(&self, k: usize, depth: f64) -> bool {
-        let less_deep =
-            |minimum: &EdgeMinimum| minimum.strictly && minimum.depth < depth * (1.0 - DEPTH_SLACK);
+        let less_deep = |minimum: &EdgeMinimum| {
+            minimum.standing != Standing::Spare && minimum.depth < depth * (1.0 - DEPTH_SLACK)
+        };
         self.edge_minima(k).iter().flatten().any(less_deep)
     }
 
@@ -242,11 +242,8 @@ impl Tester<'_> {
             return;
         }
         let feature = Feature::edge(3 * self.view.index as usize + k);
-        let first = self.view.edge_ends(k)[0];
         for minimum in self.edge_minima(k).iter().flatten() {
-            if let Some(standing) = self.standing(&minimum.normal, &first, minimum.strictly) {
-                self.push(minimum.depth, &minimum.normal, feature, standing, emit);
-            }
+            self.push(minimum.depth, &minimum.normal, feature, minimum.standing, emit);
         }
     }
 
@@ -277,7 +274,8 @@ impl Tester<'_> {
             let normal = shadow.vector(&foot.normal);
             let least = neighbor.map_or(f64::INFINITY, |(_, o)| o.dot(&normal)).min(outward.dot(&normal));
             let strictly = self.on_edge(k, &normal).filter(|_| least > -CONE_SLACK)?;
-            Some(EdgeMinimum { depth: foot.depth, normal, strictly: strictly && least > 0.0 })
+            let standing = self.standing(&normal, &first, strictly && least > 0.0)?;
+            Some(EdgeMinimum { depth: foot.depth, normal, standing })
         };
         let may_hold = shadow.may_hold(&y, f64::INFINITY);
         let nearest = may_hold.then(|| nearest_on_ellipse(shadow.semi_axes, y));
