@@ -209,7 +209,7 @@ impl Tester<'_> {
     fn edge_is_less_deep(&self, k: usize, depth: f64) -> bool {
         match self.edges.class(k) {
             EdgeClass::Silent { .. } => false,
-            EdgeClass::Free => self.height >= 0.0 && self.minimum_less_deep_than(k, depth),
+            EdgeClass::Free => self.minimum_less_deep_than(k, depth),
             EdgeClass::Convex { neighbor, normal, .. } => {
                 let other = TriangleView { index: neighbor, corners: self.set.corners(neighbor), normal };
                 let height = other.height(&self.ellipsoid.center);
