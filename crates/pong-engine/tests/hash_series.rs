@@ -24,7 +24,7 @@ use std::time::Duration;
 const KNOWN: [(&str, u64, u64); 8] = [
     ("stations", 0x3e8a57be4587bccf, 0x40f87c24f5f891c2),
     ("arms", 0xdb4d388c23232c59, 0x1af2411c174b2afe),
-    ("sheets", 0xfa2604bcb7110e0b, 0x60b3b34bcc2a0e9e),
+    ("sheets", 0x1e0f2e1f7c66fbfd, 0xb4a0ffd6e527d5c7),
     ("pieces", 0xcae5618e90c36363, 0xdb68573acb2f5013),
     ("own_kinds", 0xb2b3b1f98e9a7abf, 0x75f3bd36782939f5),
     ("crowd", 0x4048bd08079decf5, 0x3b530a10a26671fe),
