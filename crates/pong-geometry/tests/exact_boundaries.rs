@@ -209,6 +209,17 @@ fn a_line_along_a_closed_wall_enters() {
     }
 }
 
+/// An ellipsoid nearer to an inner wall than to the top is pushed out by the top: walls never push.
+#[test]
+fn an_ellipsoid_beside_a_wall_is_pushed_by_the_top() {
+    let mut block = block();
+    let wall = block.faces.iter().position(|face| face.normal == Vec3::x()).unwrap();
+    block.change(|parts| parts.faces[wall].active = false);
+    let contact =
+        ellipsoid_polyhedron(&ellipsoid(at(1.75, 0.25, -0.25), at(0.125, 0.75, 0.375)), &block).unwrap();
+    assert_eq!((contact.normal, contact.depth), (Vec3::z(), 0.625));
+}
+
 /// Behind a face: as deep as the thickness is too deep; in the plane is in front, with no thickness too.
 #[test]
 fn a_centre_in_the_plane_is_in_front() {
