@@ -173,6 +173,31 @@ fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64)
 const HULL: Vec3 = Vec3::new(0.5, 0.4, 0.3);
 const ELLIPSOID: Vec3 = Vec3::new(0.2, 0.12, 0.08);
 
+/// The rim of a disc of 64 corners: more than a search remembers. What is found is the overlap along its own normal, and no
+/// more than that along any face's.
+#[test]
+fn a_face_of_many_corners_is_searched_to_the_end() {
+    let mut random = Random(71);
+    let corners: Vec<Vec3> = (0..64)
+        .map(|k| std::f64::consts::TAU * f64::from(k) / 64.0)
+        .flat_map(|angle| [-0.2, 0.2].map(|z| Vec3::new(angle.cos(), angle.sin(), z)))
+        .collect();
+    let disc = hull_with_walls(&corners, &|_, _| false);
+    let mut found = 0;
+    while found < 500 {
+        let angle = random.between(0.0, 6.3);
+        let e = Ellipsoid {
+            center: Vec3::new(angle.cos(), angle.sin(), 0.2) * random.between(0.8, 1.2),
+            axes: random.rotation(),
+            semi_axes: Vec3::from_fn(|_, _| random.between(0.05, 0.4)),
+        };
+        let Some(contact) = ellipsoid_polyhedron(&e, &disc) else { continue };
+        found += 1;
+        assert!((overlap(&e, &disc, &contact.normal) - contact.depth).abs() < 1e-13, "{e:?}: {contact:?}");
+        assert!(disc.faces.iter().all(|face| overlap(&e, &disc, &face.normal) > contact.depth - 1e-13));
+    }
+}
+
 #[test]
 fn minimum_of_twelve_faces() {
     let tally = compare(&stretched_hull(8, HULL), ELLIPSOID, 0.6, 5000, 31);
