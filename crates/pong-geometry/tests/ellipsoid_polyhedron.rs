@@ -177,6 +177,8 @@ const ELLIPSOID: Vec3 = Vec3::new(0.2, 0.12, 0.08);
 /// more than that along any face's.
 #[test]
 fn a_face_of_many_corners_is_searched_to_the_end() {
+    /// Of supports of a disc of a metre, in directions from roots, m.
+    const ROUNDING: f64 = 1e-13;
     let mut random = Random(71);
     let corners: Vec<Vec3> = (0..64)
         .map(|k| std::f64::consts::TAU * f64::from(k) / 64.0)
@@ -193,8 +195,8 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
         };
         let Some(contact) = ellipsoid_polyhedron(&e, &disc) else { continue };
         found += 1;
-        assert!((overlap(&e, &disc, &contact.normal) - contact.depth).abs() < 1e-13, "{e:?}: {contact:?}");
-        assert!(disc.faces.iter().all(|face| overlap(&e, &disc, &face.normal) > contact.depth - 1e-13));
+        assert!((overlap(&e, &disc, &contact.normal) - contact.depth).abs() < ROUNDING, "{e:?}: {contact:?}");
+        assert!(disc.faces.iter().all(|face| overlap(&e, &disc, &face.normal) > contact.depth - ROUNDING));
     }
 }
 

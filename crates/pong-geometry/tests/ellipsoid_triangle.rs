@@ -15,6 +15,9 @@ use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::primitive::{Ellipsoid, Sphere, TriangleSet};
 use pong_geometry::{Mat3, Vec3};
 
+/// Some units in the last place of depths of tenths of a metre, m.
+const ROUNDING: f64 = 1e-15;
+
 fn contacts(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleContact> {
     let mut found = Vec::new();
     for t in 0..set.triangles.len() as u32 {
@@ -161,7 +164,7 @@ fn a_face_beside_a_small_step_pushes_a_rod_that_reaches_below_the_step() {
         let found: Vec<_> =
             pushing(&rod, &set, 0.25).iter().map(|c| (c.interference.normal, c.interference.depth)).collect();
         assert!(
-            matches!(found[..], [(normal, depth)] if normal == Vec3::z() && (depth - 0.4 + z).abs() < 1e-15),
+            matches!(found[..], [(normal, depth)] if normal == Vec3::z() && (depth - 0.4 + z).abs() < ROUNDING),
             "{z}: {found:?}"
         );
     }
@@ -201,7 +204,7 @@ fn beside_a_free_edge_either_the_edge_or_the_face_pushes_a_rod() {
     let sideways = alone(0.1);
     assert!(sideways.normal.x > 0.9 && (0.14..0.15).contains(&sideways.depth), "{sideways:?}");
     let upwards = alone(0.0);
-    assert!(upwards.normal == Vec3::z() && (upwards.depth - 0.3).abs() < 1e-15, "{upwards:?}");
+    assert!(upwards.normal == Vec3::z() && (upwards.depth - 0.3).abs() < ROUNDING, "{upwards:?}");
 }
 
 #[test]
@@ -221,6 +224,9 @@ fn a_centre_on_an_edge_or_a_vertex_is_in_front() {
 /// Where the foot is on a convex edge, within rounding, the face or the edge has the contact.
 #[test]
 fn a_foot_on_a_convex_edge_is_not_lost() {
+    /// m; and what rounding makes of it, m, where centre and foot come from random axes.
+    const DEPTH: f64 = 1e-3;
+    const OF_PLACES: f64 = 1e-12;
     let mut random = Random(107);
     let cube = surface_of(&cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0)));
     let mut spare = 0;
@@ -233,9 +239,9 @@ fn a_foot_on_a_convex_edge_is_not_lost() {
         let deepest = e.axes
             * (e.axes.tr_mul(&Vec3::z()).component_mul(&e.semi_axes.component_mul(&e.semi_axes)))
             / -e.half_width(&Vec3::z());
-        let lowered = Vec3::new(1.0, random.between(-0.5, 0.5), 1.0 - 1e-3);
+        let lowered = Vec3::new(1.0, random.between(-0.5, 0.5), 1.0 - DEPTH);
         let found = contacts(&Ellipsoid { center: lowered - deepest, ..e }, &cube, 0.0);
-        assert!(found.iter().any(|c| (c.interference.depth - 1e-3).abs() < 1e-12), "{e:?}: {found:?}");
+        assert!(found.iter().any(|c| (c.interference.depth - DEPTH).abs() < OF_PLACES), "{e:?}: {found:?}");
         spare += usize::from(found.iter().all(|c| c.standing == Standing::Spare));
     }
     println!("{spare} held by a spare contact alone");

@@ -75,7 +75,7 @@ impl Csv {
         let world = built.simulation.world();
         let look = Look::new(world)?;
         let tables = CsvTables::create(folder, look.run(), built.ledger)?;
-        let accounts = built.ledger.then(|| AccountsTable::create(folder, world, look.run())).transpose()?;
+        let accounts = built.ledger.then(|| AccountsTable::create(folder, &look)).transpose()?;
         Ok(Self { look, tables, accounts, frame: Frame::default() })
     }
 

@@ -113,10 +113,11 @@ fn is_triangles_face(contact: &Found) -> bool {
 
 /// Whether the triangles of two contacts meet convexly in an edge.
 fn meet_in_an_edge(contact: &Found, other: &Found, triangles: &TriangleSet) -> bool {
-    let view = TriangleView::new(triangles, contact.element_b);
-    (0..3).any(|k| match view.classify_edge(triangles, k) {
-        EdgeClass::Convex { neighbor, .. } => neighbor == other.element_b,
-        EdgeClass::Free | EdgeClass::Silent { .. } => false,
+    let neighbors = &triangles.triangles[contact.element_b as usize].neighbors;
+    let edge = neighbors.iter().position(|neighbor| *neighbor == other.element_b);
+    edge.is_some_and(|k| {
+        let view = TriangleView::new(triangles, contact.element_b);
+        matches!(view.classify_edge(triangles, k), EdgeClass::Convex { .. })
     })
 }
 

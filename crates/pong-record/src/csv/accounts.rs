@@ -1,9 +1,9 @@
 //! The energy accounts of a run as CSV.
 
+use super::Look;
 use super::table::{Table, quoted};
 use crate::error::LogError;
-use crate::run::Run;
-use pong_engine::{EngineError, InterfaceId, World};
+use pong_engine::{InterfaceId, World};
 use std::path::Path;
 
 const ACCOUNTS: &str = "time_s,a,b,taken_j,returned_j,put_in_j,made_j,stored_j,damping_loss_j,friction_loss_j,\
@@ -21,13 +21,12 @@ impl AccountsTable {
     /// Begins the file in a folder, which is made if it is not there.
     ///
     /// # Errors
-    /// A folder that cannot be written; a world that is not the one of `run`.
-    pub fn create(folder: &Path, world: &World, run: &Run) -> Result<Self, LogError> {
-        let interfaces = interfaces(world)?;
-        let names = run.bodies.iter().map(|body| quoted(&body.name));
+    /// A folder that cannot be written.
+    pub fn create(folder: &Path, look: &Look) -> Result<Self, LogError> {
+        let names = look.run().bodies.iter().map(|body| quoted(&body.name));
         Ok(Self {
             table: Table::create(folder, "accounts.csv", ACCOUNTS)?,
-            bodies: interfaces.into_iter().zip(names).collect(),
+            bodies: look.capture.bodies().iter().copied().zip(names).collect(),
         })
     }
 
@@ -62,13 +61,4 @@ impl AccountsTable {
     pub fn finish(self) -> Result<(), LogError> {
         self.table.finish()
     }
-}
-
-/// All movable groups, as a run lists them.
-fn interfaces(world: &World) -> Result<Vec<InterfaceId>, EngineError> {
-    let mut all = Vec::new();
-    for object in world.objects() {
-        all.extend(world.interfaces(object)?);
-    }
-    Ok(all)
 }

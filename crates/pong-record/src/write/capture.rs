@@ -37,6 +37,11 @@ impl Capture {
         Ok(capture)
     }
 
+    /// The movable groups, as a run lists them.
+    pub fn bodies(&self) -> &[InterfaceId] {
+        &self.bodies
+    }
+
     /// Bytes of a frame with so many contacts.
     pub fn size(&self, contacts: usize) -> usize {
         let energies = if self.energies { EnergyRow::SIZE } else { 0 };
