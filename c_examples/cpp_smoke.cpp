@@ -2,7 +2,7 @@
 //
 //     c++ -std=c++17 cpp_smoke.cpp -I../include -L../target/debug -lpong -o cpp_smoke
 
-#include <pong.hpp>
+#include <pong_cpp.hpp>
 
 #include <chrono>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Pong for C++17: pong.h with owners and exceptions. Thin: every call is one call of pong.h.
 
-#ifndef PONG_HPP
-#define PONG_HPP
+#ifndef PONG_CPP_HPP
+#define PONG_CPP_HPP
 
 #include "pong.h"
 
