@@ -79,7 +79,7 @@ def _shoot(path):
     scene = bpy.context.scene
     scene.render.dither_intensity = 0.0  # noise does not compress
     scene.render.image_settings.compression = 100
-    still(scene, path, 1)
+    still(scene, path, 1, caption=False)
     _slim(path)
 
 

@@ -127,7 +127,7 @@ def jaw(target):
     tubes("edges", part_lines(bpy.data.objects["jaw"]), MARKED, 0.7)
     label("ramp: 2 segments", (10, 15, 72), size_mm=5.0)
     label("catch: 2 segments", (-66, -15, 54), size_mm=5.0)
-    render.still(scene, target, 1)
+    render.still(scene, target, 1, caption=False)
 
 
 def part_lines(obj):
@@ -153,7 +153,7 @@ def tree(target):
     label("hook, movable: bound Obb", (14, 4, 74), BOUND, 6.5)
     label("its origin, on the hinge", (24, 0, 12), INK, 5.0)
     label("base: bound Aabb", (-66, -60, -50), BOUND, 6.5)
-    render.still(scene, target, 1)
+    render.still(scene, target, 1, caption=False)
 
 
 def exported(name):
@@ -187,7 +187,7 @@ def striker(target):
     balls("foot", feet, MARKED, 2.2)
     label("bar: a Polyhedron", (40, 40, 16), size_mm=6.5)
     label("feet: 8 Points", (10, 0, -64), size_mm=6.5)
-    render.still(scene, target, 1)
+    render.still(scene, target, 1, caption=False)
 
 
 def opening(target):
@@ -195,7 +195,7 @@ def opening(target):
     scene = stage(1000, 720)
     graphics()
     look((0, 0, 51), (0.9, -1.7, 0.6), 262)
-    render.still(scene, target, picture_at(scene, 0.30))
+    render.still(scene, target, picture_at(scene, 0.30), caption=False)
 
 
 def graphics():
@@ -222,7 +222,7 @@ def capture(target):
     for time_s in (0.20, 0.36, 0.50, 1.40):
         path = target.with_name(f".{target.stem}_{time_s}.png")
         caption = label(f"t = {time_s:.2f} s", (-24, 0, -17), size_mm=6.0)
-        render.still(scene, path, picture_at(scene, time_s))
+        render.still(scene, path, picture_at(scene, time_s), caption=False)
         bpy.data.objects.remove(caption)
         panels.append(pixels(path))
         path.unlink()

@@ -61,6 +61,8 @@ def _add_how_it_is_rendered(parser) -> None:
     parser.add_argument("--size", type=_size, default=(1280, 720), metavar="WxH", help="pixels; default 1280x720")
     parser.add_argument("--engine", choices=("workbench", "eevee", "cycles", "scene"), default="workbench",
                         help="default workbench; `scene` takes engine, size and samples from the graphics")
+    parser.add_argument("--no-caption", dest="caption", action="store_false",
+                        help="leave time, largest force and scale of the arrows out of the pictures")
     parser.add_argument("--samples", type=int, default=8, help="of eevee and cycles; default 8")
 
 
@@ -139,17 +141,19 @@ def _write(scene, log, made, given) -> None:
     from . import render
 
     if given.blend:
+        if given.engine != "scene":
+            render.show_colors()
         bpy.ops.wm.save_as_mainfile(filepath=str(given.blend.resolve()))
         print(given.blend)
     if given.still:
         at = given.at if given.at is not None else most_loaded(log, made)
         picture = int(np.argmin(np.abs(made.film.times - at)))
-        render.still(scene, given.still.resolve(), picture + 1)
+        render.still(scene, given.still.resolve(), picture + 1, given.caption)
         print(f"{given.still} t = {made.film.times[picture]:.4f} s")
     if given.frames:
-        print(render.frames(scene, given.frames.resolve()))
+        print(render.frames(scene, given.frames.resolve(), given.caption))
     if given.output:
-        print(render.movie(scene, given.output.resolve()))
+        print(render.movie(scene, given.output.resolve(), given.caption))
 
 
 def most_loaded(log, made) -> float:

@@ -45,7 +45,7 @@ def slots(log: Log, film: Film, seen: View, most: int = 64) -> Slots:
     for picture, row in enumerate(film.rows):
         contacts = _largest(log.contacts_of(int(row)), most)
         if len(contacts):
-            _fill(made, picture, contacts, _signs(owners, contacts)[:, None] * _forces(contacts), seen)
+            _fill(made, picture, contacts, _signs(owners, contacts)[:, None] * contact_forces(contacts), seen)
     return made
 
 
@@ -73,7 +73,8 @@ def _fill(made: Slots, picture: int, contacts: np.ndarray, forces: np.ndarray, s
     made.sticks[here] = contacts["sticks"] != 0
 
 
-def _forces(contacts: np.ndarray) -> np.ndarray:
+def contact_forces(contacts: np.ndarray) -> np.ndarray:
+    """Normal force and friction of each contact, N, (n, 3)."""
     return contacts["normal_force"][:, None] * contacts["normal"] + contacts["friction_force"]
 
 
@@ -93,7 +94,7 @@ def _largest(contacts: np.ndarray, most: int) -> np.ndarray:
     contacts = np.array(contacts)
     if len(contacts) <= most:
         return contacts
-    sizes = np.linalg.norm(_forces(contacts), axis=1)
+    sizes = np.linalg.norm(contact_forces(contacts), axis=1)
     return contacts[np.sort(np.argsort(-sizes, kind="stable")[:most])]
 
 
@@ -114,7 +115,7 @@ def largest_force(log: Log) -> float:
     largest = 0.0
     for begin in range(first, last, 65536):
         rows = log.contacts[begin:min(begin + 65536, last)]
-        largest = max(largest, float(np.linalg.norm(_forces(rows), axis=1).max(initial=0.0)))
+        largest = max(largest, float(np.linalg.norm(contact_forces(rows), axis=1).max(initial=0.0)))
     return largest
 
 

@@ -8,7 +8,12 @@ from pathlib import Path
 
 import bpy
 
+from . import captions
+
 BACKGROUND = (0.50, 0.53, 0.58)
+# Workbench's studio light is dim. The two suns of camera.py and the background light what faces them 1.6 times: that
+# is taken back, so that a colour comes out as it was given.
+EXPOSURE = {"workbench": 0.7, "lit": -0.7}
 
 
 @dataclass
@@ -35,16 +40,30 @@ def prepare(scene, picture: Picture) -> None:
         for node in scene.world.node_tree.nodes:
             if node.type == "BACKGROUND":  # what EEVEE and Cycles see
                 node.inputs["Color"].default_value = (*BACKGROUND, 1.0)
+    # Blender's own choice (AgX) fades colours; here they tell sticking from slipping, and one body from another.
+    scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
+    scene.view_settings.exposure = EXPOSURE["workbench" if picture.engine == "workbench" else "lit"]
     if picture.engine == "workbench":
         shading = scene.display.shading
         shading.light, shading.color_type = "STUDIO", "OBJECT"
         shading.show_shadows, shading.show_cavity = True, True
         scene.display.render_aa = "8"
-        scene.view_settings.view_transform, scene.view_settings.exposure = "Standard", 0.7
     elif picture.engine == "cycles":
         scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", picture.samples, False
     else:
         scene.eevee.taa_render_samples = picture.samples
+
+
+def show_colors() -> None:
+    """Lets solid 3D views show each object's own colour, which is where bodies, marks and arrows have theirs.
+
+    Blender's own choice is the material's, and all of them share one grey material.
+    """
+    for screen in bpy.data.screens:
+        for area in screen.areas:
+            for space in area.spaces:
+                if space.type == "VIEW_3D":
+                    space.shading.color_type = "OBJECT"
 
 
 def _engine(name: str) -> str:
@@ -61,31 +80,34 @@ class RenderFault(Exception):
     """A picture or film that cannot be made; the text names the file, the cause and the cure."""
 
 
-def still(scene, path: Path, frame: int) -> Path:
+def still(scene, path: Path, frame: int, caption: bool = True) -> Path:
     """One picture as PNG."""
     _check(path, ".png")
     scene.frame_set(frame)
     _as_png(scene)
     scene.render.filepath = str(path)
-    return _rendered(path, write_still=True, scene=scene.name)
+    with captions.shown(scene, caption):
+        return _rendered(path, write_still=True, scene=scene.name)
 
 
-def frames(scene, folder: Path) -> Path:
+def frames(scene, folder: Path, caption: bool = True) -> Path:
     """Every picture of the scene as `frame_0001.png` ... in a folder. Pictures of an earlier, longer film are taken away."""
     folder.mkdir(parents=True, exist_ok=True)
     for old in folder.glob("frame_[0-9][0-9][0-9][0-9]*.png"):
         old.unlink()
     _as_png(scene)
     scene.render.filepath = str(folder / "frame_")
-    _rendered(folder / f"frame_{scene.frame_end:04}.png", animation=True, scene=scene.name)
+    with captions.shown(scene, caption):
+        _rendered(folder / f"frame_{scene.frame_end:04}.png", animation=True, scene=scene.name)
     return folder
 
 
-def movie(scene, path: Path) -> Path:
+def movie(scene, path: Path, caption: bool = True) -> Path:
     """The whole scene as an mp4 film (H.264)."""
     _check(path, ".mp4")
     as_film(scene, path)
-    return _rendered(path, animation=True, scene=scene.name)
+    with captions.shown(scene, caption):
+        return _rendered(path, animation=True, scene=scene.name)
 
 
 def as_film(scene, path: Path) -> None:

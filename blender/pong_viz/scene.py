@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
-from . import shapes
+from . import captions, shapes
 from .animate import is_ours
 from .bodies import show_bodies
 from .camera import frame_camera
@@ -89,6 +89,7 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     slots = show_contacts(stage, shown)
     scene.render.fps, scene.render.fps_base = options.fps, 1.0
     scene.frame_start, scene.frame_end = 1, len(pictures.times)
+    captions.keep(scene, log, pictures, shown.metres_per_newton)
     scene.frame_set(1)
     if options.camera:
         points = np.concatenate([slots.points[slots.shown], slots.tips(shown.metres_per_newton)])

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """File > Import > Pong response log, its panel, and pictures and films from there."""
 
+import json
 from pathlib import Path
 
 import bpy
@@ -11,6 +12,9 @@ from . import render
 from .graphics import PROPERTY
 from .log import Log, LogError
 from .scene import Options, show
+
+
+_SECONDS = {"subtype": "TIME_ABSOLUTE", "unit": "TIME_ABSOLUTE", "precision": 4}
 
 
 class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
@@ -25,8 +29,8 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
     fps: IntProperty(name="Pictures per second", default=30, min=1)
     speed: FloatProperty(name="Speed", description="0.1: ten times slower than life", default=1.0, min=1e-6)
     part: BoolProperty(name="A part of the run", description="Only from one instant to another", default=False)
-    start: FloatProperty(name="From", description="s in the log", default=0.0)
-    end: FloatProperty(name="To", description="s in the log", default=1.0)
+    start: FloatProperty(name="From", description="Time in the log", default=0.0, **_SECONDS)
+    end: FloatProperty(name="To", description="Time in the log", default=1.0, **_SECONDS)
     relative_to: StringProperty(name="Hold still", description="Body that the view follows; empty for the common frame")
     shapes: EnumProperty(name="Shapes", default="missing", items=(
         ("missing", "Where there are no graphics", "Draw the primitives of bodies without an object of their own"),
@@ -34,22 +38,26 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
         ("all", "All", "Draw the primitives of every body"),
         ("none", "None", "Draw no primitives"),
     ))
-    arrow_length: FloatProperty(name="Arrow", description="Length for the largest force, m; 0 chooses", default=0.0, min=0.0)
+    arrow_length: FloatProperty(name="Arrow, m", description="Length for the largest force; 0 chooses", default=0.0, min=0.0,
+                                precision=4)
     most_contacts: IntProperty(name="Contacts", description="Shown at once", default=64, min=1)
     alpha: FloatProperty(name="Opacity", default=0.55, min=0.0, max=1.0)
     camera: BoolProperty(name="Camera and lights", description="Add a camera that has all in view, and two suns", default=True)
-    look: BoolProperty(name="Workbench", description="Render with Workbench, set so that colours and arrows are seen; "
-                       "else the scene's own settings stay", default=True)
+    look: BoolProperty(name="Workbench and object colors", description="Render with Workbench and let 3D views show the "
+                       "objects' own colors, so that bodies and arrows are told apart; else the scene's own settings stay",
+                       default=True)
 
     def execute(self, context):
         scene = context.scene
         if self.look:
             render.prepare(scene, render.Picture(scene.render.resolution_x, scene.render.resolution_y))
+            render.show_colors()
         try:
             made = show(Log(self.filepath), self._options(), scene)
         except (LogError, ValueError, OSError) as fault:
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
+        scene.pong_response_log = self.filepath
         for note in made.notes:
             self.report({"WARNING"}, note)
         scale = f"; 1 m of arrow is {1.0 / made.metres_per_newton:.4g} N" if made.metres_per_newton else "; nothing touches"
@@ -77,6 +85,8 @@ class PONG_OT_render_response(bpy.types.Operator):
         ("FRAMES", "Pictures", "A folder with a .png of each picture"),
         ("STILL", "Still", "One .png of the current picture"),
     ))
+    caption: BoolProperty(name="Caption", default=True,
+                          description="Write time, largest force and scale of the arrows into the pictures")
 
     @classmethod
     def poll(cls, context):
@@ -95,11 +105,11 @@ class PONG_OT_render_response(bpy.types.Operator):
         settings = render.kept(scene)
         try:
             if self.form == "FILM":
-                render.movie(scene, path)
+                render.movie(scene, path, self.caption)
             elif self.form == "FRAMES":
-                render.frames(scene, path)
+                render.frames(scene, path, self.caption)
             else:
-                render.still(scene, path, scene.frame_current)
+                render.still(scene, path, scene.frame_current, self.caption)
         except (render.RenderFault, OSError) as fault:
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
@@ -138,16 +148,46 @@ class _OfObject:
         return context.object is not None
 
 
+def bodies_of(path: str) -> list[str]:
+    """Names of the bodies of a log; none if it cannot be read."""
+    if not path:
+        return []
+    path = Path(bpy.path.abspath(path))
+    try:
+        run = json.loads((path / "run.json" if path.is_dir() else path).read_text(encoding="utf-8"))
+        return [str(body["name"]) for body in run["bodies"]]
+    except (OSError, ValueError, KeyError, TypeError):
+        return []
+
+
+def _search_body(_self, context, words):
+    """Bodies of the log whose names contain what was typed, with the objects that they move."""
+    moves = {item[PROPERTY]: item.name for item in context.scene.objects if PROPERTY in item}
+    found = [name for name in bodies_of(context.scene.pong_response_log) if words.lower() in name.lower()]
+    return [(name, f"moves {moves[name]}" if name in moves else "moves no object yet") for name in found]
+
+
 class PONG_OT_bind_body(_OfObject, bpy.types.Operator):
     """Let a body of the response move this object: its name is that in the log"""
 
     bl_idname = "pong.bind_body"
     bl_label = "Bind to a body"
 
-    body: StringProperty(name="Body", description="`object`, or `object/path of the group`; empty takes the object's name")
+    body: StringProperty(name="Body", description="`object`, or `object/path of the group`; empty takes the object's name",
+                         search=_search_body, search_options={"SUGGESTION"})
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
+
+    def draw(self, context):
+        column = self.layout.column()
+        column.prop(context.scene, "pong_response_log")
+        column.prop(self, "body")
+        path = context.scene.pong_response_log
+        if path and not bodies_of(path):
+            column.label(text="That log cannot be read: type the body's name", icon="ERROR")
+        elif not path:
+            column.label(text="With a log, its bodies are listed", icon="INFO")
 
     def execute(self, context):
         context.object[PROPERTY] = self.body or context.object.name
@@ -176,10 +216,13 @@ _CLASSES = (PONG_OT_import_response, PONG_OT_render_response, PONG_OT_bind_body,
 def register():
     for item in _CLASSES:
         bpy.utils.register_class(item)
+    bpy.types.Scene.pong_response_log = StringProperty(
+        name="Log", subtype="FILE_PATH", description="run.json of the response log, whose bodies are listed")
     bpy.types.TOPBAR_MT_file_import.append(_menu)
 
 
 def unregister():
     bpy.types.TOPBAR_MT_file_import.remove(_menu)
+    del bpy.types.Scene.pong_response_log
     for item in reversed(_CLASSES):
         bpy.utils.unregister_class(item)

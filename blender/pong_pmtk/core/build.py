@@ -9,6 +9,7 @@ from .build_groups import build_root
 from .build_primitives import Origin
 from .finding import Findings
 from .model import Model, Primitive
+from .same_place import check_same_place
 from .scene import Scene, check_scene, find_root
 from .snapshot import Snapshot, SnapshotObject
 from .surfaces import checked
@@ -40,6 +41,7 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
     surfaces, pairs = _tables(scene, top)
     group, origins, files = build_root(scene, top, surfaces)
     check_triangles(scene, group, origins)
+    check_same_place(scene, group, origins)
     settings = top.settings
     name = (settings.name if settings else "") or group.name
     model = Model(name, surfaces, group, pairs, settings.entry_memory if settings else True)

@@ -14,6 +14,7 @@ from .model import Primitive
 from .polygon import plane_of
 from .scene import Scene
 from .schema import RESPONSES
+from .size_check import check_size
 from .snapshot import Mesh, SnapshotObject
 from .transforms import Affine, Local
 
@@ -133,18 +134,21 @@ def _shapes(place: Place, surface: str | None) -> list[Shape]:
         return []
     mesh, evaluated = _mesh_of(place)
     name = mark.name or thing.name
+    parts: list[Shape] = []
     if mark.parts:
         from .parts import part_shapes
 
-        return part_shapes(place, mesh, evaluated, surface)
+        parts = part_shapes(place, mesh, evaluated, surface)
+        if not mark.kind:
+            return parts
     if mark.kind not in KINDS:
         rule, cause = ("unknown-kind", f'its kind is "{mark.kind}"') if mark.kind else ("no-kind", "it has no kind")
         cure = f"choose from: {', '.join(KINDS)}"
         place.findings.error(rule, place.where, cause, cure)
-        return []
+        return parts
     _misplaced_fields(place, mark)
     shape = Shape(place, name, mark.kind, surface, mesh, evaluated)
-    return [shape] if ready(shape) else []
+    return [shape, *parts] if ready(shape) else parts
 
 
 def _usable(place: Place) -> bool:
@@ -304,6 +308,8 @@ def _rays(shape: Shape):
     length = float(place.number("length"))
     if not (np.isfinite(length) and length > 0.0):
         shape.error("no-length", f"its length is {length}", "give it a length above zero")
+    else:
+        check_size(shape, [shape.mark.length])
     exact = place.unmoved("direction")
     direction = along / stretch if exact is None else np.asarray(exact)
     stretch = 1.0 if abs(stretch - 1.0) <= transforms.SCALE_TOLERANCE else stretch
@@ -337,6 +343,7 @@ def _sphere(shape: Shape):
         fix = "fit-sphere" if shape.mesh is not None else ""
         shape.error("no-radius", f"its radius is {radius}", "give it a radius above zero", fix=fix)
         return []
+    check_size(shape, np.full(3, shape.mark.radius))
     found = _semi_axes(shape, np.full(3, radius))
     if found is None:
         return []
@@ -358,6 +365,7 @@ def _ellipsoid(shape: Shape):
         cause = f"its semi-axes are {tuple(semi_axes.tolist())}"
         shape.error("no-semi-axes", cause, "give it three above zero", fix=fix)
         return []
+    check_size(shape, shape.mark.semi_axes)
     found = _semi_axes(shape, semi_axes)
     if found is None:
         return []

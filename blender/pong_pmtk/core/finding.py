@@ -32,14 +32,16 @@ class Finding:
 
 
 FIXES = {
-    "apply-scale": "apply the object's scale to its mesh",
+    "adopt-parts": "take the marked elements over as parts of the object",
+    "apply-scale": "apply the object's scale to its mesh and to the sizes of its mark",
     "apply-transform": "apply rotation and scale to the mesh",
     "clear-parent-inverse": "keep the place, clear the parent's inverse matrix",
     "convert-to-mesh": "convert the object to a mesh",
     "delete-loose": "delete vertices and edges without faces",
     "dissolve-degenerate": "dissolve edges and faces without extent",
-    "fit-ellipsoid": "fit the semi-axes to the mesh",
-    "fit-sphere": "fit the radius to the mesh",
+    "fit-ellipsoid": "make it an ellipsoid with the semi-axes of the mesh",
+    "fit-length": "take the length that is shown",
+    "fit-sphere": "take the radius that is shown",
     "leave-edit-mode": "leave edit mode",
     "make-instances-real": "make the instances real",
     "merge-by-distance": "merge vertices that are the same place",

@@ -92,7 +92,7 @@ class Mark:
     file_scale: float = 1.0  # metres in one unit of that file
     custom_kind: str = ""  # of a Custom primitive: the name it is registered by
     parameters: list[float] = field(default_factory=list)
-    parts: list[Part] = field(default_factory=list)  # instead of `kind`
+    parts: list[Part] = field(default_factory=list)  # besides what `kind` makes of the whole object; "" for parts alone
 
 
 @dataclass

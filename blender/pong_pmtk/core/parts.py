@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Parts: some vertices, edges or faces of a mesh as primitives of one kind."""
+"""Parts: some vertices, edges or faces of a mesh as primitives of one kind, with or without the whole of it."""
 
 from __future__ import annotations
 
@@ -24,10 +24,6 @@ ELEMENTS = {
 def part_shapes(place: Place, mesh: Mesh | None, evaluated: bool, surface: str | None) -> list[Shape]:
     """One shape for each part of an object whose parts make sense."""
     mark = place.thing.mark
-    if mark.kind:
-        cause = f"it has a kind ({mark.kind}) and parts as well"
-        place.findings.error("kind-and-parts", place.where, cause, "keep one of them")
-        return []
     if mesh is None:
         place.findings.error("needs-mesh", place.where, "an empty has no parts", "mark a mesh")
         return []

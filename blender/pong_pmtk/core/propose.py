@@ -74,17 +74,11 @@ def _one_face(vertices: np.ndarray, face: np.ndarray) -> list[Proposal]:
 
 def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
     """Spheres and ellipsoids whose axes are those of the object."""
-    if len(vertices) < ROUND_VERTICES:
-        return []
-    fitted = fit_ellipsoid(vertices)
+    middles = np.array([vertices[face].mean(axis=0) for face in faces])
+    fitted = round_fit(vertices, middles, ROUND_DEPTH) if len(vertices) >= ROUND_VERTICES else None
     if fitted is None:
         return []
-    center, axes = fitted
-    middles = np.array([vertices[face].mean(axis=0) for face in faces])
-    off = np.abs(np.sqrt((((vertices - center) / axes) ** 2).sum(axis=1)) - 1.0).max()
-    depth = np.sqrt((((middles - center) / axes) ** 2).sum(axis=1)).min()
-    if off > FIT_TOLERANCE or depth < ROUND_DEPTH:
-        return []
+    center, axes, _ = fitted
     size = float(axes.max())
     away = bool(np.sqrt(center @ center) > CENTER_TOLERANCE * size)
     note = "; its origin is not its centre and must be set there first" if away else ""
@@ -114,6 +108,20 @@ def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     center = -slopes / (2.0 * squares)
     level = 1.0 + (squares * center * center).sum()
     return middle + size * center, size * np.sqrt(level / squares)
+
+
+def round_fit(points: np.ndarray, middles: np.ndarray, depth: float) -> tuple[np.ndarray, np.ndarray, float] | None:
+    """Centre, semi-axes, and how far off any point is, as a share of the size; `None` for what is not round.
+
+    The middles of faces must come as near to the surface as `depth`: the corners of a prism lie on an ellipsoid too.
+    """
+    fitted = fit_ellipsoid(points)
+    if fitted is None:
+        return None
+    center, axes = fitted
+    off = float(np.abs(np.sqrt((((points - center) / axes) ** 2).sum(axis=1)) - 1.0).max())
+    deepest = np.sqrt((((middles - center) / axes) ** 2).sum(axis=1)).min() if len(middles) else 1.0
+    return (center, axes, off) if off <= FIT_TOLERANCE and deepest >= depth else None
 
 
 def fit_sphere(points: np.ndarray) -> float:

@@ -176,6 +176,12 @@ def check_object(scene: Scene, thing: SnapshotObject) -> None:
     if mark.version > VERSION:
         cause = f"its mark is of version {mark.version}, this toolkit knows up to {VERSION}"
         findings.error("mark-version", where, cause, "update the toolkit")
+    for part in thing.left_over:
+        elements = next(sort for sort in ("vertices", "edges", "faces") if getattr(part, sort))
+        cause = f"its mesh brought marks of another object along: {len(getattr(part, elements))} {elements} ({part.kind})"
+        cure = "take them over as a part, or remove their attribute of the mesh; its surface is to be given anew"
+        more = {elements: getattr(part, elements)}
+        findings.error("left-over-part", where, cause, cure, fix="adopt-parts", **more)
     marked = mark.role in ("root", "group", "primitive")
     if marked and thing.excluded:
         cure = "include its collection in the view layer, or unmark it"

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .marks import Mark, ModelSettings
+from .marks import Mark, ModelSettings, Part
 
 
 @dataclass
@@ -53,6 +53,8 @@ class SnapshotObject:
     mesh: Mesh | None = None  # after modifiers, if they are applied
     stored_mesh: Mesh | None = None  # before modifiers, where they change anything
     modifiers: list[str] = field(default_factory=list)
+    left_over: list[Part] = field(default_factory=list)  # marked elements of its mesh that no part of it names
+    display_size: float | None = None  # of an empty
     shape_keys: int = 0
     constraints: list[str] = field(default_factory=list)  # those that are switched on
     animated: bool = False

@@ -113,11 +113,67 @@ class PONG_OT_finding_fix(OnFinding, bpy.types.Operator):
         except (fixes.FixFault, ValueError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        context.view_layer.update()
-        again = session.check(context, state(context).checked)
-        keep_findings(context, again.findings, again.name)
+        again = _check_again(context)
         self.report({"INFO"}, f"{obj.name}: {FIXES.get(name, name)}. {again.summary()}")
         return {"FINISHED"}
+
+
+class PONG_OT_findings_fix(OnFinding, bpy.types.Operator):
+    """Make the repairs of all findings, or of all of one kind, and check again"""
+
+    bl_idname = "pong.findings_fix"
+    bl_label = "Fix All"
+    bl_options = {"REGISTER", "UNDO"}
+
+    rule: bpy.props.StringProperty(name="Rule", description="Only findings of this rule. Empty: all that offer a repair")
+
+    @classmethod
+    def description(cls, _context, properties):
+        which = f"every finding [{properties.rule}]" if properties.rule else "every finding that offers one"
+        return f"Make the repair of {which}, and check again"
+
+    def execute(self, context):
+        made, refused, tried = 0, [], set()
+        while (finding := self._next(context, tried)) is not None:
+            name, obj = finding.fix, culprit(context, finding.object)
+            tried.add((finding.object, finding.path, finding.rule))
+            try:
+                fixes.run(context, name, obj)
+                made += 1
+            except (fixes.FixFault, ValueError) as error:
+                refused.append(str(error))
+                continue
+            # One repair may mend, move or rename what other findings are about.
+            _check_again(context)
+        if not made and not refused:
+            self.report({"ERROR"}, "There is nothing to repair here: no such finding offers a repair")
+            return {"CANCELLED"}
+        told = f"{made} repair{'s' * (made != 1)} made"
+        for reason in refused:
+            self.report({"WARNING"}, f"Not repaired: {reason}")
+        self.report({"INFO"}, f"{told}. {summary(context)}")
+        return {"FINISHED"}
+
+    def _next(self, context, tried):
+        for finding in state(context).findings:
+            wanted = finding.fix in fixes.REPAIRS and self.rule in ("", finding.rule)
+            is_new = (finding.object, finding.path, finding.rule) not in tried
+            if wanted and is_new and culprit(context, finding.object) is not None:
+                return finding
+        return None
+
+
+def _check_again(context):
+    context.view_layer.update()
+    again = session.check(context, state(context).checked)
+    keep_findings(context, again.findings, again.name)
+    return again
+
+
+def summary(context):
+    """What is left of the findings."""
+    left = state(context).findings
+    return f"{len(left)} finding{'s' * (len(left) != 1)} left" if len(left) else "Nothing is left to find fault with"
 
 
 class PONG_OT_fix(bpy.types.Operator):
@@ -163,4 +219,4 @@ class PONG_OT_findings_copy(bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (PONG_OT_check, PONG_OT_finding_select, PONG_OT_finding_fix, PONG_OT_fix, PONG_OT_findings_copy)
+CLASSES = (PONG_OT_check, PONG_OT_finding_select, PONG_OT_finding_fix, PONG_OT_findings_fix, PONG_OT_fix, PONG_OT_findings_copy)

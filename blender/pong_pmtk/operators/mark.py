@@ -25,12 +25,12 @@ class PONG_OT_mark(Selection, bpy.types.Operator):
     def execute(self, context):
         told = []
         for obj in selected(context):
-            proposed = proposal.of_object(obj)
+            proposed = proposal.of_object(context, obj)
             kind = proposed.kind if self.kind == "PROPOSE" else self.kind
             if not kind:
                 self.report({"WARNING"}, f"{obj.name}: {proposed.reason}; choose a kind")
                 continue
-            _mark(obj, kind)
+            _mark(context, obj, kind)
             if self.surface:
                 obj.pong.surface = self.surface
             told.append(f"{obj.name}: {kind}" + (f" ({proposed.reason})" if self.kind == "PROPOSE" else ""))
@@ -40,10 +40,10 @@ class PONG_OT_mark(Selection, bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _mark(obj, kind):
+def _mark(context, obj, kind):
     obj.pong.role, obj.pong.kind, obj.pong.version = "primitive", kind, VERSION
     given = marks.read_numbers(obj)
-    marks.write_numbers(obj, {name: value for name, value in proposal.sizes(obj, kind).items() if name not in given})
+    marks.write_numbers(obj, {name: value for name, value in proposal.sizes(context, obj, kind).items() if name not in given})
 
 
 class PONG_OT_unmark(Selection, bpy.types.Operator):
@@ -143,7 +143,7 @@ class PONG_OT_mark_inactive(Edited, bpy.types.Operator):
     def execute(self, context):
         for obj in edited_meshes(context):
             if not obj.pong.inactive:
-                obj.pong.inactive = elements.new_attribute(obj.data, "inactive")
+                obj.pong.inactive = elements.new_attribute(elements.INACTIVE)
             chosen = elements.selected(obj.data, "faces")
             elements.mark(obj.data, obj.pong.inactive, "faces", chosen, 0 if self.active else 1)
         return {"FINISHED"}

@@ -5,6 +5,7 @@ import bpy
 
 from ..core.model import Tagged
 from ..store import presets, spec
+from ..store.changes import changed
 from ..store.references import current_root, tree, unique_name
 from ..store.surfaces import add_pair, add_surface
 from .targets import OnPart, Selection, selected
@@ -30,7 +31,7 @@ class PONG_OT_surface_add(OnModel, bpy.types.Operator):
     bl_label = "Add Surface"
 
     name: bpy.props.StringProperty(name="Name", default="surface")
-    stiffness: bpy.props.FloatProperty(name="Stiffness", default=1e6, min=0.0, description="N/m")
+    stiffness: bpy.props.FloatProperty(name="Stiffness, N/m", default=1e6, min=0.0, precision=1)
 
     def execute(self, context):
         settings = current_root(context).pong_model
@@ -59,6 +60,7 @@ class PONG_OT_surface_remove(OnModel, bpy.types.Operator):
             return {"CANCELLED"}
         settings.surfaces.remove(index)
         settings.active_surface = max(0, index - 1)
+        changed()
         return {"FINISHED"}
 
 
@@ -133,6 +135,7 @@ class PONG_OT_pair_remove(OnModel, bpy.types.Operator):
             return {"CANCELLED"}
         settings.pairs.remove(min(settings.active_pair, len(settings.pairs) - 1))
         settings.active_pair = max(0, settings.active_pair - 1)
+        changed()
         return {"FINISHED"}
 
 

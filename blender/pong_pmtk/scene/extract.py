@@ -55,7 +55,7 @@ def _flush_edited(scene):
 
 def _edited_with_modifiers(scene):
     """An object whose modifiers cannot be trusted, because Edit Mode shows only some of them."""
-    edited = [obj.name for obj in scene.objects if obj.mode == "EDIT" and _modifiers(obj)]
+    edited = [obj.name for obj in scene.objects if obj.mode == "EDIT" and modifiers(obj)]
     return edited[0] if edited else ""
 
 
@@ -72,7 +72,7 @@ class Reader:
         parented = obj.parent is not None
         excluded = obj.name not in self.included
         hidden = not excluded and not obj.visible_get(view_layer=self.view_layer)
-        mesh, stored = self._meshes(obj)
+        mesh, stored = self.meshes(obj)
         return SnapshotObject(
             name=obj.name,
             type=obj.type,
@@ -83,7 +83,9 @@ class Reader:
             settings=marks.read_settings(obj) if obj.pong.role == "root" else None,
             mesh=mesh,
             stored_mesh=stored,
-            modifiers=_modifiers(obj),
+            modifiers=modifiers(obj),
+            left_over=[part for _, part in marks.left_over(obj)] if obj.type == "MESH" else [],
+            display_size=obj.empty_display_size if obj.type == "EMPTY" else None,
             shape_keys=_shape_keys(obj),
             constraints=[constraint.name for constraint in obj.constraints if _acts(constraint)],
             animated=any(_animated(data) for data in _animatable(obj)),
@@ -95,13 +97,13 @@ class Reader:
             exact={**exact.read(obj), **{name: np.array(value) for name, value in marks.read_numbers(obj).items()}},
         )
 
-    def _meshes(self, obj):
+    def meshes(self, obj):
         """The mesh after modifiers and, where they change anything, before. Hidden objects are not evaluated."""
         if obj.type not in GEOMETRY:
             return None, None
         stored = meshes.read(obj.data) if obj.type == "MESH" else None
         shown = obj.evaluated_get(self.depsgraph)
-        if stored is not None and not (shown.is_evaluated and (_modifiers(obj) or _shape_keys(obj))):
+        if stored is not None and not (shown.is_evaluated and (modifiers(obj) or _shape_keys(obj))):
             return stored, None
         return (self._evaluated(shown) if shown.is_evaluated else None), stored
 
@@ -137,7 +139,7 @@ def transform(obj):
     )
 
 
-def _modifiers(obj):
+def modifiers(obj):
     return [modifier.name for modifier in obj.modifiers if modifier.show_viewport]
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.exact import meant, meant_rows
-from ..core.transforms import frame_of, local_transform, matrix_quaternion
+from ..core.marks import VERSION
+from ..core.transforms import SCALE_TOLERANCE, frame_of, local_transform, matrix_quaternion
 from ..store import exact, marks
 from ..store.references import select_only, siblings, unique_name
 from . import extract, meshes, proposal
@@ -120,20 +121,51 @@ def _keep_children(obj, linear, offset):
 
 
 def apply_scale(context, obj):
-    """Scale goes into the mesh, or into the children of an empty."""
+    """Scale goes into the mesh, or into the children of an empty, and into the sizes of the mark."""
     scale = local_transform(_facts(context, obj)).scale
+    sizes = _scaled_sizes(obj, np.diag(scale))
     _apply(obj, np.diag(scale))
+    _resize(obj, sizes)
     obj.scale, obj.delta_scale = (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
     _forget(obj, "scale")
 
 
 def apply_transform(context, obj):
-    """Rotation and scale go into the mesh, or into the children of an empty."""
+    """Rotation and scale go into the mesh, or into the children of an empty, and into the sizes of the mark."""
     local = local_transform(_facts(context, obj))
+    sizes = _scaled_sizes(obj, local.rotation * local.scale)
     _apply(obj, local.rotation * local.scale)
+    _resize(obj, sizes)
     obj.scale, obj.delta_scale = (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
     _set_quaternion(obj, (1.0, 0.0, 0.0, 0.0))
     _forget(obj, "scale", "rotation")
+
+
+def _scaled_sizes(obj, linear):
+    """(kind, numbers) of a mark after its object's transform went into it; raises `FixFault` where no mark can say that."""
+    kind = obj.pong.kind if obj.pong.role == "primitive" else ""
+    on_empty = obj.type == "EMPTY"
+    if kind not in ("Sphere", "Ellipsoid") and not (on_empty and kind in ("Ray", "Plane")):
+        return None
+    numbers, lengths = marks.read_numbers(obj), np.sqrt((linear * linear).sum(axis=0))
+    even = np.ptp(lengths) <= SCALE_TOLERANCE * lengths.max()
+    if kind == "Sphere" and even:
+        return kind, {"radius": numbers.get("radius", 0.0) * float(lengths[0])}
+    turned = np.abs(linear - np.diag(np.diag(linear))).max() > SCALE_TOLERANCE * lengths.max()
+    if turned or on_empty and kind in ("Ray", "Plane") and linear[2, 2] < 0.0:
+        raise FixFault(f"the {kind.lower()} of {obj.name} lies along its axes: turning or mirroring it cannot be applied")
+    if kind == "Ray":
+        return kind, {"length": numbers.get("length", 0.0) * float(lengths[2])}
+    if kind == "Plane":
+        return None
+    axes = (numbers.get("radius", 0.0),) * 3 if kind == "Sphere" else numbers.get("semi_axes", (0.0,) * 3)
+    return "Ellipsoid", {"semi_axes": tuple(float(axis) for axis in axes * lengths)}
+
+
+def _resize(obj, sizes):
+    if sizes is not None:
+        obj.pong.kind, values = sizes
+        marks.write_numbers(obj, values)
 
 
 def _apply(obj, linear):
@@ -189,15 +221,23 @@ def set_origin(context, obj):
 
 
 def fit(kind):
-    """Sizes of a sphere or ellipsoid from the mesh."""
+    """Makes it a sphere, ellipsoid or ray of the size that is shown."""
 
-    def repair(_context, obj):
-        sizes = proposal.sizes(obj, kind)
+    def repair(context, obj):
+        sizes = proposal.sizes(context, obj, kind)
         if not sizes:
-            raise FixFault(f"{obj.name} has no vertices to fit a {kind.lower()} to")
+            raise FixFault(f"{obj.name} has no vertices to fit a {kind.lower()} to, or is hidden")
+        obj.pong.kind = kind
         marks.write_numbers(obj, sizes)
 
     return repair
+
+
+def adopt_parts(context, obj):
+    """Parts of what objects that were joined have left."""
+    if obj.pong.role == "none":
+        obj.pong.role, obj.pong.version = "primitive", VERSION
+    marks.adopt(obj, {part.name for sibling in siblings(obj, context.scene) for part in sibling.pong.parts})
 
 
 def rename(_context, obj):
@@ -272,6 +312,7 @@ def separate_loose(context, obj):
 
 
 REPAIRS = {
+    "adopt-parts": adopt_parts,
     "apply-scale": apply_scale,
     "apply-transform": apply_transform,
     "clear-parent-inverse": clear_parent_inverse,
@@ -279,6 +320,7 @@ REPAIRS = {
     "delete-loose": delete_loose,
     "dissolve-degenerate": dissolve_degenerate,
     "fit-ellipsoid": fit("Ellipsoid"),
+    "fit-length": fit("Ray"),
     "fit-sphere": fit("Sphere"),
     "flip-normals": flip_normals,
     "leave-edit-mode": leave_edit_mode,

@@ -43,7 +43,8 @@ def _object(facts, collection):
 
 def _shape(obj, mark):
     obj.empty_display_type = EMPTY_SHAPES_BY_KIND.get(mark.kind, EMPTY_SHAPES.get(mark.role, "PLAIN_AXES"))
-    obj.empty_display_size = max(mark.radius, mark.length) or 0.1
+    obj.empty_display_size = 0.1
+    marks.show_size(obj)
 
 
 def _place(obj, facts, made):

@@ -52,6 +52,7 @@ def fill(mesh, source):
     _set_attribute(mesh, ".corner_vert", "value", loops)
     _set_attribute(mesh, ".corner_edge", "value", loop_edges)
     mesh.polygons.foreach_set("loop_start", starts[:-1])
+    mesh.shade_flat()  # faces are what touches: they are to be seen as they are
     mesh.update()
 
 

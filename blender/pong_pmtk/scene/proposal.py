@@ -5,21 +5,34 @@ from ..core.marks import Mark
 from ..core.propose import Proposal, fit_ellipsoid, fit_sphere, propose
 from ..core.snapshot import SnapshotObject
 from ..store import exact
-from . import meshes
+from . import extract
 
 OF_EMPTIES = {"SPHERE": "Sphere", "SINGLE_ARROW": "Ray", "CIRCLE": "Plane"}
 
 
-def of_object(obj):
+def of_object(context, obj):
     """The kind an object looks like; "" with the reason where it can be none."""
     if obj.type == "EMPTY" and obj.empty_display_type in OF_EMPTIES:
         return Proposal(OF_EMPTIES[obj.empty_display_type], "an empty that is shown like this")
-    mesh = meshes.read(obj.data) if obj.type == "MESH" else None
+    mesh = _shown_mesh(context, obj)
     found = propose(SnapshotObject(obj.name, obj.type, mark=Mark(), mesh=mesh, exact=exact.read(obj)))
     if found:
         return found[0]
-    is_empty = obj.type == "MESH"
-    return Proposal("", "it has no vertices" if is_empty else f"it is a {obj.type.lower()}: convert it to a mesh first")
+    if obj.type != "MESH":
+        return Proposal("", f"it is a {obj.type.lower()}: convert it to a mesh first")
+    return Proposal("", "it has no vertices" if mesh else "it is hidden, so its modifiers are not worked out: show it")
+
+
+def _shown_mesh(context, obj):
+    """The mesh that would be exported: after its modifiers. None if there is none to see."""
+    if obj.type != "MESH":
+        return None
+    if obj.mode == "EDIT":
+        obj.update_from_editmode()
+    depsgraph = context.evaluated_depsgraph_get()
+    if extract.modifiers(obj) and not obj.evaluated_get(depsgraph).is_evaluated:
+        return None
+    return extract.Reader(depsgraph, context.view_layer).meshes(obj)[0]
 
 
 def of_elements(select_mode):
@@ -28,12 +41,13 @@ def of_elements(select_mode):
     return "Point" if vertices else "LineSegment" if edges else "TriangleMesh"
 
 
-def sizes(obj, kind):
+def sizes(context, obj, kind):
     """The numbers of a mark of some kind that follow from how the object looks, in its own coordinates."""
     if kind not in ("Sphere", "Ellipsoid", "Ray"):
         return {}
     if obj.type == "MESH" and kind != "Ray":
-        return _fitted(meshes.read(obj.data).vertices, kind)
+        mesh = _shown_mesh(context, obj)
+        return _fitted(mesh.vertices, kind) if mesh is not None else {}
     size = float(f"{obj.empty_display_size:.7g}") if obj.type == "EMPTY" else 1.0
     return {"Sphere": {"radius": size}, "Ellipsoid": {"semi_axes": (size,) * 3}, "Ray": {"length": size}}[kind]
 

@@ -6,10 +6,15 @@ attributes are kept with the object, because objects may share a mesh. Whole num
 access to truth values in Edit Mode.
 """
 
+import re
+import uuid
+
 import bmesh
 import numpy as np
 
 PREFIX = "pong_"
+NAME = re.compile(PREFIX + r"(\w+)_([0-9a-f]+)_([vef])")  # as new_attribute makes them, with the elements behind
+INACTIVE = "inactive"  # stem of what marks inactive faces; other stems are kinds of parts
 DOMAINS = {"vertices": "POINT", "edges": "EDGE", "faces": "FACE"}
 
 
@@ -18,21 +23,21 @@ def domain_of(kind):
     return {"Point": "vertices", "LineSegment": "edges", "Ray": "edges"}.get(kind, "faces")
 
 
-def new_attribute(mesh, stem):
-    """A name for an attribute that the mesh does not have yet."""
-    number = 1
-    while any(f"{PREFIX}{stem}_{number}{suffix}" in _names(mesh) for suffix in ("", "_v", "_e", "_f")):
-        number += 1
-    return f"{PREFIX}{stem}_{number}"
+def new_attribute(stem):
+    """A name for an attribute that no other mesh has, in whatever file: joined meshes merge attributes of one name."""
+    return f"{PREFIX}{stem}_{uuid.uuid4().hex[:12]}"
 
 
-def _names(mesh):
-    names = {attribute.name for attribute in mesh.attributes}
+def attributes(mesh):
+    """(name, elements, stem) of every attribute of the toolkit that a mesh has."""
     if mesh.is_editmode:
         edited = bmesh.from_edit_mesh(mesh)
-        for sequence in (edited.verts, edited.edges, edited.faces):
-            names.update(sequence.layers.int.keys())
-    return names
+        names = [name for sort in DOMAINS for name in _sequence(edited, sort).layers.int.keys()]
+    else:
+        names = mesh.attributes.keys()
+    sorts = {sort[0]: sort for sort in DOMAINS}
+    found = [(name, NAME.fullmatch(name)) for name in names]
+    return [(f"{PREFIX}{is_ours[1]}_{is_ours[2]}", sorts[is_ours[3]], is_ours[1]) for _, is_ours in found if is_ours]
 
 
 def _full_name(name, elements):

@@ -9,6 +9,8 @@ import bpy
 
 from ..core.marks import KINDS, VERSION, Mark, ModelSettings, Part
 from . import elements, numbers, spec, surfaces
+from .changes import changed, watched
+from .references import unique_name
 
 ROLES = [
     ("none", "None", "The engine does not see this object, but what hangs below it"),
@@ -34,8 +36,28 @@ BOUND_ITEMS = [
     ("Obb", "Oriented Box", "Box that fits best"),
     ("Above", "None", "No volume of its own: what it holds counts to the group above"),
 ]
+# Blender shows lengths in the scene's unit, and leaves zeros at the end out: 0.25 mm.
+LENGTH = {"subtype": "DISTANCE", "unit": "LENGTH", "min": 0.0, "precision": 6}
 
 
+def shown_size(mark):
+    """The display size of an empty that shows a mark of its kind; None where a display size means nothing."""
+    sizes = {"Sphere": mark.radius, "Ellipsoid": max(mark.semi_axes), "Ray": mark.length}
+    return sizes.get(mark.kind) or None
+
+
+def show_size(obj):
+    """Gives an empty the size of its mark, so that scaling it can be told from its mark."""
+    size = shown_size(obj.pong) if obj.type == "EMPTY" else None
+    if size is not None:
+        obj.empty_display_size = size
+
+
+def _show_size(mark):
+    show_size(mark.id_data)
+
+
+@watched
 class PONG_PG_part(bpy.types.PropertyGroup):
     """Some elements of a mesh as primitives of one kind."""
 
@@ -45,6 +67,7 @@ class PONG_PG_part(bpy.types.PropertyGroup):
     attribute: bpy.props.StringProperty(options={"HIDDEN"})  # of the mesh
 
 
+@watched
 class PONG_PG_mark(bpy.types.PropertyGroup):
     """What one object is to the engine; core/marks.py says what a kind takes from its object."""
 
@@ -58,22 +81,22 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
     leaf_size: bpy.props.IntProperty(name="Leaf Size", min=0, description="Most elements of a leaf. 0: no limit")
     order: bpy.props.IntProperty(name="Order", min=0, description="Place among siblings, from 1. 0: behind, by name")
     kind: bpy.props.EnumProperty(name="Kind", items=KIND_ITEMS)
-    radius: numbers.number("radius_64", name="Radius", min=0.0, precision=4)
-    semi_axes: numbers.vector("semi_axes_64", name="Semi-axes", min=0.0, precision=4)
-    length: numbers.number("length_64", name="Length", min=0.0, precision=4, description="Free length of the plunger")
+    radius: numbers.number("radius_64", name="Radius", shown=_show_size, **LENGTH)
+    semi_axes: numbers.vector("semi_axes_64", name="Semi-axes", shown=_show_size,
+                              **{**LENGTH, "subtype": "XYZ_LENGTH"})
+    length: numbers.number("length_64", name="Length", description="Free length of the plunger", shown=_show_size, **LENGTH)
     use_reach: numbers.given("reach_64", name="Reach")
-    reach: numbers.number("reach_64", name="Reach", min=0.0, precision=4,
-                          description="How far behind the origin a surface is still hit, m")
+    reach: numbers.number("reach_64", name="Reach", description="How far behind the origin a surface is still hit", **LENGTH)
     response: bpy.props.EnumProperty(name="Response", items=[
         ("Normal", "Normal", "The force acts along the surface's normal"),
         ("Axial", "Axial", "The force acts along the ray")])
     use_thickness: numbers.given("thickness_64", default=0.01, name="Thickness")
-    thickness: numbers.number("thickness_64", name="Thickness", min=0.0, precision=4,
-                              description="How far behind its front a triangle still pushes forward, m")
+    thickness: numbers.number("thickness_64", name="Thickness",
+                              description="How far behind its front a triangle still pushes forward", **LENGTH)
     two_sided: bpy.props.BoolProperty(name="Two-sided", description="Two surfaces back to back")
     inactive: bpy.props.StringProperty(options={"HIDDEN"})  # attribute of the mesh
     file: bpy.props.StringProperty(name="File", description="Write the mesh to this OBJ or STL file beside the model")
-    file_scale: numbers.number("file_scale_64", default=1.0, name="File Scale", min=0.0,
+    file_scale: numbers.number("file_scale_64", default=1.0, name="File Scale", min=0.0, precision=6,
                                description="Metres in one unit of that file")
     custom_kind: bpy.props.StringProperty(name="Registered As", description="Kind that is registered with the engine")
     parameters: numbers.listed("parameters_64", name="Parameters")
@@ -81,6 +104,7 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
     active_part: bpy.props.IntProperty()
 
 
+@watched
 class PONG_PG_model(bpy.types.PropertyGroup):
     """What belongs to a whole model; of its root."""
 
@@ -139,6 +163,8 @@ def write_numbers(obj, values):
             obj.pong.pop(key, None)
         else:
             obj.pong[key] = [float(item) for item in value] if field in LISTS else float(value)
+    show_size(obj)
+    changed()
 
 
 DEFAULTS = Mark()
@@ -153,6 +179,37 @@ def _part(mesh, part):
     return Part(name=part.name, kind=_kind(part), surface=part.surface, **chosen)
 
 
+def left_over(obj):
+    """(attribute, part) of marked elements that no object of the mesh names: those of objects that were joined to it."""
+    mesh = obj.data
+    users = [obj] if mesh.users <= 1 else [other for other in bpy.data.objects if other.data == mesh]
+    named = {name for user in users for name in (user.pong.inactive, *(part.attribute for part in user.pong.parts))}
+    found = []
+    for attribute, sort, stem in elements.attributes(mesh):
+        chosen = elements.indices(mesh, attribute, sort) if attribute not in named else []
+        if chosen:
+            found.append((attribute, Part(name=stem.lower(), kind=stem, **{sort: chosen})))
+    return found
+
+
+def adopt(obj, taken):
+    """Makes parts (or inactive faces) of what objects that were joined have left; `taken` are names of parts."""
+    group = obj.pong
+    for attribute, part in left_over(obj):
+        if part.kind == elements.INACTIVE:
+            group.inactive = group.inactive or attribute
+            if group.inactive != attribute:
+                elements.mark(obj.data, group.inactive, "faces", part.faces)
+                elements.forget(obj.data, attribute)
+            continue
+        made = group.parts.add()
+        made.name = unique_name(part.name, taken)
+        made.kind = part.kind if part.kind in KINDS else "NONE"
+        made.attribute = attribute
+        taken.add(made.name)
+    changed()
+
+
 def write_mark(obj, mark):
     """Gives an object a mark."""
     group = obj.pong
@@ -164,7 +221,7 @@ def write_mark(obj, mark):
         setattr(group, field, getattr(mark, field))
     write_numbers(obj, {field: getattr(mark, field) for field in (*NUMBERS, *LISTS)})
     if mark.inactive_faces:
-        group.inactive = elements.new_attribute(obj.data, "inactive")
+        group.inactive = elements.new_attribute(elements.INACTIVE)
         elements.mark(obj.data, group.inactive, "faces", mark.inactive_faces)
     for part in mark.parts:
         add_part(obj, part)
@@ -174,12 +231,13 @@ def add_part(obj, part):
     """Marks elements of a mesh as a part."""
     made = obj.pong.parts.add()
     made.name, made.kind, made.surface = part.name, part.kind or "NONE", part.surface
-    made.attribute = elements.new_attribute(obj.data, "part")
+    made.attribute = elements.new_attribute(part.kind or "part")
     for name in elements.DOMAINS:
         chosen = getattr(part, name)
         if chosen:
             elements.mark(obj.data, made.attribute, name, chosen)
     obj.pong.active_part = len(obj.pong.parts) - 1
+    changed()
     return made
 
 
@@ -188,6 +246,7 @@ def remove_part(obj, index):
     elements.forget(obj.data, part.attribute)
     obj.pong.parts.remove(index)
     obj.pong.active_part = max(0, min(obj.pong.active_part, len(obj.pong.parts) - 1))
+    changed()
 
 
 def clear_mark(obj):
@@ -204,6 +263,7 @@ def clear_mark(obj):
     for key in list(group.keys()):
         if key.endswith(numbers.SUFFIX):
             del group[key]
+    changed()
 
 
 def read_settings(root):

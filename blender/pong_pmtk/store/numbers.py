@@ -11,24 +11,27 @@ import numpy as np
 
 SUFFIX = "_64"  # of the ID properties
 
+
 def shortest(value):
     """The shortest decimal that rounds to the same float32, as float64."""
     return float(str(np.float32(value)))
 
 
-def number(key, default=0.0, **options):
-    """A FloatProperty that shows the float64 ID property `key`."""
+def number(key, default=0.0, shown=None, **options):
+    """A FloatProperty that shows the float64 ID property `key`. `shown` is called when it is another one."""
 
     def read(self):
         return self.get(key, default)
 
     def write(self, value):
         self[key] = shortest(value)
+        if shown is not None:
+            shown(self)
 
     return bpy.props.FloatProperty(get=read, set=write, **options)
 
 
-def vector(key, default=(0.0, 0.0, 0.0), **options):
+def vector(key, default=(0.0, 0.0, 0.0), shown=None, **options):
     """The same for three numbers."""
 
     def read(self):
@@ -36,6 +39,8 @@ def vector(key, default=(0.0, 0.0, 0.0), **options):
 
     def write(self, values):
         self[key] = [shortest(value) for value in values]
+        if shown is not None:
+            shown(self)
 
     return bpy.props.FloatVectorProperty(size=3, get=read, set=write, **options)
 

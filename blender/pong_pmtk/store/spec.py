@@ -11,6 +11,7 @@ import json
 import bpy
 
 from ..core.model import Tagged
+from . import quantities
 from .numbers import shortest
 
 NO_FRICTION = "None"  # a law of pairs, which is not the same as none given
@@ -97,6 +98,13 @@ def number(*path, default=0.0, **options):
         put(self, path, shortest(value))
 
     return bpy.props.FloatProperty(get=get, set=set_, **options)
+
+
+def quantity(unit, *path, default=0.0, least=0.0, most=None, **options):
+    """A view of one number as text with its unit, for panels; in full precision."""
+    return quantities.view(
+        lambda self: value_at(read(self), path, default), lambda self, value: put(self, path, value),
+        unit, least, most, **options)
 
 
 def given(*path, default=0.0, **options):

@@ -5,6 +5,8 @@ import json
 
 import bpy
 
+from .references import select_only
+
 
 class PONG_PG_finding(bpy.types.PropertyGroup):
     """One finding of the last check; core/finding.py says what the fields mean."""
@@ -25,6 +27,23 @@ def _redraw(_self, _context):
     overlay.later()
 
 
+def _active_object(_self):
+    context = bpy.context
+    active = context.view_layer.objects.active if context.view_layer else None
+    return context.scene.objects.find(active.name) if active is not None else -1
+
+
+def _select_object(_self, index):
+    """A click in the tree selects; a list of Blender's only remembers the line."""
+    context = bpy.context
+    if not 0 <= index < len(context.scene.objects) or index == _active_object(None):
+        return
+    if context.mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    obj = context.scene.objects[index]
+    select_only(context, [obj], obj)
+
+
 def _toggle(name, tip):
     return bpy.props.BoolProperty(name=name, description=tip, update=_redraw)
 
@@ -35,7 +54,7 @@ class PONG_PG_state(bpy.types.PropertyGroup):
     findings: bpy.props.CollectionProperty(type=PONG_PG_finding)
     active_finding: bpy.props.IntProperty()
     checked: bpy.props.StringProperty()  # what the last check was of
-    active_object: bpy.props.IntProperty()
+    active_object: bpy.props.IntProperty(get=_active_object, set=_select_object)  # of the scene's objects
     show_bounds: _toggle("Bounds", "Bounding volumes of the groups")
     show_normals: _toggle("Normals", "Outward normals of faces and planes")
     show_rays: _toggle("Rays", "Rays with their reach, and segments")

@@ -4,6 +4,7 @@
 import bpy
 
 from . import spec
+from .changes import changed, watched
 from .spec import FIELDS
 
 NORMAL_LAWS = [
@@ -55,42 +56,54 @@ def _set_restitution(self, on):
     spec.put(self, ("normal", FIELDS, "restitution"), start if on else None)
 
 
+def _stiffness_unit(self):
+    return "N/m^1.5" if _exponent(self) else "N/m"
+
+
+# A number of both: unit, path, label, what it is. Scripts set `name`, in SI; panels show `name_text`, with its unit.
+NUMBERS = {
+    "stiffness": (_stiffness_unit, ("stiffness",), "Stiffness", "Force over depth of one contact"),
+    "damping": ("N·s/m", ("normal", FIELDS, "damping"), "Damping", "Force over the speed at which a contact deepens"),
+    "ramp": ("m", ("normal", FIELDS, "ramp"), "Ramp", "Depth over which the damping sets in"),
+    "restitution": ("", ("normal", FIELDS, "restitution", "e"), "Restitution", "Rebound speed over impact speed"),
+    "mass": ("kg", ("normal", FIELDS, "restitution", "mass"), "Mass", "Effective mass that one contact stops"),
+    "speed": ("m/s", ("normal", FIELDS, "restitution", "speed"), "Speed", "Speed of the impact"),
+    "dissipation": ("s/m", ("normal", FIELDS, "dissipation"), "Dissipation", "Damping over stiffness times depth"),
+    "mu": ("", ("friction", FIELDS, "mu"), "μ", "Kinetic coefficient of friction"),
+    "static_excess": ("", ("friction", FIELDS, "static_excess"), "Static Excess", "Breaks away at (1 + a)·μ"),
+    "bristle_stiffness": ("N/m", ("friction", FIELDS, "stiffness"), "Bristle Stiffness",
+                          "Two thirds of the normal stiffness unless given"),
+    "bristle_damping": ("N·s/m", ("friction", FIELDS, "damping"), "Bristle Damping", "Damping of the bristle"),
+    "slip_speed": ("m/s", ("friction", FIELDS, "slip_speed"), "Slip Speed", "Speed at which the full force is reached"),
+}
+
+
 class Laws:
     """What surfaces and pairs have in common."""
 
     spec: bpy.props.StringProperty(options={"HIDDEN"})
     use_stiffness: spec.given("stiffness", default=1e6, name="Stiffness", description="Give a stiffness for the pair")
-    stiffness: spec.number("stiffness", name="Stiffness", min=0.0, description="N/m; N/m^1.5 with exponent 1.5")
     rigid: bpy.props.BoolProperty(name="Rigid", description="All the yield is the other's", get=_rigid, set=_set_rigid)
-
-    damping: spec.number("normal", FIELDS, "damping", name="Damping", min=0.0, description="N·s/m")
     use_ramp: spec.given("normal", FIELDS, "ramp", default=1e-4, name="Ramp")
-    ramp: spec.number("normal", FIELDS, "ramp", name="Ramp", min=0.0, precision=6,
-                      description="Depth over which the damping sets in, m")
     use_restitution: bpy.props.BoolProperty(name="From Restitution", get=_restitution, set=_set_restitution,
                                             description="Find the damping from the rebound speed over the impact speed")
-    restitution: spec.number("normal", FIELDS, "restitution", "e", name="Restitution", min=0.0, max=1.0)
-    mass: spec.number("normal", FIELDS, "restitution", "mass", name="Mass", min=0.0, description="Effective, kg")
-    speed: spec.number("normal", FIELDS, "restitution", "speed", name="Speed", min=0.0, description="Of impact, m/s")
-    dissipation: spec.number("normal", FIELDS, "dissipation", name="Dissipation", min=0.0, description="s/m")
     exponent: bpy.props.EnumProperty(name="Exponent", get=_exponent, set=_set_exponent, items=[
         ("LINEAR", "1", "Linear in depth", 0), ("HERTZ", "1.5", "Hertz: the stiffness is in N/m^1.5", 1)])
     normal_name: spec.text("normal", FIELDS, "name", name="Law")
     normal_parameters: spec.numbers("normal", FIELDS, "parameters", name="Parameters")
-
-    mu: spec.number("friction", FIELDS, "mu", name="μ", min=0.0, description="Kinetic coefficient of friction")
     use_static_excess: spec.given("friction", FIELDS, "static_excess", name="Static Excess")
-    static_excess: spec.number("friction", FIELDS, "static_excess", name="Static Excess", min=0.0,
-                               description="Breaks away at (1 + a)·μ")
     use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Stiffness")
-    bristle_stiffness: spec.number("friction", FIELDS, "stiffness", name="Bristle Stiffness", min=0.0,
-                                   description="N/m; two thirds of the normal stiffness unless given")
     use_bristle_damping: spec.given("friction", FIELDS, "damping", name="Bristle Damping")
-    bristle_damping: spec.number("friction", FIELDS, "damping", name="Bristle Damping", min=0.0, description="N·s/m")
-    slip_speed: spec.number("friction", FIELDS, "slip_speed", name="Slip Speed", min=0.0, precision=5,
-                            description="At which the full force is reached, m/s")
     friction_name: spec.text("friction", FIELDS, "name", name="Law")
     friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
+
+
+for _name, (_unit, _path, _label, _tip) in NUMBERS.items():
+    _most = {"most": 1.0} if _name == "restitution" else {}
+    Laws.__annotations__[_name] = spec.number(
+        *_path, name=_label, description=_tip, min=0.0, **{"max": limit for limit in _most.values()})
+    Laws.__annotations__[f"{_name}_text"] = spec.quantity(_unit, *_path, name=_label, description=_tip, **_most)
+watched(Laws)
 
 
 def _renamed(self, _context):
@@ -100,8 +113,10 @@ def _renamed(self, _context):
     old, self.known_as = self.known_as, self.name
     if old and old != self.name:
         rename_surface(self.id_data, old, self.name)
+    changed()
 
 
+@watched
 class PONG_PG_surface(Laws, bpy.types.PropertyGroup):
     """One surface of a model."""
 
@@ -111,6 +126,7 @@ class PONG_PG_surface(Laws, bpy.types.PropertyGroup):
     friction: spec.law("friction", FRICTION_LAWS, name="Friction")
 
 
+@watched
 class PONG_PG_pair(Laws, bpy.types.PropertyGroup):
     """Values for two surfaces when they touch each other."""
 

@@ -6,8 +6,8 @@ import bpy
 from ..store.references import current_root, parents_first
 
 ROLE_ICONS = {"root": "OUTLINER_OB_EMPTY", "group": "EMPTY_ARROWS", "primitive": "MESH_CUBE", "none": "DOT"}
+WITH_MU = ("Bristle", "Coulomb")
 SEVERITY_ICONS = {"error": "CANCEL", "warning": "ERROR", "hint": "INFO"}
-INDENT = 0.6
 
 
 class PONG_UL_tree(bpy.types.UIList):
@@ -15,12 +15,13 @@ class PONG_UL_tree(bpy.types.UIList):
 
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
-        row.separator(factor=1.0 + INDENT * 4 * self.depths.get(item.name, 0))
+        for _ in range(depth(item)):
+            row.label(text="", icon="BLANK1")
         op = row.operator("pong.select_tree", text="", icon=ROLE_ICONS[item.pong.role], emboss=False)
         op.name, op.below = item.name, True
         row.label(text=item.pong.label or item.name)
         if item.pong.role == "primitive":
-            row.label(text=f"{len(item.pong.parts)} parts" if len(item.pong.parts) else item.pong.kind)
+            row.label(text=contents(item.pong))
         elif item.pong.role == "group":
             icon = "CON_TRANSLIKE" if item.pong.movable else "LOCKED"
             row.prop(item.pong, "movable", text="", icon=icon, emboss=False)
@@ -31,7 +32,6 @@ class PONG_UL_tree(bpy.types.UIList):
         objects = getattr(data, property_name)
         root = current_root(context)
         order = parents_first(root, objects) if root else []
-        self.depths = {obj.name: depth for obj, depth in order}
         rank = {obj.name: number for number, (obj, _depth) in enumerate(order)}
         words = self.filter_name.lower()
         flags, places, last = [], [], len(rank)
@@ -42,15 +42,33 @@ class PONG_UL_tree(bpy.types.UIList):
             last += obj.name not in rank
         return flags, places
 
-    depths = {}
+
+def depth(obj):
+    """How many groups and primitives an object hangs below, up to its root.
+
+    Worked out where it is drawn: Blender makes a list anew for every item, so nothing can be kept with it.
+    """
+    count = 0
+    while obj.pong.role != "root" and obj.parent is not None:
+        obj = obj.parent
+        count += obj.pong.role != "none"
+    return count
+
+
+def contents(mark):
+    """What an object is made into: its kind, the number of its parts, or both."""
+    count = len(mark.parts)
+    told = [mark.kind] if mark.kind != "NONE" or not count else []
+    return " + ".join([*told, f"{count} part{'s' * (count != 1)}"] if count else told)
 
 
 class PONG_UL_surfaces(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
         row.prop(item, "name", text="", emboss=False, icon="MATERIAL")
-        row.label(text="rigid" if item.rigid else f"{item.stiffness:.3g} N/m")
-        row.label(text=item.friction.lower() if item.friction != "DEFAULT" else "")
+        row.label(text="rigid" if item.rigid else item.stiffness_text)
+        row.label(text=f"{item.friction}, μ {item.mu_text}" if item.friction in WITH_MU else item.bl_rna.properties[
+            "friction"].enum_items[item.friction].name)
 
 
 class PONG_UL_pairs(bpy.types.UIList):

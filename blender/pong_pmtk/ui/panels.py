@@ -16,6 +16,7 @@ class Panel:
     bl_region_type = "UI"
     bl_category = "Pong"
 
+
 class PONG_PT_model(Panel, bpy.types.Panel):
     bl_label = "Model"
 
@@ -71,7 +72,7 @@ class PONG_PT_object(Panel, bpy.types.Panel):
             layout.prop(mark, "order")
         if mark.role in ("root", "group"):
             self._group(layout, mark)
-        elif mark.role == "primitive" and not len(mark.parts):
+        elif mark.role == "primitive":
             self._primitive(layout, mark)
         layout.operator_menu_enum("pong.mark", "kind", text="Mark Selected as", icon="MESH_CUBE")
 
@@ -83,7 +84,9 @@ class PONG_PT_object(Panel, bpy.types.Panel):
         layout.prop(mark, "leaf_size")
 
     def _primitive(self, layout, mark):
-        layout.prop(mark, "kind")
+        layout.prop(mark, "kind", text="Whole Object" if len(mark.parts) else "Kind")
+        if len(mark.parts):
+            layout.label(text=f"Besides: {len(mark.parts)} part{'s' * (len(mark.parts) != 1)}, see below", icon="INFO")
         for name in SIZES.get(mark.kind, ()):
             layout.prop(mark, name)
         if mark.kind == "Ray":
@@ -101,12 +104,13 @@ class PONG_PT_object(Panel, bpy.types.Panel):
             layout.prop(mark, "parameters")
 
 
-def draw_optional(layout, holder, name):
+def draw_optional(layout, holder, name, field=""):
+    """A number that need not be given, behind its switch; `field`: the property that shows it, if another one."""
     row = layout.row(heading=holder.bl_rna.properties[name].name)
     row.prop(holder, f"use_{name}", text="")
-    field = row.row()
-    field.enabled = getattr(holder, f"use_{name}")
-    field.prop(holder, name, text="")
+    value = row.row()
+    value.enabled = getattr(holder, f"use_{name}")
+    value.prop(holder, field or name, text="")
 
 
 def draw_surface_choice(layout, context, holder, name="surface"):
@@ -165,7 +169,7 @@ class PONG_PT_surfaces(Panel, bpy.types.Panel):
             layout.use_property_split = True
             layout.prop(surface, "rigid")
             if not surface.rigid:
-                layout.prop(surface, "stiffness")
+                draw_quantity(layout, surface, "stiffness")
             draw_laws(layout, surface)
         row = layout.row(align=True)
         row.operator_menu_enum("pong.preset_load", "preset", text="Load Preset", icon="PRESET")
@@ -178,12 +182,12 @@ def draw_laws(layout, laws):
         layout.prop(laws, "use_restitution")
         linear = laws.normal == "Linear"
         if laws.use_restitution:
-            layout.prop(laws, "restitution")
-            layout.prop(laws, "mass" if linear else "speed")
+            draw_quantity(layout, laws, "restitution")
+            draw_quantity(layout, laws, "mass" if linear else "speed")
         else:
-            layout.prop(laws, "damping" if linear else "dissipation")
+            draw_quantity(layout, laws, "damping" if linear else "dissipation")
         if linear:
-            draw_optional(layout, laws, "ramp")
+            draw_optional(layout, laws, "ramp", "ramp_text")
         else:
             layout.prop(laws, "exponent")
     elif laws.normal == "Custom":
@@ -191,15 +195,20 @@ def draw_laws(layout, laws):
         layout.prop(laws, "normal_parameters")
     layout.prop(laws, "friction")
     if laws.friction in ("Bristle", "Coulomb"):
-        layout.prop(laws, "mu")
+        draw_quantity(layout, laws, "mu")
     if laws.friction == "Bristle":
         for name in ("static_excess", "bristle_stiffness", "bristle_damping"):
-            draw_optional(layout, laws, name)
+            draw_optional(layout, laws, name, f"{name}_text")
     elif laws.friction == "Coulomb":
-        layout.prop(laws, "slip_speed")
+        draw_quantity(layout, laws, "slip_speed")
     elif laws.friction == "Custom":
         layout.prop(laws, "friction_name")
         layout.prop(laws, "friction_parameters")
+
+
+def draw_quantity(layout, holder, name):
+    """A number with its unit."""
+    layout.prop(holder, f"{name}_text")
 
 
 class PONG_PT_pairs(Panel, bpy.types.Panel):
@@ -223,7 +232,7 @@ class PONG_PT_pairs(Panel, bpy.types.Panel):
             layout.use_property_split = True
             layout.prop_search(pair, "first", settings, "surfaces")
             layout.prop(pair, "second")
-            draw_optional(layout, pair, "stiffness")
+            draw_optional(layout, pair, "stiffness", "stiffness_text")
             draw_laws(layout, pair)
 
 
@@ -244,6 +253,12 @@ class PONG_PT_findings(Panel, bpy.types.Panel):
                     box.label(text=line)
             if item.fix:
                 layout.operator("pong.finding_fix", text=f"Fix: {item.fix}", icon="TOOL_SETTINGS").index = -1
+                alike = sum(other.rule == item.rule and bool(other.fix) for other in found.findings)
+                if alike > 1:
+                    layout.operator("pong.findings_fix", text=f"Fix All {alike} of This Kind").rule = item.rule
+            offered = sum(bool(other.fix) for other in found.findings)
+            if offered > 1:
+                layout.operator("pong.findings_fix", text=f"Fix All {offered}").rule = ""
 
 
 def wrapped(text, width_px):

@@ -501,8 +501,10 @@ def _with_part(**fields):
 
 
 @faulty
-def kind_and_parts():
-    return one("Polyhedron", box((1, 1, 1)), parts=[Part("part", "Point", vertices=[0])])
+def left_over_part():
+    s = one("Polyhedron", box((1, 1, 1)))
+    part(s, "thing").left_over = [Part("pong_Point_0f", "Point", vertices=[0])]
+    return s
 
 
 @faulty

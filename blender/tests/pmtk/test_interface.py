@@ -10,7 +10,7 @@ import pong_pmtk
 from pong_pmtk.store.state import state
 from pong_pmtk.ui import lists, overlay, panels
 
-from .scenes import CUBE, InBlender, activate, mark, mesh, new, root
+from .scenes import CUBE, InBlender, activate, edit, mark, mesh, new, root
 
 
 class Overlays(InBlender):
@@ -59,6 +59,28 @@ class Overlays(InBlender):
         points = overlay._shown[bpy.context.scene.name]["show_bounds"]
         self.assertAlmostEqual(points[:, 0].max(), 6.0, places=5)
 
+    def test_what_only_marks_and_settings_know_is_followed_too(self):
+        """Blender tells of transforms and meshes; of *Assign to Selected* and its like it says nothing."""
+        top = root()
+        top.pong.surface = ""
+        block = mark(new("block", mesh(CUBE), top), kind="Polyhedron")
+        self.assertFalse(self.shown(show_bounds=True))
+        self.assertIn("1 error", overlay.message(bpy.context))
+        activate(block)
+        for change, rows in (
+            (lambda: bpy.ops.pong.surface_assign(surface="steel"), 12),
+            (lambda: setattr(top.pong, "bound", "Sphere"), 144),
+            (lambda: setattr(top.pong, "bound", "Aabb"), 12),
+            (lambda: bpy.ops.pong.unmark(), 0),
+        ):
+            if bpy.app.timers.is_registered(overlay.in_pause):
+                bpy.app.timers.unregister(overlay.in_pause)
+            change()
+            self.assertTrue(bpy.app.timers.is_registered(overlay.in_pause))
+            overlay.in_pause()
+            overlay.refresh(bpy.context)  # the module has no window
+            self.assertEqual(len(overlay._shown.get(bpy.context.scene.name, {}).get("show_bounds", ())), 2 * rows)
+
     def test_nothing_is_worked_out_while_all_is_off(self):
         mark(new("block", mesh(CUBE), root()), kind="Polyhedron")
         self.assertFalse(self.shown())
@@ -79,7 +101,38 @@ class Lists(InBlender):
         shown = sorted((place, name) for place, name, flag in zip(order, names, flags) if flag)
         self.assertEqual([name for _, name in shown], ["model", "z_group", "a_tip"])
         self.assertEqual(sorted(order), list(range(len(names))))
-        self.assertEqual(found.depths, {"model": 0, "z_group": 1, "a_tip": 2})
+
+    def test_every_line_of_the_tree_is_indented_by_what_it_hangs_below(self):
+        top = root()
+        group = mark(new("group", parent=new("only_a_transform", parent=top)), "group")
+        tip = mark(new("tip", parent=group), kind="Point")
+        self.assertEqual([lists.depth(obj) for obj in (top, group, tip)], [0, 1, 2])
+        for obj, depth in ((top, 0), (group, 1), (tip, 2)):
+            recorder = Recorder()
+            # Blender makes a list anew for every line, so one that has filtered nothing must do.
+            lists.PONG_UL_tree.draw_item(types.SimpleNamespace(), bpy.context, recorder, None, obj, 0, None, "", 0)
+            self.assertEqual(recorder.icons.count("BLANK1"), depth)
+
+    def test_a_click_in_the_tree_selects(self):
+        top = root()
+        first, second = (mark(new(name, mesh(CUBE), top), kind="Polyhedron") for name in "ab")
+        activate(first)
+        found = state(bpy.context)
+        objects = bpy.context.scene.objects
+        self.assertEqual(objects[found.active_object], first)
+        found.active_object = objects.find("b")
+        self.assertEqual((bpy.context.view_layer.objects.active, first.select_get(), second.select_get()),
+                         (second, False, True))
+        edit(second)
+        found.active_object = objects.find("a")
+        self.assertEqual((bpy.context.mode, bpy.context.view_layer.objects.active), ("OBJECT", first))
+
+    def test_the_tree_tells_kinds_and_parts(self):
+        obj = new("block", mesh(CUBE), root())
+        part = pong_pmtk.core.marks.Part("p", "Point", vertices=[0])
+        for fields, text in (({"kind": "Polyhedron"}, "Polyhedron"), ({"parts": [part]}, "1 part"),
+                             ({"kind": "Polyhedron", "parts": [part, part]}, "Polyhedron + 2 parts")):
+            self.assertEqual(lists.contents(mark(obj, **fields).pong), text)
 
     def test_long_texts_are_wrapped(self):
         lines = panels.wrapped("word " * 50, 300)
@@ -91,10 +144,12 @@ class Panels(InBlender):
     """Panels are drawn into a recorder: Blender itself draws none without a window."""
 
     def drawn(self):
+        """(property group, name) of all that is shown."""
+        recorder = Recorder()
         for panel in panels.CLASSES:
             if getattr(panel, "poll", lambda _context: True)(bpy.context):
-                recorder = Recorder()
                 panel.draw(Drawn(panel, recorder), Context())
+        return recorder.shown
 
     def test_every_panel_names_only_what_exists(self):
         self.drawn()
@@ -115,6 +170,32 @@ class Panels(InBlender):
         self.drawn()
         activate(top)
         self.drawn()
+
+
+    def test_an_object_with_parts_shows_its_kind(self):
+        part = pong_pmtk.core.marks.Part("p", "Point", vertices=[0])
+        activate(mark(new("block", mesh(CUBE), root()), kind="Polyhedron", parts=[part]))
+        self.assertIn("kind", [name for _, name in self.drawn()])
+
+    def test_no_number_is_shown_without_its_unit(self):
+        """Of what has a dimension; Blender's own fields know lengths alone, and show a fixed count of decimals."""
+        top = root()
+        surface = top.pong_model.surfaces[0]
+        bare = {"order", "leaf_size", "file_scale", "normal_length"}  # counts and shares
+        seen = set()
+        for normal, friction, restitution in (("Linear", "Bristle", True), ("Linear", "Coulomb", False),
+                                              ("HuntCrossley", "Bristle", True), ("HuntCrossley", "Bristle", False)):
+            surface.normal, surface.friction, surface.use_restitution = normal, friction, restitution
+            for kind in ("Sphere", "Ellipsoid", "Ray", "TriangleMesh"):
+                obj = mark(new(kind, mesh(CUBE), top), kind=kind, file="a.obj")
+                activate(obj)
+                for holder, name in self.drawn():
+                    definition = holder.bl_rna.properties[name]
+                    if definition.type in ("FLOAT", "INT") and name not in bare and not name.startswith("active_"):
+                        self.assertEqual((name, definition.unit), (name, "LENGTH"))
+                        self.assertGreaterEqual(definition.precision, 6)
+                        seen.add(name)
+        self.assertEqual(seen, {"radius", "semi_axes", "length", "reach", "thickness"})
 
 
 class Drawn:
@@ -139,8 +220,13 @@ class Context:
 class Recorder:
     """A layout that draws nothing, and fails where Blender's would complain."""
 
+    def __init__(self, above=None):
+        self.icons = above.icons if above else []
+        self.shown = above.shown if above else []  # (property group, name)
+
     def prop(self, data, name, **_options):
         assert name in data.bl_rna.properties, f"{data.bl_rna.identifier} has no {name}"
+        self.shown.append((data, name))
 
     def prop_search(self, data, name, search_data, search_name, **_options):
         self.prop(data, name)
@@ -160,10 +246,10 @@ class Recorder:
         module, function = name.split(".")
         assert enum in getattr(getattr(bpy.ops, module), function).get_rna_type().properties, (name, enum)
 
-    def label(self, **_options):
-        pass
+    def label(self, icon="", **_options):
+        self.icons.append(icon)
 
     def _inner(self, **_options):
-        return Recorder()
+        return Recorder(self)
 
     row = column = box = grid_flow = _inner

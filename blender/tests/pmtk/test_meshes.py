@@ -46,3 +46,8 @@ class Bulk(InBlender):
             np.testing.assert_array_equal(found.vertices, vertices)
             np.testing.assert_array_equal(found.edges, edges)
             self.assertEqual(found.face_starts.tolist(), [0])
+
+    def test_faces_look_flat_as_they_touch(self):
+        made = bpy.data.meshes.new("made")
+        meshes.fill(made, meshes.read(mesh(CUBE)))
+        self.assertFalse(any(polygon.use_smooth for polygon in made.polygons))

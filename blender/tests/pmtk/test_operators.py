@@ -67,7 +67,7 @@ class Marking(InBlender):
 
     def test_parts_of_objects_that_are_edited_together_have_names_of_their_own(self):
         top = root()
-        pair = [new(name, mesh(CUBE), top) for name in "ab"]
+        pair = [new(name, mesh(CUBE), top, location=(x, 0, 0)) for name, x in (("a", 0), ("b", 5))]
         activate(*pair)
         bpy.ops.object.mode_set(mode="EDIT")
         for obj in pair:

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 import pong_viz
-from pong_viz import render
+from pong_viz import captions, render
 from pong_viz.cli import main
 from pong_viz.log import Log
 from pong_viz.marks import SLIP, STICK, TOUCHED
@@ -295,6 +295,95 @@ class Renders(WithScene):
         self.assertFalse(still.exists())
 
 
+class Captions(WithScene):
+    def test_a_caption_tells_time_force_and_scale(self):
+        made = show(Log(self.log_folder), Options(fps=100))
+        scene = bpy.context.scene
+        largest = np.hypot(10.0 * 1.3, 2.0)
+        self.assertEqual(captions.text(scene, 31).split("   "), [
+            " t = 0.3000 s", f"1 contact, largest force {largest:.4g} N",
+            f"1 m of arrow: {1.0 / made.metres_per_newton:.4g} N "])
+        self.assertIn("t = 0.9000 s   no contact", captions.text(scene, 91))
+        self.assertEqual(captions.text(bpy.data.scenes.new("other"), 1), "")
+
+    def test_it_is_in_the_picture_and_nowhere_else(self):
+        show(Log(self.log_folder), Options(fps=10))
+        scene, render_ = bpy.context.scene, bpy.context.scene.render
+        render.prepare(scene, render.Picture(640, 90))
+        render_.use_stamp_scene, render_.stamp_note_text = True, "mine"
+        before = {name: getattr(render_, name) for name in captions.STAMPS if hasattr(render_, name)}
+        pictures = {}
+        for name, caption in (("with", True), ("without", False)):
+            pictures[name] = _pixels(render.still(scene, self.folder / f"{name}.png", 4, caption))
+        differ = (np.abs(pictures["with"] - pictures["without"]).max(axis=2) > 0.1).nonzero()
+        self.assertGreater(len(differ[0]), 500)
+        self.assertGreater(differ[0].min(), 70)  # in the lines at the top alone
+        self.assertEqual((before, "mine", False), (
+            {name: getattr(render_, name) for name in before}, render_.stamp_note_text, render_.use_stamp))
+        self.assertEqual(bpy.app.handlers.render_pre[:], [])
+
+    def test_it_goes_along_with_the_pictures(self):
+        show(Log(self.log_folder), Options(fps=2))
+        scene, told = bpy.context.scene, []
+        render.prepare(scene, render.Picture(64, 36))
+        scene.render.stamp_note_text = ""
+
+        def note(rendered, *_arguments):
+            told.append(rendered.render.stamp_note_text)
+
+        bpy.app.handlers.render_post.append(note)
+        self.addCleanup(bpy.app.handlers.render_post.remove, note)
+        render.frames(scene, self.folder / "frames")
+        self.assertEqual([text.split()[2] for text in told], ["0.0000", "0.5000", "1.0000"])
+
+
+class Colors(WithScene):
+    def color_types(self):
+        return {space.shading.color_type for screen in bpy.data.screens for area in screen.areas for space in area.spaces
+                if space.type == "VIEW_3D"}
+
+    def test_solid_views_show_the_objects_colors(self):
+        pong_viz.register()
+        self.addCleanup(pong_viz.unregister)
+        before = self.color_types()
+        self.assertTrue(before and before != {"OBJECT"})
+        bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=4, look=False)
+        self.assertEqual(self.color_types(), before)
+        bpy.ops.pong.import_response(filepath=str(self.log_folder), fps=4)
+        self.assertEqual(self.color_types(), {"OBJECT"})
+
+    def test_a_saved_scene_opens_in_colors(self):
+        blend = self.folder / "run.blend"
+        self.assertEqual(main([str(self.log_folder), "--blend", str(blend)]), 0)
+        bpy.ops.wm.open_mainfile(filepath=str(blend), load_ui=True)
+        self.assertEqual(self.color_types(), {"OBJECT"})
+
+    def test_no_engine_fades_colors(self):
+        """Standard keeps them; what lights more than a white surface is taken back by the exposure."""
+        scene = bpy.context.scene
+        show(Log(self.log_folder), Options(fps=4))
+        for engine in ("workbench", "eevee", "cycles"):
+            scene.view_settings.view_transform = "Filmic" if engine == "workbench" else "AgX"
+            render.prepare(scene, render.Picture(16, 16, engine))
+            self.assertEqual(scene.view_settings.view_transform, "Standard", engine)
+        suns = sum(item.data.energy for item in scene.objects if item.type == "LIGHT") / np.pi
+        lit = suns + max(render.BACKGROUND)
+        self.assertLess(lit * 2.0**scene.view_settings.exposure, 1.3)
+
+    def test_a_lit_picture_has_the_colors_that_were_given(self):
+        """Cycles lights as EEVEE does, and needs no shaders compiled: red arrow, orange ball, as saturated as they are."""
+        still = self.folder / "still.png"
+        words = [str(self.log_folder), "--still", str(still), "--size", "160x90", "--at", "0.3", "--engine", "cycles"]
+        self.assertEqual(main([*words, "--samples", "4", "--alpha", "1", "--no-caption"]), 0)
+        pixels = _pixels(still)[..., :3]
+        strongest = pixels.max(axis=2)
+        saturation = (strongest - pixels.min(axis=2)) / np.maximum(strongest, 1e-6)
+        ball = (pixels[..., 0] > 0.3) & (pixels[..., 2] < 0.5 * pixels[..., 0])
+        self.assertGreater(ball.sum(), 100)
+        self.assertGreater(np.median(saturation[ball]), 0.75)
+        self.assertLess((strongest > 0.995).mean(), 0.05)  # hardly anything is burnt out
+
+
 class Interface(WithScene):
     def setUp(self):
         super().setUp()
@@ -344,6 +433,27 @@ class Interface(WithScene):
         np.testing.assert_allclose(bpy.context.object.evaluated_get(self.at(101)).location, (0.5, 0.0, 0.1), atol=1e-6)
         bpy.ops.pong.free_object()
         self.assertNotIn("pong_body", bpy.context.object)
+
+    def test_the_bodies_of_the_log_are_listed(self):
+        from pong_viz import ui
+
+        bpy.ops.mesh.primitive_cube_add()
+        cube, scene = bpy.context.object, bpy.context.scene
+        self.assertEqual(ui._search_body(None, bpy.context, ""), [])
+        for path in (self.log_folder / "run.json", self.log_folder):
+            scene.pong_response_log = str(path)
+            self.assertEqual([name for name, _ in ui._search_body(None, bpy.context, "")], ["ball", "ground"])
+        bpy.ops.pong.bind_body(body="ground")
+        self.assertEqual(ui._search_body(None, bpy.context, "GR"), [("ground", f"moves {cube.name}")])
+        for path in (self.folder / "nothing.json", self.log_folder / "frames.npy"):
+            scene.pong_response_log = str(path)
+            self.assertEqual(ui._search_body(None, bpy.context, ""), [])
+
+    def test_an_import_remembers_its_log(self):
+        from pong_viz import ui
+
+        bpy.ops.pong.import_response(filepath=str(self.log_folder / "run.json"), fps=4)
+        self.assertEqual(ui.bodies_of(bpy.context.scene.pong_response_log), ["ball", "ground"])
 
     def test_the_panel_names_operators_that_exist(self):
         source = Path(pong_viz.__file__).with_name("ui.py").read_text()

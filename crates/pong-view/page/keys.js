@@ -29,6 +29,7 @@ export function bindKeys(actions) {
         [["Escape"], "Esc", "drop the selected contact", () => actions.drop()],
         [["?"], "?", "this help", () => actions.help()],
     ];
+    letGoOfWhatIsClicked();
     const byKey = new Map(bindings.flatMap(([keys, , , action]) => keys.map((key) => [key, action])));
     document.addEventListener("keydown", (event) => {
         if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -44,4 +45,22 @@ export function bindKeys(actions) {
         action(event);
     });
     return bindings.map(([, shown, meaning]) => [shown, meaning]);
+}
+
+/**
+ * Lets go of a button or box once a pointer has pressed it: it would keep the focus, and take Space for another press.
+ * Who walks by Tab keeps the focus, and presses with Space. Before the click is handled, so that a dialog that it opens
+ * gives the focus back to the page.
+ */
+function letGoOfWhatIsClicked() {
+    const pressed = "button, select, summary, input[type=checkbox]";
+    let byPointer = false;
+    document.addEventListener("pointerdown", () => { byPointer = true; }, true);
+    document.addEventListener("keydown", () => { byPointer = false; }, true);
+    const letGo = () => {
+        const focused = document.activeElement;
+        if (byPointer && focused?.matches(pressed) && !focused.closest("dialog")) focused.blur();
+    };
+    document.addEventListener("click", (event) => { if (!event.target.closest("select")) letGo(); }, true);
+    document.addEventListener("change", letGo);
 }

@@ -117,6 +117,38 @@ const checks = {
         assert.equal(await page.evaluate(() => pong.isPlaying()), false);
     },
 
+    async "after a click on a button, a box or a choice Space still plays and pauses"() {
+        const playing = () => page.evaluate(() => pong.isPlaying());
+        const stand = async () => { if (await playing()) await page.evaluate(() => document.querySelector("#play").click()); };
+        await page.evaluate(() => pong.seekFrame(0));
+        const box = () => page.locator("#normals").isChecked();
+        const before = await box();
+        const choose = async () => {
+            await page.locator("#side").dispatchEvent("pointerdown");
+            await page.selectOption("#side", "front");
+        };
+        for (const press of [() => page.click("#play"), () => page.click("#normals"), choose]) {
+            await stand();
+            await press();
+            if (await playing()) {
+                await page.keyboard.press("Space");
+                assert.equal(await playing(), false, "Space pressed the button again");
+            }
+            await page.keyboard.press("Space");
+            assert.equal(await playing(), true, "Space does not play");
+        }
+        assert.equal(await box(), !before, "Space pressed the box again");
+        await page.click("#normals");
+        await stand();
+        await page.locator("#normals").focus();
+        await page.keyboard.press("Tab");
+        await page.keyboard.press("Shift+Tab");
+        await page.keyboard.press("Space");
+        assert.equal(await box(), !before, "who walks by Tab presses with Space");
+        await page.keyboard.press("Space");
+        assert.equal(await playing(), false);
+    },
+
     async "bodies differ in colour, and names stand as they are in the log"() {
         assert.equal(new Set(await page.evaluate(() => pong.colors())).size, bodies.length);
         const run = JSON.parse(readFileSync(`${log}/run.json`, "utf8"));

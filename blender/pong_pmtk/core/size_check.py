@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether what shows a sphere, an ellipsoid or a ray has the size of its mark.
+
+The mark's numbers count, the mesh (or the empty) only shows them. Blender's *Apply Scale* and Edit Mode change what is
+shown and know nothing of marks, so the two can come apart.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .propose import CENTER_TOLERANCE, FIT_TOLERANCE, round_fit
+
+if TYPE_CHECKING:
+    from .build_primitives import Shape
+
+ROUND_DEPTH = 0.75  # as in propose.py, for coarse balls too: the middles of an icosahedron's faces lie at 0.79
+# Of the size. Single precision and the fit's own rounding stay far below; what was scaled by less is not seen either.
+SIZE_TOLERANCE = 1e-5
+
+
+def check_size(shape: Shape, axes) -> None:
+    """`axes`: what the mark says, in the object's own coordinates: three semi-axes, or the length of an empty's ray."""
+    axes = np.asarray(axes, dtype=np.float64)
+    if shape.mesh is not None:
+        if len(shape.mesh.vertices):
+            _check_mesh(shape, axes)
+        return
+    seen, largest = shape.place.thing.display_size, float(axes.max())
+    if seen is None or abs(seen - largest) <= SIZE_TOLERANCE * largest:
+        return
+    name = {"Sphere": "radius", "Ray": "length"}.get(shape.kind, "largest semi-axis")
+    cause = f"it is shown with a {name} of {_metres(shape, seen)}, its mark says {_metres(shape, largest)}"
+    fix = {"Sphere": "fit-sphere", "Ray": "fit-length"}.get(shape.kind, "")
+    cure = "what the mark says is exported; take over what is shown" if fix else "give it its semi-axes again"
+    shape.warn("size-not-shown", cause, f"{cure} (Apply Scale changes only what is shown)", fix=fix)
+
+
+def _check_mesh(shape: Shape, axes: np.ndarray) -> None:
+    vertices, starts = np.asarray(shape.mesh.vertices, dtype=np.float64), np.asarray(shape.mesh.face_starts)
+    # Every face has a corner by now (build_primitives.ready).
+    sums = np.add.reduceat(vertices[shape.mesh.loops], starts[:-1]) if len(starts) > 1 else np.zeros((0, 3))
+    fitted = round_fit(vertices, sums / np.diff(starts)[:, None], ROUND_DEPTH)
+    if fitted is None:
+        cause = f"its mesh is not round: {_of_mark(shape, axes)} is exported"
+        shape.findings.hint("mesh-not-round", shape.where, cause, "nothing, if its mesh is only there to be looked at")
+        return
+    center, found, off = fitted
+    if np.sqrt(center @ center) > CENTER_TOLERANCE * found.max():
+        place = " ".join(f"{x:.6g}" for x in shape.place.scene.metres(center) + 0.0)
+        cause = f"the middle of its mesh is at ({place}) m, and what is exported is around the object's origin"
+        shape.warn("center-not-shown", cause, "move its origin into the middle of its mesh", fix="set-origin")
+    if (np.abs(found - axes) > max(SIZE_TOLERANCE, 2.0 * off) * axes).any():
+        even = np.ptp(found) <= FIT_TOLERANCE * found.max()
+        kind = "Sphere" if shape.kind == "Sphere" and even else "Ellipsoid"
+        cause = f"its mesh shows {_said(shape, kind, found)}, its mark says {_of_mark(shape, axes)}"
+        cure = "what the mark says is exported; fit it to the mesh (Apply Scale and Edit Mode change only the mesh)"
+        shape.warn("size-not-shown", cause, cure, fix=f"fit-{kind.lower()}")
+
+
+def _of_mark(shape: Shape, axes: np.ndarray) -> str:
+    return _said(shape, shape.kind, axes)
+
+
+def _said(shape: Shape, kind: str, axes: np.ndarray) -> str:
+    if kind == "Sphere":
+        return f"a Sphere of radius {_metres(shape, float(np.mean(axes)))}"
+    return f"an Ellipsoid of semi-axes {', '.join(_metres(shape, float(axis)) for axis in axes)}"
+
+
+def _metres(shape: Shape, length: float) -> str:
+    return f"{float(shape.place.scene.metres(length)):.6g} m"
