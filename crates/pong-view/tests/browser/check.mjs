@@ -127,7 +127,7 @@ const checks = {
             await page.locator("#side").dispatchEvent("pointerdown");
             await page.selectOption("#side", "front");
         };
-        for (const press of [() => page.click("#play"), () => page.click("#normals"), choose]) {
+        for (const press of [() => page.click("#play"), () => page.click("#first"), () => page.click("#normals"), choose]) {
             await stand();
             await press();
             if (await playing()) {
