@@ -306,7 +306,7 @@ typedef struct pong_friction_input {
     double normal_force;
     /// Unit normal, from B to A.
     double normal[3];
-    /// Tangential displacement of A against B since the last commit, m; zero in the step a contact is born.
+    /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
     double slip[3];
     /// Tangential velocity of A against B, m/s.
     double slip_velocity[3];

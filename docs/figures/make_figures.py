@@ -105,21 +105,30 @@ def bar():
 
 def bristle():
     d = Drawing(420, 300)
-    center, static, kinetic = (160, 150), 120, 85
+    center, static, kinetic = (150, 140), 120, 85
     d.circle(center, static, stroke=SOFT, dash="5 4")
     d.circle(center, kinetic, stroke=INK)
-    heading = math.radians(25)
-    trial = (center[0] + 150 * math.cos(heading), center[1] + 150 * math.sin(heading))
-    held = (center[0] + kinetic * math.cos(heading), center[1] + kinetic * math.sin(heading))
-    d.line(center, trial, SOFT, 1.5, "3 3")
+    at = lambda angle, radius: (center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle))
+    # A way of 1.6 p_k along x turns the bristle from 100° by tan(ψ/2) = tan(ψ₀/2)·exp(−z).
+    before, way = math.radians(75), 1.6
+    after = 2 * math.atan(math.tan(before / 2) * math.exp(-way))
+    carried, held = at(before, kinetic), at(after, kinetic)
+    trial = (carried[0] + way * kinetic, carried[1])
+    d.line(center, carried, SOFT, 2)
+    d.line(carried, trial, SOFT, 1.5, "3 3")
+    for step in range(12):
+        angles = [before + (after - before) * (step + part) / 12 for part in (0, 1)]
+        d.line(at(angles[0], kinetic), at(angles[1], kinetic), BLUE, 3)
     d.arrow(center, held, BLUE)
-    d.arrow(held, (held[0] - 60 * math.cos(heading), held[1] - 60 * math.sin(heading)))
+    d.arrow(held, at(after, kinetic - 60))
+    d.circle(carried, 4, fill=SOFT, stroke=SOFT)
     d.circle(trial, 4, fill=INK)
-    d.text((trial[0] - 4, trial[1] + 12), "p* = carried p + u")
-    d.text((held[0] - 44, held[1] - 26), "p", BLUE)
+    d.text((trial[0] - 70, trial[1] + 12), "p* = carried p + u")
+    d.text((center[0] - 20, center[1] + 40), "carried p", SOFT, anchor="end")
+    d.text((held[0] + 8, held[1] - 4), "p", BLUE)
     d.text((center[0] + 2, center[1] - 100), "p_k = μ_k F_n/K", anchor="middle")
     d.text((center[0] + 2, center[1] + 126), "p_s = μ_s F_n/K", SOFT, anchor="middle")
-    d.text((center[0] - 70, center[1] + 34), "F_t = −K p", RED)
+    d.text((center[0] + 4, center[1] - 24), "F_t = −K p", RED)
     d.save("bristle.svg")
 
 

@@ -27,7 +27,7 @@ pub struct pong_friction_input {
     pub normal_force: f64,
     /// Unit normal, from B to A.
     pub normal: [f64; 3],
-    /// Tangential displacement of A against B since the last commit, m; zero in the step a contact is born.
+    /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
     pub slip: [f64; 3],
     /// Tangential velocity of A against B, m/s.
     pub slip_velocity: [f64; 3],

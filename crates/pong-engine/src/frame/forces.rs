@@ -142,13 +142,18 @@ impl PairContext<'_> {
             stuck: true,
             parameters: &[],
         };
-        if let Some(index) = contact.continues {
-            let record = &self.memory.records[index as usize];
+        let record = contact.continues.map(|index| &self.memory.records[index as usize]);
+        if let Some(record) = record {
             input.carried =
                 carry_by_smallest_rotation(&record.bristle, &record.normal, &contact.found.normal);
             input.stuck = record.sticks;
-            input.slip = self.slip(contact, record);
+        }
+        if let Some(index) = contact.continues {
             custom.copy_from_slice(self.memory.custom_of(index as usize));
+        }
+        // Coulomb's law asks for the velocity alone.
+        if !matches!(props.friction, FrictionProps::Coulomb { .. }) {
+            input.slip = self.slip(contact, record);
         }
         friction(&props.friction, &input, custom)
     }
@@ -162,15 +167,27 @@ impl PairContext<'_> {
         })
     }
 
-    /// u: tangential part of Δo + φ × (c₀ − o₀), the displacement of A since the last commit at the place where
-    /// the contact was then.
-    fn slip(&self, contact: &FrameContact, record: &ContactRecord) -> Vec3 {
+    /// u, in the present contact plane: the displacement of A since the last commit where it touches,
+    ///
+    /// ```text
+    /// Δo + φ × ½[(c₀ − o₀) + (c₁ − o₁)]
+    /// ```
+    ///
+    /// with the mean of the levers then and now: the lever of the start alone lets a ball that rolls and spins slip by the
+    /// spin times the way that its contact has moved. A contact that is born has only the present lever, and of its
+    /// displacement the part since the touch, as if the approach Δn had been even.
+    fn slip(&self, contact: &FrameContact, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
         let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
-        let displacement = now - before + self.turn(since).cross(&(record.point - before));
-        displacement - contact.found.normal * contact.found.normal.dot(&displacement)
+        let present = contact.point - now;
+        let lever = earlier.map_or(present, |earlier| ((earlier.point - before) + present) * 0.5);
+        let displacement = now - before + self.turn(since).cross(&lever);
+        let approach = -contact.found.normal.dot(&displacement);
+        let across = displacement + contact.found.normal * approach;
+        let depth = contact.found.depth;
+        if earlier.is_none() && approach > depth { across * (depth / approach) } else { across }
     }
 }
 

@@ -2,21 +2,29 @@
 //!
 //! ```text
 //! p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
-//! sticking:  |p*| ≤ p_s keeps sticking, else slips
-//! slipping:  p*·v_t < 0 or |p*| < p_k sticks again, else keeps slipping
-//! sticks:  p = p*·min(1, p_s/|p*|)    F_t = −(K·p + c·v_t), its length cut to μ_s·F_n
-//! slips:   p = p_k·p*/|p*|            F_t = −K·p
+//! sticking:  |p*| ≤ p_s keeps sticking, p = p*;              else breaks away, p on the circle p_k
+//! slipping:  |p*| ≤ p_k, p = p*;                             else p on the circle p_k
+//!            sticks again where p*·v_t < 0 or |p*| < p_k, as soon as |K·p + c·v_t| ≤ μ_k·F_n
+//! F_t = −cut(K·p + c·v_t), its length cut to μ_s·F_n while sticking, to μ_k·F_n in every other step
 //! ```
 //!
 //! D. A. Haessig and B. Friedland, "On the modeling and simulation of friction", J. Dyn. Sys. Meas. Control 113
-//! (1991), extended to the plane with a radial return, so that after a turn the force swings round to oppose the
-//! motion instead of keeping its old heading. Only the limits follow the load, never K: a bristle whose stiffness
-//! followed it would make energy.
+//! (1991), extended to the plane. Where the bristle stands on the circle p_k is told by `slip_path.rs`.
+//!
+//! Only the limits follow the load, never K: a bristle whose stiffness followed it would make energy. One force law
+//! serves sticking and slipping, and what sticks again is held by the kinetic limit until its force has come inside it.
+//! So the force is a continuous function of p, v_t and F_n, and steps at break-away alone: a contact that stands on its
+//! limit has the same force whichever side of it rounding takes (theory manual, section 4).
 //!
 //! Products with K stand for the lengths p_s and p_k, so that K = 0 needs no case of its own.
 
+use super::slip_path::on_circle;
 use super::{FrictionInput, FrictionOutput};
 use pong_geometry::Vec3;
+
+/// What rounding may do to a force that stands on its limit, as a part of the limit: a carried bristle and the product
+/// with K are off by a few times 1e-16. Friction may exceed its limit by no more than this.
+const LIMIT_ROUNDING: f64 = 1e-13;
 
 /// One contact's bristle.
 pub(super) struct Bristle {
@@ -34,34 +42,36 @@ impl Bristle {
     pub(super) fn evaluate(&self, input: &FrictionInput<'_>) -> FrictionOutput {
         let trial = input.carried + input.slip;
         let pull = self.stiffness * trial.norm();
-        let sticks = if input.stuck {
-            pull <= self.static_limit
+        let holds = input.stuck && pull <= self.static_limit * (1.0 + LIMIT_ROUNDING);
+        let (bristle, limit) = if holds {
+            (cut(trial, pull, self.static_limit), self.static_limit)
+        } else if !input.stuck && pull <= self.kinetic_limit {
+            (trial, self.kinetic_limit)
         } else {
-            trial.dot(&input.slip_velocity) < 0.0 || pull < self.kinetic_limit
+            let left_at = if input.stuck { self.static_limit } else { self.kinetic_limit };
+            let (left_at, radius) = (left_at / self.stiffness, self.kinetic_limit / self.stiffness);
+            (on_circle(input, left_at, radius), self.kinetic_limit)
         };
-        if sticks { self.stick(&trial, pull, input) } else { self.slip(&trial, pull) }
-    }
-
-    fn stick(&self, trial: &Vec3, pull: f64, input: &FrictionInput<'_>) -> FrictionOutput {
-        let bristle = if pull > self.static_limit { trial * (self.static_limit / pull) } else { *trial };
-        let force = -(bristle * self.stiffness + input.slip_velocity * self.damping);
-        let length = force.norm();
-        let force = if length > self.static_limit { force * (self.static_limit / length) } else { force };
-        FrictionOutput { force, bristle, sticks: true, stored: self.stored(&bristle) }
-    }
-
-    fn slip(&self, trial: &Vec3, pull: f64) -> FrictionOutput {
-        // A slipping bristle has pull ≥ the kinetic limit; it vanishes only together with the limit.
-        let bristle = if pull > 0.0 { trial * (self.kinetic_limit / pull) } else { Vec3::zeros() };
+        let pushed = bristle * self.stiffness + input.slip_velocity * self.damping;
+        let length = pushed.norm();
         FrictionOutput {
-            force: bristle * -self.stiffness,
+            force: -cut(pushed, length, limit),
             bristle,
-            sticks: false,
-            stored: self.stored(&bristle),
+            sticks: holds || (!input.stuck && self.sticks_again(&trial, pull, length, input)),
+            stored: 0.5 * self.stiffness * bristle.norm_squared(),
         }
     }
 
-    fn stored(&self, bristle: &Vec3) -> f64 {
-        0.5 * self.stiffness * bristle.norm_squared()
+    /// Whether what slipped sticks: its motion has turned back or no longer fills the circle, and the static limit would
+    /// leave its force as it is.
+    fn sticks_again(&self, trial: &Vec3, pull: f64, length: f64, input: &FrictionInput<'_>) -> bool {
+        let turned_back = trial.dot(&input.slip_velocity) < 0.0;
+        let within = pull < self.kinetic_limit * (1.0 - LIMIT_ROUNDING);
+        (turned_back || within) && length <= self.kinetic_limit * (1.0 + LIMIT_ROUNDING)
     }
+}
+
+/// A vector of the given length, shortened to at most `limit`.
+fn cut(vector: Vec3, length: f64, limit: f64) -> Vec3 {
+    if length > limit { vector * (limit / length) } else { vector }
 }

@@ -1,7 +1,8 @@
-//! Friction laws (physics contract, section 4): the force in the contact plane.
+//! Friction laws (theory manual, section 4): the force in the contact plane.
 
 mod bristle;
 mod coulomb;
+mod slip_path;
 
 use crate::law::FrictionProps;
 use pong_geometry::Vec3;
@@ -15,7 +16,7 @@ pub struct FrictionInput<'a> {
     pub normal_force: f64,
     /// Unit normal of the contact, from B to A.
     pub normal: Vec3,
-    /// Tangential displacement u of A against B since the last commit, m; zero in the step a contact is born.
+    /// Tangential displacement u of A against B since the last commit, m; in the step a contact is born, since the touch.
     pub slip: Vec3,
     /// Tangential velocity of A against B, m/s.
     pub slip_velocity: Vec3,
