@@ -1,5 +1,6 @@
 //! The last message of each thread.
 
+use pong_model::printable_lines;
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
 
@@ -27,8 +28,9 @@ pub(crate) fn clear() {
     LAST.set(Last::Nothing);
 }
 
-/// Says something.
+/// Says something. Hosts print it: names in it steer no terminal.
 pub(crate) fn set(text: &str) {
+    let text = &*printable_lines(text);
     if text.len() < SHORT {
         SHORT_TEXT.with_borrow_mut(|short| {
             for (place, byte) in short.iter_mut().zip(as_c(text)) {

@@ -5,6 +5,7 @@ use crate::names::{c_text, no_such};
 use crate::pointers::Out;
 use crate::status::pong_status;
 use crate::world::pong_world;
+use pong_model::printable;
 use std::ffi::c_char;
 
 /// What sealing tells.
@@ -43,8 +44,9 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
             let out = Out::optional(report, "report")?;
             let sealed = inner.world.seal()?;
             inner.seal_warnings =
-                sealed.warnings.iter().map(|warning| c_text(&warning.to_string())).collect();
-            inner.seal_notes = sealed.notes.iter().map(|note| c_text(&note.to_string())).collect();
+                sealed.warnings.iter().map(|warning| c_text(&printable(&warning.to_string()))).collect();
+            inner.seal_notes =
+                sealed.notes.iter().map(|note| c_text(&printable(&note.to_string()))).collect();
             inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
             inner.counters.contact_capacity = sealed.contact_capacity as u64;
             inner.states.reserve(inner.names.interface_count());

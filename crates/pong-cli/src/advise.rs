@@ -3,13 +3,14 @@
 mod contact;
 mod limits;
 
-use crate::text::{number, print};
+use crate::terminal::{print, tell_lines};
+use crate::text::number;
 use pong_engine::advice::{Accuracy, Coupling, StepPlan, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
 use pong_executive::Simulation;
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
-use pong_model::{FrictionLaw, Model, Surface};
+use pong_model::{FrictionLaw, Model, Surface, printable};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -78,7 +79,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(reason) => {
-            eprintln!("{reason}");
+            tell_lines(&reason);
             ExitCode::FAILURE
         }
     }
@@ -151,7 +152,8 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         accuracy: Some(arguments.accuracy()),
     };
     let report = built.simulation.step_report(&plan).map_err(|error| error.to_string())?;
-    let mut text = format!("{}: {}", built.name, arguments.stated(Some(plan.step), plan.coupling));
+    let mut text =
+        format!("{}: {}", printable(&built.name), arguments.stated(Some(plan.step), plan.coupling));
     text += &match (arguments.speed, speed) {
         (Some(speed), _) => format!(", closing at {} m/s\n", number(speed)),
         (None, Some(speed)) => format!(", closing at {} m/s (the scene's start)\n", number(speed)),
@@ -159,14 +161,19 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
     };
     text += &limits::told(&report, &plan);
     for warning in &report.warnings {
-        text += &format!("warning: {warning}\n");
+        text += &format!("warning: {}\n", printable(&warning.to_string()));
     }
     for note in &report.notes {
-        text += &format!("note: {note}\n");
+        text += &format!("note: {}\n", printable(&note.to_string()));
     }
     if arguments.depth.is_some() {
         for pair in &report.pairs {
-            text += &format!("`{}` and `{}`, {} kg\n", pair.groups[0], pair.groups[1], number(pair.mass));
+            text += &format!(
+                "`{}` and `{}`, {} kg\n",
+                printable(&pair.groups[0]),
+                printable(&pair.groups[1]),
+                number(pair.mass)
+            );
             text += &contact::advice(arguments, pair.mass, Some(plan.step), plan.coupling, speed)?;
         }
     }
@@ -185,7 +192,7 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED));
     let mut text = format!(
         "{}: effective mass {} kg, {}\n",
-        model.name,
+        printable(&model.name),
         number(mass),
         arguments.stated(arguments.step(), coupling)
     );

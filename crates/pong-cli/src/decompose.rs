@@ -1,7 +1,8 @@
 //! `pong decompose`: a closed mesh becomes convex pieces.
 
 use crate::import::{Mesh, length_m, spinner};
-use crate::text::{count, number, print, table};
+use crate::terminal::{print, show, tell, tell_lines};
+use crate::text::{count, number, table};
 use pong_import::{DecomposeOptions, Decomposed, Method, Report, Up};
 use std::process::ExitCode;
 
@@ -70,7 +71,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     };
     let bar = spinner();
     let done = pong_import::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
-        bar.set_message(what.to_owned())
+        show(&bar, what)
     });
     bar.finish_and_clear();
     let Decomposed { report, files, findings } = done;
@@ -78,12 +79,12 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         print(&summary(report));
     }
     if findings.faults.is_empty() {
-        findings.notes.iter().for_each(|note| eprintln!("note: {note}"));
+        findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
         files.iter().for_each(|file| print(&format!("written: {}\n", file.display())));
         ExitCode::SUCCESS
     } else {
-        eprintln!("{findings}");
-        eprintln!("{}; nothing was written", count(findings.faults.len(), "fault", "faults"));
+        tell_lines(&findings);
+        tell(format!("{}; nothing was written", count(findings.faults.len(), "fault", "faults")));
         ExitCode::FAILURE
     }
 }

@@ -1,6 +1,7 @@
 //! `pong import`: a mesh file becomes a model file.
 
-use crate::text::{count, print};
+use crate::terminal::{print, show, tell, tell_lines};
+use crate::text::count;
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_import::{DefaultSurface, Imported, Options, Up};
 use std::path::PathBuf;
@@ -149,18 +150,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     };
     let bar = spinner();
     let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
-        bar.set_message(what.to_owned())
+        show(&bar, what)
     });
     bar.finish_and_clear();
     match result {
         Ok(imported) => {
-            imported.findings.notes.iter().for_each(|note| eprintln!("note: {note}"));
+            imported.findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
             print(&summary(&imported));
             ExitCode::SUCCESS
         }
         Err(findings) => {
-            eprintln!("{findings}");
-            eprintln!("{}; nothing was written", count(findings.faults.len(), "fault", "faults"));
+            tell_lines(&findings);
+            tell(format!("{}; nothing was written", count(findings.faults.len(), "fault", "faults")));
             ExitCode::FAILURE
         }
     }

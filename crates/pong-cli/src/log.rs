@@ -1,6 +1,8 @@
 //! `pong log`: what is in a response log, and the log as CSV.
 
-use crate::text::{count, number, print};
+use crate::terminal::{print, tell_lines};
+use crate::text::{count, number};
+use pong_model::printable;
 use pong_record::{CsvTables, Frame, Log, LogError};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -24,7 +26,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match describe_and_export(arguments) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{error}");
+            tell_lines(&error);
             ExitCode::FAILURE
         }
     }
@@ -44,26 +46,38 @@ fn description(log: &mut Log) -> Result<String, LogError> {
     ends.extend(log.frame_rows(frames.saturating_sub(1), 1)?);
     let contacts = ends.last().map_or(0, |last| last.first_contact + u64::from(last.contacts));
     let run = log.run();
-    let mut text = format!("{}: {}", run.name, count(frames as usize, "frame", "frames"));
+    let mut text = format!("{}: {}", printable(&run.name), count(frames as usize, "frame", "frames"));
     if let [first, .., last] = ends[..] {
         let _ = write!(text, ", t = {} … {} s", number(first.time), number(last.time));
     }
-    let _ = writeln!(text, ", {}; by {}, engine {}", rows(contacts, "contact"), run.writer, run.engine);
+    let _ = writeln!(
+        text,
+        ", {}; by {}, engine {}",
+        rows(contacts, "contact"),
+        printable(&run.writer),
+        printable(&run.engine)
+    );
     let step = run.step.map(|step| format!("step {} s", number(step)));
     let commits = run.commits_per_frame.map(|commits| rows(commits, "commit") + " per frame");
     let told: Vec<String> = step.into_iter().chain(run.integrator.clone()).chain(commits).collect();
     if !told.is_empty() {
-        let _ = writeln!(text, "  {}", told.join(", "));
+        let _ = writeln!(text, "  {}", printable(&told.join(", ")));
     }
     for model in &run.models {
-        let _ = writeln!(text, "  model `{}`: {}, hash {:#018x}", model.name, model.file, model.hash);
+        let _ = writeln!(
+            text,
+            "  model `{}`: {}, hash {:#018x}",
+            printable(&model.name),
+            printable(&model.file),
+            model.hash
+        );
     }
     for body in &run.bodies {
-        let _ = writeln!(text, "  body `{}`", body.name);
+        let _ = writeln!(text, "  body `{}`", printable(&body.name));
     }
     for pair in 0..run.pairs.len() {
         let [a, b] = run.pair_names(pair).unwrap_or_default();
-        let _ = writeln!(text, "  pair `{a}`, `{b}`");
+        let _ = writeln!(text, "  pair `{}`, `{}`", printable(&a), printable(&b));
     }
     if !log.events().is_empty() {
         let _ = writeln!(text, "  {}", rows(log.events().len() as u64, "event"));

@@ -1,8 +1,11 @@
 //! `pong`: the command line of the contact engine.
 //!
-//! Exit codes: 0 all is well, 1 something is wrong with what was named (told on standard error), 2 wrong usage.
+//! Exit codes: 0 all is well, 1 something is wrong with what was named, or the answer could not be written (told on
+//! standard error), 2 wrong usage.
 
 #![forbid(unsafe_code)]
+// `print!` and its kin end the program where they cannot write: all writing goes through `terminal`.
+#![deny(clippy::print_stdout, clippy::print_stderr)]
 
 mod advise;
 mod check;
@@ -11,6 +14,7 @@ mod import;
 mod log;
 mod replay;
 mod run;
+mod terminal;
 mod text;
 mod trade;
 mod tune;
@@ -44,7 +48,11 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    match Cli::parse().command {
+    let arguments = match Cli::try_parse() {
+        Ok(arguments) => arguments,
+        Err(asked) => return terminal::settle(usage(&asked)),
+    };
+    let code = match arguments.command {
         Command::Advise(arguments) => advise::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
@@ -56,5 +64,17 @@ fn main() -> ExitCode {
         Command::Tune(arguments) => tune::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),
+    };
+    terminal::settle(code)
+}
+
+/// Help and version are answers; wrong usage is told.
+fn usage(asked: &clap::Error) -> ExitCode {
+    let text = asked.render().to_string();
+    if asked.use_stderr() {
+        terminal::tell_lines(text.trim_end());
+        return ExitCode::from(2);
     }
+    terminal::print(&text);
+    ExitCode::SUCCESS
 }

@@ -1,6 +1,7 @@
 //! `pong replay`: a response log goes through the engine again.
 
-use crate::text::{count, print};
+use crate::terminal::{print, tell, tell_lines};
+use crate::text::count;
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
 use pong_record::{Log, LogError, ReplayOptions, ReplayReport, replay};
@@ -38,7 +39,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let report = match run(arguments) {
         Ok(report) => report,
         Err(error) => {
-            eprintln!("{error}");
+            tell_lines(&error);
             return ExitCode::FAILURE;
         }
     };
@@ -46,10 +47,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         print(&summary(&report, arguments.tolerance));
     }
     for difference in &report.differences {
-        eprintln!("{difference}");
+        tell(&difference);
     }
     if let Some(obstacle) = &report.obstacle {
-        eprintln!("not exact from frame {} on: {obstacle}", obstacle.frame());
+        tell(format!("not exact from frame {} on: {obstacle}", obstacle.frame()));
     }
     if report.agrees() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
@@ -57,7 +58,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
     let mut log = Log::open(&arguments.log)?;
     if !log.is_whole() {
-        eprintln!("warning: the log was not closed: {} whole frames of it are there", log.frame_count());
+        tell(format!("warning: the log was not closed: {} whole frames of it are there", log.frame_count()));
     }
     let settings = WorkerSettings { workers: arguments.workers, ..WorkerSettings::default() };
     let options = ReplayOptions {

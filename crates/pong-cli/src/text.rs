@@ -1,12 +1,6 @@
-//! Text for terminals: numbers, tables, output that may be cut off.
+//! Text for terminals: numbers, tables, names.
 
-use std::io::Write;
-
-/// Writes to standard output; a reader that has seen enough (`pong … | head`) is no error.
-pub(crate) fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-}
+use pong_model::printable;
 
 /// Six significant digits, without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
@@ -40,10 +34,12 @@ pub(crate) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// Rows under a heading, the first column to the left, the others to the right.
+/// Rows under a heading, the first column to the left, the others to the right; no name in a cell breaks its line.
 pub(crate) fn table(heading: &[&str], rows: &[Vec<String>]) -> String {
+    let rows: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(|cell| printable(cell).into_owned()).collect()).collect();
     let head: Vec<String> = heading.iter().map(|title| (*title).to_owned()).collect();
-    let all: Vec<&Vec<String>> = std::iter::once(&head).chain(rows).collect();
+    let all: Vec<&Vec<String>> = std::iter::once(&head).chain(&rows).collect();
     let width = |column: usize| all.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..heading.len()).map(width).collect();
     let line = |row: &Vec<String>| {
@@ -83,5 +79,7 @@ mod tests {
     fn tables_line_up() {
         let text = table(&["a", "long"], &[vec!["é1".to_owned(), "2".to_owned()]]);
         assert_eq!(text, "  a    long\n  é1      2\n");
+        let text = table(&["a", "b"], &[vec!["x\ny".to_owned(), "2".to_owned()]]);
+        assert_eq!(text, "  a      b\n  x\\ny   2\n");
     }
 }

@@ -1,6 +1,6 @@
 //! `pong trade`: what speed costs in accuracy, measured on the user's scene.
 
-use crate::text::print;
+use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
 use pong_trade::{
@@ -102,7 +102,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     match run(arguments) {
         Ok(study) => finish(arguments, &study),
         Err(error) => {
-            eprintln!("{error}");
+            tell_lines(&error);
             ExitCode::FAILURE
         }
     }
@@ -123,12 +123,12 @@ fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
         .map(|row| row.name.as_str())
         .collect();
     for name in &changed {
-        eprintln!(
+        tell(format!(
             "{name}: the answer is not the same bits as without this lever; that is a fault of the engine"
-        );
+        ));
     }
     if !study.converged {
-        eprintln!("warning: the reference has not converged; no level is named");
+        tell(format!("warning: the reference has not converged; no level is named"));
     }
     if changed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
@@ -145,7 +145,7 @@ fn run(arguments: &Arguments) -> Result<Study, pong_trade::TradeError> {
     let mut watch = |progress: &Progress<'_>| {
         bar.set_length(progress.of);
         bar.set_position(progress.done);
-        bar.set_message(progress.doing.to_owned());
+        show(&bar, progress.doing);
         ControlFlow::Continue(())
     };
     let (subject, output) = (&arguments.subject, output(arguments));
@@ -193,9 +193,9 @@ fn granted(wanted: &[usize]) -> Vec<usize> {
     };
     let (granted, refused): (Vec<usize>, Vec<usize>) = wanted.iter().partition(|workers| has(workers));
     for workers in refused {
-        eprintln!(
+        tell(format!(
             "warning: --workers {workers} is left out: there are not so many cores beside the caller's"
-        );
+        ));
     }
     granted
 }

@@ -1,6 +1,6 @@
 //! `pong tune`: bounds and leaves that lower the frame time of a run, for the same bits.
 
-use crate::text::print;
+use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_tune::{Output, Progress, Settings, TuneError, Tuned, report, tune};
 use std::path::{Path, PathBuf};
@@ -48,12 +48,12 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
                 print(&report::page(&tuned));
             }
             for line in tuned.refused.iter().filter(|_| arguments.quiet) {
-                eprintln!("warning: a proposal was thrown away: {line}");
+                tell(format!("warning: a proposal was thrown away: {line}"));
             }
             ExitCode::SUCCESS
         }
         Err(error) => {
-            eprintln!("{error}");
+            tell_lines(&error);
             ExitCode::FAILURE
         }
     }
@@ -71,9 +71,9 @@ fn run(arguments: &Arguments) -> Result<Tuned, TuneError> {
     let bar = progress_bar(arguments.quiet);
     let mut watch = |progress: &Progress| match progress {
         Progress::Running { doing, done, of } => {
-            bar.set_message(format!("{doing}: frame {done} of {of}"));
+            show(&bar, &format!("{doing}: frame {done} of {of}"));
         }
-        Progress::Searching(doing) => bar.set_message(doing.clone()),
+        Progress::Searching(doing) => show(&bar, doing),
     };
     let tuned = tune(&runs, &settings, &mut watch);
     bar.finish_and_clear();

@@ -1,6 +1,6 @@
 //! `pong verify`: the cases with known answers and the extremes, and their reports.
 
-use crate::text::print;
+use crate::terminal::{print, tell};
 use pong_verify::extremes::{self, Extreme, Length};
 use pong_verify::{Case, cases, report};
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let chosen = match choose(&arguments.only) {
         Ok(chosen) => chosen,
         Err(unknown) => {
-            eprintln!("there is no case `{unknown}`; `pong verify --list` names them");
+            tell(format!("there is no case `{unknown}`; `pong verify --list` names them"));
             return ExitCode::from(2);
         }
     };
@@ -59,7 +59,7 @@ fn finish(arguments: &Arguments, report: &str, failed: usize) -> ExitCode {
     if let Some(path) = &arguments.output
         && let Err(reason) = std::fs::write(path, report)
     {
-        eprintln!("{}: {reason}", path.display());
+        tell(format!("{}: {reason}", path.display()));
         return ExitCode::FAILURE;
     }
     if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -70,7 +70,7 @@ fn main_of_extremes(arguments: &Arguments) -> ExitCode {
     let is_asked = |extreme: &&Extreme| arguments.only.iter().any(|id| id.eq_ignore_ascii_case(extreme.id));
     let unknown = |id: &&String| !all.iter().any(|extreme| id.eq_ignore_ascii_case(extreme.id));
     if let Some(unknown) = arguments.only.iter().find(unknown) {
-        eprintln!("there is no extreme `{unknown}`; `pong verify --extremes --list` names them");
+        tell(format!("there is no extreme `{unknown}`; `pong verify --extremes --list` names them"));
         return ExitCode::from(2);
     }
     let chosen: Vec<_> = match arguments.only.as_slice() {
@@ -115,7 +115,7 @@ fn on_all_cores<T: Sync, R: Send + Sync>(
             let Some(item) = items.get(index) else { break };
             let (name, holds, answer) = run(item);
             let number = done.fetch_add(1, Ordering::Relaxed) + 1;
-            eprintln!("[{number}/{}] {name} … {}", items.len(), if holds { "holds" } else { "FAILS" });
+            tell(format!("[{number}/{}] {name} … {}", items.len(), if holds { "holds" } else { "FAILS" }));
             let _ = results[index].set(answer);
         }
     };

@@ -1,6 +1,7 @@
 //! `pong view`: a response log as one web page.
 
-use crate::text::{count, number, print};
+use crate::terminal::{print, tell, tell_lines};
+use crate::text::{count, number};
 use pong_geometry::extension::Extensions;
 use pong_record::Log;
 use pong_view::{Options, Page, ViewError};
@@ -33,16 +34,16 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let page = match page(arguments) {
         Ok(page) => page,
         Err(error) => {
-            eprintln!("{error}");
+            tell_lines(&error);
             return ExitCode::FAILURE;
         }
     };
     if let Err(reason) = std::fs::write(&output, &page.html) {
-        eprintln!("{}: cannot be written: {reason}; name a file in a folder with room", output.display());
+        tell(format!("{}: cannot be written: {reason}; name a file in a folder with room", output.display()));
         return ExitCode::FAILURE;
     }
     for note in &page.notes {
-        eprintln!("note: {note}");
+        tell(format!("note: {note}"));
     }
     if !arguments.quiet {
         print(&summary(&output, &page));

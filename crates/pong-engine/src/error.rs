@@ -1,6 +1,7 @@
 //! What can go wrong, told as thing, cause and cure.
 
 use crate::state::StateError;
+use pong_model::printable;
 
 /// An error of the engine. The world is as it was before the call.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,31 +79,36 @@ impl std::fmt::Display for EngineError {
                 "{what}: the id is zero, stale or of another world; use an id that this world returned"
             ),
             Self::UnknownName { what, name, known } => {
-                write!(f, "{what} `{name}`: there is none; known: {}", known.join(", "))
+                let known: Vec<_> = known.iter().map(|name| printable(name)).collect();
+                write!(f, "{what} `{}`: there is none; known: {}", printable(name), known.join(", "))
             }
-            Self::Duplicate { what } => write!(f, "{what}: already there; use another name or leave it out"),
+            Self::Duplicate { what } => {
+                write!(f, "{}: already there; use another name or leave it out", printable(what))
+            }
             Self::WrongPhase { call, cure } => write!(f, "{call}: not allowed now; {cure}"),
             Self::Seal { problems } => {
                 write!(f, "the scene cannot be sealed:")?;
-                problems.iter().try_for_each(|problem| write!(f, "\n  {problem}"))
+                problems.iter().try_for_each(|problem| write!(f, "\n  {}", printable(problem)))
             }
             Self::BadState { interface, cause } => {
-                write!(f, "state of `{interface}`: {cause}; the state set before stays in force")
+                write!(f, "state of `{}`: {cause}; the state set before stays in force", printable(interface))
             }
             Self::UnsetState { interface } => {
                 write!(
                     f,
-                    "state of `{interface}`: never set; set the states of all paired movable groups before a frame"
+                    "state of `{}`: never set; set the states of all paired movable groups before a frame",
+                    printable(interface)
                 )
             }
             Self::NotFinite { interface } => {
                 write!(
                     f,
-                    "frame: the contacts of `{interface}` give forces, moments or energies beyond what a number holds; set \
-                     smaller states or surface values, or mend the law, and evaluate again"
+                    "frame: the contacts of `{}` give forces, moments or energies beyond what a number holds; set smaller states \
+                     or surface values, or mend the law, and evaluate again",
+                    printable(interface)
                 )
             }
-            Self::BadValue { what, cause } => write!(f, "{what}: {cause}"),
+            Self::BadValue { what, cause } => write!(f, "{}: {}", printable(what), printable(cause)),
             Self::Workers { cause } => write!(f, "workers: {cause}"),
             Self::State(error) => error.fmt(f),
         }

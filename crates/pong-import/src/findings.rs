@@ -1,5 +1,6 @@
 //! What is wrong with a file, and what its author should know.
 
+use pong_model::printable;
 use std::fmt;
 
 /// One fault or note: the thing, the cause and, for faults, the cure.
@@ -18,7 +19,8 @@ pub struct Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { path, rule, cause, cure } = self;
-        match cure.as_str() {
+        let [path, cause, cure] = [path, cause, cure].map(|text| printable(text));
+        match &*cure {
             "" => write!(f, "{path}: [{rule}] {cause}"),
             cure => write!(f, "{path}: [{rule}] {cause}; {cure}"),
         }

@@ -1,5 +1,6 @@
 //! What is wrong with a model file, where, and what to do about it.
 
+use crate::printable;
 use std::fmt;
 
 /// One fault of a model file.
@@ -24,6 +25,7 @@ pub struct ModelError {
 impl fmt::Display for ModelError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { file, line, column, path, rule, cause, cure } = self;
+        let [file, path, cause, cure] = [file, path, cause, cure].map(|text| printable(text));
         write!(f, "{file}:{line}:{column}: {path}: [{rule}] {cause}; {cure}")
     }
 }

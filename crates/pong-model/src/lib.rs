@@ -19,6 +19,7 @@ mod hull;
 pub mod model;
 mod pieces;
 mod polyhedra;
+mod printable;
 mod read;
 mod regroup;
 pub mod restitution;
@@ -32,6 +33,7 @@ mod weld;
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
 pub use model::{Balls, Batch, Body, ChunkBoxes, Item, Model, Node, PrimitiveInfo, Tree};
+pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
 use pong_geometry::extension::Extensions;

@@ -22,7 +22,7 @@ mod run;
 pub mod table;
 mod write;
 
-pub use csv::{AccountsTable, CsvTables, Look};
+pub use csv::{AccountsTable, CsvTables, Look, csv_name};
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
 pub use read::{Frame, Log};

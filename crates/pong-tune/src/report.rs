@@ -2,6 +2,7 @@
 
 use crate::counts::Counts;
 use crate::tune::{RunTuned, Tuned};
+use pong_model::printable;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -12,7 +13,7 @@ const REFUSED_TOLD: usize = 5;
 pub fn page(tuned: &Tuned) -> String {
     let mut out = String::new();
     for run in &tuned.runs {
-        let _ = writeln!(out, "# {}\n\n{}\n", run.name, compared(run));
+        let _ = writeln!(out, "# {}\n\n{}\n", printable(&run.name), compared(run));
         out += &table(run, tuned.models.iter().any(|model| !model.changes.is_empty()));
         out.push('\n');
     }
@@ -23,7 +24,7 @@ pub fn page(tuned: &Tuned) -> String {
     if !tuned.refused.is_empty() {
         let _ = writeln!(out, "\nThrown away, since a model may not change an answer:\n");
         tuned.refused.iter().take(REFUSED_TOLD).for_each(|line| {
-            let _ = writeln!(out, "* {line}");
+            let _ = writeln!(out, "* {}", printable(line));
         });
         if tuned.refused.len() > REFUSED_TOLD {
             let _ = writeln!(out, "* and {} more", tuned.refused.len() - REFUSED_TOLD);
@@ -67,11 +68,11 @@ fn verdict(tuned: &Tuned) -> String {
 fn changes(tuned: &Tuned, model: &crate::ModelTuned) -> String {
     let Some(written) = &model.written else {
         let words = if tuned.taken { "stays as it is" } else { return String::new() };
-        return format!("\n## {}\n\n{} {words}.\n", model.name, model.file.display());
+        return format!("\n## {}\n\n{} {words}.\n", printable(&model.name), model.file.display());
     };
-    let mut out = format!("\n## {}\n\n{} is written. In it:\n\n", model.name, written.display());
+    let mut out = format!("\n## {}\n\n{} is written. In it:\n\n", printable(&model.name), written.display());
     model.changes.iter().for_each(|line| {
-        let _ = writeln!(out, "* {line}");
+        let _ = writeln!(out, "* {}", printable(line));
     });
     let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let _ = writeln!(

@@ -2,6 +2,7 @@
 
 use crate::text::{count, number, table};
 use pong_engine::advice::{GroupLimits, PairLimits, StepPlan, StepReport};
+use pong_model::printable;
 
 /// The table and the verdict.
 pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
@@ -25,7 +26,7 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
         text += &first_to_fail(report, plan);
     }
     for cause in &report.not_judged {
-        text += &format!("not judged: {cause}\n");
+        text += &format!("not judged: {}\n", printable(cause));
     }
     text
 }
@@ -96,7 +97,7 @@ fn first_to_fail(report: &StepReport, plan: &StepPlan) -> String {
         (_, true) => format!("beyond {} s, and the step is {} s", number(step), number(plan.step)),
         (_, false) => format!("beyond {} s; the step is shorter", number(step)),
     };
-    format!("First to go wrong: {what} {when}\n") + &may_go_wrong(report, step)
+    format!("First to go wrong: {} {when}\n", printable(&what)) + &may_go_wrong(report, step)
 }
 
 /// What may go wrong before that, and need not.
@@ -106,7 +107,7 @@ fn may_go_wrong(report: &StepReport, first: f64) -> String {
         Some(group) if group.stable_step < first => format!(
             "Before that, {} on `{}` may gain energy beyond {} s\n",
             count(group.contacts, "contact", "contacts together"),
-            group.group,
+            printable(&group.group),
             number(group.stable_step)
         ),
         _ => String::new(),

@@ -5,9 +5,9 @@ mod pairs;
 mod stiffness;
 mod tree;
 
-use crate::text::print;
+use crate::terminal::{print, tell, tell_lines};
 use pong_geometry::extension::Extensions;
-use pong_model::Model;
+use pong_model::{Model, printable};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         match pong_model::load(path, &Extensions::new()) {
             Ok(model) => named.push(name(&named, model)),
             Err(errors) => {
-                eprintln!("{errors}");
+                tell_lines(&errors);
                 faults += errors.0.len();
             }
         }
@@ -45,14 +45,16 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for Named { name, model } in &named {
         text += &tree::description(name, model);
         let warnings = model.warnings.iter().cloned().chain(doubled::warnings(model));
-        warnings.for_each(|warning| text += &format!("  warning: {warning}\n"));
+        warnings.for_each(|warning| text += &format!("  warning: {}\n", printable(&warning)));
     }
     if !arguments.alone {
         for (a, b) in meetings(&named) {
             match pairs::description(a, b) {
                 Ok(meeting) => text += &meeting,
                 Err(problems) => {
-                    problems.iter().for_each(|problem| eprintln!("`{}` and `{}`: {problem}", a.name, b.name));
+                    problems
+                        .iter()
+                        .for_each(|problem| tell(format!("`{}` and `{}`: {problem}", a.name, b.name)));
                     faults += problems.len();
                 }
             }
@@ -62,15 +64,17 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if faults == 0 {
         return ExitCode::SUCCESS;
     }
-    eprintln!("{}", crate::text::count(faults, "fault", "faults"));
+    tell(format!("{}", crate::text::count(faults, "fault", "faults")));
     ExitCode::FAILURE
 }
 
 /// Two models of one name are told apart by a number.
 fn name(earlier: &[Named], model: Model) -> Named {
+    // Only shown: the engine is given this name too, which nothing else sees.
+    let own = printable(&model.name).into_owned();
     let taken = |name: &str| earlier.iter().any(|other| other.name == name);
-    let numbered = (2..).map(|number| format!("{}#{number}", model.name));
-    let name = std::iter::once(model.name.clone()).chain(numbered).find(|name| !taken(name));
+    let numbered = (2..).map(|number| format!("{own}#{number}"));
+    let name = std::iter::once(own.clone()).chain(numbered).find(|name| !taken(name));
     Named { name: name.unwrap_or_default(), model: Arc::new(model) }
 }
 

@@ -4,7 +4,7 @@ use super::{Named, stiffness};
 use crate::text::{count, number};
 use pong_engine::{Config, EngineError, SealReport, World, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::Body;
+use pong_model::{Body, printable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
         );
     }
     for warning in &report.warnings {
-        text += &format!("  warning: {warning}\n");
+        text += &format!("  warning: {}\n", printable(&warning.to_string()));
     }
     let mut faces = Vec::new();
     for (body_a, body_b) in group_pairs(a, b, itself) {

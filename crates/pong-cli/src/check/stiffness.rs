@@ -4,7 +4,7 @@ use super::Named;
 use crate::text::{count, number};
 use pong_engine::{Laws, NormalProps, combine_surfaces};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Exponent, Model, PairOverride, Surface};
+use pong_model::{Body, Exponent, Model, PairOverride, Surface, printable};
 use std::collections::BTreeMap;
 
 /// How many are told; the softer ones are only counted.
@@ -62,7 +62,7 @@ pub(super) fn faces_pressed((a, body_a): (&Named, &Body), (b, body_b): (&Named, 
             b.name,
             body_b.path,
         );
-        found.push(FacePressed { stiffness, unit, told });
+        found.push(FacePressed { stiffness, unit, told: printable(&told).into_owned() });
     }
     found
 }

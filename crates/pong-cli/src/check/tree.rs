@@ -3,7 +3,7 @@
 use crate::text::{count, number, numbers};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Element, Exponent, FrictionLaw, Model, NormalLaw, Surface};
+use pong_model::{Body, Element, Exponent, FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::collections::BTreeMap;
 
 /// A group as the engine sees it.
@@ -26,12 +26,13 @@ pub(super) fn description(name: &str, model: &Model) -> String {
         text += &extent(body);
     }
     for surface in &model.surfaces {
-        text += &format!("  surface {}\n", surface_line(surface));
+        text += &format!("  surface {}\n", printable(&surface_line(surface)));
     }
     for entry in &model.pair_overrides {
         text += &format!(
             "  pair of surfaces `{}` and `{}` has values of its own\n",
-            entry.surfaces[0], entry.surfaces[1]
+            printable(&entry.surfaces[0]),
+            printable(&entry.surfaces[1])
         );
     }
     text
@@ -89,7 +90,13 @@ fn draw(groups: &[Group], path: &str, depth: usize, text: &mut String) {
         .map(|(kind, (primitives, elements))| held(*kind, *primitives, *elements))
         .collect();
     let holds = if holds.is_empty() { String::new() } else { format!(": {}", holds.join(", ")) };
-    *text += &format!("{:indent$}{name} ({}{movable}){holds}\n", "", group.bound, indent = 2 * depth);
+    *text += &format!(
+        "{:indent$}{} ({}{movable}){holds}\n",
+        "",
+        printable(name),
+        printable(&group.bound),
+        indent = 2 * depth
+    );
     let is_child = |other: &&Group| other.path.rsplit_once('/').is_some_and(|(above, _)| above == path);
     for child in groups.iter().filter(is_child) {
         draw(groups, &child.path, depth + 1, text);
@@ -108,14 +115,19 @@ fn held(kind: PrimitiveKind, primitives: usize, elements: usize) -> String {
 fn extent(body: &Body) -> String {
     let items = &body.tree.items;
     if items.is_empty() {
-        return format!("  extent of {}: nothing\n", body.path);
+        return format!("  extent of {}: nothing\n", printable(&body.path));
     }
     let start = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
     let (low, high) = items.iter().fold(start, |(low, high), item| {
         let (l, h) = Element::new(body, *item).extent();
         (low.inf(&l), high.sup(&h))
     });
-    format!("  extent of {}: ({}) … ({}) m\n", body.path, numbers(low.as_slice()), numbers(high.as_slice()))
+    format!(
+        "  extent of {}: ({}) … ({}) m\n",
+        printable(&body.path),
+        numbers(low.as_slice()),
+        numbers(high.as_slice())
+    )
 }
 
 fn surface_line(surface: &Surface) -> String {

@@ -5,7 +5,7 @@ mod outputs;
 mod statistics;
 mod summary;
 
-use crate::text::print;
+use crate::terminal::{print, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use outputs::Outputs;
 use pong_executive::ExecutiveError;
@@ -65,18 +65,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut built = match Scene::load(&arguments.scene).and_then(|scene| scene.build()) {
         Ok(built) => built,
         Err(errors) => {
-            eprintln!("{errors}");
+            tell_lines(&errors);
             return ExitCode::FAILURE;
         }
     };
     for warning in built.warnings.iter().cloned().chain(built.seal.warnings.iter().map(ToString::to_string)) {
-        eprintln!("warning: {warning}");
+        tell(format!("warning: {warning}"));
     }
     for warning in built.simulation.step_warnings() {
-        eprintln!("warning: {warning}");
+        tell(format!("warning: {warning}"));
     }
     if !arguments.quiet {
-        built.simulation.step_notes().iter().for_each(|note| eprintln!("note: {note}"));
+        built.simulation.step_notes().iter().for_each(|note| tell(format!("note: {note}")));
     }
     let mut statistics = Statistics::new(&built, arguments.acting);
     let ended = run(arguments, &mut built, &mut statistics);
@@ -84,15 +84,15 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         print(&summary::summary(&built, &statistics));
     }
     for warning in built.simulation.energy_warnings() {
-        eprintln!("warning: {warning}");
+        tell(format!("warning: {warning}"));
     }
     for advice in [statistics.incomplete_advice(), statistics.passage_advice()].into_iter().flatten() {
-        eprintln!("warning: {advice}");
+        tell(format!("warning: {advice}"));
     }
     match ended {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{}: {failure}", arguments.scene.display());
+            tell(format!("{}: {failure}", arguments.scene.display()));
             ExitCode::FAILURE
         }
     }

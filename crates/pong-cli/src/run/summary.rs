@@ -6,6 +6,7 @@ use crate::text::{count, number, numbers, table};
 use pong_engine::{PairAccount, Verdict};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Simulation};
+use pong_model::printable;
 
 pub(super) fn summary(built: &BuiltScene, statistics: &Statistics) -> String {
     let simulation = &built.simulation;
@@ -25,7 +26,7 @@ fn heading(built: &BuiltScene, statistics: &Statistics) -> String {
     let simulation = &built.simulation;
     format!(
         "{}: t = {} s, step {} s, {:?}; {}, {}, at most {}\n",
-        built.name,
+        printable(&built.name),
         number(simulation.time()),
         number(simulation.step_length()),
         simulation.integrator(),

@@ -1,5 +1,7 @@
 //! What is wrong with a scene file, where, and what to do about it.
 
+use pong_model::{printable, printable_lines};
+
 /// One fault of a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneError {
@@ -17,12 +19,13 @@ pub struct SceneError {
 
 impl std::fmt::Display for SceneError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}", self.file)?;
+        // The cause may be all that the reader of a model said: a line for each fault, each printable already.
+        write!(f, "{}", printable(&self.file))?;
         if let Some((line, column)) = self.at {
             write!(f, ":{line}:{column}")?;
         }
-        write!(f, ": {}: {}", self.thing, self.cause)?;
-        if self.cure.is_empty() { Ok(()) } else { write!(f, "; {}", self.cure) }
+        write!(f, ": {}: {}", printable(&self.thing), printable_lines(&self.cause))?;
+        if self.cure.is_empty() { Ok(()) } else { write!(f, "; {}", printable(&self.cure)) }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The energy accounts of a run as CSV.
 
 use super::Look;
-use super::table::{Table, quoted};
+use super::table::{Table, csv_name};
 use crate::error::LogError;
 use pong_engine::{InterfaceId, World};
 use std::path::Path;
@@ -23,7 +23,7 @@ impl AccountsTable {
     /// # Errors
     /// A folder that cannot be written.
     pub fn create(folder: &Path, look: &Look) -> Result<Self, LogError> {
-        let names = look.run().bodies.iter().map(|body| quoted(&body.name));
+        let names = look.run().bodies.iter().map(|body| csv_name(&body.name));
         Ok(Self {
             table: Table::create(folder, "accounts.csv", ACCOUNTS)?,
             bodies: look.capture.bodies().iter().copied().zip(names).collect(),

@@ -12,7 +12,8 @@ use crate::table::{ContactRow, EnergyRow};
 use crate::write::{Capture, RecordOptions, describe};
 use pong_engine::World;
 use std::path::Path;
-use table::{Table, quoted};
+use table::Table;
+pub use table::csv_name;
 
 const STATES: &str = "time_s,body,x_m,y_m,z_m,qw,qx,qy,qz,vx_m_per_s,vy_m_per_s,vz_m_per_s,\
                       wx_rad_per_s,wy_rad_per_s,wz_rad_per_s";
@@ -79,9 +80,9 @@ impl CsvTables {
             wrenches: Table::create(folder, "wrenches.csv", WRENCHES)?,
             contacts: Table::create(folder, "contacts.csv", CONTACTS)?,
             energies,
-            bodies: run.bodies.iter().map(|body| quoted(&body.name)).collect(),
+            bodies: run.bodies.iter().map(|body| csv_name(&body.name)).collect(),
             primitives: primitives
-                .map(|index| quoted(&run.primitive_name(index).unwrap_or_default()))
+                .map(|index| csv_name(&run.primitive_name(index).unwrap_or_default()))
                 .collect(),
         })
     }

@@ -1,6 +1,7 @@
 //! One CSV file, line by line.
 
 use crate::error::LogError;
+use pong_model::printable;
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -29,7 +30,7 @@ impl Table {
         let _ = write!(self.line, "{time:?}");
     }
 
-    /// A cell as it stands: a whole number, or a name that is [`quoted`].
+    /// A cell as it stands: a whole number, or a name by [`csv_name`].
     pub fn cell(&mut self, text: impl std::fmt::Display) {
         let _ = write!(self.line, ",{text}");
     }
@@ -51,10 +52,34 @@ impl Table {
 }
 
 /// A name as CSV writes it.
-pub(super) fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
+///
+/// Characters that steer a display are escapes. Spreadsheets take a cell that begins with `=`, `+`, `-` or `@` for a
+/// formula and compute it: an apostrophe before it makes it text.
+pub fn csv_name(name: &str) -> String {
+    let shown = printable(name);
+    let formula = if shown.starts_with(['=', '+', '-', '@']) { "'" } else { "" };
+    let cell = format!("{formula}{shown}");
+    if cell.contains([',', '"']) { format!("\"{}\"", cell.replace('"', "\"\"")) } else { cell }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::csv_name;
+
+    #[test]
+    fn no_name_is_a_formula_a_line_or_a_command() {
+        for (name, cell) in [
+            ("arm/tip", "arm/tip"),
+            ("a-b=c@d", "a-b=c@d"),
+            ("say \"a, b\"", "\"say \"\"a, b\"\"\""),
+            ("=HYPERLINK(\"x\", 1)", "\"'=HYPERLINK(\"\"x\"\", 1)\""),
+            ("@SUM(A1)", "'@SUM(A1)"),
+            ("+1", "'+1"),
+            ("-1", "'-1"),
+            ("\t=1", "\\t=1"),
+            ("a\r\nb\x1b[2J", "a\\r\\nb\\u{1b}[2J"),
+        ] {
+            assert_eq!(csv_name(name), cell, "{name:?}");
+        }
     }
 }

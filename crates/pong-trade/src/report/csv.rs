@@ -3,6 +3,7 @@
 use crate::errors::Quantity;
 use crate::level::motion_name;
 use crate::study::{Answer, Row, Study};
+use pong_record::csv_name;
 use std::fmt::Write as _;
 
 /// One line per level: all that decides it, its errors, its times.
@@ -36,11 +37,11 @@ fn heading() -> String {
 fn line(study: &Study, row: &Row) -> String {
     let level = &row.level;
     let levers = [
-        quoted(&row.name),
-        quoted(&motion_name(level.motion)),
+        csv_name(&row.name),
+        csv_name(&motion_name(level.motion)),
         format!("{:?}", study.plan.frames.frame_s / f64::from(level.steps_per_frame)),
         if level.frictionless { "none" } else { "model" }.to_owned(),
-        quoted(level.alternative.as_deref().unwrap_or("")),
+        csv_name(level.alternative.as_deref().unwrap_or("")),
         level.bounds.as_ref().map_or("model", |kind| kind.name()).to_owned(),
         level.leaf.map_or("model".to_owned(), |most| most.to_string()),
         level.workers.to_string(),
@@ -61,8 +62,4 @@ fn line(study: &Study, row: &Row) -> String {
         }
     };
     format!("{},{answer}", levers.join(","))
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

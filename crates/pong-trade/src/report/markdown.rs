@@ -5,12 +5,13 @@ use crate::errors::Quantity;
 use crate::level::seconds;
 use crate::reference::Reference;
 use crate::study::{Answer, Row, Study};
+use pong_model::printable;
 use std::fmt::Write as _;
 
 /// The whole page: how the reference stands, every level, what to choose, what each lever does.
 pub fn markdown(study: &Study) -> String {
     let frames = &study.plan.frames;
-    let mut page = format!("# Speed against accuracy: {}\n\n", study.scene);
+    let mut page = format!("# Speed against accuracy: {}\n\n", printable(&study.scene));
     let duration = frames.frame_s * frames.count as f64;
     let _ = writeln!(
         page,
@@ -89,7 +90,7 @@ fn verdict(study: &Study) -> String {
             format!(
                 "**The cheapest level within {within} %** in {names}: **{}**{against}. A level counts as within if its error and \
                  that of the reference ({uncertainty} %) together are.",
-                row.name
+                printable(&row.name)
             )
         }
     };

@@ -12,6 +12,7 @@ pub use plot::svg;
 use crate::error::TradeError;
 use crate::store::write_whole;
 use crate::study::Study;
+use pong_model::printable;
 use std::path::Path;
 
 /// Writes `trade.md`, `trade.csv`, `errors.csv` and `trade.svg` into a folder.
@@ -58,6 +59,8 @@ pub(crate) fn microseconds(ns: u64) -> String {
 
 /// A Markdown table whose columns line up, the first to the left, the others to the right.
 pub(crate) fn table(heading: &[&str], rows: &[Vec<String>]) -> String {
+    let rows: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(|cell| printable(cell).into_owned()).collect()).collect();
     let head: Vec<String> = heading.iter().map(|title| (*title).to_owned()).collect();
     let width = |column: usize| {
         rows.iter().chain([&head]).map(|row| row[column].chars().count()).max().unwrap_or(0).max(3)
