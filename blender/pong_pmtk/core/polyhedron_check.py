@@ -15,6 +15,7 @@ from .polyhedron_merge import HullFace, edges, merge_coplanar
 
 PLANE_TOLERANCE = 1e-6  # of the diameter
 SLIVER = 1e-9  # of the longest edge
+LEVELS = 5  # how often the tolerance of merging is made smaller
 
 
 @dataclass
@@ -55,9 +56,14 @@ def _check(vertices: np.ndarray, faces: list[np.ndarray], inactive: set[int]) ->
     _refuse(_closed_surface(vertices, faces))
     _refuse(_volume(vertices, faces, diameter))
     _refuse(_planar(vertices, faces, diameter))
-    hull = merge_coplanar(vertices, faces, inactive, PLANE_TOLERANCE * diameter, diameter)
-    in_use = np.unique(np.concatenate([np.asarray(face.outline) for face in hull]))
-    _refuse(_convex(vertices, hull, in_use, diameter))
+    # Merged faces can end ragged where they lie nearly in one plane: then less and less is merged, as in the loader, and
+    # in the end nothing.
+    for tolerance in [PLANE_TOLERANCE * diameter * 0.25**level for level in range(LEVELS)] + [None]:
+        hull = merge_coplanar(vertices, faces, inactive, tolerance, diameter)
+        problems = _convex(vertices, hull, used, diameter)
+        if not problems:
+            return
+    _refuse(problems)
 
 
 def _refuse(problems: list[Problem]) -> None:
@@ -168,7 +174,7 @@ def _convex(vertices: np.ndarray, hull: list[HullFace], used: np.ndarray, diamet
         if dent > tolerance:
             cause = "the outline of this face has a dent"
             problems.append(Problem("face-not-convex", cause, cure, [face.authored], off=dent))
-    if not problems and thin:
+    if not problems and (thin or len(hull) < 4):
         return [_no_thickness()]
     return sorted(problems, key=lambda problem: problem.faces)
 

@@ -33,9 +33,11 @@ def edges(face: list[int]) -> list[tuple[int, int]]:
 
 
 def merge_coplanar(
-    vertices: np.ndarray, faces: list[np.ndarray], inactive: set[int], tolerance: float, diameter: float
+    vertices: np.ndarray, faces: list[np.ndarray], inactive: set[int], tolerance: float | None, diameter: float
 ) -> list[HullFace]:
-    """The planar faces of a closed surface."""
+    """The planar faces of a closed surface; without a tolerance each face as it is."""
+    if tolerance is None:
+        return [_face(vertices, face.tolist(), index) for index, face in enumerate(faces)]
     regions = _Regions(vertices, faces, inactive, tolerance, diameter)
     merged = []
     for region in regions.all():

@@ -1,7 +1,8 @@
 //! What a polyhedron must be.
 
-use super::polygon::{area_vector, edges, longest_edge, plane_of, width};
-use super::{Hull, PLANE_TOLERANCE, Problem};
+use super::places::Places;
+use super::polygon::{area_vector, dent, edges, longest_edge, plane_of, width};
+use super::{HullFace, PLANE_TOLERANCE, Problem};
 use crate::read::out_of_range;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
@@ -131,10 +132,14 @@ pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     for (index, face) in faces.iter().enumerate().filter(|(_, face)| face.len() > 3) {
         let corners = corners(vertices, face);
         let (normal, offset) = plane_of(&corners);
-        let off = corners.iter().map(|c| (normal.dot(c) - offset).abs()).fold(0.0, f64::max);
+        let offs = corners.iter().map(|c| ((normal.dot(c) - offset).abs(), c));
+        let Some((off, corner)) = offs.max_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
         if off > PLANE_TOLERANCE * diameter {
-            let cause =
-                format!("a vertex is {:.1e} of the diameter off the plane of this face", off / diameter);
+            let cause = format!(
+                "the vertex {} is {:.1e} of the diameter off the plane of this face",
+                place(corner),
+                off / diameter
+            );
             problems.push(Problem::new(
                 Some(index),
                 "face-not-planar",
@@ -147,66 +152,46 @@ pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
 }
 
 /// No vertex lies in front of a face, no face has a dent, and there is a thickness behind every face.
-pub(super) fn convex(hull: &Hull) -> Checked {
-    let tolerance = PLANE_TOLERANCE * hull.diameter;
+///
+/// Vertices that merging has dropped count too: no place of the solid may move by more than the tolerance.
+pub(super) fn convex(vertices: &[Vec3], faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
+    let tolerance = PLANE_TOLERANCE * diameter;
     let mut problems = Vec::new();
-    for (index, face) in hull.faces.iter().enumerate() {
-        let authored = Some(face.authored as usize);
-        if let Some(problem) = vertex_in_front(hull, index, tolerance) {
-            problems.push(problem);
-        } else if has_dent(hull, index, tolerance) {
-            let cause = "the outline of this face has a dent".to_owned();
-            problems.push(Problem::new(
-                authored,
-                "face-not-convex",
-                cause,
-                "split the solid into convex pieces",
-            ));
-        }
+    for face in faces {
+        problems.extend(vertex_in_front(vertices, face, tree, diameter).or_else(|| {
+            let corners = corners(vertices, &face.outline);
+            let (depth, corner) = dent(&corners, &face.normal, tolerance)?;
+            let cause = format!(
+                "the outline of this face has a dent: the vertex {} is {:.1e} of the diameter beyond the line of an edge",
+                place(&corners[corner]),
+                depth / diameter
+            );
+            Some(not_convex(face, "face-not-convex", cause))
+        }));
     }
-    let thin = |face: &super::HullFace| {
-        let deepest = hull.vertices.iter().map(|v| face.offset - face.normal.dot(v)).fold(0.0, f64::max);
-        deepest < tolerance
-    };
-    if problems.is_empty() && hull.faces.iter().any(thin) {
+    let thin = |face: &HullFace| tree.highest((&-face.normal, -face.offset), tolerance, |_| true).is_none();
+    // Merged to fewer faces, the solid would be as good as flat.
+    if problems.is_empty() && (faces.len() < 4 || faces.iter().any(thin)) {
         problems.push(no_thickness());
     }
     verdict(problems)
 }
 
-fn vertex_in_front(hull: &Hull, index: usize, tolerance: f64) -> Option<Problem> {
-    let face = &hull.faces[index];
-    let mut farthest = (0.0, 0);
-    for (number, vertex) in hull.vertices.iter().enumerate() {
-        let height = face.normal.dot(vertex) - face.offset;
-        if height > farthest.0 && !face.outline.contains(&(number as u32)) {
-            farthest = (height, number);
-        }
-    }
-    if farthest.0 <= tolerance {
-        return None;
-    }
-    let v = hull.vertices[farthest.1];
-    let cause = format!(
-        "not convex: the vertex ({}, {}, {}) is {:.1e} of the diameter in front of this face",
-        v.x,
-        v.y,
-        v.z,
-        farthest.0 / hull.diameter
-    );
-    Some(Problem::new(
-        Some(face.authored as usize),
-        "not-convex",
-        cause,
-        "split the solid into convex pieces",
-    ))
+fn not_convex(face: &HullFace, rule: &'static str, cause: String) -> Problem {
+    Problem::new(Some(face.authored as usize), rule, cause, "split the solid into convex pieces")
 }
 
-fn has_dent(hull: &Hull, index: usize, tolerance: f64) -> bool {
-    let normal = hull.faces[index].normal;
-    let corners = hull.corners(index);
-    edges(&corners).any(|(a, b)| {
-        let outward = super::polygon::unit(&(b - a)).cross(&normal);
-        corners.iter().any(|c| outward.dot(&(c - a)) > tolerance)
-    })
+fn place(v: &Vec3) -> String {
+    format!("({}, {}, {})", v.x, v.y, v.z)
+}
+
+fn vertex_in_front(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: f64) -> Option<Problem> {
+    let others = |v: u32| !face.outline.contains(&v);
+    let (height, vertex) = tree.highest((&face.normal, face.offset), PLANE_TOLERANCE * diameter, others)?;
+    let cause = format!(
+        "not convex: the vertex {} is {:.1e} of the diameter in front of this face",
+        place(&vertices[vertex as usize]),
+        height / diameter
+    );
+    Some(not_convex(face, "not-convex", cause))
 }

@@ -1,10 +1,15 @@
-//! Coplanar neighbouring faces become one: hulls from OBJ and STL files are triangulated.
+//! Neighbouring faces that lie in one plane become one: hulls from OBJ and STL files are triangulated.
 //!
 //! Regions grow from the largest faces, whose normals are the surest. A face joins when every vertex of the
 //! region stays within the tolerance of the common plane. Area vectors add up to that of the union, so the
 //! arbitrary normal of a sliver cannot turn the plane.
+//!
+//! Where faces are nearly but not quite in one plane (a shallow cap, a finely tessellated ball), a region can end with a
+//! ragged outline. Such a region is grown again with a quarter of the tolerance, and so on down to single faces, which
+//! are convex as they are: the merging always ends in convex faces within the tolerance, as few as it finds.
 
-use super::polygon::{area_vector, edges, plane_of, unit, width};
+use super::places::Places;
+use super::polygon::{area_vector, edges, nearly_convex, plane_of, unit, width};
 use super::{HullFace, PLANE_TOLERANCE};
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
@@ -12,6 +17,10 @@ use std::collections::VecDeque;
 
 /// Below this width (in diameters) the normal of a face is noise and says nothing about its side.
 const SURE_WIDTH: f64 = 4e-6;
+/// By how much the tolerance of a region that is grown again is smaller.
+const FINER: f64 = 0.25;
+/// How often it is made smaller: the last one, 4e-9 of the diameter, is below what rounding to 32 bits leaves.
+pub(super) const LEVELS: usize = 5;
 
 struct Faces<'a> {
     vertices: &'a [Vec3],
@@ -21,24 +30,33 @@ struct Faces<'a> {
     sure: Vec<bool>,
     /// The face that runs along a directed edge.
     along: WordMap<(u32, u32), u32>,
+    /// That of the model format, m.
     tolerance: f64,
 }
 
+/// Which faces a region may still take.
+struct Free {
+    /// The set of faces that each belongs to; zero once it is taken.
+    set: Vec<u32>,
+    sets: u32,
+}
+
+/// The faces of a solid, merged where that leaves them convex. Regions begin with the tolerance made smaller `level`
+/// times; with [`LEVELS`] nothing is merged.
 pub(super) fn merge_coplanar(
     vertices: &[Vec3],
     outlines: &[Vec<u32>],
     active: &[bool],
     diameter: f64,
+    level: usize,
 ) -> Vec<HullFace> {
     let faces = Faces::new(vertices, outlines, active, diameter);
+    let mut order: Vec<u32> = (0..outlines.len() as u32).collect();
+    let size = |face: u32| faces.areas[face as usize].norm();
+    order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
     let mut merged = Vec::new();
-    for mut region in faces.regions() {
-        region.sort_unstable();
-        match faces.outline(&region) {
-            Some(outline) => merged.push(faces.face(outline, region[0])),
-            None => merged.extend(region.iter().map(|&f| faces.face(outlines[f as usize].clone(), f))),
-        }
-    }
+    let mut free = Free { set: vec![0; outlines.len()], sets: 0 };
+    faces.settle(order, level, &mut free, &mut merged);
     merged.sort_by_key(|face| face.authored);
     merged
 }
@@ -65,41 +83,56 @@ impl<'a> Faces<'a> {
         edges(&self.outlines[face as usize]).map(|(a, b)| self.along[&(b, a)])
     }
 
-    fn regions(&self) -> Vec<Vec<u32>> {
-        let mut order: Vec<u32> = (0..self.outlines.len() as u32).collect();
-        let size = |face: u32| self.areas[face as usize].norm();
-        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
-        let mut taken = vec![false; self.outlines.len()];
-        let mut regions = Vec::new();
-        for seed in order {
-            if !taken[seed as usize] {
-                regions.push(self.grow(seed, &mut taken));
+    /// Merges among these faces, the largest first.
+    fn settle(&self, order: Vec<u32>, level: usize, free: &mut Free, merged: &mut Vec<HullFace>) {
+        if level >= LEVELS {
+            merged.extend(order.iter().map(|&f| self.face(self.outlines[f as usize].clone(), f)));
+            return;
+        }
+        free.sets += 1;
+        let set = free.sets;
+        order.iter().for_each(|&face| free.set[face as usize] = set);
+        let rank: WordMap<u32, u32> = order.iter().zip(0..).map(|(&face, rank)| (face, rank)).collect();
+        let tolerance = (0..level).fold(self.tolerance, |tolerance, _| tolerance * FINER);
+        let mut ragged = Vec::new();
+        for &seed in &order {
+            if free.set[seed as usize] != set {
+                continue;
+            }
+            let mut region = self.grow(seed, tolerance, free);
+            region.sort_unstable();
+            match self.united(&region) {
+                Some(face) => merged.push(face),
+                None => ragged.push(region),
             }
         }
-        regions
+        for mut region in ragged {
+            region.sort_by_key(|face| rank[face]);
+            self.settle(region, level + 1, free, merged);
+        }
     }
 
-    fn grow(&self, seed: u32, taken: &mut [bool]) -> Vec<u32> {
-        taken[seed as usize] = true;
+    fn grow(&self, seed: u32, tolerance: f64, free: &mut Free) -> Vec<u32> {
+        let set = std::mem::take(&mut free.set[seed as usize]);
         let mut region = vec![seed];
         let mut area = self.areas[seed as usize];
-        let mut places: Vec<Vec3> = self.places(seed).collect();
+        let mut slab = Slab::new(unit(&area));
+        slab.places.extend(self.places(seed));
+        slab.measure(unit(&area));
         let mut frontier: VecDeque<u32> = self.neighbors(seed).collect();
         while let Some(face) = frontier.pop_front() {
             let index = face as usize;
-            if taken[index] || self.active[index] != self.active[seed as usize] {
+            if free.set[index] != set || self.active[index] != self.active[seed as usize] {
                 continue;
             }
             let united = area + self.areas[index];
-            let known = places.len();
-            places.extend(self.places(face));
-            if self.faces_along(face, &united) && self.flat(&places, &united) {
-                taken[index] = true;
+            if self.faces_along(face, &united)
+                && slab.takes(self.places(face), unit(&united), 2.0 * tolerance)
+            {
+                free.set[index] = 0;
                 region.push(face);
                 area = united;
                 frontier.extend(self.neighbors(face));
-            } else {
-                places.truncate(known);
             }
         }
         region
@@ -114,18 +147,21 @@ impl<'a> Faces<'a> {
         !self.sure[face as usize] || unit(own).dot(&unit(area)) > 0.5
     }
 
-    fn flat(&self, places: &[Vec3], area: &Vec3) -> bool {
-        let normal = unit(area);
-        let heights = places.iter().map(|p| normal.dot(&(p - places[0])));
-        let (low, high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
-        high - low <= 2.0 * self.tolerance
+    /// A region as one face, if its outline is one convex loop and its vertices lie within the tolerance of the face's
+    /// plane.
+    fn united(&self, region: &[u32]) -> Option<HullFace> {
+        if let [face] = region {
+            return Some(self.face(self.outlines[*face as usize].clone(), *face));
+        }
+        let face = self.face(self.outline(region)?, region[0]);
+        let corners: Vec<Vec3> = face.outline.iter().map(|&v| self.vertices[v as usize]).collect();
+        let off = |place: Vec3| (face.normal.dot(&place) - face.offset).abs();
+        let near = region.iter().flat_map(|&f| self.places(f)).all(|place| off(place) <= self.tolerance);
+        (near && nearly_convex(&corners, &face.normal, self.tolerance)).then_some(face)
     }
 
     /// The outline of a region, if it is one loop.
     fn outline(&self, region: &[u32]) -> Option<Vec<u32>> {
-        if let [face] = region {
-            return Some(self.outlines[*face as usize].clone());
-        }
         let mut next: WordMap<u32, u32> = WordMap::default();
         let mut first = None;
         for &face in region {
@@ -145,7 +181,7 @@ impl<'a> Faces<'a> {
             outline.push(here);
             here = *next.get(&here)?;
         }
-        (outline.len() == next.len()).then_some(outline)
+        (outline.len() == next.len() && outline.len() >= 3).then_some(outline)
     }
 
     fn face(&self, outline: Vec<u32>, authored: u32) -> HullFace {
@@ -153,4 +189,157 @@ impl<'a> Faces<'a> {
         let (normal, offset) = plane_of(&corners);
         HullFace { normal, offset, active: self.active[authored as usize], closed: false, outline, authored }
     }
+}
+
+/// The vertices of a region and how far apart they lie along its normal.
+///
+/// The normal settles down as the region grows. As long as it has turned by less than could matter, the heights that
+/// were measured before serve, with what the turn can add: no vertex is looked at once per face that joins.
+struct Slab {
+    places: Vec<Vec3>,
+    /// Along which the heights were measured.
+    normal: Vec3,
+    low: f64,
+    high: f64,
+    /// How far the places are from the first one.
+    reach: f64,
+}
+
+impl Slab {
+    fn new(normal: Vec3) -> Self {
+        Self { places: Vec::new(), normal, low: 0.0, high: 0.0, reach: 0.0 }
+    }
+
+    /// Measures all heights anew.
+    fn measure(&mut self, normal: Vec3) {
+        let first = self.places[0];
+        let heights = self.places.iter().map(|p| normal.dot(&(p - first)));
+        (self.low, self.high) = heights.fold((0.0_f64, 0.0_f64), |(low, high), h| (low.min(h), high.max(h)));
+        self.reach = self.places.iter().map(|p| (p - first).norm()).fold(0.0, f64::max);
+        self.normal = normal;
+    }
+
+    /// Takes further places if all then lie within `thickness` along the normal.
+    fn takes(&mut self, places: impl Iterator<Item = Vec3>, normal: Vec3, thickness: f64) -> bool {
+        let (known, first) = (self.places.len(), self.places[0]);
+        let (mut low, mut high, mut reach) = (self.low, self.high, self.reach);
+        self.places.extend(places);
+        for place in &self.places[known..] {
+            let height = self.normal.dot(&(place - first));
+            (low, high) = (low.min(height), high.max(height));
+            reach = reach.max((place - first).norm());
+        }
+        let turn = 2.0 * reach * (normal - self.normal).norm();
+        let taken = if high - low + turn <= thickness {
+            (self.low, self.high, self.reach) = (low, high, reach);
+            true
+        } else if high - low - turn > thickness {
+            false
+        } else {
+            let before = (self.low, self.high, self.reach, self.normal);
+            self.measure(normal);
+            let fits = self.high - self.low <= thickness;
+            if !fits {
+                (self.low, self.high, self.reach, self.normal) = before;
+            }
+            fits
+        };
+        if !taken {
+            self.places.truncate(known);
+        }
+        taken
+    }
+}
+
+/// Drops the vertices at which only two faces meet, where that moves the edge between the two by no more than the
+/// tolerance: rounding gives the short edges of a subdivided straight one directions of their own, and lines along them
+/// would cut into the faces.
+pub(super) fn straighten(vertices: &[Vec3], faces: &mut [HullFace], tolerance: f64) {
+    let mut users = vec![0_u32; vertices.len()];
+    faces.iter().flat_map(|face| &face.outline).for_each(|&v| users[v as usize] += 1);
+    let mut dropped = vec![false; vertices.len()];
+    for face in faces.iter() {
+        let Some(start) = face.outline.iter().position(|&v| users[v as usize] != 2) else { continue };
+        let around = face.outline.iter().cycle().skip(start).take(face.outline.len() + 1);
+        let mut chain: Vec<u32> = Vec::new();
+        for &vertex in around {
+            chain.push(vertex);
+            if chain.len() > 1 && users[vertex as usize] != 2 {
+                drop_between(vertices, &chain, tolerance, &mut dropped);
+                chain = vec![vertex];
+            }
+        }
+    }
+    for face in faces.iter_mut() {
+        let stay = |v: &u32| !dropped[*v as usize];
+        if face.outline.iter().filter(|v| stay(v)).count() < 3 {
+            face.outline.iter().for_each(|&v| dropped[v as usize] = false);
+        }
+    }
+    faces.iter_mut().for_each(|face| face.outline.retain(|&v| !dropped[v as usize]));
+}
+
+/// Drops what lies between the ends of a chain, or what lies between them and the vertex farthest from their line.
+fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut [bool]) {
+    let place = |v: u32| vertices[v as usize];
+    let mut open = vec![(0, chain.len() - 1)];
+    while let Some((start, end)) = open.pop() {
+        let (a, b) = (place(chain[start]), place(chain[end]));
+        let off = |k: &usize| {
+            let away = place(chain[*k]) - a;
+            if a == b { away.norm() } else { away.cross(&unit(&(b - a))).norm() }
+        };
+        let farthest = (start + 1..end).max_by(|j, k| off(j).total_cmp(&off(k)));
+        match farthest {
+            Some(k) if off(&k) > tolerance => open.extend([(start, k), (k, end)]),
+            _ => chain[start + 1..end].iter().for_each(|&v| dropped[v as usize] = true),
+        }
+    }
+}
+
+/// How often the plane of a face is tilted until it supports the solid.
+const TILTS: usize = 8;
+
+/// Tilts planes that a vertex is in front of about the long direction of their faces, until they support the solid.
+///
+/// Across a narrow face rounding decides which way its normal points, and far away the plane would cut into the solid;
+/// a plane that touches the vertex in front is as good for the face itself. One that would leave the face's own vertices is
+/// not taken.
+pub(super) fn support(vertices: &[Vec3], faces: &mut [HullFace], tree: &Places, tolerance: f64) {
+    for face in faces {
+        let corners: Vec<Vec3> = face.outline.iter().map(|&v| vertices[v as usize]).collect();
+        let middle = super::polygon::mean(&corners);
+        let (mut normal, mut offset) = (face.normal, face.offset);
+        for _ in 0..TILTS {
+            let Some((_, vertex)) =
+                tree.highest((&normal, offset), tolerance, |v| !face.outline.contains(&v))
+            else {
+                (face.normal, face.offset) = (normal, offset);
+                break;
+            };
+            let Some(tilted) = tilted(&corners, &normal, &vertices[vertex as usize]) else { break };
+            (normal, offset) = (tilted, tilted.dot(&middle));
+            if corners.iter().any(|c| (normal.dot(c) - offset).abs() > tolerance) {
+                break;
+            }
+        }
+    }
+}
+
+/// The normal of the plane through the long direction of a face and a place in front of it.
+fn tilted(corners: &[Vec3], normal: &Vec3, place: &Vec3) -> Option<Vec3> {
+    let farthest = |from: &Vec3| {
+        let farther =
+            |a: &&Vec3, b: &&Vec3| (*a - from).norm_squared().total_cmp(&(*b - from).norm_squared());
+        corners.iter().max_by(farther).copied()
+    };
+    let end = farthest(&corners[0])?;
+    let start = farthest(&end)?;
+    let along = unit(&(end - start));
+    let across = (place - start) - along * along.dot(&(place - start));
+    if across.amax() == 0.0 {
+        return None;
+    }
+    let tilted = unit(&along.cross(&unit(&across)));
+    Some(if tilted.dot(normal) < 0.0 { -tilted } else { tilted })
 }

@@ -7,11 +7,13 @@
 
 mod checks;
 mod merge;
+mod places;
 mod polygon;
 
 pub(crate) use polygon::{area, overlap_area};
 
 use crate::weld::Welder;
+use places::Places;
 use pong_geometry::Vec3;
 
 /// Planes, walls and vertices count as one within this share of the diameter.
@@ -70,15 +72,40 @@ impl Hull {
 pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     checks::authored(vertices, faces)?;
     let (vertices, faces, remarks) = welded(vertices, faces);
-    let diameter = diameter(&vertices);
+    let tree = Places::new(&vertices);
+    let diameter = places::diameter(&vertices, &tree);
     checks::edges_and_widths(&vertices, &faces)?;
     checks::closed_surface(&vertices, &faces)?;
     checks::volume(&vertices, &faces, diameter)?;
     checks::planar(&vertices, &faces, diameter)?;
-    let faces = merge::merge_coplanar(&vertices, &faces, active, diameter);
-    let hull = without_unused(Hull { vertices, faces, diameter, remarks });
-    checks::convex(&hull)?;
-    Ok(hull)
+    let mut problems = Vec::new();
+    for attempt in 0..=merge::LEVELS + 1 {
+        let merged = faces_of_attempt(attempt, (&vertices, &tree), &faces, active, diameter);
+        match checks::convex(&vertices, &merged, &tree, diameter) {
+            Ok(()) => return Ok(without_unused(Hull { vertices, faces: merged, diameter, remarks })),
+            // Those of the last attempt are about the faces as authored.
+            Err(found) => problems = found,
+        }
+    }
+    Err(problems)
+}
+
+/// The first attempt merges all that lies within the tolerance and leaves the rest as it is, which suits nearly every solid.
+/// Those after it straighten edges and planes that rounding has bent, and merge less and less.
+fn faces_of_attempt(
+    attempt: usize,
+    (vertices, tree): (&[Vec3], &Places),
+    faces: &[Vec<u32>],
+    active: &[bool],
+    diameter: f64,
+) -> Vec<HullFace> {
+    let tolerance = PLANE_TOLERANCE * diameter;
+    let mut merged = merge::merge_coplanar(vertices, faces, active, diameter, attempt.saturating_sub(1));
+    if attempt > 0 {
+        merge::straighten(vertices, &mut merged, tolerance);
+        merge::support(vertices, &mut merged, tree, tolerance);
+    }
+    merged
 }
 
 /// Bit-equal positions become one vertex.
@@ -116,14 +143,4 @@ fn without_unused(hull: Hull) -> Hull {
         *vertex = *slot;
     }
     Hull { vertices, faces, ..hull }
-}
-
-fn diameter(vertices: &[Vec3]) -> f64 {
-    let mut largest: f64 = 0.0;
-    for (index, a) in vertices.iter().enumerate() {
-        for b in &vertices[index + 1..] {
-            largest = largest.max((a - b).norm_squared());
-        }
-    }
-    largest.sqrt()
 }

@@ -1,5 +1,6 @@
 //! Polygons in space: area, plane, width, overlap.
 
+use super::places::Places;
 use pong_geometry::Vec3;
 
 /// Twice the area along the polygon's normal (Newell's rule), relative to its first corner.
@@ -30,13 +31,78 @@ pub(super) fn edges<T: Copy>(outline: &[T]) -> impl Iterator<Item = (T, T)> + '_
     outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }
 
-/// The smallest distance between two parallel lines that hold the polygon: one of them lies along an edge.
+/// Outlines of more corners are not compared corner by edge: that would take the square of their number.
+const MANY: usize = 64;
+
+/// The smallest distance between two parallel lines that hold the polygon: one of them lies along an edge. Of a polygon
+/// of many corners, a bound below it, at least a quarter of it.
 pub(super) fn width(corners: &[Vec3]) -> f64 {
+    if corners.len() > MANY {
+        let reach = corners.iter().map(|c| (c - corners[0]).norm()).fold(0.0, f64::max);
+        // No polygon is larger than its width times its diameter, which is at most twice the reach.
+        return 0.25 * area_vector(corners).norm() / reach;
+    }
     let across = |a: Vec3, b: Vec3| {
         let along = unit(&(b - a));
         corners.iter().map(|c| (c - a).cross(&along).norm()).fold(0.0, f64::max)
     };
     edges(corners).map(|(a, b)| across(a, b)).fold(f64::INFINITY, f64::min)
+}
+
+/// The corner farthest beyond the line along an edge, and how far, if that is more than the tolerance: the outline has a
+/// dent there.
+pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f64, usize)> {
+    let tree = (corners.len() > MANY).then(|| Places::new(corners));
+    let beyond = |(a, b): (Vec3, Vec3)| {
+        let outward = unit(&(b - a)).cross(normal);
+        match &tree {
+            Some(tree) => {
+                let found = tree.highest((&outward, outward.dot(&a)), tolerance, |_| true);
+                found.map(|(height, corner)| (height, corner as usize))
+            }
+            None => {
+                let heights = corners.iter().enumerate().map(|(index, c)| (outward.dot(&(c - a)), index));
+                heights.filter(|(height, _)| *height > tolerance).max_by(|x, y| x.0.total_cmp(&y.0))
+            }
+        }
+    };
+    edges(corners).filter_map(beyond).max_by(|x, y| x.0.total_cmp(&y.0))
+}
+
+/// Whether an outline that runs counter-clockwise about the normal is convex but for corners that lie within the tolerance of
+/// its hull: rounding may give the short edges of a straight side any direction, and no corner need move farther than that.
+pub(super) fn nearly_convex(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> bool {
+    let first = corners[0];
+    let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
+    let along = across.cross(normal);
+    let count = corners.len();
+    // Counter-clockwise seen along the normal: `along`, then `across`.
+    let flat: Vec<[f64; 2]> =
+        corners.iter().map(|c| [along.dot(&(c - first)), across.dot(&(c - first))]).collect();
+    let place = |k: usize| flat[k % count];
+    let farthest =
+        |a: &usize, b: &usize| flat[*a][0].total_cmp(&flat[*b][0]).then(flat[*a][1].total_cmp(&flat[*b][1]));
+    let Some(start) = (0..count).max_by(farthest) else { return false };
+    let turn = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
+    // The hull, by a scan around the outline from a corner that is on it.
+    let mut hull: Vec<usize> = vec![start];
+    for k in start + 1..=start + count {
+        while hull.len() > 1
+            && turn([place(hull[hull.len() - 2]), place(hull[hull.len() - 1]), place(k)]) <= 0.0
+        {
+            hull.pop();
+        }
+        hull.push(k);
+    }
+    hull.windows(2).all(|side| {
+        let (a, b) = (place(side[0]), place(side[1]));
+        let edge = [b[0] - a[0], b[1] - a[1]];
+        let length = (edge[0] * edge[0] + edge[1] * edge[1]).sqrt();
+        (side[0] + 1..side[1]).all(|k| {
+            let away = [place(k)[0] - a[0], place(k)[1] - a[1]];
+            (edge[0] * away[1] - edge[1] * away[0]).abs() <= tolerance * length
+        })
+    })
 }
 
 pub(super) fn longest_edge(corners: &[Vec3]) -> f64 {
