@@ -57,6 +57,17 @@ int pong_mujoco_frame(scene *s, const double *poses, int bodies)
     return contacts;
 }
 
+/* Depth of the deepest contact of the last frame, zero if there was none. */
+double pong_mujoco_deepest(const scene *s)
+{
+    double deepest = 0;
+    int i;
+    for (i = 0; i < s->data->ncon; i++) {
+        deepest = mju_max(deepest, -s->data->contact[i].dist);
+    }
+    return deepest;
+}
+
 /* What a query answers: depth (0: none), normal from target to mover, point. */
 typedef struct {
     double depth, normal[3], point[3];
@@ -79,15 +90,25 @@ static answer narrow(scene *s, mjfCollision collide)
     return out;
 }
 
-/* One query per pose of the mover in the target's frame: position, then rotation matrix row by row. By the function
- * that MuJoCo's own dispatch would call. */
+/* Carries a geom with its body's pose: position, then quaternion (w, x, y, z). MuJoCo moves a mesh into its own centre
+ * and principal axes, so that even here a geom has a pose in its body. */
+static void place(scene *s, int geom, const double *pose)
+{
+    double orientation[4], *position = s->data->geom_xpos + 3 * geom;
+    mju_rotVecQuat(position, s->model->geom_pos + 3 * geom, pose + 3);
+    mju_addTo3(position, pose);
+    mju_mulQuat(orientation, pose + 3, s->model->geom_quat + 4 * geom);
+    mju_quat2Mat(s->data->geom_xmat + 9 * geom, orientation);
+}
+
+/* One query per pair of poses, the mover's and the target's. By the function that MuJoCo's own dispatch would call. */
 void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers)
 {
     mjfCollision collide = mjCOLLISIONFUNC[s->model->geom_type[MOVER]][s->model->geom_type[TARGET]];
     int i;
-    for (i = 0; i < count; i++, poses += 12) {
-        mju_copy3(s->data->geom_xpos + 3 * MOVER, poses);
-        mju_copy(s->data->geom_xmat + 9 * MOVER, poses + 3, 9);
+    for (i = 0; i < count; i++, poses += 14) {
+        place(s, MOVER, poses);
+        place(s, TARGET, poses + 7);
         answers[i] = narrow(s, collide);
     }
 }
@@ -95,12 +116,14 @@ void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers
 /* A ray along z that starts at `start` of the mover's frame, no longer than `length`. */
 void pong_mujoco_rays(scene *s, const double *poses, int count, double start, double length, answer *answers)
 {
+    const double z[3] = {0, 0, 1};
     int i;
-    for (i = 0; i < count; i++, poses += 12) {
-        const double *r = poses + 3;
-        double direction[3] = {r[2], r[5], r[8]}, origin[3];
+    for (i = 0; i < count; i++, poses += 14) {
+        double direction[3], origin[3];
         answer out = {0};
+        mju_rotVecQuat(direction, z, poses + 3);
         mju_addScl3(origin, poses, direction, start);
+        place(s, TARGET, poses + 7);
         out.depth = mj_rayMesh(s->model, s->data, TARGET, origin, direction, out.normal);
         if (out.depth < 0 || out.depth >= length) {
             out.depth = 0;

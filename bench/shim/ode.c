@@ -13,10 +13,15 @@ typedef struct {
     dTriMeshDataID mesh;
     dGeomID target, mover;
     int contacts;
+    double deepest; /* of the wheels of the last frame */
 } scene;
 
-scene *pong_ode_new(void)
+enum { QUADTREE, SWEEP_AND_PRUNE };
+
+/* Two bodies, the geoms of each in a space of its own: of a kind, around `center`, `extents` large along each axis. */
+scene *pong_ode_new(int space, const double *center, const double *extents)
 {
+    const int quadtree_depth = 6;
     scene *s = calloc(1, sizeof *s);
     int i;
     dInitODE2(0);
@@ -24,7 +29,8 @@ scene *pong_ode_new(void)
     s->world = dWorldCreate();
     for (i = 0; i < BODIES; i++) {
         s->bodies[i] = dBodyCreate(s->world);
-        s->spaces[i] = dHashSpaceCreate(0);
+        s->spaces[i] = space == QUADTREE ? dQuadTreeSpaceCreate(0, center, extents, quadtree_depth)
+                                         : dSweepAndPruneSpaceCreate(0, dSAP_AXES_XYZ);
     }
     return s;
 }
@@ -110,14 +116,23 @@ void pong_ode_mover(scene *s, int kind, double radius, double length)
 int pong_ode_wheels(scene *s, const double *poses, int count)
 {
     dContactGeom found[MOST_CONTACTS];
-    int i, contacts = 0;
+    int i, k, contacts = 0;
+    s->deepest = 0;
     for (i = 0; i < count; i++, poses += 7) {
+        int of_wheel;
         dGeomSetPosition(s->mover, poses[0], poses[1], poses[2]);
         dGeomSetQuaternion(s->mover, poses + 3);
-        contacts += dCollide(s->mover, s->target, MOST_CONTACTS, found, sizeof found[0]);
+        of_wheel = dCollide(s->mover, s->target, MOST_CONTACTS, found, sizeof found[0]);
+        for (k = 0; k < of_wheel; k++) {
+            if (found[k].depth > s->deepest) s->deepest = found[k].depth;
+        }
+        contacts += of_wheel;
     }
     return contacts;
 }
+
+/* Depth of the deepest contact of the wheels of the last frame. */
+double pong_ode_deepest(const scene *s) { return s->deepest; }
 
 /* What a query answers: depth (0: none), normal from target to mover, point. */
 typedef struct {
@@ -140,15 +155,20 @@ static answer deepest(scene *s)
     return out;
 }
 
-/* One query per pose of the mover in the target's frame: position, then rotation matrix row by row. */
+/* Position, then quaternion (w, x, y, z). */
+static void place(dGeomID geom, const double *pose)
+{
+    dGeomSetPosition(geom, pose[0], pose[1], pose[2]);
+    dGeomSetQuaternion(geom, pose + 3);
+}
+
+/* One query per pair of poses, the mover's and the target's. */
 void pong_ode_pairs(scene *s, const double *poses, int count, answer *answers)
 {
     int i;
-    for (i = 0; i < count; i++, poses += 12) {
-        const double *r = poses + 3;
-        dMatrix3 rotation = {r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0};
-        dGeomSetPosition(s->mover, poses[0], poses[1], poses[2]);
-        dGeomSetRotation(s->mover, rotation);
+    for (i = 0; i < count; i++, poses += 14) {
+        place(s->mover, poses);
+        place(s->target, poses + 7);
         answers[i] = deepest(s);
     }
 }
@@ -157,10 +177,12 @@ void pong_ode_pairs(scene *s, const double *poses, int count, answer *answers)
 void pong_ode_rays(scene *s, const double *poses, int count, double start, answer *answers)
 {
     int i;
-    for (i = 0; i < count; i++, poses += 12) {
-        const double *r = poses + 3;
-        dGeomRaySet(s->mover, poses[0] + start * r[2], poses[1] + start * r[5], poses[2] + start * r[8], r[2], r[5],
-                    r[8]);
+    for (i = 0; i < count; i++, poses += 14) {
+        dMatrix3 r;
+        dQtoR(poses + 3, r);
+        dGeomRaySet(s->mover, poses[0] + start * r[2], poses[1] + start * r[6], poses[2] + start * r[10], r[2], r[6],
+                    r[10]);
+        place(s->target, poses + 7);
         answers[i] = deepest(s);
     }
 }

@@ -8,7 +8,7 @@ use pong_geometry::interference::{
     Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
     ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
     line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
-    point_plane::point_plane, point_polyhedron::point_polyhedron_in, point_polyhedron::shallowest_face,
+    point_plane::point_plane, point_polyhedron::point_below_face, point_polyhedron::shallowest_face,
     point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
     ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
@@ -18,7 +18,7 @@ use pong_geometry::interference::{
 use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, Triangle};
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
-use pong_geometry::{Mat3, Transform, Vec3};
+use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
 use pong_model::{Body, Model};
 
 /// The testers on one pair.
@@ -67,26 +67,149 @@ impl Ours {
     /// Whether the two touch.
     pub fn touches(&self, x_ba: &Transform) -> bool {
         let mut answers = [Answer::default()];
-        self.test_all(std::slice::from_ref(x_ba), &mut answers);
+        self.test_all(&OneElement([*x_ba]), &mut answers);
         answers[0].hit()
     }
 
-    fn test_all(&self, transforms: &[Transform], answers: &mut [Answer]) {
+    fn test_all(&self, movers: &impl Movers, answers: &mut [Answer]) {
         let Self { mover, kind, .. } = *self;
-        simd::run(Pass { mover, kind, body: self.body(), transforms, answers });
+        simd::run(Pass { mover, kind, body: self.body(), movers, answers });
+    }
+}
+
+/// The movers of a pass, each in the target's frame.
+trait Movers {
+    fn point(&self, i: usize) -> Point;
+    fn segment(&self, i: usize) -> LineSegment;
+    fn ray(&self, i: usize) -> Ray;
+    fn sphere(&self, i: usize) -> Sphere;
+    fn ellipsoid(&self, i: usize) -> Ellipsoid;
+}
+
+/// One element of A, at a pose of its own in every query.
+trait Poses {
+    fn x_ba(&self, i: usize) -> Transform;
+}
+
+struct OneElement([Transform; 1]);
+
+impl Poses for OneElement {
+    #[inline(always)]
+    fn x_ba(&self, i: usize) -> Transform {
+        self.0[i]
+    }
+}
+
+impl Poses for Queries {
+    #[inline(always)]
+    fn x_ba(&self, i: usize) -> Transform {
+        let [a, b] = &self.poses[i];
+        Pose::relative(a, b).transform()
+    }
+}
+
+impl<P: Poses> Movers for P {
+    #[inline(always)]
+    fn point(&self, i: usize) -> Point {
+        POINT.carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn segment(&self, i: usize) -> LineSegment {
+        SEGMENT.carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn ray(&self, i: usize) -> Ray {
+        ray().carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn sphere(&self, i: usize) -> Sphere {
+        SPHERE.carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn ellipsoid(&self, i: usize) -> Ellipsoid {
+        ellipsoid().carried(&self.x_ba(i))
+    }
+}
+
+/// Elements of one movable group A, each placed where a query has its mover, and the one pose of A in B's frame.
+pub struct Elements {
+    /// Where each element is in A's frame.
+    pub placed: Vec<Pose>,
+    /// Their origins in A's frame, m.
+    pub positions: Vec<Vec3>,
+    /// The pose of A in B's frame.
+    pub pose_ba: Pose,
+    points: Vec<Point>,
+    segments: Vec<LineSegment>,
+    rays: Vec<Ray>,
+    spheres: Vec<Sphere>,
+    ellipsoids: Vec<Ellipsoid>,
+    x_ba: Transform,
+}
+
+impl Elements {
+    /// Those of the queries, in their order.
+    pub fn new(queries: &Queries) -> Self {
+        // Any pose does; a turned one, so that nothing is multiplied by zero and one alone.
+        let pose_ba = Pose::new(Vec3::new(0.3, -0.2, 0.1), [0.8, 0.1, -0.5, 0.3]);
+        let x_ab = pose_ba.inverse();
+        let placed: Vec<Pose> = queries.poses.iter().map(|[a, b]| x_ab.compose(&Pose::relative(a, b))).collect();
+        let transforms: Vec<Transform> = placed.iter().map(Pose::transform).collect();
+        Self {
+            points: transforms.iter().map(|x| POINT.carried(x)).collect(),
+            segments: transforms.iter().map(|x| SEGMENT.carried(x)).collect(),
+            rays: transforms.iter().map(|x| ray().carried(x)).collect(),
+            spheres: transforms.iter().map(|x| SPHERE.carried(x)).collect(),
+            ellipsoids: transforms.iter().map(|x| ellipsoid().carried(x)).collect(),
+            x_ba: pose_ba.transform(),
+            positions: placed.iter().map(|pose| pose.position).collect(),
+            placed,
+            pose_ba,
+        }
+    }
+}
+
+impl Movers for Elements {
+    #[inline(always)]
+    fn point(&self, i: usize) -> Point {
+        self.points[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn segment(&self, i: usize) -> LineSegment {
+        self.segments[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn ray(&self, i: usize) -> Ray {
+        self.rays[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn sphere(&self, i: usize) -> Sphere {
+        self.spheres[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn ellipsoid(&self, i: usize) -> Ellipsoid {
+        self.ellipsoids[i].carried(&self.x_ba)
     }
 }
 
 /// All queries in one kernel, as the engine has all elements of a block in one.
-struct Pass<'a> {
+struct Pass<'a, M> {
     mover: Mover,
     kind: PrimitiveKind,
     body: &'a Body,
-    transforms: &'a [Transform],
+    movers: &'a M,
     answers: &'a mut [Answer],
 }
 
-impl Kernel for Pass<'_> {
+impl<M: Movers> Kernel for Pass<'_, M> {
     type Output = ();
 
     #[inline(always)]
@@ -101,16 +224,16 @@ impl Kernel for Pass<'_> {
     }
 }
 
-impl Pass<'_> {
+impl<M: Movers> Pass<'_, M> {
     #[inline(always)]
     fn points<S: Simd>(self, simd: S) {
-        let (a, b) = (POINT, self.body);
+        let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|x| point_polyhedron_in(simd, &a.carried(x).position, &b.polyhedra[0])),
-            Plane => self.each(|x| point_plane(&a.carried(x), &b.planes[0])),
-            PrimitiveKind::Sphere => self.each(|x| point_sphere(&a.carried(x), &b.spheres[0])),
+            Hull => self.points_in_hull(simd),
+            Plane => self.each(|i| point_plane(&m.point(i), &b.planes[0])),
+            PrimitiveKind::Sphere => self.each(|i| point_sphere(&m.point(i), &b.spheres[0])),
             PrimitiveKind::Ellipsoid => {
-                self.each(|x| point_ellipsoid(&a.carried(x).position, &b.ellipsoids[0]));
+                self.each(|i| point_ellipsoid(&m.point(i).position, &b.ellipsoids[0]));
             }
             _ => self.no_tester(),
         }
@@ -118,34 +241,71 @@ impl Pass<'_> {
 
     #[inline(always)]
     fn segments(self) {
-        let (a, b) = (SEGMENT, self.body);
+        let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|x| deepest(line_segment_polyhedron(&a.carried(x), &b.polyhedra[0]))),
-            Plane => self.each(|x| deepest(line_segment_plane(&a.carried(x), &b.planes[0]))),
+            Hull => self.each(|i| deepest(line_segment_polyhedron(&m.segment(i), &b.polyhedra[0]))),
+            Plane => self.each(|i| deepest(line_segment_plane(&m.segment(i), &b.planes[0]))),
             _ => self.no_tester(),
         }
     }
 
     #[inline(always)]
     fn rays(self) {
-        let b = self.body;
+        let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|x| along(ray().carried(x), |a| ray_polyhedron(a, &b.polyhedra[0]))),
-            Triangle => self.each(|x| along(ray().carried(x), |a| ray_triangle(a, &b.triangles, 0, 0.0))),
-            Plane => self.each(|x| along(ray().carried(x), |a| ray_plane(a, &b.planes[0]))),
+            Hull => self.each(|i| along(m.ray(i), |a| ray_polyhedron(a, &b.polyhedra[0]))),
+            Triangle => self.each(|i| along(m.ray(i), |a| ray_triangle(a, &b.triangles, 0, 0.0))),
+            Plane => self.each(|i| along(m.ray(i), |a| ray_plane(a, &b.planes[0]))),
             _ => self.no_tester(),
         }
     }
 
     #[inline(always)]
     fn spheres<S: Simd>(self, simd: S) {
-        let (a, b) = (SPHERE, self.body);
+        let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|x| sphere(&a.carried(x), &b.polyhedra[0])),
-            Plane => self.each(|x| sphere_plane(&a.carried(x), &b.planes[0])),
-            PrimitiveKind::Sphere => self.each(|x| sphere_sphere(&a.carried(x), &b.spheres[0])),
+            Hull => self.spheres_on_hull(simd),
+            Plane => self.each(|i| sphere_plane(&m.sphere(i), &b.planes[0])),
+            PrimitiveKind::Sphere => self.each(|i| sphere_sphere(&m.sphere(i), &b.spheres[0])),
             Triangle => self.spheres_on_triangle(simd),
             _ => self.no_tester(),
+        }
+    }
+
+    /// Eight points at a time against all faces; then those inside, one by one, as of a first contact.
+    #[inline(always)]
+    fn points_in_hull<S: Simd>(self, simd: S) {
+        let b = &self.body.polyhedra[0];
+        for (chunk, answers) in self.answers.chunks_mut(LANES).enumerate() {
+            let (mut points, mut lanes) = ([POINT; LANES], Lanes::ORIGIN);
+            for (lane, point) in points.iter_mut().enumerate().take(answers.len()) {
+                *point = self.movers.point(LANES * chunk + lane);
+                put(&mut lanes, lane, &point.position);
+            }
+            let inside = b.lanes_contain_in(simd, &lanes);
+            for (lane, (point, answer)) in points.iter().zip(answers).enumerate() {
+                let p = &point.position;
+                let below = || point_below_face(p, b, shallowest_face(p, b)?);
+                *answer = (inside >> lane & 1 == 1).then(below).flatten().map(Answer::from).unwrap_or_default();
+            }
+        }
+    }
+
+    /// Eight centres at a time; then those that no face keeps apart, one by one, as of a first contact.
+    #[inline(always)]
+    fn spheres_on_hull<S: Simd>(self, simd: S) {
+        let b = &self.body.polyhedra[0];
+        for (chunk, answers) in self.answers.chunks_mut(LANES).enumerate() {
+            let (mut spheres, mut lanes) = ([SPHERE; LANES], Lanes::ORIGIN);
+            for (lane, sphere) in spheres.iter_mut().enumerate().take(answers.len()) {
+                *sphere = self.movers.sphere(LANES * chunk + lane);
+                put(&mut lanes, lane, &sphere.center);
+            }
+            let apart = b.lanes_outside_in(simd, &lanes, &[RADIUS; LANES]);
+            for (lane, (sphere, answer)) in spheres.iter().zip(answers).enumerate() {
+                let near = || sphere_on_hull(sphere, b);
+                *answer = (apart >> lane & 1 == 0).then(near).flatten().map(Answer::from).unwrap_or_default();
+            }
         }
     }
 
@@ -154,10 +314,10 @@ impl Pass<'_> {
     fn spheres_on_triangle<S: Simd>(self, simd: S) {
         let b = &self.body.triangles;
         let mut pairs = SphereTrianglePairs::default();
-        for (transforms, answers) in self.transforms.chunks(LANES).zip(self.answers.chunks_mut(LANES)) {
+        for (chunk, answers) in self.answers.chunks_mut(LANES).enumerate() {
             let mut spheres = [SPHERE; LANES];
-            for (sphere, transform) in spheres.iter_mut().zip(transforms) {
-                *sphere = SPHERE.carried(transform);
+            for (lane, sphere) in spheres.iter_mut().enumerate().take(answers.len()) {
+                *sphere = self.movers.sphere(LANES * chunk + lane);
                 pairs.add(sphere, b, 0, RADIUS);
             }
             let told = pairs.take_in(simd);
@@ -174,21 +334,22 @@ impl Pass<'_> {
 
     #[inline(always)]
     fn ellipsoids(self) {
-        let (a, b) = (ellipsoid(), self.body);
-        let thickness = a.smallest_semi_axis();
+        let (m, b) = (self.movers, self.body);
+        let thickness = ellipsoid().smallest_semi_axis();
         match self.kind {
-            Hull => self.each(|x| ellipsoid_polyhedron(&a.carried(x), &b.polyhedra[0])),
-            Plane => self.each(|x| ellipsoid_plane(&a.carried(x), &b.planes[0])),
-            Triangle => self
-                .each(|x| last(|emit| ellipsoid_triangle(&a.carried(x), &b.triangles, 0, thickness, emit))),
+            Hull => self.each(|i| ellipsoid_polyhedron(&m.ellipsoid(i), &b.polyhedra[0])),
+            Plane => self.each(|i| ellipsoid_plane(&m.ellipsoid(i), &b.planes[0])),
+            Triangle => self.each(|i| {
+                last(|emit| ellipsoid_triangle(&m.ellipsoid(i), &b.triangles, 0, thickness, emit))
+            }),
             _ => self.no_tester(),
         }
     }
 
     #[inline(always)]
-    fn each<T: Into<Answer>>(self, test: impl Fn(&Transform) -> Option<T>) {
-        for (transform, answer) in self.transforms.iter().zip(self.answers) {
-            *answer = test(transform).map(T::into).unwrap_or_default();
+    fn each<T: Into<Answer>>(self, test: impl Fn(usize) -> Option<T>) {
+        for (i, answer) in self.answers.iter_mut().enumerate() {
+            *answer = test(i).map(T::into).unwrap_or_default();
         }
     }
 
@@ -201,19 +362,25 @@ impl Pass<'_> {
 
 impl PairPeer for Ours {
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
-        self.test_all(&queries.transforms, answers);
+        self.test_all(queries, answers);
+    }
+
+    fn pass_over_elements(&mut self, elements: &Elements, answers: &mut [Answer]) -> bool {
+        self.test_all(elements, answers);
+        true
     }
 }
 
-fn sphere(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
-    // Most pairs end here: apart by the plane of one face.
-    if b.faces.iter().any(|face| face.height(&a.center) >= a.radius) {
-        return None;
+#[inline(always)]
+fn put(lanes: &mut Lanes, lane: usize, p: &Vec3) {
+    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (p.x, p.y, p.z);
+}
+
+fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
+    match b.contains(&a.center) {
+        true => Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?)),
+        false => sphere_outside_polyhedron(a, b),
     }
-    if !b.contains(&a.center) {
-        return sphere_outside_polyhedron(a, b);
-    }
-    Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?))
 }
 
 fn deepest(ends: [Option<Interference>; 2]) -> Option<Interference> {

@@ -152,19 +152,20 @@ fn of_kinds(a: PrimitiveKind, b: PrimitiveKind) -> impl Iterator<Item = (Mover, 
     mover.into_iter().cycle().zip(targets)
 }
 
-/// Poses of the mover in the target's frame, in the two forms that engines take.
+/// Pairs of poses in a common frame, in the forms that engines take, in an order that can be made anew.
 pub struct Queries {
-    /// With matrices.
+    /// Of the mover and of the target, in the common frame.
+    pub poses: Vec<[Pose; 2]>,
+    /// The same for engines in C: of each a position, m, and a quaternion (w, x, y, z).
+    pub numbers: Vec<[[f64; 7]; 2]>,
+    /// Of the mover in the target's frame.
     pub transforms: Vec<Transform>,
-    /// With quaternions.
-    pub poses: Vec<Pose>,
-    /// Position, then the matrix row by row.
-    pub rows: Vec<[f64; 12]>,
     /// Whether they touch, by construction.
     pub hits: Vec<bool>,
+    shuffles: Random,
 }
 
-/// The deepest contact, if there is one: as an engine in C writes it.
+/// The deepest contact, if there is one: as an engine in C writes it. In the target's frame, or the common one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C)]
 pub struct Answer {
@@ -172,7 +173,7 @@ pub struct Answer {
     pub depth: f64,
     /// Unit normal from the target to the mover.
     pub normal: [f64; 3],
-    /// A point of the contact, m, in the target's frame; which one is each engine's own choice.
+    /// A point of the contact, m; which one is each engine's own choice.
     pub point: [f64; 3],
 }
 
@@ -188,26 +189,55 @@ impl Answer {
     }
 }
 
+/// How far from the origin of the common frame a target may lie along each axis, m.
+const TARGET_PLACES: f64 = 2.0;
+
 impl Queries {
-    /// `count` poses in random order: half overlap by 5 to 100 mm along a random line, half are 5 to 300 mm apart.
-    /// `touches` says whether the two touch; it is only asked where they begin to.
+    /// `count` pairs of poses in random order: half overlap by 5 to 100 mm along a random line, half are 5 to 300 mm
+    /// apart. `touches` says whether the two touch; it is only asked where they begin to.
     pub fn new(count: usize, mover: Mover, target: &Target, touches: impl Fn(&Transform) -> bool) -> Self {
         let mut random = Random(0x7731 + count as u64);
-        let mut hits: Vec<bool> = (0..count).map(|i| i % 2 == 0).collect();
-        for i in (1..count).rev() {
-            hits.swap(i, random.between(0.0, (i + 1) as f64) as usize);
+        let hits: Vec<bool> = (0..count).map(|i| i % 2 == 0).collect();
+        let mut out = Self {
+            poses: Vec::with_capacity(count),
+            numbers: Vec::with_capacity(count),
+            transforms: Vec::with_capacity(count),
+            hits,
+            shuffles: Random(0x5afe + count as u64),
+        };
+        for i in 0..count {
+            let x_ba = pose(&mut random, mover, target, out.hits[i], &touches);
+            let position = Vec3::from_fn(|_, _| random.between(-TARGET_PLACES, TARGET_PLACES));
+            let x_wb = Pose { position, orientation: random.rotation() };
+            out.add([x_wb.compose(&x_ba), x_wb]);
         }
-        let poses: Vec<Pose> =
-            hits.iter().map(|&hit| pose(&mut random, mover, target, hit, &touches)).collect();
-        let transforms: Vec<Transform> = poses.iter().map(Pose::transform).collect();
-        let rows = transforms.iter().map(rows).collect();
-        Self { transforms, poses, rows, hits }
+        out.shuffle();
+        out
+    }
+
+    fn add(&mut self, poses: [Pose; 2]) {
+        self.poses.push(poses);
+        self.numbers.push(poses.map(|pose| numbers(&pose)));
+        self.transforms.push(Pose::relative(&poses[0], &poses[1]).transform());
+    }
+
+    /// Another order. In one order the branch predictor learns hits and misses by heart from pass to pass, which no
+    /// frame of a simulation allows it.
+    pub fn shuffle(&mut self) {
+        for i in (1..self.hits.len()).rev() {
+            let j = self.shuffles.between(0.0, (i + 1) as f64) as usize;
+            self.poses.swap(i, j);
+            self.numbers.swap(i, j);
+            self.transforms.swap(i, j);
+            self.hits.swap(i, j);
+        }
     }
 }
 
-fn rows(x: &Transform) -> [f64; 12] {
-    let (t, r) = (&x.translation, &x.rotation);
-    std::array::from_fn(|i| if i < 3 { t[i] } else { r[(i / 3 - 1, i % 3)] })
+/// Position and quaternion (w, x, y, z).
+fn numbers(pose: &Pose) -> [f64; 7] {
+    let (p, q) = (&pose.position, &pose.orientation);
+    [p.x, p.y, p.z, q.w, q.i, q.j, q.k]
 }
 
 fn pose(

@@ -3,34 +3,63 @@
 use crate::timing::{Clock, Ratios, Times};
 
 /// What runs against what.
-#[derive(Default)]
 pub struct Race<'a> {
-    contenders: Vec<(String, Box<dyn FnMut() + 'a>)>,
+    contenders: Vec<Contender<'a>>,
+    warm_ups: usize,
+}
+
+struct Contender<'a> {
+    name: String,
+    /// What comes before every pass and is not timed.
+    prepare: Box<dyn FnMut() + 'a>,
+    pass: Box<dyn FnMut() + 'a>,
+}
+
+impl Default for Race<'_> {
+    fn default() -> Self {
+        Self { contenders: Vec::new(), warm_ups: 1 }
+    }
 }
 
 impl<'a> Race<'a> {
-    /// A race without contenders.
+    /// A race without contenders, with one pass to warm up before each that counts.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// One more contender: its name in the table, and one whole pass.
-    pub fn enter(&mut self, name: &str, pass: impl FnMut() + 'a) {
-        self.contenders.push((name.to_owned(), Box::new(pass)));
+    /// A race with so many passes to warm up before each that counts: for scenes that the contenders before have
+    /// pushed out of the caches, and that one pass does not bring back.
+    pub fn with_warm_ups(warm_ups: usize) -> Self {
+        Self { warm_ups, ..Self::default() }
     }
 
-    /// Runs `rounds` rounds. In each, every contender runs its pass twice, of which the second counts: the first brings
-    /// its data back into the caches that the contender before it has filled, so that all are measured alike. `items` is
-    /// what a pass is shared among: frames, queries.
+    /// One more contender: its name in the table, and one whole pass.
+    pub fn enter(&mut self, name: &str, pass: impl FnMut() + 'a) {
+        self.enter_prepared(name, || (), pass);
+    }
+
+    /// One more contender, with what comes before each of its passes and is not timed.
+    pub fn enter_prepared(&mut self, name: &str, prepare: impl FnMut() + 'a, pass: impl FnMut() + 'a) {
+        let (prepare, pass) = (Box::new(prepare), Box::new(pass));
+        self.contenders.push(Contender { name: name.to_owned(), prepare, pass });
+    }
+
+    /// Runs `rounds` rounds. In each, every contender warms up and then runs the pass that counts: so its data are back
+    /// in the caches that the contender before it has filled, and all are measured alike. `items` is what a pass is
+    /// shared among: frames, queries.
     pub fn run(mut self, rounds: usize, items: usize) -> Outcome {
         let mut times: Vec<Times> = self.contenders.iter().map(|_| Times::new(items)).collect();
         for _ in 0..rounds {
-            for ((_, pass), times) in self.contenders.iter_mut().zip(&mut times) {
-                pass();
-                times.run(pass);
+            for (contender, times) in self.contenders.iter_mut().zip(&mut times) {
+                for _ in 0..self.warm_ups {
+                    (contender.prepare)();
+                    (contender.pass)();
+                }
+                (contender.prepare)();
+                times.run(&mut contender.pass);
             }
         }
-        Outcome(self.contenders.into_iter().map(|(name, _)| name).zip(times).collect())
+        Outcome(self.contenders.into_iter().map(|contender| contender.name).zip(times).collect())
     }
 }
 

@@ -133,6 +133,10 @@ impl Peer for Rig {
         std::hint::black_box(self.step(states));
         self.world.report().contacts as usize
     }
+
+    fn deepest(&self) -> Option<f64> {
+        self.world.contacts_iter().map(|contact| contact.depth).max_by(f64::total_cmp)
+    }
 }
 
 /// Settings of a world that runs on so many threads, the caller's among them. Workers that outnumber the cores are

@@ -53,19 +53,27 @@ pub fn or_dash(value: Option<impl fmt::Display>) -> String {
     value.map_or("–".to_owned(), |value| value.to_string())
 }
 
-/// A target for a ratio, and whether it is reached: `≤ 2.00, reached`, `≤ 2.00, missed 1.3 times`.
-pub fn at_most(wanted: f64, ratio: Option<f64>) -> String {
+/// A target for a number that is not measured by a clock, and whether it is reached.
+pub fn at_most(wanted: f64, value: f64) -> String {
+    ratio_at_most(wanted, Some([value; 2]))
+}
+
+/// A target for a ratio of times, and whether it is reached: `≤ 2.00, reached`, `≤ 2.00, missed 1.3 times`. Given are
+/// the ratios of two halves of the rounds: where one half reaches the target and the other misses it, the table says
+/// `at the limit`, since another run may say either.
+pub fn ratio_at_most(wanted: f64, halves: Option<[f64; 2]>) -> String {
     let wanted_text = digits(wanted);
-    match ratio {
+    match halves {
         None => format!("≤ {wanted_text}"),
-        Some(ratio) if ratio <= wanted => format!("≤ {wanted_text}, reached"),
-        Some(ratio) => format!("≤ {wanted_text}, missed {} times", digits(ratio / wanted)),
+        Some([_, worse]) if worse <= wanted => format!("≤ {wanted_text}, reached"),
+        Some([better, _]) if better <= wanted => format!("≤ {wanted_text}, at the limit"),
+        Some([better, _]) => format!("≤ {wanted_text}, missed {} times", digits(better / wanted)),
     }
 }
 
 /// The same where more is better.
-pub fn at_least(wanted: f64, ratio: Option<f64>) -> String {
-    let inverse = at_most(1.0 / wanted, ratio.map(|ratio| 1.0 / ratio));
+pub fn ratio_at_least(wanted: f64, halves: Option<[f64; 2]>) -> String {
+    let inverse = ratio_at_most(1.0 / wanted, halves.map(|[less, more]| [1.0 / more, 1.0 / less]));
     let (_, verdict) = inverse.split_once(", ").unwrap_or_default();
     format!("≥ {}, {verdict}", digits(wanted))
 }
@@ -76,9 +84,10 @@ mod tests {
 
     #[test]
     fn verdicts_turn_at_the_target() {
-        assert_eq!(at_most(2.0, Some(2.0)), "≤ 2.00, reached");
-        assert_eq!(at_most(2.0, Some(3.0)), "≤ 2.00, missed 1.50 times");
-        assert_eq!(at_least(1.9, Some(1.9)), "≥ 1.90, reached");
-        assert_eq!(at_least(1.9, Some(0.95)), "≥ 1.90, missed 2.00 times");
+        assert_eq!(at_most(2.0, 2.0), "≤ 2.00, reached");
+        assert_eq!(ratio_at_most(2.0, Some([3.0, 4.0])), "≤ 2.00, missed 1.50 times");
+        assert_eq!(ratio_at_most(2.0, Some([1.9, 2.1])), "≤ 2.00, at the limit");
+        assert_eq!(ratio_at_least(1.9, Some([1.9, 2.0])), "≥ 1.90, reached");
+        assert_eq!(ratio_at_least(1.9, Some([0.9, 0.95])), "≥ 1.90, missed 2.00 times");
     }
 }

@@ -50,6 +50,14 @@ impl Times {
         median(self.by(clock).collect())
     }
 
+    /// The shortest passes of the earlier and of the later half of the rounds, s per item.
+    pub fn min_of_halves(&self, clock: Clock) -> [f64; 2] {
+        let passes: Vec<f64> = self.by(clock).collect();
+        let (earlier, later) = passes.split_at(passes.len() / 2);
+        let least = |half: &[f64]| half.iter().copied().fold(f64::INFINITY, f64::min);
+        if earlier.is_empty() { [least(later); 2] } else { [least(earlier), least(later)] }
+    }
+
     /// Ratios to another's passes of the same rounds.
     pub fn over(&self, other: &Times, clock: Clock) -> Ratios {
         Ratios(self.by(clock).zip(other.by(clock)).map(|(mine, theirs)| mine / theirs).collect())
@@ -70,9 +78,16 @@ impl Ratios {
         median(self.0.clone())
     }
 
-    /// All of them times a number.
-    pub fn times(&self, factor: f64) -> Self {
-        Self(self.0.iter().map(|ratio| ratio * factor).collect())
+    /// The middle ones of the earlier and the later half of the rounds, the smaller first: a verdict that both halves
+    /// give has been found twice.
+    pub fn halves(&self) -> [f64; 2] {
+        let (earlier, later) = self.0.split_at(self.0.len() / 2);
+        let mut halves = [earlier, later].map(|half| median(half.to_vec()));
+        if earlier.is_empty() {
+            halves[0] = halves[1];
+        }
+        halves.sort_by(f64::total_cmp);
+        halves
     }
 }
 
@@ -114,6 +129,13 @@ mod tests {
         let (mine, theirs) = (times(&[1.0, 6.0, 2.0]), times(&[2.0, 2.0, 8.0]));
         assert_eq!(mine.over(&theirs, Clock::Thread).to_string(), "0.500 [0.250..3.00]");
         assert_eq!((mine.min(Clock::Thread), mine.median(Clock::Wall)), (1.0, 4.0));
+    }
+
+    #[test]
+    fn halves_are_those_of_the_rounds() {
+        let ratios = |passes: &[f64]| times(passes).over(&times(&vec![1.0; passes.len()]), Clock::Thread);
+        assert_eq!(ratios(&[5.0, 3.0, 4.0, 1.0, 1.0, 2.0]).halves(), [1.0, 4.0]);
+        assert_eq!(ratios(&[7.0]).halves(), [7.0, 7.0]);
     }
 
     #[test]

@@ -1,101 +1,88 @@
-//! W1: one pair of primitives per query, from the relative pose to depth, normal and point.
+//! W1: one pair of primitives per query, from two poses to depth, normal and point. W1b: one pose, many primitives.
 
 use pong_bench::difference::Difference;
 use pong_bench::floor::{Level, planes};
 use pong_bench::hull::Hull;
 use pong_bench::options::Options;
-use pong_bench::ours::Ours;
+use pong_bench::ours::{Elements, Ours};
 use pong_bench::pairs::{Answer, Mover, Queries, Target};
 use pong_bench::peer::PairPeer;
 use pong_bench::peer::parry_pairs::Parry;
 use pong_bench::race::{Outcome, Race};
-use pong_bench::table::{Table, at_most, min_and_median, or_dash};
-use pong_bench::timing::{Clock, digits};
+use pong_bench::table::{Table, min_and_median, or_dash, ratio_at_most};
+use pong_bench::timing::{Clock, Ratios};
 use pong_geometry::Vec3;
+use std::cell::RefCell;
 use std::error::Error;
+use std::hint::black_box;
 
 const POSES: usize = 4096;
 const NANO: f64 = 1e-9;
+const PONG: &str = "Pong";
+const FLOOR: &str = "floor";
 const PEERS: [&str; 3] = ["parry", "MuJoCo", "ODE"];
 
-/// An engine that no registry has, from the table of the workloads: its time there, and the time there of a peer
-/// that runs here too. Here it is taken to be as many times that peer.
-struct Listed {
-    engine: &'static str,
-    time: f64,
-    beside: &'static str,
-    its_time: f64,
-}
-
-/// One row of the table.
+/// One row of each table.
 struct Case {
     mover: Mover,
     /// Vertices of the hull; `None` for the triangle.
     vertices: Option<usize>,
-    listed: Option<Listed>,
-    /// Greatest time to reach, as a share of the floor's for points, else of the best peer's.
-    wanted: f64,
+    /// Greatest time to reach in W1 and in W1b, as a share of the floor's for points, else of the best peer's.
+    wanted: [Option<f64>; 2],
 }
 
-const fn hull(
-    mover: Mover,
-    vertices: usize,
-    wanted: f64,
-    listed: Option<(&'static str, f64, &'static str, f64)>,
-) -> Case {
-    Case { mover, vertices: Some(vertices), listed: beside(listed), wanted }
+const fn hull(mover: Mover, vertices: usize, wanted: Option<f64>) -> Case {
+    Case { mover, vertices: Some(vertices), wanted: [wanted, None] }
 }
 
-const fn beside(listed: Option<(&'static str, f64, &'static str, f64)>) -> Option<Listed> {
-    match listed {
-        Some((engine, time, beside, its_time)) => Some(Listed { engine, time, beside, its_time }),
-        None => None,
-    }
+const fn triangle(mover: Mover, wanted: f64) -> Case {
+    Case { mover, vertices: None, wanted: [None, Some(wanted)] }
 }
 
 const CASES: [Case; 17] = [
-    hull(Mover::Point, 8, 2.0, Some(("Box3D", 262.0, "ODE", 364.0))),
-    hull(Mover::Point, 18, 2.0, Some(("Box3D", 413.0, "ODE", 566.0))),
-    hull(Mover::Point, 66, 2.0, None),
-    hull(Mover::Segment, 8, 0.2, Some(("Box3D", 507.0, "ODE", 681.0))),
-    hull(Mover::Segment, 18, 0.2, Some(("Box3D", 769.0, "ODE", 907.0))),
-    hull(Mover::Segment, 66, 0.2, None),
-    hull(Mover::Sphere, 8, 0.25, Some(("Box3D", 252.0, "MuJoCo", 379.0))),
-    hull(Mover::Sphere, 18, 0.25, Some(("Box3D", 398.0, "MuJoCo", 495.0))),
-    hull(Mover::Sphere, 66, 0.25, None),
-    hull(Mover::Ellipsoid, 8, 0.25, None),
-    hull(Mover::Ellipsoid, 18, 0.25, None),
-    hull(Mover::Ellipsoid, 66, 0.25, None),
-    hull(Mover::Ray, 8, 1.0 / 3.0, Some(("Box3D", 60.4, "MuJoCo", 487.0))),
-    hull(Mover::Ray, 18, 1.0 / 3.0, Some(("Box3D", 113.0, "MuJoCo", 747.0))),
-    hull(Mover::Ray, 66, 1.0 / 3.0, Some(("Jolt", 529.0, "MuJoCo", 1101.0))),
-    Case {
-        mover: Mover::Sphere,
-        vertices: None,
-        listed: beside(Some(("Box3D", 32.5, "ODE", 124.0))),
-        wanted: 0.5,
-    },
-    Case {
-        mover: Mover::Ray,
-        vertices: None,
-        listed: beside(Some(("Jolt", 16.1, "parry", 53.8))),
-        wanted: 0.5,
-    },
+    hull(Mover::Point, 8, Some(2.0)),
+    hull(Mover::Point, 18, Some(2.0)),
+    hull(Mover::Point, 66, Some(2.0)),
+    hull(Mover::Segment, 8, Some(0.15)),
+    hull(Mover::Segment, 18, Some(0.15)),
+    hull(Mover::Segment, 66, Some(0.15)),
+    hull(Mover::Sphere, 8, None),
+    hull(Mover::Sphere, 18, None),
+    hull(Mover::Sphere, 66, None),
+    hull(Mover::Ellipsoid, 8, Some(0.15)),
+    hull(Mover::Ellipsoid, 18, Some(0.15)),
+    hull(Mover::Ellipsoid, 66, Some(0.15)),
+    hull(Mover::Ray, 8, None),
+    hull(Mover::Ray, 18, None),
+    hull(Mover::Ray, 66, None),
+    triangle(Mover::Sphere, 0.5),
+    triangle(Mover::Ray, 0.5),
 ];
+
+struct Tables {
+    one_pair: Table,
+    one_pose: Table,
+    checks: Vec<Difference>,
+}
 
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(30)?;
     let poses = if options.smoke { 64 } else { POSES };
-    let mut times =
-        Table::new(&["pair", "Pong", "floor", "parry", "MuJoCo", "ODE", "listed*", "Pong over", "wanted"]);
-    let mut checks: Vec<Difference> = Vec::new();
+    let mut tables = Tables {
+        one_pair: Table::new(&["pair", PONG, FLOOR, PEERS[0], PEERS[1], PEERS[2], "Pong over", "wanted"]),
+        one_pose: Table::new(&["pair", PONG, FLOOR, PEERS[0], "Pong over", "wanted"]),
+        checks: Vec::new(),
+    };
     for (_, case) in CASES.iter().enumerate().filter(|(number, _)| options.wants(*number)) {
-        run(case, poses, &options, &mut times, &mut checks)?;
+        run(case, poses, &options, &mut tables)?;
     }
-    println!("ns per query, shortest / middle of {} passes over {poses} poses\n", options.rounds);
-    println!("{times}");
+    let passes = options.rounds;
+    println!("W1, ns per query, shortest / middle of {passes} passes over {poses} pairs of poses\n");
+    println!("{}", tables.one_pair);
     println!("All find the same hits and misses. Greatest differences from Pong at hits:\n");
-    println!("{}", Difference::table(&checks));
+    println!("{}", Difference::table(&tables.checks));
+    println!("W1b, ns per primitive, shortest / middle of {passes} passes over {poses} primitives of one pose\n");
+    println!("{}", tables.one_pose);
     Ok(())
 }
 
@@ -117,41 +104,79 @@ fn peers(case: &Case, target: &Target) -> Vec<Named> {
     peers
 }
 
-fn run(
-    case: &Case,
-    poses: usize,
-    options: &Options,
-    times: &mut Table,
-    checks: &mut Vec<Difference>,
-) -> Result<(), Box<dyn Error>> {
+fn run(case: &Case, poses: usize, options: &Options, tables: &mut Tables) -> Result<(), Box<dyn Error>> {
     let target = case.vertices.map_or(Target::Triangle, |vertices| Target::Hull(Hull::fibonacci(vertices)));
     let mut ours = Ours::new(case.mover, &target);
     let queries = Queries::new(poses, case.mover, &target, |x| ours.touches(x));
-    let mut peers = if options.alone { Vec::new() } else { peers(case, &target) };
+    let mut all: Vec<Named> = if options.alone { Vec::new() } else { peers(case, &target) };
     let name = case.name(&target);
-    check(case, &name, &queries, &mut ours, &mut peers, checks)?;
+    check(case, &name, &queries, &mut ours, &mut all, &mut tables.checks)?;
+    all.insert(0, (PONG, Box::new(ours)));
 
-    let mut answers = vec![Answer::default(); poses];
-    let mut scratch = vec![answers.clone(); peers.len()];
-    let mut race = Race::new();
-    race.enter("Pong", || ours.pass(&queries, std::hint::black_box(&mut answers)));
-    if let (Mover::Point, Target::Hull(hull)) = (case.mover, &target) {
-        let (level, blocks, origin) = (Level::detect(), planes::blocks(&hull.planes()), Vec3::zeros());
-        let mut out = vec![0.0; poses];
-        let queries = &queries;
-        let mut floor = move || {
-            let origin = std::hint::black_box(&origin);
-            planes::heights(level, &blocks, origin, &queries.transforms, std::hint::black_box(&mut out));
-            out[0]
-        };
-        race.enter("floor", move || _ = std::hint::black_box(floor()));
-    }
-    for ((name, peer), answers) in peers.iter_mut().zip(&mut scratch) {
-        race.enter(name, || peer.pass(&queries, std::hint::black_box(answers)));
-    }
-    let outcome = race.run(options.rounds, poses);
-    times.row(case.row(&name, &outcome));
+    let floor = match (case.mover, &target) {
+        (Mover::Point, Target::Hull(hull)) => Some(planes::blocks(&hull.planes())),
+        _ => None,
+    };
+    let queries = RefCell::new(queries);
+    let outcome = one_pair(&mut all, floor.as_deref(), &queries).run(options.rounds, poses);
+    tables.one_pair.row(case.row(&name, &outcome, &PEERS, case.wanted[0]));
+    let elements = RefCell::new(Elements::new(&queries.borrow()));
+    let outcome = one_pose(&mut all, floor.as_deref(), &queries, &elements).run(options.rounds, poses);
+    tables.one_pose.row(case.row(&name, &outcome, &PEERS[..1], case.wanted[1]));
     Ok(())
+}
+
+/// W1: every pass has the pairs in another order.
+fn one_pair<'a>(
+    all: &'a mut [Named],
+    floor: Option<&'a [planes::Block]>,
+    queries: &'a RefCell<Queries>,
+) -> Race<'a> {
+    let mut race = Race::new();
+    for (name, engine) in all {
+        let mut answers = vec![Answer::default(); queries.borrow().hits.len()];
+        let pass = move || engine.pass(&queries.borrow(), black_box(&mut answers));
+        race.enter_prepared(name, || queries.borrow_mut().shuffle(), pass);
+    }
+    if let Some(blocks) = floor {
+        let mut out = vec![0.0; queries.borrow().hits.len()];
+        let pass = move || {
+            let (origin, poses) = (Vec3::zeros(), &queries.borrow().poses);
+            planes::heights(Level::detect(), blocks, black_box(&origin), poses, black_box(&mut out));
+        };
+        race.enter_prepared(FLOOR, || queries.borrow_mut().shuffle(), pass);
+    }
+    race
+}
+
+/// W1b: every pass has the primitives in another order.
+fn one_pose<'a>(
+    all: &'a mut [Named],
+    floor: Option<&'a [planes::Block]>,
+    queries: &'a RefCell<Queries>,
+    elements: &'a RefCell<Elements>,
+) -> Race<'a> {
+    let another_order = || {
+        queries.borrow_mut().shuffle();
+        *elements.borrow_mut() = Elements::new(&queries.borrow());
+    };
+    let mut race = Race::new();
+    for (name, engine) in all {
+        let mut answers = vec![Answer::default(); queries.borrow().hits.len()];
+        if engine.pass_over_elements(&elements.borrow(), &mut answers) {
+            let pass = move || _ = engine.pass_over_elements(&elements.borrow(), black_box(&mut answers));
+            race.enter_prepared(name, another_order, pass);
+        }
+    }
+    if let Some(blocks) = floor {
+        let mut out = vec![0.0; queries.borrow().hits.len()];
+        let pass = move || {
+            let (x_ba, points) = (elements.borrow().pose_ba.transform(), &elements.borrow().positions);
+            planes::heights_of_many(Level::detect(), blocks, points, black_box(&x_ba), black_box(&mut out));
+        };
+        race.enter_prepared(FLOOR, another_order, pass);
+    }
+    race
 }
 
 impl Case {
@@ -163,40 +188,19 @@ impl Case {
         }
     }
 
-    fn row(&self, name: &str, outcome: &Outcome) -> [String; 9] {
-        let told = |contender| min_and_median(outcome.of(contender), Clock::Thread, NANO);
-        // Everyone who could be the best: name, shortest pass, ratios of ours to theirs.
-        let measured = PEERS.iter().filter_map(|&peer| {
-            Some((peer.to_owned(), outcome.of(peer)?.min(Clock::Thread), self.over(outcome, peer, 1.0)?))
-        });
-        let listed = self.listed.as_ref().and_then(|listed| {
-            let factor = listed.time / listed.its_time;
-            let time = outcome.of(listed.beside)?.min(Clock::Thread) * factor;
-            Some((listed.engine.to_owned() + "*", time, self.over(outcome, listed.beside, factor)?))
-        });
-        let listed_cell = listed.as_ref().map(|(name, time, _)| format!("{name} {}", digits(time / NANO)));
-        let best = match outcome.of("floor") {
-            Some(_) => outcome.ratio("Pong", "floor", Clock::Thread).map(|ratio| ("floor".to_owned(), ratio)),
-            None => {
-                let best = measured.chain(listed).min_by(|a, b| a.1.total_cmp(&b.1));
-                best.map(|(name, _, ratio)| (name, ratio))
-            }
-        };
-        [
-            name.to_owned(),
-            told("Pong"),
-            told("floor"),
-            told("parry"),
-            told("MuJoCo"),
-            told("ODE"),
-            or_dash(listed_cell),
-            or_dash(best.as_ref().map(|(name, ratio)| format!("{name}: {ratio}"))),
-            at_most(self.wanted, best.map(|(_, ratio)| ratio.median())),
-        ]
-    }
-
-    fn over(&self, outcome: &Outcome, peer: &str, factor: f64) -> Option<pong_bench::timing::Ratios> {
-        Some(outcome.ratio("Pong", peer, Clock::Thread)?.times(1.0 / factor))
+    /// Times of all, and ours over the floor's or over those of the best of the peers.
+    fn row(&self, name: &str, outcome: &Outcome, peers: &[&str], wanted: Option<f64>) -> Vec<String> {
+        let shortest = |who: &str| outcome.of(who).map(|times| times.min(Clock::Thread));
+        let best = peers.iter().copied().filter(|who| shortest(who).is_some());
+        let best = best.min_by(|a, b| shortest(a).unwrap_or(0.0).total_cmp(&shortest(b).unwrap_or(0.0)));
+        let best = outcome.of(FLOOR).map(|_| FLOOR).or(best);
+        let over = best.and_then(|who| Some((who, outcome.ratio(PONG, who, Clock::Thread)?)));
+        let verdict =
+            wanted.map(|wanted| ratio_at_most(wanted, over.as_ref().map(|(_, ratios)| Ratios::halves(ratios))));
+        let told = [PONG, FLOOR].iter().chain(peers);
+        let told = told.map(|who| min_and_median(outcome.of(who), Clock::Thread, NANO));
+        let over = or_dash(over.map(|(who, ratios)| format!("{who}: {ratios}")));
+        std::iter::once(name.to_owned()).chain(told).chain([over, or_dash(verdict)]).collect()
     }
 }
 
@@ -218,11 +222,23 @@ fn check(
         require_hits(name, peer, queries, &theirs)?;
         // Of a bar Pong measures both ends, the others one depth.
         if case.mover != Mover::Segment {
+            if pair.answers_in_common_frame() {
+                in_target_frame(queries, &mut theirs);
+            }
             let pair = name.split(' ').next().unwrap_or(name);
             Difference::between(pair, peer, &answers, &theirs).join(checks);
         }
     }
     Ok(())
+}
+
+/// Normals and points from the common frame into the target's.
+fn in_target_frame(queries: &Queries, answers: &mut [Answer]) {
+    for (answer, [_, target]) in answers.iter_mut().zip(&queries.poses) {
+        let x_bw = target.inverse();
+        answer.normal = (x_bw.orientation * Vec3::from(answer.normal)).into();
+        answer.point = x_bw.transform().point(&Vec3::from(answer.point)).into();
+    }
 }
 
 fn require_hits(name: &str, who: &str, queries: &Queries, answers: &[Answer]) -> Result<(), Box<dyn Error>> {

@@ -1,7 +1,7 @@
 //! A point against the planes of a convex body, eight planes at a time: how high above the highest it lies.
 
 use super::Level;
-use pong_geometry::{Transform, Vec3};
+use pong_geometry::{Pose, Transform, Vec3};
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64::*;
 
@@ -20,9 +20,9 @@ pub fn blocks(planes: &[(Vec3, f64)]) -> Vec<Block> {
     planes.chunks(8).map(block).collect()
 }
 
-/// The floor of a point against a convex body: for every pose, carries the point and takes the greatest height above
-/// any plane, m. Negative where it is inside: minus the depth.
-pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[Transform], out: &mut [f64]) {
+/// The floor of one point against a convex body: for every pair of poses, brings the point's group into the body's frame
+/// and takes the greatest height of the point above any plane, m. Negative where it is inside: minus the depth.
+pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[[Pose; 2]], out: &mut [f64]) {
     match level {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: `Level::detect` found the features.
@@ -31,8 +31,25 @@ pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[Transform]
         // SAFETY: `Level::detect` found the features.
         Level::Avx2 => unsafe { heights_avx2(blocks, point, poses, out) },
         _ => {
-            for (pose, out) in poses.iter().zip(out) {
-                *out = greatest_portable(blocks, &pose.point(point));
+            for (poses, out) in poses.iter().zip(out) {
+                *out = greatest_portable(blocks, &seen(poses, point));
+            }
+        }
+    }
+}
+
+/// The floor of many points of one body under one pose.
+pub fn heights_of_many(level: Level, blocks: &[Block], points: &[Vec3], x: &Transform, out: &mut [f64]) {
+    match level {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::detect` found the features.
+        Level::Avx512 => unsafe { heights_of_many_avx512(blocks, points, x, out) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: `Level::detect` found the features.
+        Level::Avx2 => unsafe { heights_of_many_avx2(blocks, points, x, out) },
+        _ => {
+            for (point, out) in points.iter().zip(out) {
+                *out = greatest_portable(blocks, &x.point(point));
             }
         }
     }
@@ -40,18 +57,40 @@ pub fn heights(level: Level, blocks: &[Block], point: &Vec3, poses: &[Transform]
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,fma")]
-fn heights_avx512(blocks: &[Block], point: &Vec3, poses: &[Transform], out: &mut [f64]) {
-    for (pose, out) in poses.iter().zip(out) {
-        *out = greatest_avx512(blocks, &carried(pose, point));
+fn heights_avx512(blocks: &[Block], point: &Vec3, poses: &[[Pose; 2]], out: &mut [f64]) {
+    for (poses, out) in poses.iter().zip(out) {
+        *out = greatest_avx512(blocks, &seen(poses, point));
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn heights_avx2(blocks: &[Block], point: &Vec3, poses: &[Transform], out: &mut [f64]) {
-    for (pose, out) in poses.iter().zip(out) {
-        *out = greatest_avx2(blocks, &carried(pose, point));
+fn heights_avx2(blocks: &[Block], point: &Vec3, poses: &[[Pose; 2]], out: &mut [f64]) {
+    for (poses, out) in poses.iter().zip(out) {
+        *out = greatest_avx2(blocks, &seen(poses, point));
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,fma")]
+fn heights_of_many_avx512(blocks: &[Block], points: &[Vec3], x: &Transform, out: &mut [f64]) {
+    for (point, out) in points.iter().zip(out) {
+        *out = greatest_avx512(blocks, &carried(x, point));
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn heights_of_many_avx2(blocks: &[Block], points: &[Vec3], x: &Transform, out: &mut [f64]) {
+    for (point, out) in points.iter().zip(out) {
+        *out = greatest_avx2(blocks, &carried(x, point));
+    }
+}
+
+/// A point of one group seen from another: two rotations by quaternions are the least that it takes.
+#[inline(always)]
+fn seen([mover, target]: &[Pose; 2], point: &Vec3) -> Vec3 {
+    target.orientation.inverse() * (mover.position - target.position + mover.orientation * point)
 }
 
 /// A point carried by a pose, fused.
@@ -135,7 +174,7 @@ mod tests {
                     continue;
                 }
                 let mut found = vec![0.0; 64];
-                heights(level, &blocks(&planes), &point, &queries.transforms, &mut found);
+                heights(level, &blocks(&planes), &point, &queries.poses, &mut found);
                 for (found, x) in found.iter().zip(&queries.transforms) {
                     let p = x.point(&point);
                     let height = |(normal, offset): &(Vec3, f64)| normal.dot(&p) - offset;

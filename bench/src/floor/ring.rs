@@ -1,10 +1,11 @@
-//! The docking ring by hand: a grid of 64 × 64 cells over the wedges, seen along the axis; every tip is tested
-//! against the six planes of each wedge in its cell. Depths out, and nothing else.
+//! The docking ring by hand: eight tips a step are carried and asked whether they lie in the slab between the lowest and
+//! the highest of the wedges; those that do are looked up in a grid of 64 × 64 cells seen along the axis, and tested
+//! against the six planes of each wedge in their cell. Depths out, and nothing else.
 
 use super::Level;
 use super::planes::{Block, blocks, greatest_portable};
 #[cfg(target_arch = "x86_64")]
-use super::planes::{carried, greatest_avx2, greatest_avx512};
+use super::planes::{greatest_avx2, greatest_avx512};
 use crate::peer::Peer;
 use crate::ring::{Ring, Tip, WEDGE_FACES};
 use pong_engine::State;
@@ -14,6 +15,10 @@ const CELLS: usize = 64;
 /// Half the side of the grid, m: beyond every wedge and tip that can touch.
 const HALF_SIDE: f64 = 0.72;
 const CELL: f64 = 2.0 * HALF_SIDE / CELLS as f64;
+const LANES: usize = 8;
+
+/// Eight tips: their coordinates along x, y and z, m.
+type Eight = [[f64; LANES]; 3];
 
 /// The ring, its grid and what the last frame found.
 pub struct ByHand {
@@ -25,8 +30,12 @@ pub struct ByHand {
     /// Per cell, where its wedges begin in the list; one more at the end.
     starts: Vec<u32>,
     list: Vec<u32>,
-    tips: Vec<Vec3>,
+    /// What is left of the last eight repeats the last tip.
+    tips: Vec<Eight>,
+    tip_count: usize,
     radius: f64,
+    /// Between which heights a tip's centre may touch, m.
+    slab: [f64; 2],
     /// Tip, wedge, depth.
     found: Vec<(u32, u32, f64)>,
 }
@@ -34,6 +43,8 @@ pub struct ByHand {
 impl ByHand {
     /// The ring with its grid.
     pub fn new(ring: &Ring, tip: Tip) -> Self {
+        let radius = tip.radius();
+        let heights = || ring.wedges.iter().flatten().map(|corner| corner.z);
         let mut grid = Self {
             level: Level::detect(),
             wedges: ring.wedges.clone(),
@@ -41,8 +52,13 @@ impl ByHand {
             blocks: ring.wedges.iter().map(|wedge| blocks(&planes(wedge))[0]).collect(),
             starts: vec![0],
             list: Vec::new(),
-            tips: ring.tips.clone(),
-            radius: tip.radius(),
+            tips: ring.tips.chunks(LANES).map(eight).collect(),
+            tip_count: ring.tips.len(),
+            radius,
+            slab: [
+                heights().fold(f64::INFINITY, f64::min) - radius,
+                heights().fold(f64::NEG_INFINITY, f64::max) + radius,
+            ],
             found: Vec::with_capacity(ring.tips.len()),
         };
         for cell in 0..CELLS * CELLS {
@@ -54,17 +70,39 @@ impl ByHand {
         grid
     }
 
+    /// One step: plain loops over eight, which the compiler turns into the widest registers that its caller allows.
+    #[inline(always)]
+    fn test_eight(&mut self, step: usize, x: &Transform, greatest: impl Fn(&[Block], &Vec3) -> f64) {
+        let (r, t, from) = (&x.rotation, &x.translation, &self.tips[step]);
+        let mut p: Eight = [[0.0; LANES]; 3];
+        for (axis, row) in p.iter_mut().enumerate() {
+            for lane in 0..LANES {
+                let along_z = r[(axis, 2)].mul_add(from[2][lane], t[axis]);
+                row[lane] = r[(axis, 0)].mul_add(from[0][lane], r[(axis, 1)].mul_add(from[1][lane], along_z));
+            }
+        }
+        let mut inside = [false; LANES];
+        for lane in 0..LANES {
+            let in_slab = (p[2][lane] > self.slab[0]) & (p[2][lane] < self.slab[1]);
+            inside[lane] = in_slab & (p[0][lane].abs() < HALF_SIDE) & (p[1][lane].abs() < HALF_SIDE);
+        }
+        for lane in 0..LANES {
+            if inside[lane] {
+                let tip = LANES * step + lane;
+                self.test_tip(tip, Vec3::new(p[0][lane], p[1][lane], p[2][lane]), &greatest);
+            }
+        }
+    }
+
+    /// A tip over the grid.
     #[inline(always)]
     fn test_tip(&mut self, tip: usize, p: Vec3, greatest: impl Fn(&[Block], &Vec3) -> f64) {
         let [column, row] = [p.x, p.y].map(|x| ((x + HALF_SIDE) * (1.0 / CELL)) as usize);
-        if column.max(row) >= CELLS {
-            return;
-        }
-        let cell = row * CELLS + column;
+        let cell = row.min(CELLS - 1) * CELLS + column.min(CELLS - 1);
         for i in self.starts[cell]..self.starts[cell + 1] {
             let wedge = self.list[i as usize] as usize;
             let height = greatest(&self.blocks[wedge..=wedge], &p);
-            if height < self.radius {
+            if height < self.radius && tip < self.tip_count {
                 self.take(tip, wedge, height, &p);
             }
         }
@@ -82,29 +120,30 @@ impl ByHand {
     }
 
     #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,fma")]
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,fma")]
     fn test_avx512(&mut self, x: &Transform) {
-        for tip in 0..self.tips.len() {
-            let p = carried(x, &self.tips[tip]);
-            self.test_tip(tip, p, |blocks, p| greatest_avx512(blocks, p));
+        for step in 0..self.tips.len() {
+            self.test_eight(step, x, |blocks, p| greatest_avx512(blocks, p));
         }
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,fma")]
     fn test_avx2(&mut self, x: &Transform) {
-        for tip in 0..self.tips.len() {
-            let p = carried(x, &self.tips[tip]);
-            self.test_tip(tip, p, |blocks, p| greatest_avx2(blocks, p));
+        for step in 0..self.tips.len() {
+            self.test_eight(step, x, |blocks, p| greatest_avx2(blocks, p));
         }
     }
 
     fn test_portable(&mut self, x: &Transform) {
-        for tip in 0..self.tips.len() {
-            let p = x.point(&self.tips[tip]);
-            self.test_tip(tip, p, greatest_portable);
+        for step in 0..self.tips.len() {
+            self.test_eight(step, x, greatest_portable);
         }
     }
+}
+
+fn eight(tips: &[Vec3]) -> Eight {
+    std::array::from_fn(|axis| std::array::from_fn(|lane| tips[lane.min(tips.len() - 1)][axis]))
 }
 
 impl Peer for ByHand {

@@ -7,6 +7,7 @@ pub mod ode;
 pub mod parry;
 pub mod parry_pairs;
 
+use crate::ours::Elements;
 use crate::pairs::{Answer, Queries};
 use pong_engine::State;
 
@@ -14,12 +15,28 @@ use pong_engine::State;
 pub trait Peer {
     /// One frame from the states of the bodies; how many contacts it found.
     fn frame(&mut self, states: &[State]) -> usize;
+
+    /// Depth of the deepest contact of the last frame, m; `None` from those who do not say.
+    fn deepest(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// An engine on one pair of primitives.
 pub trait PairPeer {
-    /// Answers all queries: for each the deepest contact, if there is one.
+    /// Answers all queries, from the two poses to the contact: for each the deepest one, if there is any.
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]);
+
+    /// One pose, many primitives: elements of one body as A, with one relative pose for all. `false` from those who have
+    /// no such way.
+    fn pass_over_elements(&mut self, _elements: &Elements, _answers: &mut [Answer]) -> bool {
+        false
+    }
+
+    /// Whether answers are in the common frame, not in the target's.
+    fn answers_in_common_frame(&self) -> bool {
+        false
+    }
 }
 
 /// Position and quaternion (w, x, y, z), as engines in C take them.

@@ -20,6 +20,7 @@ unsafe extern "C" {
     fn pong_mujoco_free(scene: *mut Opaque);
     fn pong_mujoco_heights(scene: *mut Opaque, heights: *const f32, count: c_int);
     fn pong_mujoco_frame(scene: *mut Opaque, poses: *const f64, bodies: c_int) -> c_int;
+    fn pong_mujoco_deepest(scene: *const Opaque) -> f64;
     fn pong_mujoco_pairs(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
     fn pong_mujoco_rays(
         scene: *mut Opaque,
@@ -129,6 +130,11 @@ impl Peer for Mujoco {
         self.poses.extend(states[usize::from(self.on_ground)..].iter().flat_map(pose_numbers));
         self.scene.frame(&self.poses)
     }
+
+    fn deepest(&self) -> Option<f64> {
+        // SAFETY: the scene lives.
+        Some(unsafe { pong_mujoco_deepest(self.scene.0.as_ptr()) })
+    }
 }
 
 /// MuJoCo on one pair. A point is a sphere of a nanometre, a segment a capsule as thin.
@@ -156,7 +162,8 @@ impl MujocoPair {
 
 impl PairPeer for MujocoPair {
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
-        let (poses, count) = (queries.rows.as_ptr().cast(), answers.len().min(queries.rows.len()) as c_int);
+        let poses = queries.numbers.as_ptr().cast();
+        let count = answers.len().min(queries.numbers.len()) as c_int;
         let (scene, answers) = (self.scene.0.as_ptr(), answers.as_mut_ptr());
         // SAFETY: the scene lives; there are as many poses and answers as told, in the form that C knows.
         unsafe {
@@ -165,6 +172,10 @@ impl PairPeer for MujocoPair {
                 _ => pong_mujoco_pairs(scene, poses, count, answers),
             }
         }
+    }
+
+    fn answers_in_common_frame(&self) -> bool {
+        true
     }
 }
 

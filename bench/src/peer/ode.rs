@@ -22,7 +22,7 @@ const A_RAY: c_int = 2;
 const THIN: f64 = 1e-9;
 
 unsafe extern "C" {
-    fn pong_ode_new() -> *mut Opaque;
+    fn pong_ode_new(space: c_int, center: *const f64, extents: *const f64) -> *mut Opaque;
     fn pong_ode_free(scene: *mut Opaque);
     fn pong_ode_add_convex(
         scene: *mut Opaque,
@@ -52,6 +52,7 @@ unsafe extern "C" {
     );
     fn pong_ode_mover(scene: *mut Opaque, kind: c_int, radius: f64, length: f64);
     fn pong_ode_wheels(scene: *mut Opaque, poses: *const f64, count: c_int) -> c_int;
+    fn pong_ode_deepest(scene: *const Opaque) -> f64;
     fn pong_ode_pairs(scene: *mut Opaque, poses: *const f64, count: c_int, answers: *mut Answer);
     fn pong_ode_rays(scene: *mut Opaque, poses: *const f64, count: c_int, start: f64, answers: *mut Answer);
 }
@@ -82,10 +83,22 @@ struct Scene {
     triangles: Vec<[u32; 3]>,
 }
 
+/// What ODE keeps the geoms of a body in. Its hash space, which it makes where nobody chooses, is slower on these scenes
+/// than either.
+#[derive(Clone, Copy, Debug)]
+pub enum Space {
+    /// A quadtree over the place where the scene is.
+    Quadtree,
+    /// Sweep and prune along x, then y, then z.
+    SweepAndPrune,
+}
+
 impl Scene {
-    fn new() -> Self {
-        // SAFETY: takes nothing.
-        let pointer = unsafe { pong_ode_new() };
+    fn new(space: Space) -> Self {
+        // The ring is some 40 m from the origin and moves a little: docs of `ring`.
+        let (center, extents) = ([40.0, -30.0, 20.0, 0.0], [1.5, 1.5, 1.5, 0.0]);
+        // SAFETY: four numbers each.
+        let pointer = unsafe { pong_ode_new(space as c_int, center.as_ptr(), extents.as_ptr()) };
         Self { pointer, convexes: Vec::new(), vertices: Vec::new(), triangles: Vec::new() }
     }
 
@@ -141,8 +154,8 @@ pub struct OdeRing {
 
 impl OdeRing {
     /// The ring.
-    pub fn new(ring: &Ring, tip: Tip) -> Self {
-        let mut scene = Scene::new();
+    pub fn new(ring: &Ring, tip: Tip, space: Space) -> Self {
+        let mut scene = Scene::new(space);
         // ODE wants the origin of a convex geom inside.
         let centers: Vec<Vec3> = ring.wedges.iter().map(|wedge| wedge.iter().sum::<Vec3>() / 8.0).collect();
         let convex = |(wedge, center): (&[Vec3; 8], &Vec3)| {
@@ -192,7 +205,7 @@ impl OdeTerrain {
     /// `None` for ellipsoids, which ODE does not have.
     pub fn new(terrain: &Terrain, wheel: Wheel) -> Option<Self> {
         let Wheel::Sphere { radius } = wheel else { return None };
-        let mut scene = Scene::new();
+        let mut scene = Scene::new(Space::SweepAndPrune);
         scene.target_mesh(terrain.vertices().iter().map(|&v| v.into()).collect(), terrain.triangles());
         scene.mover(SPHERE, radius, 0.0);
         Some(Self { scene, poses: Vec::new() })
@@ -206,6 +219,11 @@ impl Peer for OdeTerrain {
         let count = (states.len() - 1) as c_int;
         // SAFETY: as many poses as told.
         unsafe { pong_ode_wheels(self.scene.pointer, self.poses.as_ptr(), count) as usize }
+    }
+
+    fn deepest(&self) -> Option<f64> {
+        // SAFETY: the scene lives.
+        Some(unsafe { pong_ode_deepest(self.scene.pointer) })
     }
 }
 
@@ -221,7 +239,7 @@ impl OdePair {
         if mover == Mover::Ellipsoid || (mover == Mover::Ray && matches!(target, Target::Hull(_))) {
             return None;
         }
-        let mut scene = Scene::new();
+        let mut scene = Scene::new(Space::SweepAndPrune);
         match target {
             Target::Hull(hull) => scene.target_convex(hull),
             Target::Triangle => scene.target_mesh(TRIANGLE.to_vec(), vec![[0, 1, 2]]),
@@ -239,7 +257,8 @@ impl OdePair {
 
 impl PairPeer for OdePair {
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
-        let (poses, count) = (queries.rows.as_ptr().cast(), answers.len().min(queries.rows.len()) as c_int);
+        let poses = queries.numbers.as_ptr().cast();
+        let count = answers.len().min(queries.numbers.len()) as c_int;
         let (scene, answers) = (self.scene.pointer, answers.as_mut_ptr());
         // SAFETY: the scene lives; there are as many poses and answers as told, in the form that C knows.
         unsafe {
@@ -248,5 +267,9 @@ impl PairPeer for OdePair {
                 _ => pong_ode_pairs(scene, poses, count, answers),
             }
         }
+    }
+
+    fn answers_in_common_frame(&self) -> bool {
+        true
     }
 }

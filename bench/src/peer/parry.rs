@@ -88,6 +88,11 @@ impl Peer for Manifolds {
         }
         contacts
     }
+
+    fn deepest(&self) -> Option<f64> {
+        let manifolds = self.pairs.iter().flat_map(|(manifolds, _)| manifolds);
+        manifolds.flat_map(|manifold| &manifold.points).map(|point| -point.dist).max_by(f64::total_cmp)
+    }
 }
 
 /// parry's triangle mesh of a terrain.

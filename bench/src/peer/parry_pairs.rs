@@ -3,6 +3,7 @@
 use super::PairPeer;
 use super::parry::{pose, vector};
 use crate::hull::{Hull, TRIANGLE};
+use crate::ours::Elements;
 use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::details::{contact_convex_polyhedron_ball, contact_support_map_support_map};
@@ -56,34 +57,53 @@ fn convex(hull: &Hull) -> ConvexPolyhedron {
 
 impl PairPeer for Parry {
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
+        self.each(answers, |i| {
+            let [mover, target] = queries.poses[i].each_ref().map(own_pose);
+            target.inv_mul(&mover)
+        });
+    }
+
+    fn pass_over_elements(&mut self, elements: &Elements, answers: &mut [Answer]) -> bool {
+        let x_ba = own_pose(&elements.pose_ba);
+        self.each(answers, |i| x_ba * own_pose(&elements.placed[i]));
+        true
+    }
+}
+
+impl Parry {
+    /// Answers one query after another, given the mover's pose in the target's frame of each.
+    fn each(&self, answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose) {
         match &self.target {
             Shapes::Hull(b) => match self.mover {
-                Mover::Point => each(queries, answers, |x| point(x, b)),
-                Mover::Sphere => each(queries, answers, |x| ball(x, b)),
-                Mover::Ray => each(queries, answers, |x| ray(x, b)),
+                Mover::Point => each(answers, x_ba, |x| point(x, b)),
+                Mover::Sphere => each(answers, x_ba, |x| ball(x, b)),
+                Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
                 Mover::Segment => {
                     let half = Vector::new(0.0, 0.0, HALF_LENGTH);
                     let a = Segment::new(-half, half);
-                    each(queries, answers, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
+                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
                 }
                 Mover::Ellipsoid => {
-                    each(queries, answers, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
+                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
                 }
             },
             Shapes::Triangle(b) => match self.mover {
-                Mover::Ray => each(queries, answers, |x| ray(x, b)),
-                _ => each(queries, answers, |x| ball(x, b)),
+                Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
+                _ => each(answers, x_ba, |x| ball(x, b)),
             },
         }
     }
 }
 
-fn each(queries: &Queries, answers: &mut [Answer], test: impl Fn(&Pose) -> Option<Answer>) {
-    for (x_ba, answer) in queries.poses.iter().zip(answers) {
-        let q = &x_ba.orientation;
-        let x_ba = pose(x_ba.position.into(), [q.w, q.i, q.j, q.k]);
-        *answer = test(&x_ba).unwrap_or_default();
+fn each(answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose, test: impl Fn(&Pose) -> Option<Answer>) {
+    for (i, answer) in answers.iter_mut().enumerate() {
+        *answer = test(&x_ba(i)).unwrap_or_default();
     }
+}
+
+fn own_pose(x: &pong_geometry::Pose) -> Pose {
+    let q = &x.orientation;
+    pose(x.position.into(), [q.w, q.i, q.j, q.k])
 }
 
 fn point(x: &Pose, b: &ConvexPolyhedron) -> Option<Answer> {
