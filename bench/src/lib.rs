@@ -1,5 +1,7 @@
 //! What the benchmark programs share: scenes, peers on the same scenes, clocks, counters and tables.
 
+pub mod berthing;
+pub mod cloud;
 pub mod difference;
 pub mod docking;
 pub mod floor;
@@ -7,6 +9,7 @@ pub mod folder;
 pub mod heap;
 pub mod hull;
 pub mod motion;
+pub mod one_by_one;
 pub mod optional;
 pub mod options;
 pub mod ours;

@@ -157,7 +157,8 @@ impl Elements {
         // Any pose does; a turned one, so that nothing is multiplied by zero and one alone.
         let pose_ba = Pose::new(Vec3::new(0.3, -0.2, 0.1), [0.8, 0.1, -0.5, 0.3]);
         let x_ab = pose_ba.inverse();
-        let placed: Vec<Pose> = queries.poses.iter().map(|[a, b]| x_ab.compose(&Pose::relative(a, b))).collect();
+        let placed: Vec<Pose> =
+            queries.poses.iter().map(|[a, b]| x_ab.compose(&Pose::relative(a, b))).collect();
         let transforms: Vec<Transform> = placed.iter().map(Pose::transform).collect();
         Self {
             points: transforms.iter().map(|x| POINT.carried(x)).collect(),
@@ -286,7 +287,8 @@ impl<M: Movers> Pass<'_, M> {
             for (lane, (point, answer)) in points.iter().zip(answers).enumerate() {
                 let p = &point.position;
                 let below = || point_below_face(p, b, shallowest_face(p, b)?);
-                *answer = (inside >> lane & 1 == 1).then(below).flatten().map(Answer::from).unwrap_or_default();
+                *answer =
+                    (inside >> lane & 1 == 1).then(below).flatten().map(Answer::from).unwrap_or_default();
             }
         }
     }
@@ -339,9 +341,8 @@ impl<M: Movers> Pass<'_, M> {
         match self.kind {
             Hull => self.each(|i| ellipsoid_polyhedron(&m.ellipsoid(i), &b.polyhedra[0])),
             Plane => self.each(|i| ellipsoid_plane(&m.ellipsoid(i), &b.planes[0])),
-            Triangle => self.each(|i| {
-                last(|emit| ellipsoid_triangle(&m.ellipsoid(i), &b.triangles, 0, thickness, emit))
-            }),
+            Triangle => self
+                .each(|i| last(|emit| ellipsoid_triangle(&m.ellipsoid(i), &b.triangles, 0, thickness, emit))),
             _ => self.no_tester(),
         }
     }

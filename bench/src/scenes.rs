@@ -1,5 +1,7 @@
 //! The engine on the scenes of the workloads.
 
+use crate::berthing;
+use crate::cloud;
 use crate::docking;
 use crate::rig::Rig;
 use crate::ring::{self, Ring, Tip};
@@ -50,6 +52,39 @@ impl Scene {
         let models = docking::models()?;
         let states = docking::states(&models[0]);
         Ok(Self { models: models.into(), pairs: vec![(0, 1)], states })
+    }
+
+    /// The berthing mechanism: both halves and four indicators.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn berthing() -> Result<Self, Box<dyn Error>> {
+        let models = berthing::models()?;
+        let states = berthing::states(&models);
+        let [active, passive, indicator] = models;
+        let objects = [active, passive].into_iter().chain(vec![indicator; berthing::INDICATORS]);
+        let pairs = (0..2 + berthing::INDICATORS).filter(|&object| object != 1).map(|object| (object, 1));
+        Ok(Self { models: objects.collect(), pairs: pairs.collect(), states })
+    }
+
+    /// W7: so many spheres, all paired with all.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn cloud(count: usize) -> Result<Self, Box<dyn Error>> {
+        Ok(Self {
+            models: vec![parse(&cloud::model())?; count],
+            pairs: (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b))).collect(),
+            states: cloud::states(count),
+        })
+    }
+
+    /// One movable group of primitives and one of others, paired, at rest.
+    ///
+    /// # Errors
+    /// What a model breaks.
+    pub fn two(a: &str, b: &str, states: [State; 2]) -> Result<Self, Box<dyn Error>> {
+        Ok(Self { models: vec![parse(a)?, parse(b)?], pairs: vec![(0, 1)], states: vec![states.to_vec()] })
     }
 
     /// W2.

@@ -81,7 +81,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", tables.one_pair);
     println!("All find the same hits and misses. Greatest differences from Pong at hits:\n");
     println!("{}", Difference::table(&tables.checks));
-    println!("W1b, ns per primitive, shortest / middle of {passes} passes over {poses} primitives of one pose\n");
+    println!(
+        "W1b, ns per primitive, shortest / middle of {passes} passes over {poses} primitives of one pose\n"
+    );
     println!("{}", tables.one_pose);
     Ok(())
 }
@@ -195,8 +197,8 @@ impl Case {
         let best = best.min_by(|a, b| shortest(a).unwrap_or(0.0).total_cmp(&shortest(b).unwrap_or(0.0)));
         let best = outcome.of(FLOOR).map(|_| FLOOR).or(best);
         let over = best.and_then(|who| Some((who, outcome.ratio(PONG, who, Clock::Thread)?)));
-        let verdict =
-            wanted.map(|wanted| ratio_at_most(wanted, over.as_ref().map(|(_, ratios)| Ratios::halves(ratios))));
+        let verdict = wanted
+            .map(|wanted| ratio_at_most(wanted, over.as_ref().map(|(_, ratios)| Ratios::halves(ratios))));
         let told = [PONG, FLOOR].iter().chain(peers);
         let told = told.map(|who| min_and_median(outcome.of(who), Clock::Thread, NANO));
         let over = or_dash(over.map(|(who, ratios)| format!("{who}: {ratios}")));

@@ -99,6 +99,12 @@ impl Mujoco {
         Self { scene: Scene::load(&assets, &world), poses: Vec::new(), on_ground: false }
     }
 
+    /// W7: so many spheres, each a free body, any two of which may touch.
+    pub fn cloud(count: usize) -> Self {
+        let body = format!("<body>{FREE}<geom type=\"sphere\" size=\"{}\"/></body>", crate::cloud::RADIUS);
+        Self { scene: Scene::load("", &body.repeat(count)), poses: Vec::new(), on_ground: false }
+    }
+
     /// Wheels on a height field: MuJoCo has no mesh that is not convex.
     pub fn terrain(terrain: &Terrain, wheel: Wheel, wheels: usize) -> Self {
         let (heights, [half_x, half_y]) = terrain.heights();

@@ -1,0 +1,87 @@
+//! W10: what a frame costs before anything is large: an empty one, one contact, each further one, many points in one
+//! convex body.
+
+use pong_bench::hull::Hull;
+use pong_bench::options::Options;
+use pong_bench::peer::Peer;
+use pong_bench::race::Race;
+use pong_bench::random::Random;
+use pong_bench::rig;
+use pong_bench::ron;
+use pong_bench::scenes::Scene;
+use pong_bench::table::{Table, min_and_median, ratio_at_most};
+use pong_bench::timing::Clock;
+use pong_engine::{State, World};
+use pong_geometry::{Pose, Twist, Vec3};
+use std::error::Error;
+use std::hint::black_box;
+
+const MICRO: f64 = 1e-6;
+const FRAMES: usize = 256;
+const POINTS: usize = 512;
+/// Spheres of the scene in which the cost of a further contact is measured.
+const MANY: usize = 65;
+/// Most µs of a frame of one contact.
+const ONE_CONTACT: f64 = 0.5;
+
+const EMPTY: &str = "nothing near";
+const ONE: &str = "one contact";
+const FULL: &str = "65 contacts";
+const HULL: &str = "512 points in one convex body of 12 faces";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let options = Options::read(30)?;
+    let scenes = [
+        (EMPTY, spheres_on_plane(1, 1.0)?, 0),
+        (ONE, spheres_on_plane(1, 0.0)?, 1),
+        (FULL, spheres_on_plane(MANY, 0.0)?, MANY),
+        (HULL, points_in_hull()?, POINTS),
+    ];
+    let mut race = Race::new();
+    for (name, scene, contacts) in scenes {
+        let mut rig = scene.rig(World::new(rig::config(1)))?;
+        let states = scene.states[0].clone();
+        let found = rig.frame(&states);
+        if found != contacts {
+            return Err(format!("{name}: {found} contacts, not {contacts}").into());
+        }
+        race.enter(name, move || (0..FRAMES).for_each(|_| _ = black_box(rig.frame(&states))));
+    }
+    let outcome = race.run(options.rounds, FRAMES);
+    let mut table = Table::new(&["frame", "µs", "wanted"]);
+    for name in [EMPTY, ONE, FULL, HULL] {
+        let halves = outcome.of(name).map(|times| times.min_of_halves(Clock::Thread).map(|s| s / MICRO));
+        let halves = halves.map(|[a, b]| [a.min(b), a.max(b)]);
+        let wanted = if name == ONE { ratio_at_most(ONE_CONTACT, halves) } else { "–".to_owned() };
+        table.row([name.to_owned(), min_and_median(outcome.of(name), Clock::Thread, MICRO), wanted]);
+    }
+    let shortest = |name| outcome.of(name).map_or(f64::NAN, |times| times.min(Clock::Thread) / MICRO);
+    let further = (shortest(FULL) - shortest(ONE)) / (MANY - 1) as f64;
+    table.row(["each further contact".to_owned(), format!("{further:.3}"), "–".to_owned()]);
+    println!("Whole frames, shortest / middle of {} passes of {FRAMES} frames\n", options.rounds);
+    println!("{table}");
+    Ok(())
+}
+
+/// Spheres of one movable group over a plane of another: 4 mm deep, or so much higher, m.
+fn spheres_on_plane(count: usize, higher: f64) -> Result<Scene, Box<dyn Error>> {
+    let sphere = |i: usize| {
+        let center = ron::vector(&Vec3::new((i % 8) as f64, (i / 8) as f64, 0.0));
+        format!("Sphere(name: \"s{i}\", center: {center}, radius: 0.25),\n")
+    };
+    let spheres = ron::model("spheres", &(0..count).map(sphere).collect::<String>());
+    let plane = ron::model("floor", "Plane(name: \"floor\", normal: (0, 0, 1), offset: 0)");
+    let placed = Pose { position: Vec3::z() * (0.246 + higher), ..Pose::identity() };
+    Scene::two(&spheres, &plane, [State::from_motion(&placed, &Twist::zero()), State::identity()])
+}
+
+fn points_in_hull() -> Result<Scene, Box<dyn Error>> {
+    let mut random = Random(0x512);
+    let point = |i: usize| {
+        let at = ron::vector(&(random.direction() * 0.1));
+        format!("Point(name: \"p{i}\", position: {at}),\n")
+    };
+    let points = ron::model("points", &(0..POINTS).map(point).collect::<String>());
+    let state = State::identity();
+    Scene::two(&points, &Hull::fibonacci(8).model(), [state, state])
+}

@@ -1,0 +1,52 @@
+//! Frames timed one by one, by the clock on the wall: for what a mean over a pass would hide.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+/// Bytes that are touched between frames, to push all that a frame needs out of the caches.
+const OTHERS_BYTES: usize = 96 << 20;
+const CACHE_LINE: usize = 64;
+
+/// What the rest of a simulation does to the caches between two frames.
+pub struct Others(Vec<u8>);
+
+impl Default for Others {
+    fn default() -> Self {
+        Self(vec![1; OTHERS_BYTES])
+    }
+}
+
+impl Others {
+    /// Reads and writes a byte in every cache line.
+    pub fn work(&mut self) {
+        for byte in self.0.iter_mut().step_by(CACHE_LINE) {
+            *byte = byte.wrapping_mul(3).wrapping_add(1);
+        }
+        black_box(&self.0);
+    }
+}
+
+/// How long it takes, s.
+pub fn seconds(work: impl FnOnce()) -> f64 {
+    let start = Instant::now();
+    work();
+    start.elapsed().as_secs_f64()
+}
+
+/// A quantile of numbers in any order, 0…1; the greatest at 1.
+pub fn quantile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let index = ((values.len() as f64 * share) as usize).min(values.len().saturating_sub(1));
+    values.get(index).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_values() {
+        let mut values = [4.0, 1.0, 3.0, 2.0];
+        assert_eq!([0.0, 0.5, 0.99, 1.0].map(|share| quantile(&mut values, share)), [1.0, 3.0, 4.0, 4.0]);
+    }
+}
