@@ -9,7 +9,7 @@ const SCALE: i32 = 90;
 
 /// Rounds to what is exact here.
 pub(super) fn rounded(x: f64) -> f64 {
-    (x * 2.0_f64.powi(SCALE)).round() * 2.0_f64.powi(-SCALE)
+    (x * libm::ldexp(1.0, SCALE)).round() * libm::ldexp(1.0, -SCALE)
 }
 
 /// A whole number: sign and digits to the base 2^32, the lowest first.
@@ -22,8 +22,8 @@ struct Whole {
 impl Whole {
     /// x·2^`SCALE`.
     fn new(x: f64) -> Self {
-        let scaled = x.abs() * 2.0_f64.powi(SCALE);
-        assert!(scaled < 2.0_f64.powi(120) && scaled.fract() == 0.0, "{x}");
+        let scaled = x.abs() * libm::ldexp(1.0, SCALE);
+        assert!(scaled < libm::ldexp(1.0, 120) && scaled.fract() == 0.0, "{x}");
         let value = scaled as u128;
         let digits = (0..4).map(|k| (value >> (32 * k)) as u32).collect();
         Self { negative: x < 0.0, digits }.trimmed()
@@ -100,13 +100,13 @@ impl Whole {
         let value = self.digits[top..]
             .iter()
             .rev()
-            .fold(0.0, |sum, &digit| sum * 2.0_f64.powi(32) + f64::from(digit));
+            .fold(0.0, |sum, &digit| sum * libm::ldexp(1.0, 32) + f64::from(digit));
         (if self.negative { -value } else { value }, top as i32)
     }
 
     fn over(&self, other: &Self) -> f64 {
         let ((a, m), (b, n)) = (self.leading(), other.leading());
-        a / b * 2.0_f64.powi(32 * (m - n))
+        a / b * libm::ldexp(1.0, 32 * (m - n))
     }
 }
 
@@ -160,7 +160,7 @@ pub(super) fn shortest(contacts: &[Sharer]) -> (Vec3, usize, f64) {
             reached.plus(&depths[j].times(&whole).negated()).sign() >= 0
         };
         if lambdas.iter().all(|lambda| lambda.sign() > 0) && (0..contacts.len()).all(clears) {
-            let unit = 2.0_f64.powi(SCALE);
+            let unit = libm::ldexp(1.0, SCALE);
             let t = |axis: usize| {
                 let along = members.iter().zip(&lambdas).map(|(&i, lambda)| lambda.times(&normals[i][axis]));
                 sum(along).over(&whole)

@@ -97,7 +97,7 @@ fn random_sets_agree_with_slow_descent() {
 fn folded_set(seed: &mut u64, count: usize, fold: f64, walls: usize) -> Vec<Sharer> {
     let direction = |seed: &mut u64| Vec3::from_fn(|_, _| scatter(seed) - 0.5).normalize();
     let base = direction(seed);
-    let depth = 10.0_f64.powf(-4.0 * scatter(seed));
+    let depth = libm::exp10(-4.0 * scatter(seed));
     let mut set = Vec::new();
     for k in 0..count {
         let across = |v: Vec3| v - base * base.dot(&v);
@@ -121,7 +121,7 @@ fn folded_set(seed: &mut u64, count: usize, fold: f64, walls: usize) -> Vec<Shar
 fn folds_of_any_angle_agree_with_exact_arithmetic() {
     let mut seed = 31;
     for exponent in 0..=14 {
-        let fold = 10.0_f64.powf(-10.0 + 0.5 * f64::from(exponent));
+        let fold = libm::exp10(-10.0 + 0.5 * f64::from(exponent));
         let (mut length, mut direction, mut weights, mut shared) = (0.0_f64, 0.0_f64, 0.0_f64, 0);
         for round in 0..300 {
             let mut set = folded_set(&mut seed, 2 + round % 5, fold, 0);
@@ -150,7 +150,7 @@ fn folds_of_any_angle_agree_with_exact_arithmetic() {
 fn folds_beside_walls_agree_with_exact_arithmetic() {
     let mut seed = 77;
     for exponent in 0..=14 {
-        let fold = 10.0_f64.powf(-10.0 + 0.5 * f64::from(exponent));
+        let fold = libm::exp10(-10.0 + 0.5 * f64::from(exponent));
         let (mut worst, mut coupled) = (0.0_f64, 0);
         for round in 0..300 {
             let walls = 1 + round % 2;
@@ -174,7 +174,7 @@ fn folds_beside_walls_agree_with_exact_arithmetic() {
 fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
     let mut seed = 13;
     for round in 0..2000 {
-        let fold = if round % 4 == 0 { 0.0 } else { 10.0_f64.powf(-16.0 + 13.0 * scatter(&mut seed)) };
+        let fold = if round % 4 == 0 { 0.0 } else { libm::exp10(-16.0 + 13.0 * scatter(&mut seed)) };
         let turn =
             pong_geometry::Quat::from_scaled_axis(Vec3::from_fn(|_, _| 6.0 * (scatter(&mut seed) - 0.5)));
         let plates = [(Vec3::new(1.0, 0.0, 0.5), 1e-3), (Vec3::new(-1.0, 0.0, 0.5), 7e-4), (Vec3::z(), 5e-4)];
