@@ -21,6 +21,9 @@ pub(crate) struct Arguments {
     /// With --invariances: how many scenes.
     #[arg(long, requires = "invariances", default_value_t = 20_000)]
     scenes: u64,
+    /// With --invariances: only scenes of this family (plate, valley, junction, …; a wrong name lists them).
+    #[arg(long, requires = "invariances")]
+    family: Option<String>,
     /// With --invariances: which scenes; the same seed makes the same.
     #[arg(long, requires = "invariances", default_value_t = 1)]
     seed: u64,
@@ -119,7 +122,14 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
         print(&lines.collect::<String>());
         return ExitCode::SUCCESS;
     }
+    let families = || pong_invariance::make::touched::FAMILIES.iter().map(|(name, _)| *name);
+    if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
+        let known: Vec<_> = families().collect();
+        eprintln!("there is no family of scenes `{unknown}`; there are {}", known.join(", "));
+        return ExitCode::from(2);
+    }
     let order = Order {
+        family: arguments.family.clone(),
         seed: arguments.seed,
         first: arguments.first,
         scenes: arguments.scenes,

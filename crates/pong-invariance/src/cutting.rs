@@ -196,9 +196,8 @@ pub fn cut_at(mesh: &mut Mesh, place: &Vec3, into_edge: bool) {
     let barycentric = |triangle: &[usize; 3]| {
         let [p, q, r] = triangle.map(|index| mesh.vertices[index]);
         let normal = (q - p).cross(&(r - p));
-        let part = |from: &Vec3, to: &Vec3| {
-            (to - from).cross(&(place - from)).dot(&normal) / normal.norm_squared()
-        };
+        let part =
+            |from: &Vec3, to: &Vec3| (to - from).cross(&(place - from)).dot(&normal) / normal.norm_squared();
         let off = normal.dot(&(place - p)).abs() / normal.norm();
         ([part(&q, &r), part(&r, &p), part(&p, &q)], off)
     };
@@ -206,8 +205,7 @@ pub fn cut_at(mesh: &mut Mesh, place: &Vec3, into_edge: bool) {
         let (parts, off) = barycentric(triangle);
         parts.iter().all(|part| *part > 0.05).then_some((index, parts, off))
     };
-    let nearest =
-        mesh.triangles.iter().enumerate().filter_map(inside).min_by(|a, b| a.2.total_cmp(&b.2));
+    let nearest = mesh.triangles.iter().enumerate().filter_map(inside).min_by(|a, b| a.2.total_cmp(&b.2));
     let Some((index, parts, _)) = nearest else { return };
     let [p, q, r] = mesh.triangles[index];
     if into_edge {

@@ -21,6 +21,9 @@ pub struct Invariance {
     pub make: Option<fn(&mut Random) -> Scene>,
     /// Whether only bits will do.
     pub is_bits: bool,
+    /// Whether the claim holds for any scene, so that a smaller one that breaks it is as good. Where it holds for the scene
+    /// that was made for it, as for a ball led without slip, that scene is shown as it is.
+    pub is_general: bool,
     /// The check.
     pub check: Check,
 }
@@ -56,7 +59,15 @@ const fn twin(
     says: &'static str,
     make: fn(&Scene, &mut Random) -> Option<Twin>,
 ) -> Invariance {
-    Invariance { name, says, every: 1, make: None, is_bits: false, check: Check::Twin(make) }
+    Invariance {
+        name,
+        says,
+        every: 1,
+        make: None,
+        is_bits: false,
+        is_general: true,
+        check: Check::Twin(make),
+    }
 }
 
 const fn bits(
@@ -65,7 +76,7 @@ const fn bits(
     every: u64,
     make: fn(&Scene, &mut Random) -> Option<Twin>,
 ) -> Invariance {
-    Invariance { name, says, every, make: None, is_bits: true, check: Check::Twin(make) }
+    Invariance { name, says, every, make: None, is_bits: true, is_general: true, check: Check::Twin(make) }
 }
 
 const fn property(
@@ -75,7 +86,7 @@ const fn property(
     make: Option<fn(&mut Random) -> Scene>,
     check: fn(&mut Base, &mut Random) -> Verdict,
 ) -> Invariance {
-    Invariance { name, says, every, make, is_bits: false, check: Check::Property(check) }
+    Invariance { name, says, every, make, is_bits: false, is_general: true, check: Check::Property(check) }
 }
 
 /// All of them.
@@ -91,6 +102,7 @@ pub const INVARIANCES: &[Invariance] = &[
         every: 1,
         make: None,
         is_bits: false,
+        is_general: true,
         check: Check::AimedTwin(shape::cut),
     },
     twin("reordered", "primitives, triangles, faces and corners in another order, renamed", shape::reordered),
@@ -116,13 +128,16 @@ pub const INVARIANCES: &[Invariance] = &[
         Some(friction::sliding),
         friction::beside,
     ),
-    property(
-        "rolling",
-        "rolling with spin about the normal asks for no friction: to second order in the step",
-        8,
-        Some(friction::rolling),
-        friction::refined,
-    ),
+    Invariance {
+        is_general: false,
+        ..property(
+            "rolling",
+            "rolling with spin about the normal asks for no friction: to second order in the step",
+            8,
+            Some(friction::rolling),
+            friction::refined,
+        )
+    },
     property(
         "set_down",
         "a body set down outside is pushed as one that came from outside",
@@ -144,11 +159,16 @@ pub fn find(name: &str) -> Option<&'static Invariance> {
     INVARIANCES.iter().find(|invariance| invariance.name == name)
 }
 
-/// The scene of an index: the same for all invariances without scenes of their own.
-pub fn scene(invariance: &Invariance, seed: u64, index: u64) -> Scene {
-    match invariance.make {
-        Some(make) => make(&mut Random::new(seed, stream(invariance), index)),
-        None => make::scene(&mut Random::new(seed, 0, index)),
+/// The scene of an index: the same for all invariances without scenes of their own. Of one family of scenes, if it is
+/// named.
+pub fn scene(invariance: &Invariance, family: Option<&str>, seed: u64, index: u64) -> Scene {
+    let mut shared = Random::new(seed, 0, index);
+    match (invariance.make, family) {
+        (Some(make), _) => make(&mut Random::new(seed, stream(invariance), index)),
+        (None, Some(family)) => {
+            make::scene_of(&mut shared, family).unwrap_or_else(|| make::scene(&mut shared))
+        }
+        (None, None) => make::scene(&mut shared),
     }
 }
 
@@ -159,5 +179,6 @@ pub fn numbers(invariance: &Invariance, seed: u64, index: u64) -> Random {
 
 /// Of its name, so that it stays when the list grows.
 fn stream(invariance: &Invariance) -> u64 {
-    invariance.name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(131).wrapping_add(u64::from(byte))) >> 8 | 1
+    invariance.name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(131).wrapping_add(u64::from(byte))) >> 8
+        | 1
 }

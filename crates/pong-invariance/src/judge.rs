@@ -37,6 +37,8 @@ pub struct Finding {
     pub relative: f64,
     /// What differs.
     pub says: String,
+    /// Whether the twin was refused by the loader or the engine.
+    pub is_refusal: bool,
     /// The twin's scene, if it has models and states of its own.
     pub twin: Option<Scene>,
 }
@@ -53,7 +55,12 @@ impl Allowance {
     /// For a difference in a frame whose largest term is `largest`.
     pub fn of(base: &Base, twin: &Twin, largest: f64) -> Self {
         let scene = &base.scene;
-        let far = scene.frames.iter().flatten().flat_map(|state| state.position).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let far = scene
+            .frames
+            .iter()
+            .flatten()
+            .flat_map(|state| state.position)
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
         let position = twin.rounding + f64::EPSILON * (scene.size + far);
         let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + far);
         let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
@@ -74,9 +81,7 @@ impl Allowance {
 
 /// Largest difference of forces, and of moments over a lever.
 pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
-    let of = |a: &Wrench, b: &Wrench| {
-        (a.force - b.force).norm().max((a.moment - b.moment).norm() / lever)
-    };
+    let of = |a: &Wrench, b: &Wrench| (a.force - b.force).norm().max((a.moment - b.moment).norm() / lever);
     let worst = of(&a[0], &b[0]).max(of(&a[1], &b[1]));
     if worst.is_nan() { f64::INFINITY } else { worst }
 }
@@ -102,7 +107,8 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         Ok(answers) => answers,
         Err(refusal) => {
             let says = format!("the twin is refused: {refusal}");
-            return Verdict::Differs(Finding { frame: 0, relative: 1.0, says, twin: Some(twin.scene.clone()) });
+            let twin = Some(twin.scene.clone());
+            return Verdict::Differs(Finding { frame: 0, relative: 1.0, says, is_refusal: true, twin });
         }
     };
     for (frame, answer) in answers.iter().enumerate() {
@@ -130,7 +136,7 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
 
 fn finding(base: &Base, twin: &Twin, frame: usize, relative: f64, answer: &Answer) -> Finding {
     let says = format!("first:{}\ntwin: {}", told(&base.answers[frame]), told(answer));
-    Finding { frame, relative, says, twin: Some(twin.scene.clone()) }
+    Finding { frame, relative, says, is_refusal: false, twin: Some(twin.scene.clone()) }
 }
 
 /// A frame's answer to read.

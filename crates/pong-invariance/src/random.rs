@@ -109,7 +109,6 @@ pub fn rotation_about(axis: &Vec3, angle: f64) -> Quat {
     Quat::new_normalize(nalgebra::Quaternion::new(cosine, v.x, v.y, v.z))
 }
 
-
 /// The rotation that takes one unit vector into another by the shortest way.
 pub fn rotation_between(from: &Vec3, to: &Vec3) -> Quat {
     Quat::rotation_between(from, to).unwrap_or_else(|| {

@@ -38,8 +38,18 @@ pub fn reduce(scene: &Scene, mut differs: impl FnMut(&Scene) -> bool) -> Scene {
 /// A way to make a scene smaller: its `at`-th trial, or `None` when there are no more.
 type Step = fn(&Scene, usize) -> Option<Scene>;
 
-const STEPS: &[Step] =
-    &[fewer_frames, fewer_shapes, half_of_the_triangles, fewer_triangles, plainer_surface, at_rest, plainer_frame, plainer_shape, rounder_states, rounder_shapes];
+const STEPS: &[Step] = &[
+    fewer_frames,
+    fewer_shapes,
+    half_of_the_triangles,
+    fewer_triangles,
+    plainer_surface,
+    at_rest,
+    plainer_frame,
+    plainer_shape,
+    rounder_states,
+    rounder_shapes,
+];
 
 fn fewer_frames(scene: &Scene, at: usize) -> Option<Scene> {
     (scene.frames.len() > 1 && at < scene.frames.len()).then_some(())?;
@@ -158,7 +168,9 @@ fn plainer_shape(scene: &Scene, at: usize) -> Option<Scene> {
         (2, _) => {
             // Its middle in its group's origin.
             let shift = match &smaller.bodies[0].shapes[0] {
-                Shape::Point { position: p } | Shape::Sphere { center: p, .. } | Shape::Ellipsoid { center: p, .. } => *p,
+                Shape::Point { position: p }
+                | Shape::Sphere { center: p, .. }
+                | Shape::Ellipsoid { center: p, .. } => *p,
                 Shape::Segment { ends } => (ends[0] + ends[1]) * 0.5,
                 Shape::Ray { origin, .. } => *origin,
                 _ => return None,
@@ -184,7 +196,8 @@ fn rounder_states(scene: &Scene, at: usize) -> Option<Scene> {
     (frame < scene.frames.len()).then_some(())?;
     let mut smaller = scene.clone();
     for state in &mut smaller.frames[frame] {
-        let numbers = state.position.iter_mut().chain(&mut state.linear_velocity).chain(&mut state.angular_velocity);
+        let numbers =
+            state.position.iter_mut().chain(&mut state.linear_velocity).chain(&mut state.angular_velocity);
         numbers.for_each(|x| *x = rounded(*x, digits[at % digits.len()]));
     }
     Some(smaller)
@@ -199,8 +212,12 @@ fn rounder_shapes(scene: &Scene, at: usize) -> Option<Scene> {
     for shape in &mut smaller.bodies[body].shapes {
         shape.vertices_mut().iter_mut().for_each(|v| *v = round(v));
         match shape {
-            Shape::Sphere { center, radius } => (*center, *radius) = (round(center), rounded(*radius, digits)),
-            Shape::Ellipsoid { center, semi_axes, .. } => (*center, *semi_axes) = (round(center), round(semi_axes)),
+            Shape::Sphere { center, radius } => {
+                (*center, *radius) = (round(center), rounded(*radius, digits))
+            }
+            Shape::Ellipsoid { center, semi_axes, .. } => {
+                (*center, *semi_axes) = (round(center), round(semi_axes))
+            }
             Shape::Point { position } => *position = round(position),
             Shape::Segment { ends } => *ends = ends.map(|end| round(&end)),
             Shape::Plane { normal, offset } => (*normal, *offset) = (round(normal), rounded(*offset, digits)),
@@ -217,4 +234,3 @@ fn rounded(x: f64, digits: i32) -> f64 {
     let unit = libm::pow(10.0, (digits - 1) as f64 - libm::floor(libm::log10(x.abs())));
     (x * unit).round() / unit
 }
-

@@ -60,10 +60,20 @@ pub struct Surface {
 /// Law of the normal force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Normal {
-    /// Damping, N·s/m, and the depth over which it sets in, m.
-    Linear { damping: f64, ramp: f64 },
-    /// Dissipation, s/m, and exponent.
-    HuntCrossley { dissipation: f64, exponent: f64 },
+    /// Spring and damper.
+    Linear {
+        /// N·s/m.
+        damping: f64,
+        /// Depth over which the damping sets in, m.
+        ramp: f64,
+    },
+    /// Damping that grows with depth.
+    HuntCrossley {
+        /// s/m.
+        dissipation: f64,
+        /// 1 or 1.5.
+        exponent: f64,
+    },
 }
 
 /// Law of friction.
@@ -71,30 +81,37 @@ pub enum Normal {
 pub enum Friction {
     /// None.
     Smooth,
-    /// Coefficient, excess of break-away, stiffness (N/m), damping (N·s/m).
-    Bristle { mu: f64, excess: f64, stiffness: f64, damping: f64 },
-    /// Coefficient and slip speed, m/s.
-    Coulomb { mu: f64, slip_speed: f64 },
+    /// A bristle that sticks and slips.
+    Bristle {
+        /// Coefficient of slip.
+        mu: f64,
+        /// By how much more it holds at break-away.
+        excess: f64,
+        /// N/m.
+        stiffness: f64,
+        /// N·s/m.
+        damping: f64,
+    },
+    /// Regularised Coulomb friction.
+    Coulomb {
+        /// Coefficient.
+        mu: f64,
+        /// Speed at which the full force is reached, m/s.
+        slip_speed: f64,
+    },
 }
 
-/// A primitive.
+/// A primitive, in the words of a model file. Lengths in m.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
 pub enum Shape {
-    /// A point.
     Point { position: Vec3 },
-    /// A bar.
     Segment { ends: [Vec3; 2] },
-    /// A plunger.
     Ray { origin: Vec3, direction: Vec3, length: f64, axial: bool },
-    /// A ball.
     Sphere { center: Vec3, radius: f64 },
-    /// An ellipsoid.
     Ellipsoid { center: Vec3, semi_axes: Vec3, orientation: Quat },
-    /// A half space.
     Plane { normal: Vec3, offset: f64 },
-    /// A convex solid.
     Polyhedron(Solid),
-    /// Triangles.
     Mesh(Mesh),
 }
 
@@ -179,11 +196,9 @@ impl Shape {
                 Self::Ray { origin: origin * s, direction: *direction, length: length * s, axial: *axial }
             }
             Self::Sphere { center, radius } => Self::Sphere { center: center * s, radius: radius * s },
-            Self::Ellipsoid { center, semi_axes, orientation } => Self::Ellipsoid {
-                center: center * s,
-                semi_axes: semi_axes * s,
-                orientation: *orientation,
-            },
+            Self::Ellipsoid { center, semi_axes, orientation } => {
+                Self::Ellipsoid { center: center * s, semi_axes: semi_axes * s, orientation: *orientation }
+            }
             Self::Plane { normal, offset } => Self::Plane { normal: *normal, offset: offset * s },
             Self::Polyhedron(solid) => Self::Polyhedron(Solid {
                 vertices: solid.vertices.iter().map(|v| v * s).collect(),
@@ -227,7 +242,9 @@ impl Scene {
         let [a, b] = [0, 1].map(|body| {
             let surface = &self.bodies[body].surface;
             match surface.normal {
-                Normal::HuntCrossley { exponent, .. } if exponent > 1.0 => surface.stiffness * self.size.sqrt(),
+                Normal::HuntCrossley { exponent, .. } if exponent > 1.0 => {
+                    surface.stiffness * self.size.sqrt()
+                }
                 _ => surface.stiffness,
             }
         });
@@ -245,7 +262,9 @@ impl Scene {
         let of = |surface: &Surface| {
             let normal = match surface.normal {
                 Normal::Linear { damping, .. } => damping,
-                Normal::HuntCrossley { dissipation, .. } => dissipation * surface.stiffness.min(1e12) * self.size,
+                Normal::HuntCrossley { dissipation, .. } => {
+                    dissipation * surface.stiffness.min(1e12) * self.size
+                }
             };
             let friction = match surface.friction {
                 Friction::Bristle { damping, .. } => damping,

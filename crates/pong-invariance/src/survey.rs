@@ -22,6 +22,8 @@ pub struct Order {
     pub scenes: u64,
     /// Only these invariances; all if empty.
     pub only: Vec<String>,
+    /// Only scenes of this family, where an invariance does not make its own.
+    pub family: Option<String>,
     /// Threads.
     pub threads: usize,
     /// How many disagreements of each invariance and family are made small and kept.
@@ -48,10 +50,8 @@ pub struct Tally {
 pub struct Found {
     /// Which invariance.
     pub name: &'static str,
-    /// Which scene.
-    pub seed: u64,
-    /// Which scene of the seed.
-    pub index: u64,
+    /// Options of the command that shows it again.
+    pub again: String,
     /// The scene as it was made.
     pub whole: Scene,
     /// The smallest that still disagrees.
@@ -121,12 +121,12 @@ impl Survey {
             let mut own = None;
             let base = match invariance.make {
                 Some(_) => {
-                    self.base(invariance, order.seed, index, &mut own);
+                    self.base(invariance, order, index, &mut own);
                     &mut own
                 }
                 None => {
                     if shared.is_none() {
-                        self.base(invariance, order.seed, index, &mut shared);
+                        self.base(invariance, order, index, &mut shared);
                         if shared.is_none() {
                             // Refused once, it is refused by all.
                             return;
@@ -141,9 +141,9 @@ impl Survey {
         }
     }
 
-    fn base(&mut self, invariance: &Invariance, seed: u64, index: u64, out: &mut Option<Base>) {
+    fn base(&mut self, invariance: &Invariance, order: &Order, index: u64, out: &mut Option<Base>) {
         self.scenes += 1;
-        match Base::new(scene(invariance, seed, index)) {
+        match Base::new(scene(invariance, order.family.as_deref(), order.seed, index)) {
             Ok(base) => *out = Some(base),
             Err(refusal) => {
                 self.refused += 1;
@@ -173,7 +173,7 @@ impl Survey {
                 let known =
                     |found: &&Found| found.name == invariance.name && found.whole.family == base.scene.family;
                 if self.found.iter().filter(known).count() < order.kept {
-                    self.found.push(smallest(invariance, order.seed, index, &base.scene, finding));
+                    self.found.push(smallest(invariance, order, index, &base.scene, finding));
                 }
             }
         }
@@ -204,7 +204,9 @@ impl Survey {
 
     /// Whether nothing disagrees, and jumps are as rare as they must be.
     pub fn holds(&self) -> bool {
-        self.differ() == 0 && self.refused == 0 && self.at_jumps() as f64 <= JUMPS_MOST * self.compared() as f64
+        self.differ() == 0
+            && self.refused == 0
+            && self.at_jumps() as f64 <= JUMPS_MOST * self.compared() as f64
     }
 
     /// Disagreements of all invariances.
@@ -259,31 +261,37 @@ impl Survey {
 }
 
 /// Reduces a scene that disagrees.
-fn smallest(invariance: &'static Invariance, seed: u64, index: u64, whole: &Scene, finding: Finding) -> Found {
+fn smallest(
+    invariance: &'static Invariance,
+    order: &Order,
+    index: u64,
+    whole: &Scene,
+    finding: Finding,
+) -> Found {
     let verdict = |scene: &Scene| {
         let mut base = Base::new(scene.clone()).ok()?;
-        match invariance.judge(&mut base, &mut numbers(invariance, seed, index)) {
+        match invariance.judge(&mut base, &mut numbers(invariance, order.seed, index)) {
             Verdict::Differs(finding) => Some(finding),
             _ => None,
         }
     };
-    // What is refused is no smaller case of what differs.
-    let is_refusal = finding.says.starts_with("the twin is refused");
-    let differs = |scene: &Scene| {
-        verdict(scene).is_some_and(|found| found.says.starts_with("the twin is refused") == is_refusal)
-    };
-    let scene = reduce::reduce(whole, differs);
+    // A twin that the loader refuses is another matter than one that answers otherwise.
+    let differs = |scene: &Scene| verdict(scene).is_some_and(|found| found.is_refusal == finding.is_refusal);
+    let scene = if invariance.is_general { reduce::reduce(whole, differs) } else { whole.clone() };
+    let name = invariance.name;
+    let family = order.family.as_ref().map_or(String::new(), |family| format!(" --family {family}"));
+    let again = format!("--only {name}{family} --seed {} --first {index} --scenes 1", order.seed);
     let finding = verdict(&scene).unwrap_or(finding);
-    Found { name: invariance.name, seed, index, whole: whole.clone(), scene, finding }
+    Found { name, again, whole: whole.clone(), scene, finding }
 }
 
 impl Found {
     /// The small scene, its twin and how they differ.
     pub fn text(&self) -> String {
-        let Self { name, seed, index, scene, finding, .. } = self;
+        let Self { name, again, whole, scene, finding } = self;
         let mut text = format!(
             "---- {name}, {}: frame {} differs by {:.1e} of the largest term\n{}\n\nthe smallest scene that shows it\n{}",
-            self.whole.family,
+            whole.family,
             finding.frame,
             finding.relative,
             finding.says,
@@ -292,10 +300,7 @@ impl Found {
         if let Some(twin) = finding.twin.as_ref().filter(|twin| *twin != scene) {
             let _ = write!(text, "\nits twin\n{}", text::scene(twin));
         }
-        let _ = writeln!(
-            text,
-            "again: pong verify --invariances --only {name} --seed {seed} --first {index} --scenes 1\n"
-        );
+        let _ = writeln!(text, "again, from the scene as it was made: pong verify --invariances {again}\n");
         text
     }
 }

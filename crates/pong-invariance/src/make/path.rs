@@ -188,10 +188,8 @@ pub fn history(random: &mut Random, scene: &Scene, is_round: bool) -> Vec<[State
                 false => Twist { linear: Vec3::zeros(), angular: Vec3::zeros() },
             };
             let twists = [twist(), twist()];
-            let states = [
-                State::from_motion(&x_wb.compose(&x_ba), &twists[0]),
-                State::from_motion(&x_wb, &twists[1]),
-            ];
+            let states =
+                [State::from_motion(&x_wb.compose(&x_ba), &twists[0]), State::from_motion(&x_wb, &twists[1])];
             match random.below(5) {
                 0 | 1 => {}
                 2 => here = foot(random, shapes, is_round),

@@ -6,8 +6,7 @@ use pong_geometry::Vec3;
 
 /// A box between two corners.
 pub fn cuboid(low: &Vec3, high: &Vec3) -> Solid {
-    let corner =
-        |i: usize| Vec3::from_fn(|axis, _| if i >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    let corner = |i: usize| Vec3::from_fn(|axis, _| if i >> axis & 1 == 0 { low[axis] } else { high[axis] });
     let faces =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]].map(Vec::from);
     Solid { vertices: (0..8).map(corner).collect(), faces: faces.to_vec(), inactive: Vec::new() }
@@ -86,9 +85,11 @@ pub fn any(random: &mut Random, is_round: bool) -> Solid {
 
 /// Half extents of a box.
 pub fn extents(random: &mut Random, is_round: bool) -> Vec3 {
-    Vec3::from_fn(|_, _| {
-        if is_round { random.pick(&[0.125, 0.25, 0.5, 1.0]) } else { random.log_between(0.1, 1.0) }
-    })
+    Vec3::from_fn(
+        |_, _| {
+            if is_round { random.pick(&[0.125, 0.25, 0.5, 1.0]) } else { random.log_between(0.1, 1.0) }
+        },
+    )
 }
 
 /// The hull of 4 to 12 points.

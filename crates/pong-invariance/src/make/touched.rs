@@ -42,7 +42,11 @@ fn egg(random: &mut Random, is_round: bool) -> Vec<Shape> {
         true => Vec3::new(1.0, 0.5, 0.25),
         false => Vec3::from_fn(|_, _| random.log_between(0.1, 1.0)),
     };
-    vec![Shape::Ellipsoid { center: Vec3::zeros(), semi_axes, orientation: nalgebra::UnitQuaternion::identity() }]
+    vec![Shape::Ellipsoid {
+        center: Vec3::zeros(),
+        semi_axes,
+        orientation: nalgebra::UnitQuaternion::identity(),
+    }]
 }
 
 fn solid(random: &mut Random, is_round: bool) -> Vec<Shape> {
@@ -81,7 +85,8 @@ pub fn wedges(random: &mut Random, count: usize, half: f64, is_round: bool) -> V
     // With two or three pieces a wedge of one side would not be convex, or have no axis in it.
     let sides_each = if count < 4 { 2 } else { 1 };
     let sides = count * sides_each;
-    let angles = solids::angles(random, sides, is_round);
+    // Two wedges meet in a plane through the axis, or one of them would be hollow.
+    let angles = solids::angles(random, sides, is_round || count == 2);
     let rim = |index: usize, z: f64| {
         let angle = angles[index % sides];
         Vec3::new(libm::cos(angle), libm::sin(angle), z)

@@ -80,24 +80,17 @@ pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
     }
     for (frame, states) in scene.frames.iter().enumerate() {
         let Ok(first) = base.stage.step(states) else { return Verdict::DoesNotApply };
-        for from_commit in [true, false] {
-            // Before the commit the same holds: the frame is evaluated from the one before.
-            let mut other = *states;
-            let shift = random.direction() * step;
-            other[0].position = (Vec3::from(other[0].position) + shift).into();
-            if !from_commit {
-                continue;
-            }
-            let Ok(again) = base.stage.evaluate(&other) else { return Verdict::DoesNotApply };
-            let apart = distance(&first.wrenches, &again.wrenches, scene.size);
-            let largest = base.largest(frame);
-            // Springs of both directions over the step; what turns, turns by the step over the size.
-            let steep = 16.0 * (scene.stiffness() + largest / scene.size);
-            let rounding = 64.0 * f64::EPSILON * scene.size * scene.stiffness();
-            let touches = |answer: &crate::play::Answer| answer.contacts.len();
-            if touches(&first) == touches(&again) && apart > steep * step + rounding + 1e-12 * largest {
-                return differs(base, frame, apart / largest, "evaluated a tiny step away", &again);
-            }
+        let mut other = *states;
+        other[0].position = (Vec3::from(other[0].position) + random.direction() * step).into();
+        let Ok(again) = base.stage.evaluate(&other) else { return Verdict::DoesNotApply };
+        let apart = distance(&first.wrenches, &again.wrenches, scene.size);
+        let largest = base.largest(frame);
+        // Springs of both directions over the step; what turns, turns by the step over the size.
+        let steep = 16.0 * (scene.stiffness() + largest / scene.size);
+        let rounding = 64.0 * f64::EPSILON * scene.size * scene.stiffness();
+        let is_same = first.contacts.len() == again.contacts.len();
+        if is_same && apart > steep * step + rounding + 1e-12 * largest {
+            return differs(base, frame, apart / largest, "evaluated a tiny step away", &again);
         }
     }
     Verdict::Agrees
@@ -187,9 +180,16 @@ pub fn refined(base: &mut Base, _: &mut Random) -> Verdict {
     let small = 1e-10 * base.scene.stiffness() * base.scene.size;
     let [coarse, middle, fine] = friction;
     if fine > 0.4 * middle + small || middle > 0.4 * coarse + small {
-        let says = format!("friction with every fourth, second and each frame: {coarse:e}, {middle:e}, {fine:e} N");
+        let says =
+            format!("friction with every fourth, second and each frame: {coarse:e}, {middle:e}, {fine:e} N");
         let relative = fine / base.largest(base.answers.len() - 1);
-        return Verdict::Differs(Finding { frame: frames.len() - 1, relative, says, twin: None });
+        return Verdict::Differs(Finding {
+            frame: frames.len() - 1,
+            relative,
+            says,
+            is_refusal: false,
+            twin: None,
+        });
     }
     Verdict::Agrees
 }

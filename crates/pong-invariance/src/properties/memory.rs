@@ -53,7 +53,13 @@ pub fn depth_steps(base: &mut Base, _: &mut Random) -> Verdict {
         let beyond = now - before - way;
         if beyond > 1e-12 * base.scene.size {
             let says = format!("depth {before} m, then {now} m, though the point moved by {way} m alone");
-            return Verdict::Differs(Finding { frame, relative: beyond / now, says, twin: None });
+            return Verdict::Differs(Finding {
+                frame,
+                relative: beyond / now,
+                says,
+                is_refusal: false,
+                twin: None,
+            });
         }
     }
     Verdict::Agrees

@@ -78,6 +78,15 @@ pub fn set_down(base: &mut Base, _: &mut Random) -> Verdict {
         _ => return Verdict::DoesNotApply,
     };
     let away = states[1].pose().orientation * out.normalize() * (4.0 * (reach + scene.size));
+    // On the way in the centre must not pass through anything.
+    let from = center + out.normalize() * (4.0 * (reach + scene.size));
+    if mesh
+        .triangles
+        .iter()
+        .any(|triangle| is_crossed(&triangle.map(|index| mesh.vertices[index]), &from, &center))
+    {
+        return Verdict::DoesNotApply;
+    }
     let before = [still_at(&Pose { position: pose.position + away, ..pose }), states[1]];
     let Ok(answers) = base.stage.play(&[before, states]) else { return Verdict::DoesNotApply };
     let (first, after) = (&base.answers[0], &answers[1]);
@@ -92,6 +101,18 @@ pub fn set_down(base: &mut Base, _: &mut Random) -> Verdict {
 
 fn still_at(pose: &Pose) -> State {
     State::from_motion(pose, &Twist { linear: Vec3::zeros(), angular: Vec3::zeros() })
+}
+
+/// Whether a straight line crosses a triangle, or its rim by rounding.
+fn is_crossed([p, q, r]: &[Vec3; 3], from: &Vec3, to: &Vec3) -> bool {
+    let normal = (q - p).cross(&(r - p));
+    let (start, end) = (normal.dot(&(from - p)), normal.dot(&(to - p)));
+    if start * end > 0.0 {
+        return false;
+    }
+    let place = from + (to - from) * (start / (start - end));
+    let size = (q - p).norm() + (r - p).norm();
+    (nearest_of_triangle(&[*p, *q, *r], &place) - place).norm() < 1e-9 * size
 }
 
 /// The nearest place of a mesh and the front of a triangle there. `None` where the fronts there disagree on the side, as

@@ -57,13 +57,7 @@ impl Twin {
     pub fn of(scene: &Scene) -> Self {
         let back =
             Back { turn: Quat::identity(), force: 1.0, moment: 1.0, origins: [Vec3::zeros(), Vec3::zeros()] };
-        Self {
-            scene: scene.clone(),
-            back,
-            manner: Manner::Plain,
-            rounding: 0.0,
-            rounding_of_velocity: 0.0,
-        }
+        Self { scene: scene.clone(), back, manner: Manner::Plain, rounding: 0.0, rounding_of_velocity: 0.0 }
     }
 
     /// The same scene played in another way.

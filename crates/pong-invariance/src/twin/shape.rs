@@ -194,7 +194,8 @@ fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
     let [Shape::Polyhedron(whole)] = scene.bodies[1].shapes.as_slice() else { return false };
     let slack = 1e-9 * scene.size;
     scene.frames.iter().zip(&base.answers).all(|(states, answer)| {
-        let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose()).compose(&scene.bodies[0].place);
+        let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose())
+            .compose(&scene.bodies[0].place);
         let back = states[1].pose().orientation.inverse();
         let touches = || answer.contacts.iter();
         scene.bodies[0].shapes.iter().enumerate().all(|(index, shape)| {
