@@ -2,9 +2,10 @@
 
 use crate::base::Base;
 use crate::jump;
+use crate::make::path;
 use crate::play::Answer;
 use crate::random::Random;
-use crate::scene::Scene;
+use crate::scene::{Scene, Shape};
 use crate::twin::Twin;
 use pong_geometry::{Vec3, Wrench};
 
@@ -61,7 +62,7 @@ impl Allowance {
             .flatten()
             .flat_map(|state| state.position)
             .fold(0.0, |m: f64, x| m.max(x.abs()));
-        let position = twin.rounding + f64::EPSILON * (scene.size + far);
+        let position = twin.rounding + f64::EPSILON * (scene.size + far) + bent(scene) / ROUNDINGS;
         let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + far);
         let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
         // The plane of a thin triangle is known as well as its height.
@@ -86,11 +87,29 @@ pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
     if worst.is_nan() { f64::INFINITY } else { worst }
 }
 
+/// How far corners of the faces of solids lie out of their planes, m: in single precision a face of four corners is no plane,
+/// and which plane it is taken for may depend on their order.
+fn bent(scene: &Scene) -> f64 {
+    let mut most = 0.0_f64;
+    for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
+        let Shape::Polyhedron(solid) = shape else { continue };
+        for face in &solid.faces {
+            let corners: Vec<Vec3> = face.iter().map(|index| solid.vertices[*index]).collect();
+            let normal = path::normal_of(&corners);
+            let off = corners.iter().map(|corner| normal.dot(&(corner - corners[0])).abs());
+            most = off.fold(most, f64::max);
+        }
+    }
+    // A plane through three of them is off by a few times that at the others, and edges of pieces move with it.
+    let slack = 1e3 * f64::EPSILON * scene.size;
+    if most > slack { 30.0 * most } else { 0.0 }
+}
+
 /// Height of the thinnest triangle over the scene's size.
 fn thinnest(scene: &Scene) -> f64 {
     let mut least = 1.0_f64;
     for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
-        if let crate::scene::Shape::Mesh(mesh) = shape {
+        if let Shape::Mesh(mesh) = shape {
             for triangle in &mesh.triangles {
                 let [p, q, r] = triangle.map(|index| mesh.vertices[index]);
                 let longest = (q - p).norm().max((r - q).norm()).max((p - r).norm());

@@ -13,8 +13,10 @@ use crate::twin::Twin;
 use pong_engine::State;
 use pong_geometry::{Pose, Vec3, Wrench};
 
-/// How many places around are tried.
+/// How many places around are tried at a time, and how often more of them: where three surfaces meet, or a direction turns
+/// through a wide angle, few places say little.
 const PLACES: usize = 40;
+const ROUNDS: usize = 6;
 /// The longest step away, in sizes of the scene. What changes over more than this is no jump.
 const LONGEST_STEP: f64 = 1e-6;
 /// The shortest, where rounding still is far below.
@@ -38,29 +40,35 @@ pub fn is_there(
     let deepest = deepest.map(|touch| touch.depth).fold(1e-3 * size, f64::min);
     let smooth = 0.02 * difference / base.largest(frame).max(difference) * deepest / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
-    let mut settled = Vec::new();
-    for _ in 0..PLACES {
-        let mut frames = displaced(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
-        let Some(there) = last(base, &frames) else { continue };
-        let mut is_settled = true;
-        for _ in 0..2 {
-            frames = displaced(&frames, 4.0 * f64::EPSILON, size, false, random);
-            let Some(again) = last(base, &frames) else { return false };
-            is_settled &= distance(&there, &again, lever) < (0.05 * difference).max(2.0 * allowance.force);
+    let mut settled: Vec<[Wrench; 2]> = Vec::new();
+    for round in 1..=ROUNDS {
+        for _ in 0..PLACES {
+            let mut frames = displaced(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
+            let Some(there) = last(base, &frames) else { return false };
+            let mut is_settled = true;
+            for _ in 0..2 {
+                frames = displaced(&frames, 4.0 * f64::EPSILON, size, false, random);
+                let Some(again) = last(base, &frames) else { return false };
+                is_settled &=
+                    distance(&there, &again, lever) < (0.05 * difference).max(2.0 * allowance.force);
+            }
+            if is_settled {
+                settled.push(there);
+            }
         }
-        if is_settled {
-            settled.push(there);
+        if settled.len() < round * PLACES / 4 {
+            return false;
+        }
+        let spread = settled.iter().map(|there| distance(there, &settled[0], lever)).fold(0.0, f64::max);
+        let nearest = |answer: &[Wrench; 2]| {
+            settled.iter().map(|there| distance(there, answer, lever)).fold(f64::INFINITY, f64::min)
+        };
+        let near = 0.25 * difference.max(spread) + allowance.force;
+        if spread > 0.5 * difference && nearest(&first) < near && nearest(read) < near {
+            return true;
         }
     }
-    if settled.len() < PLACES / 4 {
-        return false;
-    }
-    let spread = settled.iter().map(|there| distance(there, &settled[0], lever)).fold(0.0, f64::max);
-    let nearest = |answer: &[Wrench; 2]| {
-        settled.iter().map(|there| distance(there, answer, lever)).fold(f64::INFINITY, f64::min)
-    };
-    let near = 0.25 * difference.max(spread) + allowance.force;
-    spread > 0.5 * difference && nearest(&first) < near && nearest(read) < near
+    false
 }
 
 /// The wrenches of the last frame of a history.

@@ -1,6 +1,6 @@
 //! A scene in the engine: its models loaded, its frames evaluated and committed, the answers kept.
 
-use crate::scene::Scene;
+use crate::scene::{Scene, Shape};
 use crate::text;
 use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World};
 use pong_geometry::extension::Extensions;
@@ -61,7 +61,7 @@ impl Stage {
     pub fn set_up(scene: &Scene, workers: usize) -> Result<Self, Refusal> {
         let settings = WorkerSettings { workers, oversubscribe: true, ..WorkerSettings::default() };
         let workers = (workers > 0).then_some(settings);
-        let contact_capacity = if is_small(scene) { Some(256) } else { None };
+        let contact_capacity = capacity(scene);
         let mut world = World::new(Config { workers, contact_capacity, ..Config::default() });
         let mut add = |body: usize, name: &str| -> Result<ObjectId, Refusal> {
             let text = text::model(&scene.bodies[body], name, name);
@@ -151,14 +151,14 @@ impl Stage {
     }
 }
 
-/// Whether a scene surely needs no more than the least contact capacity.
-fn is_small(scene: &Scene) -> bool {
-    let elements = |shape: &crate::scene::Shape| match shape {
-        crate::scene::Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
+/// Room for all contacts that a small scene can have: less to set up. The worst case of the engine else.
+fn capacity(scene: &Scene) -> Option<usize> {
+    let elements = |shape: &Shape| match shape {
+        Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
         _ => 2,
     };
     let [a, b] = [0, 1].map(|body| scene.bodies[body].shapes.iter().map(elements).sum::<usize>());
-    a * b <= 256
+    (a * b <= 256).then_some(a * b + 8)
 }
 
 struct Bits(u64);

@@ -43,6 +43,8 @@ pub struct Tally {
     pub worst: f64,
     /// Of what differs, how many by family of scene.
     pub families: BTreeMap<&'static str, u64>,
+    /// Of what stands at jumps, how many by family of scene.
+    pub jumps: BTreeMap<&'static str, u64>,
 }
 
 /// A disagreement made small.
@@ -163,13 +165,13 @@ impl Survey {
             Verdict::AtAJump(_) => {
                 tally.compared += 1;
                 tally.at_a_jump += 1;
+                *tally.jumps.entry(base.scene.family).or_default() += 1;
             }
             Verdict::Differs(finding) => {
                 tally.compared += 1;
                 tally.differ += 1;
                 tally.worst = tally.worst.max(finding.relative);
-                let of_family = tally.families.entry(base.scene.family).or_default();
-                *of_family += 1;
+                *tally.families.entry(base.scene.family).or_default() += 1;
                 let known =
                     |found: &&Found| found.name == invariance.name && found.whole.family == base.scene.family;
                 if self.found.iter().filter(known).count() < order.kept {
@@ -192,6 +194,9 @@ impl Survey {
             sum.worst = sum.worst.max(tally.worst);
             for (family, count) in tally.families {
                 *sum.families.entry(family).or_default() += count;
+            }
+            for (family, count) in tally.jumps {
+                *sum.jumps.entry(family).or_default() += count;
             }
         }
         for found in other.found {
@@ -232,7 +237,7 @@ impl Survey {
         );
         for invariance in INVARIANCES {
             let Some(tally) = self.tallies.get(invariance.name) else { continue };
-            let Tally { compared, at_a_jump, differ, worst, families } = tally;
+            let Tally { compared, at_a_jump, differ, worst, families, jumps } = tally;
             let bits = if invariance.is_bits { " (bits)" } else { "" };
             let name = invariance.name;
             let says = invariance.says;
@@ -240,8 +245,10 @@ impl Survey {
                 text,
                 "{name:<16} {compared:>10} {at_a_jump:>8} {differ:>8} {worst:>8.0e}  {says}{bits}"
             );
-            if *differ > 0 {
-                let _ = writeln!(text, "{:<16} {families:?}", "");
+            for (title, counts) in [("at jumps", jumps), ("differ", families)] {
+                if !counts.is_empty() {
+                    let _ = writeln!(text, "{:<16} {title}: {counts:?}", "");
+                }
             }
         }
         let _ = writeln!(

@@ -51,7 +51,8 @@ fn corners(vertices: &[Vec3], face: &[usize]) -> Vec<Vec3> {
     face.iter().map(|index| vertices[*index]).collect()
 }
 
-fn normal_of(corners: &[Vec3]) -> Vec3 {
+/// The unit normal of a polygon.
+pub fn normal_of(corners: &[Vec3]) -> Vec3 {
     let sum = |at: usize| (corners[at] - corners[0]).cross(&(corners[at + 1] - corners[0]));
     (1..corners.len() - 1).map(sum).sum::<Vec3>().normalize()
 }

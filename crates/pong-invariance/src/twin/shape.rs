@@ -186,55 +186,105 @@ fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option
     Some(plate)
 }
 
-/// Whether the contract's words give the pieces the answer of the whole. They do where a push leaves by the piece in which
-/// it begins. A point deep in one piece and nearest to a face of another is the case that they leave open: a piece knows
-/// its own faces alone.
+/// Whether pieces can give the answer of the whole. They do where a push leaves by the piece in which it begins, and where
+/// the way in leads into that piece at once. A piece knows its own faces alone: a point deep in one piece and nearest to a
+/// face of another, a step through one piece into the next, an ellipsoid so deep that several of its overlaps with pieces
+/// count, have an answer of their own (docs/invariances.md).
 fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
-    let scene = &base.scene;
-    let [Shape::Polyhedron(whole)] = scene.bodies[1].shapes.as_slice() else { return false };
-    let slack = 1e-9 * scene.size;
-    scene.frames.iter().zip(&base.answers).all(|(states, answer)| {
-        let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose())
-            .compose(&scene.bodies[0].place);
-        let back = states[1].pose().orientation.inverse();
-        let touches = || answer.contacts.iter();
-        scene.bodies[0].shapes.iter().enumerate().all(|(index, shape)| {
-            let mine = || touches().filter(move |touch| touch.of[0] as usize == index);
-            let at = |p: &Vec3| x_ba.orientation * p + x_ba.position;
-            let leaves_its_piece = |from: &Vec3, out: &Vec3, depth: f64| {
-                let foot = from + out * depth;
-                !pieces.iter().any(|piece| is_inside(piece, from, slack) && is_inside(piece, &foot, slack))
-            };
-            match shape {
-                Shape::Point { position } => {
-                    let from = at(position);
-                    mine().all(|touch| !leaves_its_piece(&from, &(back * touch.normal), touch.depth))
-                }
-                Shape::Sphere { center, radius } => {
-                    let from = at(center);
-                    !is_inside(whole, &from, slack)
-                        || mine().all(|touch| {
-                            !leaves_its_piece(&from, &(back * touch.normal), touch.depth - radius)
-                        })
-                }
-                Shape::Ellipsoid { center, .. } => !is_inside(whole, &at(center), slack),
-                Shape::Ray { origin, .. } => !is_inside(whole, &at(origin), slack),
-                Shape::Segment { ends } => {
-                    let mut touching = mine();
-                    let Some(first) = touching.next() else { return true };
-                    let is_flat = touching.all(|touch| (touch.normal - first.normal).norm() < 1e-9);
-                    let out = back * first.normal;
-                    let mut ends = ends.iter().map(at);
-                    is_flat
-                        && ends.all(|end| {
-                            let depth = depth_along(whole, &end, &out);
-                            is_inside(whole, &end, slack) && !leaves_its_piece(&end, &out, depth)
-                        })
-                }
-                Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
-            }
-        })
+    let [Shape::Polyhedron(whole)] = base.scene.bodies[1].shapes.as_slice() else { return false };
+    let cut = Cut { base, whole, pieces, slack: 1e-9 * base.scene.size };
+    (0..base.scene.frames.len()).all(|frame| {
+        let shapes = base.scene.bodies[0].shapes.iter().enumerate();
+        shapes.into_iter().all(|(index, shape)| cut.is_fair_for(frame, index, shape))
     })
+}
+
+/// A solid that was cut.
+struct Cut<'b> {
+    base: &'b Base,
+    whole: &'b Solid,
+    pieces: &'b [Solid],
+    slack: f64,
+}
+
+impl Cut<'_> {
+    /// For one primitive of A in one frame.
+    fn is_fair_for(&self, frame: usize, index: usize, shape: &Shape) -> bool {
+        let back = self.base.scene.frames[frame][1].pose().orientation.inverse();
+        let mut touches =
+            self.base.answers[frame].contacts.iter().filter(|touch| touch.of[0] as usize == index);
+        let at = |p: &Vec3| self.seen(frame, p);
+        match shape {
+            Shape::Point { position } => {
+                let from = at(position);
+                touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth))
+                    && self.comes_in(frame, position)
+            }
+            Shape::Sphere { center, radius } => {
+                let from = at(center);
+                is_outside(self.whole, &from, self.slack)
+                    || touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth - radius))
+                        && self.comes_in(frame, center)
+            }
+            Shape::Ellipsoid { semi_axes, .. } => touches.all(|touch| touch.depth < 0.05 * semi_axes.min()),
+            Shape::Ray { origin, .. } => is_outside(self.whole, &at(origin), self.slack),
+            Shape::Segment { ends } => {
+                let Some(first) = touches.next() else { return true };
+                let is_flat = touches.all(|touch| (touch.normal - first.normal).norm() < 1e-9);
+                let out = back * first.normal;
+                let mut ends = ends.iter().map(at);
+                is_flat && ends.all(|end| self.leaves(&end, &out, depth_along(self.whole, &end, &out)))
+            }
+            Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
+        }
+    }
+
+    /// A place of A's group in a frame, in B's group.
+    fn seen(&self, frame: usize, place: &Vec3) -> Vec3 {
+        let states = &self.base.scene.frames[frame];
+        let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose())
+            .compose(&self.base.scene.bodies[0].place);
+        x_ba.orientation * place + x_ba.position
+    }
+
+    fn holds(&self, x: &Vec3) -> impl Iterator<Item = &Solid> {
+        self.pieces.iter().filter(move |piece| is_inside(piece, x, self.slack))
+    }
+
+    /// Whether some piece holds a place, and the foot from which it is pushed.
+    fn leaves(&self, from: &Vec3, out: &Vec3, depth: f64) -> bool {
+        let foot = from + out * depth;
+        self.holds(from).any(|piece| is_inside(piece, &foot, self.slack))
+    }
+
+    /// Whether the straight way since the frame before leads from outside or from the same piece.
+    fn comes_in(&self, frame: usize, place: &Vec3) -> bool {
+        let now = self.seen(frame, place);
+        if frame == 0 || is_outside(self.whole, &now, self.slack) {
+            return true;
+        }
+        let before = self.seen(frame - 1, place);
+        let entry = entry(self.whole, &before, &now);
+        self.holds(&now).any(|piece| is_inside(piece, &entry, self.slack))
+    }
+}
+
+/// Where the straight way from one place to another comes into a solid; where it begins, if it begins inside.
+fn entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Vec3 {
+    let mut t = 0.0_f64;
+    for face in &solid.faces {
+        let (normal, p) = plane_of(solid, face);
+        let [start, end] = [from, to].map(|x| normal.dot(&(x - p)));
+        if start > 0.0 && end < start {
+            t = t.max(start / (start - end));
+        }
+    }
+    from + (to - from) * t.min(1.0)
+}
+
+fn plane_of(solid: &Solid, face: &[usize]) -> (Vec3, Vec3) {
+    let [p, q, r] = [0, 1, 2].map(|k| solid.vertices[face[k]]);
+    ((q - p).cross(&(r - p)).normalize(), p)
 }
 
 /// Depth below the faces that look that way.
@@ -245,8 +295,12 @@ fn depth_along(solid: &Solid, x: &Vec3, out: &Vec3) -> f64 {
 
 fn is_inside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
     solid.faces.iter().all(|face| {
-        let [p, q, r] = [0, 1, 2].map(|k| solid.vertices[face[k]]);
-        let normal = (q - p).cross(&(r - p)).normalize();
+        let (normal, p) = plane_of(solid, face);
         normal.dot(&(x - p)) <= slack
     })
+}
+
+/// Outside for sure: a centre in the surface itself counts as inside.
+fn is_outside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
+    !is_inside(solid, x, slack)
 }
