@@ -114,7 +114,7 @@ fn main_of_extremes(arguments: &Arguments) -> ExitCode {
 
 fn main_of_invariances(arguments: &Arguments) -> ExitCode {
     if let Some(unknown) = arguments.only.iter().find(|name| invariances::find(name).is_none()) {
-        eprintln!("there is no invariance `{unknown}`; `pong verify --invariances --list` names them");
+        tell(format!("there is no invariance `{unknown}`; `pong verify --invariances --list` names them"));
         return ExitCode::from(2);
     }
     if arguments.list {
@@ -125,7 +125,7 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
     let families = || pong_invariance::make::touched::FAMILIES.iter().map(|(name, _)| *name);
     if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
         let known: Vec<_> = families().collect();
-        eprintln!("there is no family of scenes `{unknown}`; there are {}", known.join(", "));
+        tell(format!("there is no family of scenes `{unknown}`; there are {}", known.join(", ")));
         return ExitCode::from(2);
     }
     let order = Order {
@@ -141,7 +141,7 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
     let survey = Survey::run(&order, &|done| {
         let tenth = (10 * done / order.scenes) as usize;
         if told.fetch_max(tenth, Ordering::Relaxed) < tenth {
-            eprintln!("[{done}/{}]", order.scenes);
+            tell(format!("[{done}/{}]", order.scenes));
         }
     });
     survey.found.iter().for_each(|found| print(&found.text()));

@@ -19,45 +19,6 @@ fn nothing_differs(only: &[&str], family: Option<&str>, scenes: u64) {
     assert!(survey.compared() > scenes / 40, "too little was compared:\n{}", survey.text());
 }
 
-const SEAMS: &[&str] = &["turned", "scaled", "cut", "group_frame"];
-
-#[test]
-fn balls_on_the_seams_of_flat_plates() {
-    nothing_differs(SEAMS, Some("plate"), 400);
-    nothing_differs(SEAMS, Some("plane"), 200);
-}
-
-#[test]
-fn balls_in_nearly_flat_valleys_and_bowls() {
-    nothing_differs(SEAMS, Some("valley"), 300);
-    nothing_differs(SEAMS, Some("bowl"), 300);
-}
-
-#[test]
-fn points_where_pieces_meet() {
-    nothing_differs(&["turned", "group_frame", "reordered"], Some("junction"), 600);
-}
-
-#[test]
-fn ellipsoids_beside_the_walls_between_pieces() {
-    nothing_differs(&["cut"], Some("solid"), 1500);
-}
-
-#[test]
-fn deep_ellipsoids_in_steep_valleys() {
-    nothing_differs(&["turned"], Some("valley"), 1500);
-}
-
-#[test]
-fn bodies_set_down_outside() {
-    nothing_differs(&["set_down"], None, 400);
-}
-
-#[test]
-fn points_that_wind_through_hulls() {
-    nothing_differs(&["depth_steps"], None, 600);
-}
-
 #[test]
 fn balls_that_roll_and_spin() {
     nothing_differs(&["rolling"], None, 160);
