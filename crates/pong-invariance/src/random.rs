@@ -11,13 +11,13 @@ impl Random {
     pub fn new(seed: u64, stream: u64, index: u64) -> Self {
         let mut random = Self(seed);
         for part in [stream, index] {
-            random.0 = random.next().wrapping_add(part.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+            random.0 = random.bits().wrapping_add(part.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         }
         random
     }
 
     /// 64 bits.
-    pub fn next(&mut self) -> u64 {
+    pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -27,7 +27,7 @@ impl Random {
 
     /// From 0 to below 1.
     pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Between two numbers.
@@ -42,7 +42,7 @@ impl Random {
 
     /// An index below `count`, which must not be 0.
     pub fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
+        (self.bits() % count as u64) as usize
     }
 
     /// True with this probability.

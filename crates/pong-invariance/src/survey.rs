@@ -119,7 +119,7 @@ impl Survey {
     /// One index: its scene against all twins, and the scenes that invariances make for themselves.
     fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
         let mut shared = None;
-        for invariance in asked.iter().filter(|invariance| index % invariance.every == 0) {
+        for invariance in asked.iter().filter(|invariance| index.is_multiple_of(invariance.every)) {
             let mut own = None;
             let base = match invariance.make {
                 Some(_) => {

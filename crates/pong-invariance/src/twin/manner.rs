@@ -9,7 +9,7 @@ use pong_geometry::{Pose, Vec3};
 
 /// Evaluations between that are thrown away.
 pub fn thrown_away(scene: &Scene, random: &mut Random) -> Option<Twin> {
-    Some(Twin::played(scene, Manner::ThrownAway(random.next())))
+    Some(Twin::played(scene, Manner::ThrownAway(random.bits())))
 }
 
 /// Saved and restored on the way.
