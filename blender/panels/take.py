@@ -307,8 +307,8 @@ def v_menu_object():
 
 
 @step
-def prepare_without_menu():
-    window().cursor_warp(20, 20)  # a menu closes when the pointer goes away
+def prepare_beside_the_menu():
+    window().cursor_warp(250, 1200)  # beside the menu, which stays open
 
 
 @step
