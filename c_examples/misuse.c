@@ -198,6 +198,47 @@ static void bad_states(scene *s)
     TEST(memcmp(&before, &after, sizeof after) == 0);
 }
 
+/* What is written must not be what is read, nor what else is written: nothing of it is touched. */
+static void shared_memory(scene *s)
+{
+    union {
+        pong_interface_id interfaces[3];
+        pong_wrench wrenches[3];
+    } both;
+    union {
+        pong_contact contacts[4];
+        size_t count;
+    } listed;
+    size_t before;
+    memcpy(both.interfaces, s->interfaces, sizeof s->interfaces);
+    REFUSED(pong_get_wrenches(s->world, both.interfaces, PONG_FRAME_COMMON, both.wrenches, 3), BAD_VALUE,
+            "`interfaces` and `wrenches` share memory");
+    TEST(memcmp(both.interfaces, s->interfaces, sizeof s->interfaces) == 0);
+    listed.count = before = 77;
+    REFUSED(pong_get_contacts(s->world, listed.contacts, 4, &listed.count), BAD_VALUE, "`contacts` and `count`");
+    REFUSED(pong_get_contacts(s->world, listed.contacts, 1, (size_t *)&listed.contacts[1] - 1), BAD_VALUE, "share memory");
+    TEST(listed.count == before);
+    OK(pong_get_contacts(s->world, listed.contacts, 3, (size_t *)&listed.contacts[3]));
+}
+
+/* One group with two states in a call: which is meant? Neither is taken. */
+static void named_twice(scene *s)
+{
+    pong_interface_id twice[3];
+    pong_state before, after;
+    twice[0] = s->interfaces[0];
+    twice[1] = s->interfaces[1];
+    twice[2] = s->interfaces[0];
+    OK(pong_get_state(s->world, twice[0], &before));
+    s->states[2].position[0] += 1.0;
+    REFUSED(pong_set_states(s->world, twice, s->states, 3), DUPLICATE, "interfaces[0] and interfaces[2] are both `ball`");
+    s->states[2].position[0] -= 1.0;
+    OK(pong_get_state(s->world, twice[0], &after));
+    TEST(memcmp(&before, &after, sizeof after) == 0);
+    OK(pong_set_states(s->world, twice, s->states, 2));
+    OK(pong_set_states(s->world, twice + 1, s->states + 1, 1));
+}
+
 static void bad_results(scene *s)
 {
     pong_wrench wrench;
@@ -210,9 +251,12 @@ static void bad_results(scene *s)
     pong_pair_id no_pair = { 0 };
     size_t count = 77;
     good_frame(s);
+    named_twice(s);
+    good_frame(s);
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], 2, &wrench), BAD_VALUE, "`frame` is 2");
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, NULL), NULL_ARGUMENT, "`wrench`");
     REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, &wrench, 1), UNKNOWN_ID, "interfaces[0]");
+    shared_memory(s);
     REFUSED(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, &wrench, 1), NULL_ARGUMENT, "`interfaces`");
     REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, NULL, 1), NULL_ARGUMENT, "`wrenches`");
     OK(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, NULL, 0));

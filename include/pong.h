@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x2f67e15d60342ce4ULL
+#define PONG_LAYOUT_HASH 0x7b768c7268a5711eULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -180,13 +180,18 @@ enum pong_status
     PONG_STATUS_CONFIG = 13,
     /// A fault inside the library. The world refuses every further call but pong_destroy_world().
     PONG_STATUS_PANIC = 14,
-    /// Another call on this world is running: in another thread, or the one that called this law.
+    /// Another call on this world is running: in another thread, or the one that called this law. Nothing was done.
     PONG_STATUS_BUSY = 15,
     /// A law given by callback returned a number that is not finite; the message names the law. The frame does
     /// not count: it is not committed.
     PONG_STATUS_LAW_FAILED = 16,
     /// A response log cannot be written; the message names file and cause.
     PONG_STATUS_LOG_FAILED = 17,
+    /// The world is destroyed, but a worker had not ended after a second because the system does not run it. It ends by
+    /// itself; until then `user` pointers of laws must live, and the library must not be unloaded.
+    PONG_STATUS_WORKER_LEFT = 18,
+    /// The system does not give the memory that set-up asks for; the message tells how much.
+    PONG_STATUS_OUT_OF_MEMORY = 19,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -689,7 +694,8 @@ typedef struct pong_log_options {
     /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
     /// flushed.
     uint32_t flush_ms;
-    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT.
+    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT. A disk that takes
+    /// nothing for 30 s has failed.
     uint32_t when_full;
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
     uint32_t overwrite;
@@ -762,7 +768,7 @@ struct pong_config pong_default_config(void);
 struct pong_state pong_default_state(void);
 
 /// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. With n = 0 the
-/// arrays may be NULL. Groups that are not named keep their state.
+/// arrays may be NULL. Groups that are not named keep their state; one that is named twice is refused.
 pong_status pong_set_states(struct pong_world *world,
                             const struct pong_interface_id *interfaces,
                             const struct pong_state *states,
@@ -778,7 +784,8 @@ pong_status pong_get_state(const struct pong_world *world,
                            struct pong_interface_id interface,
                            struct pong_state *state);
 
-/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL.
+/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL. They must not share
+/// memory.
 pong_status pong_get_wrenches(const struct pong_world *world,
                               const struct pong_interface_id *interfaces,
                               pong_frame frame,
@@ -795,7 +802,9 @@ pong_status pong_get_wrench(const struct pong_world *world,
 pong_status pong_create_world(const struct pong_config *config, struct pong_world **world);
 
 /// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
-/// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
+/// NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a call on it is running, or
+/// this is called from inside one of its laws; the world is as it was. PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker
+/// that the system does not run was left behind after a second. Closes a log that is running.
 pong_status pong_destroy_world(struct pong_world *world);
 
 /// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
@@ -820,6 +829,7 @@ pong_status pong_register_friction_law(struct pong_world *world,
 
 /// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
 /// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
+/// PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that was asked for.
 pong_status pong_load_model(struct pong_world *world,
                             const char *path,
                             struct pong_model_id *model);
@@ -1113,7 +1123,8 @@ struct pong_log_options pong_default_log_options(void);
 /// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is made if it is not
 /// there. `options` may be NULL for the defaults. The log may begin at any time: what the world remembers goes into it.
 /// Model files are copied; they must be as they were when they were loaded. Takes memory, files and a thread.
-/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed.
+/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY:
+/// the system has not what the buffer takes. The log is this process's: a fork of it logs nothing into it.
 pong_status pong_start_log(struct pong_world *world,
                            const char *folder,
                            const struct pong_log_options *options);
@@ -1129,7 +1140,7 @@ pong_status pong_log_frame(struct pong_world *world,
 /// How the log stands.
 pong_status pong_get_log_report(const struct pong_world *world, struct pong_log_report *report);
 
-/// Writes what is left and closes the log; waits for the disk. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
+/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
 /// could not be written to the end; the message tells why, and where the log ends. It is closed all the same.
 /// pong_destroy_world() closes a log too, and tells nothing.
 pong_status pong_stop_log(struct pong_world *world,

@@ -4,7 +4,7 @@ use crate::guard::with_world;
 use crate::ids::{pong_interface_id, pong_pair_id};
 use crate::interfaces::too_small;
 use crate::names::{c_text, no_such};
-use crate::pointers::{Out, OutArray};
+use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
 use crate::world::pong_world;
 use pong_engine::{Account, PairAccount, Verdict};
@@ -165,6 +165,7 @@ pub unsafe extern "C" fn pong_get_contact_accounts(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
+            apart(("accounts", accounts, capacity), ("count", count, 1))?;
             let (mut out, count) =
                 (OutArray::new(accounts, capacity, "accounts")?, Out::new(count, "count")?);
             inner.law_faults.check()?;

@@ -3,7 +3,7 @@
 use crate::guard::with_world;
 use crate::ids::{pong_interface_id, pong_object_id, pong_pair_id};
 use crate::interfaces::too_small;
-use crate::pointers::{Out, OutArray};
+use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
 use crate::world::pong_world;
 use pong_engine::{Contact, ContactSide};
@@ -97,6 +97,7 @@ pub unsafe extern "C" fn pong_get_contacts(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
+            apart(("contacts", contacts, capacity), ("count", count, 1))?;
             let (mut out, count) =
                 (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
             inner.law_faults.check()?;

@@ -1,5 +1,7 @@
 //! What stands between C and the engine at every entry.
 
+use crate::floating_point;
+use crate::memory;
 use crate::message;
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
@@ -13,14 +15,22 @@ use std::sync::TryLockError;
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub status: pong_status,
-    pub message: String,
+    why: Why,
+}
+
+/// What the message will say.
+#[derive(Debug)]
+enum Why {
+    Text(String),
+    /// To be worded in memory that is there already: that of set-up has none.
+    Error(EngineError),
 }
 
 pub(crate) type Outcome<T = ()> = Result<T, Failure>;
 
 impl Failure {
     pub fn new(status: pong_status, message: impl Into<String>) -> Self {
-        Self { status, message: message.into() }
+        Self { status, why: Why::Text(message.into()) }
     }
 }
 
@@ -38,8 +48,12 @@ impl From<EngineError> for Failure {
             EngineError::BadValue { .. } => pong_status::BadValue,
             EngineError::State(_) => pong_status::BadStateBlock,
             EngineError::Workers { .. } => pong_status::SealFailed,
+            EngineError::OutOfMemory { .. } => pong_status::OutOfMemory,
         };
-        Self::new(status, error.to_string())
+        match error {
+            EngineError::OutOfMemory { .. } => Self { status, why: Why::Error(error) },
+            _ => Self::new(status, error.to_string()),
+        }
     }
 }
 
@@ -49,8 +63,13 @@ impl From<ModelErrors> for Failure {
     }
 }
 
-/// Runs an entry that has no world: catches panics, turns the outcome into a status and leaves its message, or none.
+/// Runs an entry that has no world: in the engine's floating-point environment, catches panics, turns the outcome into
+/// a status and leaves its message, or none.
 pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
+    floating_point::guarded(|| caught(call))
+}
+
+fn caught(call: impl FnOnce() -> Outcome) -> pong_status {
     let failure = match catch_unwind(AssertUnwindSafe(call)) {
         Ok(Ok(())) => {
             // At the end, not at the beginning: a law that this call called may have made a call of its own.
@@ -60,7 +79,10 @@ pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
         Ok(Err(failure)) => failure,
         Err(payload) => fault(payload),
     };
-    message::set(&failure.message);
+    match failure.why {
+        Why::Text(text) => message::set(&text),
+        Why::Error(error) => message::set_short(format_args!("{error}")),
+    }
     failure.status
 }
 
@@ -92,6 +114,23 @@ pub(crate) unsafe fn with_world(
             )),
         }
     })
+}
+
+/// As [`with_world`], for calls of set-up that take little memory: refused if there is none.
+///
+/// # Safety
+/// As [`with_world`].
+pub(crate) unsafe fn setting_up(
+    world: *const pong_world,
+    call: impl FnOnce(&mut Inner) -> Outcome,
+) -> pong_status {
+    // SAFETY: by the contract of this function.
+    unsafe {
+        with_world(world, |inner| {
+            memory::require_little()?;
+            call(inner)
+        })
+    }
 }
 
 fn fault(payload: Box<dyn Any + Send>) -> Failure {

@@ -2,7 +2,7 @@
 
 use crate::guard::{Failure, with_world};
 use crate::ids::{pong_interface_id, pong_object_id};
-use crate::pointers::{Out, OutArray, text};
+use crate::pointers::{Out, OutArray, apart, text};
 use crate::states::pong_state;
 use crate::status::pong_status;
 use crate::world::pong_world;
@@ -40,6 +40,7 @@ pub unsafe extern "C" fn pong_list_interfaces(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
+            apart(("interfaces", interfaces, capacity), ("count", count, 1))?;
             let (mut out, count) =
                 (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
             let ids = inner.world.interfaces(object.id())?;

@@ -1,5 +1,6 @@
 //! C functions as laws of the engine.
 
+use crate::floating_point::lent;
 use crate::guard::{Failure, Outcome};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input, pong_normal_law};
 use crate::status::pong_status;
@@ -84,12 +85,13 @@ pub(crate) struct NormalCallback {
 impl NormalForce for NormalCallback {
     fn force(&self, input: &NormalInput<'_>) -> f64 {
         // SAFETY: the caller vouched for the function when it was registered; the input lives during the call.
-        self.fault.finite(unsafe { (self.force)(&c_input(input), self.user.0) })
+        self.fault.finite(lent(|| unsafe { (self.force)(&c_input(input), self.user.0) }))
     }
 
     fn stored(&self, input: &NormalInput<'_>) -> f64 {
+        let Some(stored) = self.stored else { return 0.0 };
         // SAFETY: as above.
-        self.stored.map_or(0.0, |stored| self.fault.finite(unsafe { stored(&c_input(input), self.user.0) }))
+        self.fault.finite(lent(|| unsafe { stored(&c_input(input), self.user.0) }))
     }
 }
 
@@ -134,7 +136,7 @@ impl FrictionForce for FrictionCallback {
         let mut output = pong_friction_output::default();
         // SAFETY: the caller vouched for the function when it was registered; all places live during the call and
         // `state` has `state_len` numbers.
-        unsafe { (self.evaluate)(&c_input, state.as_mut_ptr(), &mut output, self.user.0) };
+        lent(|| unsafe { (self.evaluate)(&c_input, state.as_mut_ptr(), &mut output, self.user.0) });
         state.iter_mut().for_each(|number| *number = self.fault.finite(*number));
         FrictionOutput {
             force: Vec3::from(output.force.map(|component| self.fault.finite(component))),

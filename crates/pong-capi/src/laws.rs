@@ -1,6 +1,6 @@
 //! Registration of force laws by callback.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::guard::{Failure, Outcome, setting_up};
 use crate::law_adapters::{FrictionCallback, NormalCallback, User};
 use crate::law_types::{pong_friction_law, pong_normal_law};
 use crate::pointers::text;
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn pong_register_normal_law(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs; the functions are the caller's to vouch for.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let name = text(name, "name")?;
             let force = force.ok_or_else(|| no_function("force"))?;
             inner.claim_law_name(NORMAL, name)?;
@@ -49,7 +49,7 @@ pub unsafe extern "C" fn pong_register_friction_law(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs; the function is the caller's to vouch for.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let name = text(name, "name")?;
             let evaluate = law.ok_or_else(|| no_function("law"))?;
             if state_len > MOST_NUMBERS {

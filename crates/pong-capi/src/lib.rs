@@ -17,8 +17,9 @@
 //! | `contact_state.rs`, `surfaces.rs`, `user_data.rs` | between frames |
 //! | `log.rs` | response logs |
 //!
-//! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C. Pointers are
-//! touched in `pointers.rs` alone.
+//! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C, the floating-point
+//! environment of `floating_point.rs`; but for those that return a constant. Those of set-up ask for their memory first
+//! (`memory.rs`). Pointers are touched in `pointers.rs` alone.
 //!
 //! # Safety of all entries
 //!
@@ -34,6 +35,7 @@ mod clock;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;
+mod floating_point;
 pub mod frames;
 mod guard;
 pub mod ids;
@@ -43,6 +45,7 @@ pub mod law_types;
 pub mod laws;
 pub mod layout;
 pub mod log;
+pub mod memory;
 mod message;
 pub mod models;
 mod names;

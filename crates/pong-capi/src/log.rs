@@ -5,7 +5,8 @@ use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
 use crate::version::PONG_ABI_VERSION;
 use crate::world::{Inner, pong_world};
-use pong_record::{LogError, RecordOptions, RecordStatus, Recorder, WhenFull};
+use pong_record::{LONGEST_WAIT, LogError, RecordOptions, RecordStatus, Recorder, WhenFull};
+use pong_threads::without_signals;
 use std::ffi::c_char;
 use std::path::Path;
 use std::time::Duration;
@@ -41,7 +42,8 @@ pub struct pong_log_options {
     /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
     /// flushed.
     pub flush_ms: u32,
-    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT.
+    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT. A disk that takes
+    /// nothing for 30 s has failed.
     pub when_full: u32,
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
     pub overwrite: u32,
@@ -98,7 +100,8 @@ pub extern "C" fn pong_default_log_options() -> pong_log_options {
 /// Begins a response log (docs/response_logs.md) of a sealed world in a folder (UTF-8 path), which is made if it is not
 /// there. `options` may be NULL for the defaults. The log may begin at any time: what the world remembers goes into it.
 /// Model files are copied; they must be as they were when they were loaded. Takes memory, files and a thread.
-/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed.
+/// PONG_STATUS_LOG_FAILED: the folder cannot be written or holds a log, or a model has changed. PONG_STATUS_OUT_OF_MEMORY:
+/// the system has not what the buffer takes. The log is this process's: a fork of it logs nothing into it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_start_log(
     world: *mut pong_world,
@@ -117,7 +120,8 @@ pub unsafe extern "C" fn pong_start_log(
                 return Err(Failure::new(pong_status::WrongPhase, message));
             }
             let options = options.check(name, folder)?;
-            inner.log = Some(Recorder::start(&inner.world, folder, &inner.sources, &options)?);
+            let start = || Recorder::start(&inner.world, folder, &inner.sources, &options);
+            inner.log = Some(without_signals(start)?);
             Ok(())
         })
     }
@@ -157,7 +161,7 @@ pub unsafe extern "C" fn pong_get_log_report(
     }
 }
 
-/// Writes what is left and closes the log; waits for the disk. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
+/// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
 /// could not be written to the end; the message tells why, and where the log ends. It is closed all the same.
 /// pong_destroy_world() closes a log too, and tells nothing.
 #[unsafe(no_mangle)]
@@ -222,6 +226,7 @@ impl pong_log_options {
             when_full,
             buffer_bytes: (self.buffer_bytes > 0).then_some(self.buffer_bytes as usize),
             flush_every: Duration::from_millis(self.flush_ms.into()),
+            longest_wait: LONGEST_WAIT,
             on_thread_start: Some(lower_priority),
         })
     }

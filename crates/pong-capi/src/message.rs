@@ -3,6 +3,8 @@
 use pong_model::printable_lines;
 use std::cell::{Cell, RefCell};
 use std::ffi::c_char;
+use std::fmt;
+use std::io::Write as _;
 
 /// Room for a message without asking for memory, the zero byte at its end included. What a frame can say fits.
 const SHORT: usize = 512;
@@ -47,6 +49,18 @@ pub(crate) fn set(text: &str) {
         long.extend(as_c(text));
     });
     LAST.set(if kept.is_ok() { Last::Long } else { Last::Nothing });
+}
+
+/// Says something in memory that is there already; what does not fit is cut off.
+pub(crate) fn set_short(text: fmt::Arguments<'_>) {
+    SHORT_TEXT.with_borrow_mut(|short| {
+        let mut room = &mut short[..SHORT - 1];
+        // An error tells that the text was cut off.
+        let _ = room.write_fmt(text);
+        let length = SHORT - 1 - room.len();
+        short[length] = 0;
+    });
+    LAST.set(Last::Short);
 }
 
 /// The bytes with a zero at the end and none before it, which would end the text early.

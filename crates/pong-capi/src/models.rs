@@ -3,6 +3,7 @@
 use crate::guard::Failure;
 use crate::guard::{Outcome, with_world};
 use crate::ids::pong_model_id;
+use crate::memory;
 use crate::names::no_such;
 use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 /// Loads a model file (UTF-8 path); meshes are looked for beside it. One model serves any number of Objects.
 /// Before sealing. PONG_STATUS_MODEL_ERROR: the message has one line for every fault, with file, line and column.
+/// PONG_STATUS_OUT_OF_MEMORY, of this and every other call of set-up: the message has the size that was asked for.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_load_model(
     world: *mut pong_world,
@@ -25,6 +27,7 @@ pub unsafe extern "C" fn pong_load_model(
     unsafe {
         with_world(world, |inner| {
             let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
+            memory::require_for_file(Path::new(path))?;
             let loaded = pong_model::load(Path::new(path), inner.world.extensions())?;
             out.set(inner.add_model(loaded, ModelSource::File(Path::new(path).to_owned()))?);
             Ok(())
@@ -54,6 +57,7 @@ pub unsafe extern "C" fn pong_load_model_text(
                 ));
             }
             let bytes = array(text.cast::<u8>(), length, "text")?;
+            memory::require_little()?;
             let name = crate::pointers::text(name, "name")?;
             let mesh_dir =
                 if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
@@ -62,6 +66,7 @@ pub unsafe extern "C" fn pong_load_model_text(
                 let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
                 return Err(Failure::new(pong_status::ModelError, message));
             };
+            memory::require_for_text(bytes, mesh_dir.map(Path::new))?;
             let loaded = pong_model::parse(text, name, mesh_dir.map(Path::new), inner.world.extensions())?;
             let source = ModelSource::Text { text: text.to_owned(), mesh_dir: mesh_dir.map(PathBuf::from) };
             out.set(inner.add_model(loaded, source)?);

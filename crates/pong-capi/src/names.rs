@@ -5,6 +5,7 @@ use crate::ids::{pong_interface_id, pong_model_id, pong_object_id};
 use crate::status::pong_status;
 use pong_engine::{InterfaceId, ModelId, ObjectId};
 use pong_model::Model;
+use std::cell::Cell;
 use std::collections::HashMap;
 use std::ffi::CString;
 use std::sync::Arc;
@@ -15,6 +16,8 @@ pub(crate) struct Names {
     models: HashMap<u64, Arc<ModelNames>>,
     objects: HashMap<u64, CString>,
     interfaces: HashMap<u64, InterfaceNames>,
+    /// Lists of Interfaces that were looked through.
+    lists: Cell<u64>,
 }
 
 /// Names of a model.
@@ -34,6 +37,8 @@ struct InterfaceNames {
     object: ObjectId,
     model: Arc<ModelNames>,
     body: usize,
+    /// The list that named it last.
+    listed: Cell<u64>,
 }
 
 impl Names {
@@ -54,13 +59,18 @@ impl Names {
         self.objects.insert(id.to_bits(), c_text(name));
         let Some(model) = self.models.get(&model.to_bits()) else { return };
         for (body, interface) in interfaces.iter().enumerate() {
-            let names = InterfaceNames { object: id, model: Arc::clone(model), body };
+            let names = InterfaceNames { object: id, model: Arc::clone(model), body, listed: Cell::new(0) };
             self.interfaces.insert(interface.to_bits(), names);
         }
     }
 
     pub fn model(&self, id: pong_model_id) -> Outcome<&ModelNames> {
         self.models.get(&id.bits).map(Arc::as_ref).ok_or_else(|| unknown("model"))
+    }
+
+    /// How many movable groups a model has.
+    pub fn group_count(&self, id: pong_model_id) -> Outcome<usize> {
+        Ok(self.model(id)?.bodies.len())
     }
 
     pub fn object(&self, id: pong_object_id) -> Outcome<&CString> {
@@ -73,6 +83,14 @@ impl Names {
 
     pub fn has_interface(&self, id: pong_interface_id) -> bool {
         self.interfaces.contains_key(&id.bits)
+    }
+
+    /// The place in a list of the first id that is no Interface, or one that an earlier place names too.
+    pub fn unknown_or_named_twice(&self, ids: &[pong_interface_id]) -> Option<usize> {
+        let list = self.lists.get() + 1;
+        self.lists.set(list);
+        let is_listed = |interface: &InterfaceNames| interface.listed.replace(list) == list;
+        ids.iter().position(|id| self.interfaces.get(&id.bits).is_none_or(is_listed))
     }
 
     pub fn object_of(&self, id: pong_interface_id) -> Outcome<ObjectId> {

@@ -2,6 +2,7 @@
 
 use crate::guard::with_world;
 use crate::ids::{pong_model_id, pong_object_id};
+use crate::memory::require_for_object;
 use crate::pointers::{Out, text};
 use crate::status::pong_status;
 use crate::world::pong_world;
@@ -19,6 +20,7 @@ pub unsafe extern "C" fn pong_create_object(
     unsafe {
         with_world(world, |inner| {
             let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
+            require_for_object(inner.names.group_count(model)?)?;
             let id = inner.world.create_object(model.id(), name)?;
             let interfaces = inner.world.interfaces(id)?;
             inner.names.add_object(id, name, model.id(), &interfaces);

@@ -1,6 +1,6 @@
 //! Pairs of Objects that are tested.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::guard::{Failure, Outcome, setting_up, with_world};
 use crate::ids::{pong_object_id, pong_pair_id};
 use crate::pointers::{Out, text};
 use crate::status::pong_status;
@@ -18,7 +18,7 @@ pub unsafe extern "C" fn pong_pair_objects(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let out = Out::optional(pair, "pair")?;
             let id = inner.world.pair(a.id(), b.id())?;
             inner.pair_count += 1;
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn pong_pair_by_name(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let out = Out::optional(pair, "pair")?;
             let (a, b) = (inner.world.object(text(a, "a")?)?, inner.world.object(text(b, "b")?)?);
             let id = inner.world.pair(a, b)?;

@@ -3,6 +3,7 @@
 use crate::guard::{Failure, Outcome};
 use crate::status::pong_status;
 use std::ffi::{CStr, c_char};
+use std::ops::Range;
 
 fn null(name: &str) -> Failure {
     Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a place for it"))
@@ -117,6 +118,22 @@ pub(crate) unsafe fn one<'a, T>(pointer: *const T, name: &str) -> Outcome<&'a T>
     check(pointer, name)?;
     // SAFETY: checked above; the rest is the contract of this function.
     Ok(unsafe { &*pointer })
+}
+
+/// Refuses two arrays that share memory, of which at least one is written: what is written into it would change the other
+/// while it is in use. Each is its name, where it begins and how many elements it has.
+pub(crate) fn apart<T, U>(a: (&str, *const T, usize), b: (&str, *const U, usize)) -> Outcome {
+    let [a_bytes, b_bytes] = [bytes(a.1, a.2), bytes(b.1, b.2)];
+    if a_bytes.start < b_bytes.end && b_bytes.start < a_bytes.end {
+        let message = format!("`{}` and `{}` share memory; give each memory of its own", a.0, b.0);
+        return Err(Failure::new(pong_status::BadValue, message));
+    }
+    Ok(())
+}
+
+fn bytes<T>(pointer: *const T, len: usize) -> Range<usize> {
+    let start = pointer.addr();
+    start..start.saturating_add(len.saturating_mul(size_of::<T>()))
 }
 
 /// UTF-8 text that ends with a zero byte.

@@ -1,6 +1,6 @@
 //! The end of set-up.
 
-use crate::guard::with_world;
+use crate::guard::{setting_up, with_world};
 use crate::names::{c_text, no_such};
 use crate::pointers::Out;
 use crate::status::pong_status;
@@ -40,7 +40,7 @@ pub struct pong_seal_report {
 pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_seal_report) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let out = Out::optional(report, "report")?;
             let sealed = inner.world.seal()?;
             inner.seal_warnings =

@@ -30,7 +30,7 @@ pub extern "C" fn pong_default_state() -> pong_state {
 }
 
 /// Sets the states of `n` movable groups in one call: all of them or, if any is refused, none. With n = 0 the
-/// arrays may be NULL. Groups that are not named keep their state.
+/// arrays may be NULL. Groups that are not named keep their state; one that is named twice is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_set_states(
     world: *mut pong_world,
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn pong_set_states(
         with_world(world, |inner| {
             let ids = array(interfaces, n, "interfaces")?;
             let states = array(states, n, "states")?;
-            inner.check_interfaces(ids)?;
+            inner.check_named_once(ids)?;
             inner.states.clear();
             inner.states.extend(ids.iter().zip(states).map(|(id, state)| (id.id(), State::from(*state))));
             Ok(inner.world.set_states(&inner.states)?)
@@ -96,6 +96,22 @@ impl Inner {
             None => Ok(()),
             Some(index) => Err(crate::names::unknown(&format!("interfaces[{index}]"))),
         }
+    }
+}
+
+impl Inner {
+    /// Refuses ids of other worlds, and a group that was given two states, telling their places in the caller's array.
+    fn check_named_once(&self, ids: &[pong_interface_id]) -> Outcome {
+        let Some(place) = self.names.unknown_or_named_twice(ids) else { return Ok(()) };
+        let Ok(path) = self.names.path(ids[place]) else {
+            return Err(crate::names::unknown(&format!("interfaces[{place}]")));
+        };
+        let first = ids.iter().position(|id| *id == ids[place]).unwrap_or(place);
+        let path = path.to_string_lossy();
+        let message = format!(
+            "interfaces[{first}] and interfaces[{place}] are both `{path}`; give one state for each group"
+        );
+        Err(Failure::new(pong_status::Duplicate, message))
     }
 }
 

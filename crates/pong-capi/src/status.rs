@@ -40,18 +40,23 @@ pub enum pong_status {
     Config = 13,
     /// A fault inside the library. The world refuses every further call but pong_destroy_world().
     Panic = 14,
-    /// Another call on this world is running: in another thread, or the one that called this law.
+    /// Another call on this world is running: in another thread, or the one that called this law. Nothing was done.
     Busy = 15,
     /// A law given by callback returned a number that is not finite; the message names the law. The frame does
     /// not count: it is not committed.
     LawFailed = 16,
     /// A response log cannot be written; the message names file and cause.
     LogFailed = 17,
+    /// The world is destroyed, but a worker had not ended after a second because the system does not run it. It ends by
+    /// itself; until then `user` pointers of laws must live, and the library must not be unloaded.
+    WorkerLeft = 18,
+    /// The system does not give the memory that set-up asks for; the message tells how much.
+    OutOfMemory = 19,
 }
 
 impl pong_status {
     /// All of them, in order of their numbers.
-    pub(crate) const ALL: [Self; 18] = [
+    pub(crate) const ALL: [Self; 20] = [
         Self::Ok,
         Self::NullArgument,
         Self::UnknownId,
@@ -70,6 +75,8 @@ impl pong_status {
         Self::Busy,
         Self::LawFailed,
         Self::LogFailed,
+        Self::WorkerLeft,
+        Self::OutOfMemory,
     ];
 
     fn name(self) -> &'static std::ffi::CStr {
@@ -92,6 +99,8 @@ impl pong_status {
             Self::Busy => c"PONG_STATUS_BUSY",
             Self::LawFailed => c"PONG_STATUS_LAW_FAILED",
             Self::LogFailed => c"PONG_STATUS_LOG_FAILED",
+            Self::WorkerLeft => c"PONG_STATUS_WORKER_LEFT",
+            Self::OutOfMemory => c"PONG_STATUS_OUT_OF_MEMORY",
         }
     }
 }

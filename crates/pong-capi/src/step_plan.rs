@@ -1,6 +1,6 @@
 //! What the step adviser is told before the seal: masses, and what the host does with the wrench.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::guard::{Failure, Outcome, setting_up, with_world};
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn pong_set_mass(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
             Ok(inner.world.set_mass(interface.id(), &GroupMass { mass, inertia, mass_center })?)
         })
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn pong_set_mass(
 pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let plan = one(plan, "plan")?.check()?;
             Ok(inner.world.plan_step(&plan)?)
         })

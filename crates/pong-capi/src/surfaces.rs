@@ -1,6 +1,6 @@
 //! Surface values, changed between frames.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::guard::{Failure, Outcome, setting_up, with_world};
 use crate::ids::pong_model_id;
 use crate::names::no_such;
 use crate::pointers::{Out, one, text};
@@ -120,7 +120,7 @@ pub unsafe extern "C" fn pong_set_surface(
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
-        with_world(world, |inner| {
+        setting_up(world, |inner| {
             let (name, values) = (text(surface, "surface")?, one(values, "values")?);
             let old = inner.world.surface(model.id(), name)?;
             let new = values.applied_to(old)?;

@@ -3,8 +3,9 @@
 use crate::clock;
 use crate::config::pong_config;
 use crate::frames::Counters;
-use crate::guard::guarded;
+use crate::guard::{Failure, guarded};
 use crate::law_adapters::LawFaults;
+use crate::memory;
 use crate::names::Names;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
@@ -13,7 +14,7 @@ use crate::workers::Started;
 use pong_engine::{InterfaceId, PairId, State, World};
 use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError, TryLockError};
 
 /// A contact world: models, Objects, pairs and everything remembered between frames. Opaque.
 ///
@@ -62,6 +63,7 @@ pub unsafe extern "C" fn pong_create_world(
         // SAFETY: as above.
         let config = unsafe { one(config, "config")? };
         let wanted = config.check()?;
+        memory::require_little()?;
         let mut world = World::new(wanted.engine);
         if wanted.times {
             world.set_clock(clock::now_ns);
@@ -89,14 +91,30 @@ pub unsafe extern "C" fn pong_create_world(
 }
 
 /// Destroys a world and everything it gave out: ids become stale, names, warnings and notes must not be read any more.
-/// NULL is allowed and does nothing. No other call on the world may be running, and none may follow.
+/// NULL is allowed and does nothing. No other call on the world may follow. PONG_STATUS_BUSY: a call on it is running, or
+/// this is called from inside one of its laws; the world is as it was. PONG_STATUS_WORKER_LEFT: it is destroyed, but a worker
+/// that the system does not run was left behind after a second. Closes a log that is running.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_status {
     guarded(|| {
-        if !world.is_null() {
-            // SAFETY: `pong_create_world` made it by `Box::into_raw`, and the caller destroys it once.
-            drop(unsafe { Box::from_raw(world) });
+        // SAFETY: see "Safety of all entries" in lib.rs.
+        let Some(held) = (unsafe { world.as_ref() }) else { return Ok(()) };
+        if let Err(TryLockError::WouldBlock) = held.inner.try_lock() {
+            let message = "the world is in another call; destroy it when that has returned, and never from inside a law";
+            return Err(Failure::new(pong_status::Busy, message));
         }
-        Ok(())
+        // SAFETY: `pong_create_world` made it by `Box::into_raw`, and the caller destroys it once.
+        let world = unsafe { Box::from_raw(world) };
+        let mut inner = world.inner.into_inner().unwrap_or_else(PoisonError::into_inner);
+        match inner.world.end_workers() {
+            0 => Ok(()),
+            left => {
+                let message = format!(
+                    "the world is destroyed, but {left} of its workers had not ended in time: the system does not run \
+                     them; keep what the laws' `user` pointers name, and the library, until they have ended"
+                );
+                Err(Failure::new(pong_status::WorkerLeft, message))
+            }
+        }
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::guard::{Failure, Outcome, with_world};
 use crate::ids::pong_interface_id;
-use crate::pointers::{Out, OutArray, array};
+use crate::pointers::{Out, OutArray, apart, array};
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
 
@@ -24,7 +24,8 @@ pub struct pong_wrench {
     pub moment: [f64; 3],
 }
 
-/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL.
+/// Wrenches of the last frame on `n` movable groups in one call. With n = 0 the arrays may be NULL. They must not share
+/// memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_wrenches(
     world: *const pong_world,
@@ -36,6 +37,7 @@ pub unsafe extern "C" fn pong_get_wrenches(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
+            apart(("interfaces", interfaces, n), ("wrenches", wrenches, n))?;
             let ids = array(interfaces, n, "interfaces")?;
             let mut out = OutArray::new(wrenches, n, "wrenches")?;
             check_frame(frame)?;

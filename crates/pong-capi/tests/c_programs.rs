@@ -22,7 +22,17 @@ fn the_programs_build_and_run() {
     }
 }
 
-const PROGRAMS: [&str; 6] = ["minimal", "misuse", "laws", "calls", "response_log", "cpp_smoke"];
+const PROGRAMS: [&str; 9] = [
+    "minimal",
+    "misuse",
+    "laws",
+    "calls",
+    "response_log",
+    "floating_point",
+    "host_process",
+    "little_memory",
+    "cpp_smoke",
+];
 
 /// What a C host logged goes through the engine again and comes out with the same bits: forgotten Objects, switched
 /// pairs, commits of some pairs and frames without a commit included.

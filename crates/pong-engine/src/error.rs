@@ -62,6 +62,15 @@ pub enum EngineError {
         /// What is wrong and what to give instead.
         cause: String,
     },
+    /// The system has not the memory that set-up would take. Nothing was taken.
+    OutOfMemory {
+        /// For what.
+        what: &'static str,
+        /// How much was asked for, bytes.
+        bytes: usize,
+        /// What to do.
+        cure: &'static str,
+    },
     /// The workers could not be started.
     Workers {
         /// What the system said and what to do.
@@ -109,6 +118,9 @@ impl std::fmt::Display for EngineError {
                 )
             }
             Self::BadValue { what, cause } => write!(f, "{}: {}", printable(what), printable(cause)),
+            Self::OutOfMemory { what, bytes, cure } => {
+                write!(f, "{what}: the system does not give {bytes} bytes of memory; {cure}")
+            }
             Self::Workers { cause } => write!(f, "workers: {cause}"),
             Self::State(error) => error.fmt(f),
         }

@@ -5,7 +5,7 @@ use crate::error::EngineError;
 use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::sealed::{GroupPair, Sealed, SurfaceTable, leave_room_for_small_things};
 use crate::state::{
     Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block,
     write_packed,
@@ -58,6 +58,11 @@ impl Running {
             blocks: Vec::with_capacity(ROUND),
             clock,
         };
+        // Before the workers: the allocator reserves address space for every thread.
+        let committed = memory();
+        let spares = if scene.config.workers.is_some() { 2 } else { 1 };
+        let spares = (0..spares).map(|_| memory()).collect();
+        let frame = Frame::new(scene.bodies.len(), &sealed, input());
         let crew = match &scene.config.workers {
             None => None,
             Some(settings) => {
@@ -68,15 +73,15 @@ impl Running {
                     return Err(EngineError::Workers { cause });
                 }
                 let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
+                leave_room_for_small_things();
                 let started = Crew::start(scene, &sealed, input(), &settings);
                 Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
             }
         };
-        let spares = if crew.is_some() { 2 } else { 1 };
         Ok(Self {
-            memory: memory(),
-            spares: (0..spares).map(|_| memory()).collect(),
-            frame: Frame::new(scene.bodies.len(), &sealed, input()),
+            memory: committed,
+            spares,
+            frame,
             crew,
             evaluated: false,
             current: false,
@@ -258,6 +263,11 @@ impl Running {
 
     pub fn quiesce(&mut self) {
         self.crew.iter_mut().for_each(Crew::quiesce);
+    }
+
+    /// Ends the workers; how many were left behind.
+    pub fn end(&mut self) -> usize {
+        self.crew.as_mut().map_or(0, Crew::end)
     }
 
     pub fn memory_report(&self) -> MemoryReport {

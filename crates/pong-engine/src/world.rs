@@ -222,6 +222,13 @@ impl World {
         self.running.iter_mut().for_each(Running::quiesce);
     }
 
+    /// Ends the workers, as dropping the world does, and tells how many the system did not run within a second, or as
+    /// long as the patience if one is stuck in a block: they end by themselves and keep what they read until then. Frames are
+    /// computed by the caller alone from then on.
+    pub fn end_workers(&mut self) -> usize {
+        self.running.as_mut().map_or(0, Running::end)
+    }
+
     /// Sets the state of one movable group. See [`set_states`](Self::set_states).
     pub fn set_state(&mut self, interface: InterfaceId, state: &State) -> Result<(), EngineError> {
         self.set_states(&[(interface, *state)])

@@ -44,6 +44,12 @@ use std::path::Path;
 /// it, products of any two, with any stiffness, are finite.
 pub const LARGEST: f64 = 1e100;
 
+/// Greatest and least size of a primitive, m: a length, a radius, an edge, a thickness. Within them no product of
+/// lengths leaves the range of numbers, and single precision holds the boxes around primitives.
+pub const LARGEST_SIZE: f64 = 1e30;
+/// See [`LARGEST_SIZE`].
+pub const SMALLEST_SIZE: f64 = 1e-30;
+
 /// Reads a model file; meshes are looked for beside it.
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
     let file = path.display().to_string();

@@ -154,15 +154,14 @@ fn batches(body: &Body, items: &[Item], tree: &mut Tree) {
 
 /// The box with the margin that every fitted volume carries.
 fn with_margin(boxed: Boxed<Item>) -> Boxed<Item> {
-    match fit_aabb_bounds(boxed.low, boxed.high) {
-        Volume::Aabb { center, half } if boxed.is_bounded() => {
-            Boxed { low: center - half, high: center + half, ..boxed }
-        }
-        _ => {
-            let infinite = Vec3::repeat(f64::INFINITY);
-            Boxed { low: -infinite, high: infinite, ..boxed }
-        }
+    // Asked first: an infinite box has no centre.
+    if boxed.is_bounded()
+        && let Volume::Aabb { center, half } = fit_aabb_bounds(boxed.low, boxed.high)
+    {
+        return Boxed { low: center - half, high: center + half, ..boxed };
     }
+    let infinite = Vec3::repeat(f64::INFINITY);
+    Boxed { low: -infinite, high: infinite, ..boxed }
 }
 
 /// The items that lie outermost in any of 26 directions, or all if one of them is unbounded or no number.

@@ -24,6 +24,10 @@ fn primitive(rule: &str, path: &str, text: &str) {
     refused(rule, path, &model_of(&format!("\n{text}\n")));
 }
 
+fn accepts(text: &str) -> bool {
+    pong_model::parse(&model_of(text), "m.ron", None, &Extensions::new()).is_ok()
+}
+
 fn surface(rule: &str, path: &str, surfaces: &str) {
     refused(
         rule,
@@ -271,6 +275,42 @@ fn faults_of_simple_primitives() {
     primitive("not-positive", "root/p", "Ellipsoid(name: \"p\", center: (0,0,0), /*!*/semi_axes: (1, 0, 1))");
     primitive("unknown-primitive", "root/p", "/*!*/Custom(name: \"p\", kind: \"torus\")");
     primitive("unknown-field", "root/p", "Sphere(name: \"p\", center: (0,0,0), radius: 1,\n/*!*/ radios: 2)");
+}
+
+#[test]
+fn sizes_beyond_what_can_be_computed_with() {
+    for size in ["1.1e-30", "0.7e30"] {
+        for shape in shapes(size) {
+            assert!(accepts(&shape), "{shape}");
+        }
+    }
+    for size in ["0.5e-30", "1e-81", "1.1e30", "1e77"] {
+        for shape in shapes(size) {
+            primitive("size-range", "root/p", &format!("/*!*/{shape}"));
+        }
+    }
+    primitive("size-range", "root/p", &format!("/*!*/{}", shapes("1e-171")[0]));
+    // A large place is no large size, and a ray needs no reach.
+    assert!(accepts("Sphere(name: \"p\", center: (1e50, 0, 0), radius: 1)"));
+    assert!(accepts("Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: 1, reach: 0)"));
+}
+
+/// Every kind that has a size.
+fn shapes(size: &str) -> Vec<String> {
+    let s = size;
+    vec![
+        format!("LineSegment(name: \"p\", ends: ((0,0,0), (0,{s},0)))"),
+        format!("Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: {s})"),
+        format!("Ray(name: \"p\", origin: (0,0,0), direction: (0,0,1), length: 1, reach: {s})"),
+        format!("Sphere(name: \"p\", center: (0,0,0), radius: {s})"),
+        format!("Ellipsoid(name: \"p\", center: (0,0,0), semi_axes: ({s}, {s}, {s}))"),
+        format!("Triangle(name: \"p\", vertices: ((0,0,0), ({s},0,0), (0,{s},0)))"),
+        format!("Triangle(name: \"p\", {TRIANGLE}, thickness: {s})"),
+        format!(
+            "Polyhedron(name: \"p\", vertices: [(0,0,0), ({s},0,0), (0,{s},0), (0,0,{s})], \
+             faces: [[0,2,1], [0,1,3], [1,2,3], [2,0,3]])"
+        ),
+    ]
 }
 
 #[test]

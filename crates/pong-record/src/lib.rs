@@ -31,4 +31,4 @@ pub use replay::{
 };
 pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
-pub use write::{ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};
+pub use write::{LONGEST_WAIT, ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

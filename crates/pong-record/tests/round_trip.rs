@@ -2,7 +2,7 @@
 
 mod support;
 
-use pong_engine::Contact;
+use pong_engine::{Contact, EngineError};
 use pong_record::{ContactRow, FrameRow, Log, LogError, RecordOptions, Recorder, WhenFull};
 use std::time::Duration;
 use support::{folder, scene};
@@ -187,4 +187,50 @@ fn a_host_that_waits_loses_nothing() {
     let place = scene.record(&folder, 3000, &options);
     let log = Log::open(&place).unwrap();
     assert_eq!((log.run().lost, log.frame_count()), (0, 3000));
+}
+
+/// A thread that is kept from starting stands for a disk that does not answer.
+#[test]
+fn files_that_take_nothing_are_given_up() {
+    use std::sync::atomic::{AtomicBool, Ordering};
+    static HELD: AtomicBool = AtomicBool::new(true);
+    let folder = folder("stalled");
+    let mut scene = scene(&folder);
+    let hold: fn() = || {
+        while HELD.load(Ordering::Acquire) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    };
+    let options = RecordOptions {
+        buffer_bytes: Some(0),
+        longest_wait: Duration::from_millis(20),
+        on_thread_start: Some(hold),
+        ..RecordOptions::default()
+    };
+    for frames in [3000, 1] {
+        let place = folder.join(format!("log_{frames}"));
+        let mut recorder = Recorder::start(&scene.world, &place, &scene.sources, &options).unwrap();
+        for n in 0..frames {
+            scene.step(&mut recorder, n);
+            recorder.record(&scene.world, f64::from(n), 0, None).unwrap();
+        }
+        let lost = recorder.status().lost;
+        assert_eq!(lost > 0, frames > 1, "{lost} of {frames} frames lost while the host waited");
+        let error = recorder.finish().unwrap_err().to_string();
+        assert!(error.contains("took nothing for 0.02 s; the log ends after 0 frames"), "{error}");
+    }
+    HELD.store(false, Ordering::Release);
+}
+
+#[test]
+fn a_buffer_that_no_machine_has_is_refused_with_its_size() {
+    let folder = folder("no_memory");
+    let scene = scene(&folder);
+    let options = RecordOptions { buffer_bytes: Some(1 << 60), ..RecordOptions::default() };
+    let refused = Recorder::start(&scene.world, &folder.join("log"), &scene.sources, &options);
+    let Err(LogError::Engine(EngineError::OutOfMemory { bytes, .. })) = refused else {
+        panic!("{refused:?}")
+    };
+    assert!(bytes > 1 << 60);
+    assert!(!folder.join("log").join("run.json").exists(), "nothing was begun");
 }

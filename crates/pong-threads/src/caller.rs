@@ -1,7 +1,7 @@
 //! The caller's side: opens a phase, works along, and waits only for blocks that others have claimed.
 
 use std::panic::resume_unwind;
-use std::sync::{Arc, PoisonError};
+use std::sync::{Arc, TryLockError};
 
 use crate::board::{CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
@@ -119,8 +119,15 @@ impl Caller {
         if !panicked {
             return None;
         }
-        let mut kept = self.shared.panic.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.take().map(|(_, payload)| payload)
+        // Not waited for: a second worker that panicked, too, may hold it and not be run by the system.
+        match self.shared.panic.try_lock() {
+            Ok(mut kept) => kept.take(),
+            Err(TryLockError::Poisoned(kept)) => kept.into_inner().take(),
+            Err(TryLockError::WouldBlock) => {
+                Some((self.epoch, Box::new("several workers panicked at once") as Payload))
+            }
+        }
+        .map(|(_, payload)| payload)
     }
 
     /// Blocks that workers have claimed and not finished. Between phases: workers inside abandoned blocks.

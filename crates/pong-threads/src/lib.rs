@@ -41,13 +41,17 @@ mod place;
 mod pool;
 #[cfg(not(loom))]
 mod settings;
+#[cfg(not(loom))]
+mod signals;
 
 #[cfg(not(loom))]
 pub use place::{Grant, WorkerStart};
 #[cfg(not(loom))]
-pub use pool::{Pool, StartError};
+pub use pool::{LONGEST_FAREWELL, LONGEST_START, Pool, StartError};
 #[cfg(not(loom))]
 pub use settings::Settings;
+#[cfg(not(loom))]
+pub use signals::without_signals;
 
 /// Most blocks of one phase.
 pub const MAX_BLOCKS: u32 = (1 << 23) - 1;

@@ -9,14 +9,14 @@ use std::time::{Duration, Instant};
 use crate::board::Board;
 use crate::caller::Caller;
 use crate::place::{cores_of_workers, settle};
+use crate::signals::without_signals;
 use crate::sync::Watch;
 use crate::worker::{Shared, Worker};
 use crate::{Job, LaneWork, Outcome, Settings, WorkerStart};
 
 /// Workers that share phases with the one thread that calls.
 ///
-/// Dropping it ends them. A worker that is inside a block of an abandoned phase is waited for as long as
-/// [`Settings::patience`], then left to end by itself; it keeps the job alive until then.
+/// Dropping it ends them, as [`end`](Self::end) does. They take no signals ([`without_signals`]).
 pub struct Pool {
     caller: Caller,
     threads: Vec<JoinHandle<()>>,
@@ -28,7 +28,14 @@ pub struct Pool {
     process: u32,
 }
 
-/// The system gave no thread.
+/// How long a pool that starts waits for its workers to run. A thread that the system has made and does not run for so
+/// long is kept from its core by another.
+pub const LONGEST_START: Duration = Duration::from_secs(10);
+
+/// How long a pool that ends waits for a worker that is in no block and need only be run by the system to end.
+pub const LONGEST_FAREWELL: Duration = Duration::from_secs(1);
+
+/// The system gave no thread, or does not run it.
 #[derive(Debug)]
 pub struct StartError {
     /// The worker that was to run on it, 1 for the first.
@@ -39,7 +46,16 @@ pub struct StartError {
 
 impl fmt::Display for StartError {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(out, "no thread for worker {}: {}; ask for fewer workers", self.lane, self.source)
+        let Self { lane, source } = self;
+        match source.kind() {
+            std::io::ErrorKind::TimedOut => write!(
+                out,
+                "worker {lane} was not run within {} s of its start: another thread keeps its core; ask for fewer workers, \
+                 or for a core or a priority that is free",
+                LONGEST_START.as_secs()
+            ),
+            _ => write!(out, "no thread for worker {lane}: {source}; ask for fewer workers"),
+        }
     }
 }
 
@@ -50,8 +66,8 @@ impl std::error::Error for StartError {
 }
 
 impl Pool {
-    /// Starts the workers, and sleeps until each has taken its place. (It must not spin: a new thread has the core and
-    /// the priority of this one, and under SCHED_FIFO would never get to run.)
+    /// Starts the workers, and sleeps until each has taken its place, [`LONGEST_START`] at most. (It must not spin: a new
+    /// thread has the core and the priority of this one, and under SCHED_FIFO would never get to run.)
     pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
         let cores = cores_of_workers(settings);
         let shared = Arc::new(Shared {
@@ -76,7 +92,7 @@ impl Pool {
             // On an error the pool is dropped, which ends the workers that run already.
             pool.threads.push(thread.map_err(|source| StartError { lane: worker + 1, source })?);
         }
-        pool.start_report = pool.muster.wait_for_all();
+        pool.start_report = pool.muster.wait_for_all(LONGEST_START)?;
         Ok(pool)
     }
 
@@ -125,9 +141,33 @@ impl Pool {
         self.process != std::process::id()
     }
 
-    fn wait_for_stuck_workers(&self) {
+    /// Ends the workers; how many had not ended when the time was up. A worker inside a block of an abandoned phase
+    /// is waited for as long as [`Settings::patience`], any other for [`LONGEST_FAREWELL`]. One that is left behind ends by
+    /// itself when the system runs it, and keeps the job alive until then.
+    pub fn end(&mut self) -> usize {
+        if self.is_forked() {
+            // The threads are the parent's. To wait for them here would be to wait for ever.
+            self.threads.drain(..).for_each(std::mem::forget);
+            return 0;
+        }
+        self.caller.end();
+        self.wait_for_the_end(if self.is_quiet() { LONGEST_FAREWELL } else { self.patience });
+        let mut left = 0;
+        for thread in self.threads.drain(..) {
+            if thread.is_finished() {
+                // All that is left of it is to return to the system. It catches the panics of its blocks, so there is
+                // none to hand on.
+                let _ = thread.join();
+            } else {
+                left += 1;
+            }
+        }
+        left
+    }
+
+    fn wait_for_the_end(&self, at_most: Duration) {
         let started = Instant::now();
-        while !self.threads.iter().all(JoinHandle::is_finished) && started.elapsed() < self.patience {
+        while !self.threads.iter().all(JoinHandle::is_finished) && started.elapsed() < at_most {
             thread::sleep(Duration::from_micros(50));
         }
     }
@@ -135,22 +175,7 @@ impl Pool {
 
 impl Drop for Pool {
     fn drop(&mut self) {
-        if self.is_forked() {
-            // The threads are the parent's. To wait for them here would be to wait for ever.
-            self.threads.drain(..).for_each(std::mem::forget);
-            return;
-        }
-        self.caller.end();
-        let all_will_end = self.is_quiet();
-        if !all_will_end {
-            self.wait_for_stuck_workers();
-        }
-        for thread in self.threads.drain(..) {
-            if all_will_end || thread.is_finished() {
-                // A worker catches the panics of its blocks, so there is none to hand on.
-                let _ = thread.join();
-            }
-        }
+        self.end();
     }
 }
 
@@ -166,15 +191,16 @@ fn start_worker(
     muster: &Arc<Muster>,
 ) -> std::io::Result<JoinHandle<()>> {
     let (shared, muster) = (shared.clone(), muster.clone());
-    thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(move || {
+    let work = move || {
         let report = settle(lane, core, fifo_priority);
         let mut worker = Worker::new(shared, lane);
         muster.report(report);
         worker.serve();
-    })
+    };
+    without_signals(|| thread::Builder::new().name(format!("pong-worker-{lane}")).spawn(work))
 }
 
-/// Where the workers report, and the caller sleeps until all have.
+/// Where the workers report, and the caller sleeps until all have, or time is up.
 struct Muster {
     reports: Box<[OnceLock<WorkerStart>]>,
     missing: AtomicUsize,
@@ -195,10 +221,31 @@ impl Muster {
         }
     }
 
-    fn wait_for_all(&self) -> Vec<WorkerStart> {
+    fn wait_for_all(&self, at_most: Duration) -> Result<Vec<WorkerStart>, StartError> {
+        let started = Instant::now();
         while self.missing.load(Ordering::Acquire) > 0 {
-            thread::park();
+            let waited = started.elapsed();
+            if waited >= at_most {
+                let absent = self.reports.iter().position(|report| report.get().is_none()).unwrap_or(0);
+                return Err(StartError { lane: absent + 1, source: std::io::ErrorKind::TimedOut.into() });
+            }
+            thread::park_timeout(at_most - waited);
         }
-        self.reports.iter().filter_map(|report| report.get().cloned()).collect()
+        Ok(self.reports.iter().filter_map(|report| report.get().cloned()).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_worker_that_is_never_run_ends_the_start_with_an_error_that_names_it() {
+        let muster = Muster::new(2);
+        let report = settle(1, None, None);
+        muster.report(report);
+        let error = muster.wait_for_all(Duration::from_millis(1)).unwrap_err();
+        assert_eq!(error.lane, 2);
+        assert!(error.to_string().contains("worker 2 was not run within 10 s"), "{error}");
     }
 }

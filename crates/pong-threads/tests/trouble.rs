@@ -133,6 +133,45 @@ fn a_pool_with_a_hanging_worker_can_be_dropped() {
     wait_until("the worker lets go of the job", || Arc::strong_count(&hang) == 1);
 }
 
+#[cfg(target_os = "linux")]
+mod a_worker_that_is_not_run {
+    use super::*;
+
+    static HELD: AtomicBool = AtomicBool::new(true);
+    static CAUGHT: AtomicBool = AtomicBool::new(false);
+
+    extern "C" fn hold(_signal: libc::c_int) {
+        CAUGHT.store(true, SeqCst);
+        let started = Instant::now();
+        while HELD.load(SeqCst) && started.elapsed() < FOR_EVER {
+            std::thread::sleep(Duration::from_micros(100));
+        }
+    }
+
+    /// The worker is in no block: the handler of a signal of its own keeps it from running, as another thread on its core
+    /// would.
+    #[test]
+    fn does_not_keep_the_pool_from_ending() {
+        let worker = Arc::new(AtomicU32::new(0));
+        let told = worker.clone();
+        // SAFETY: asks the system for the number of the calling thread.
+        let meet = Meet::new(move || told.store(unsafe { libc::gettid() } as u32, SeqCst));
+        let mut pool = start(&meet, &patient(1));
+        assert_eq!(pool.run(2), Outcome::Complete);
+        // SAFETY: a handler for a signal that nothing else here uses, sent to the worker alone.
+        unsafe {
+            libc::signal(libc::SIGTRAP, hold as extern "C" fn(libc::c_int) as libc::sighandler_t);
+            libc::syscall(libc::SYS_tgkill, libc::getpid(), worker.load(SeqCst), libc::SIGTRAP);
+        }
+        wait_until("the worker is in the handler", || CAUGHT.load(SeqCst));
+        assert_eq!(pool.end(), 1, "workers left behind");
+        drop(pool);
+        assert!(Arc::strong_count(&meet) > 1, "what it may still read lives");
+        HELD.store(false, SeqCst);
+        wait_until("the worker ends", || Arc::strong_count(&meet) == 1);
+    }
+}
+
 #[test]
 fn dropping_a_pool_ends_its_workers() {
     let meet = Meet::new(|| {});

@@ -127,7 +127,8 @@ impl Session<'_> {
             252 if !ids.is_empty() => (1, ids.as_ptr().cast::<u8>().wrapping_add(1).cast()),
             _ => (ids.len(), ids.as_ptr()),
         };
-        let sure = sure.only_if(count == ids.len() && at == ids.as_ptr());
+        let named_once = (1..ids.len()).all(|place| !ids[..place].contains(&ids[place]));
+        let sure = sure.only_if(count == ids.len() && at == ids.as_ptr() && named_once);
         if self.call("set states", sure, || unsafe { pong_set_states(world, at, states.as_ptr(), count) }) {
             ids.into_iter().for_each(|id| self.was_set(id));
         }

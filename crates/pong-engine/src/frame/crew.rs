@@ -154,6 +154,11 @@ impl Crew {
         self.pool.quiesce();
     }
 
+    /// See [`Pool::end`].
+    pub fn end(&mut self) -> usize {
+        self.pool.end()
+    }
+
     /// The pool, for what it reports.
     pub fn pool(&self) -> &Pool {
         &self.pool

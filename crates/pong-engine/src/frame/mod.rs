@@ -22,12 +22,12 @@ mod side_of_entry;
 mod state_in;
 mod testers;
 
-pub(crate) use accounts::contact_numbers;
+pub(crate) use accounts::{Interval, contact_numbers};
 pub(crate) use block::arena_bytes;
 pub(crate) use bounding::ROUND;
 pub(crate) use buffers::{Frame, FrameContact, Place};
 pub(crate) use crew::Crew;
-pub(crate) use input::FrameInput;
+pub(crate) use input::{Block, FrameInput};
 pub(crate) use passages::{Passed, least_travel_m, reach_m};
 pub(crate) use relative::Motion;
 pub(crate) use state_in::require_states;

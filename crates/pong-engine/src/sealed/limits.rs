@@ -16,6 +16,9 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 /// more than the worst case counts for it.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
+/// Contacts that a worker's lane can hold at least, or as many as the caller's.
+const LEAST_WORKER_CONTACTS: usize = 4096;
+
 /// How much memory the frames get.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -61,7 +64,20 @@ impl Limits {
     /// Contacts that one of several lanes can hold. A lane that finds more than this leaves the frame to the caller
     /// alone: an uneven share of the work must be rare, not impossible.
     pub fn worker_contacts(&self, lanes: usize) -> usize {
-        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(4096))
+        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(LEAST_WORKER_CONTACTS))
+    }
+}
+
+impl Limits {
+    /// See [`bytes_per_contact`].
+    pub fn bytes_per_contact(&self, lanes: usize, custom_stride: usize) -> usize {
+        bytes_per_contact(lanes, custom_stride)
+    }
+
+    /// What a worker's lane takes however small the capacity is, bytes.
+    pub fn least_lane_bytes(&self, custom_stride: usize) -> usize {
+        self.lane_contacts.min(LEAST_WORKER_CONTACTS)
+            * (size_of::<FrameContact>() + custom_stride * size_of::<f64>())
     }
 }
 

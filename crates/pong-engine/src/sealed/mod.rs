@@ -1,11 +1,13 @@
 //! Sealing: which movable groups meet, what their surfaces make together, and how much must be remembered.
 
 mod limits;
+mod memory;
 mod plan;
 mod surfaces;
 mod warnings;
 
 pub(crate) use limits::Limits;
+pub use memory::{leave_room_for_small_things, require_memory};
 pub(crate) use plan::Plan;
 pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
 pub use warnings::{SetupNote, SetupWarning};
@@ -14,7 +16,7 @@ use crate::account::WrenchUse;
 use crate::dispatch::has_tester;
 use crate::error::EngineError;
 use crate::frame::contact_numbers;
-use crate::scene::Scene;
+use crate::scene::{ObjectPair, Scene};
 use crate::state::{Books, ContactKey, block_len, fnv1a};
 use limits::{too_large, worst_case};
 use plan::plans;
@@ -94,6 +96,8 @@ pub struct SealReport {
     pub contact_capacity: usize,
     /// Size of the contact state block, bytes.
     pub state_size: usize,
+    /// Memory that the system had to have for the seal, bytes: a bound of what it took.
+    pub memory: usize,
     /// How every worker started: its core and priority, or why it has none.
     pub workers: Vec<WorkerStart>,
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend. What the planned step is
@@ -112,7 +116,14 @@ pub(crate) fn seal(
     scene: &Scene,
     surfaces: &[Vec<Surface>],
 ) -> Result<(Sealed, Vec<SurfaceTable>, SealReport), EngineError> {
-    let mut group_pairs = group_pairs(scene);
+    let pair_count = count_group_pairs(scene);
+    let for_pairs = memory::for_pairs(scene, pair_count);
+    require_memory(
+        "seal: the pairs of movable groups",
+        for_pairs,
+        "pair fewer Objects, or split the movable groups among Objects that need not all be paired",
+    )?;
+    let mut group_pairs = group_pairs(scene, pair_count);
     let volume_tests = VolumeTests::new(&scene.extensions);
     let mut problems = untestable_volumes(scene, &group_pairs, &volume_tests);
     let mut tables = Vec::new();
@@ -144,6 +155,12 @@ pub(crate) fn seal(
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, custom_stride);
     let limits = Limits::new(scene, &group_pairs, record_capacity, custom_stride);
+    let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, custom_stride);
+    require_memory(
+        "seal: the frames",
+        for_frames,
+        "ask for a smaller `contact_capacity` or fewer workers, or pair fewer Objects",
+    )?;
     let sealed = Sealed {
         plans: plans(scene, &group_pairs),
         paired_bodies: paired_bodies(&group_pairs),
@@ -163,6 +180,7 @@ pub(crate) fn seal(
         group_pairs: sealed.group_pairs.len(),
         contact_capacity,
         state_size: sealed.state_size(),
+        memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
         warnings: warnings(scene, &sealed.group_pairs),
         notes: Vec::new(),
@@ -172,13 +190,23 @@ pub(crate) fn seal(
     Ok((sealed, tables, report))
 }
 
+/// How many pairs of movable groups [`group_pairs`] lists.
+fn count_group_pairs(scene: &Scene) -> usize {
+    let bodies_of = |object: usize| scene.models[scene.objects[object].model].bodies.len();
+    let pairs_of = |pair: &ObjectPair| match (bodies_of(pair.a), bodies_of(pair.b)) {
+        (a, _) if pair.a == pair.b => a.saturating_mul(a.saturating_sub(1)) / 2,
+        (a, b) => a.saturating_mul(b),
+    };
+    scene.pairs.iter().map(pairs_of).fold(0, usize::saturating_add)
+}
+
 /// Every pair of movable groups of paired Objects, in the order of their bodies.
-fn group_pairs(scene: &Scene) -> Vec<GroupPair> {
+fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
     let bodies_of = |object: usize| {
         let object = &scene.objects[object];
         object.first_body..object.first_body + scene.models[object.model].bodies.len()
     };
-    let mut found = Vec::new();
+    let mut found = Vec::with_capacity(count);
     for (pair, objects) in scene.pairs.iter().enumerate() {
         for a in bodies_of(objects.a) {
             for b in bodies_of(objects.b).filter(|b| objects.a != objects.b || a < *b) {

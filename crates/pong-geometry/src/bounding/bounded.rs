@@ -105,6 +105,9 @@ impl Bounded for Ellipsoid {
         const BISECTIONS: usize = 40;
         let q = self.axes.tr_mul(&(from - self.center));
         let largest = self.semi_axes.max();
+        if q == Vec3::zeros() {
+            return largest;
+        }
         let squares = self.semi_axes.component_mul(&self.semi_axes);
         // λ = largest² + excess; the differences λ − aᵢ² without cancellation.
         let below = self.semi_axes.map(|a| (largest - a) * (largest + a));

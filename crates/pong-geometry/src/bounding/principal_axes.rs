@@ -16,14 +16,18 @@ pub(super) fn principal_axes(points: &[Vec3]) -> Mat3 {
 /// converges quadratically: a 3 × 3 matrix needs four or five sweeps, the rest find nothing left to turn.
 fn diagonalising_rotation(mut s: Mat3) -> Mat3 {
     const SWEEPS: usize = 8;
+    /// 2⁻⁵¹¹: the square of the cotangent beyond is no number any more, and the tangent itself changes none.
+    const SMALLEST_TANGENT: f64 = f64::from_bits((1023 - 511) << 52);
     let mut rotation = Mat3::identity();
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
-            if s[(p, q)] == 0.0 {
+            let (apart, twice) = (s[(q, q)] - s[(p, p)], 2.0 * s[(p, q)]);
+            // An entry of zero, or one whose angle is zero in numbers: the square of the cotangent would overflow.
+            if twice.abs() <= apart.abs() * SMALLEST_TANGENT || twice == 0.0 {
                 continue;
             }
             // The smaller root t = tan(angle) of t² + 2·t·cot(2·angle) − 1 = 0.
-            let cot = (s[(q, q)] - s[(p, p)]) / (2.0 * s[(p, q)]);
+            let cot = apart / twice;
             let tangent = cot.signum() / (cot.abs() + (cot * cot + 1.0).sqrt());
             let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
             let turn = plane_rotation(p, q, cosine, tangent * cosine);

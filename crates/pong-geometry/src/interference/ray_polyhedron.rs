@@ -96,7 +96,7 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
         let simd = self.simd;
         let (zero, nowhere) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
         // Minus the distances.
-        let before = simd.div(heights, climbs);
+        let before = simd.ratio(heights, climbs);
         let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
         self.entry.offer(index, entered);
         let leave = match block.active & block.own == block.own {

@@ -123,7 +123,7 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
             let block = self.polyhedron.planes().block(index);
             let own = simd.mask(block.active & block.own);
             let [first, second] = [ends[0].least_square(index, block), ends[1].least_square(index, block)];
-            bounds.set(index, simd.select(own, simd.add(first, second), none));
+            bounds.set(index, own, simd.add(first, second));
         }
         bounds
     }
@@ -195,7 +195,7 @@ impl<S: Simd, F: Finder<S>> InsideEnds<S, F> {
     fn clip(&mut self, index: usize, [first, second]: [S::Eight; 2]) {
         let simd = self.simd;
         let (zero, nowhere) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
-        let at = simd.div(first, simd.sub(first, second));
+        let at = simd.ratio(first, simd.sub(first, second));
         self.entering.offer(index, simd.select(simd.below(second, first), at, nowhere));
         self.leaving.offer(index, simd.select(simd.below(first, second), simd.sub(zero, at), nowhere));
     }
@@ -225,10 +225,12 @@ pub(super) struct Bounds<S: Simd, const N: usize> {
 
 impl<S: Simd, const N: usize> Bounds<S, N> {
     #[inline(always)]
-    fn set(&mut self, block: usize, bounds: S::Eight) {
-        self.of_block[block] = bounds;
-        // No number is put before a NaN.
-        self.top = self.simd.larger(self.simd.sub(self.simd.splat(0.0), bounds), self.top);
+    fn set(&mut self, block: usize, own: S::Mask, bounds: S::Eight) {
+        let simd = self.simd;
+        let nowhere = simd.splat(f64::NEG_INFINITY);
+        self.of_block[block] = simd.select(own, bounds, simd.splat(f64::NAN));
+        // The larger of a NaN and a number would be an invalid operation.
+        self.top = simd.larger(simd.select(own, simd.sub(simd.splat(0.0), bounds), nowhere), self.top);
     }
 
     /// The first face of the least bound.
@@ -307,8 +309,8 @@ impl<S: Simd> End<S> {
 }
 
 impl<S: Simd> Leaving<S> {
-    /// The square of the crossing with each face, m²; nothing if the place is above it, no number or infinite where
-    /// the two planes do not meet.
+    /// The square of the crossing with each face, m²; nothing if the place is above it, infinite where the two planes do
+    /// not meet.
     #[inline(always)]
     fn crossing_square(&self, simd: S, block: &PlaneBlock) -> S::Eight {
         let zero = simd.splat(0.0);
@@ -322,7 +324,8 @@ impl<S: Simd> Leaving<S> {
             length_square = simd.add(length_square, simd.mul(across, across));
         }
         let numerator = simd.mul(height, exit_slope);
-        let square = simd.div(simd.mul(numerator, numerator), length_square);
+        let square = simd.ratio(simd.mul(numerator, numerator), length_square);
+        let square = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), square);
         simd.select(simd.below(zero, height), zero, square)
     }
 }

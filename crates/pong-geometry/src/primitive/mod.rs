@@ -13,8 +13,7 @@ pub use curved::{Ellipsoid, Sphere};
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
 pub use polyhedron::{
-    Containment, EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex,
-    RimEdge,
+    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
 };
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};

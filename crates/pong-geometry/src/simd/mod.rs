@@ -42,6 +42,11 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
+    /// `a / b`, and `a` where `b` is zero: a quotient that nobody looks at must not raise a floating-point exception.
+    #[inline(always)]
+    fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
+        self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(1.0), b))
+    }
     fn sqrt(self, values: Self::Eight) -> Self::Eight;
     /// `a < b`.
     fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;

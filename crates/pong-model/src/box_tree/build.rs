@@ -18,9 +18,10 @@ impl<T> Boxed<T> {
         self.low.iter().chain(self.high.iter()).all(|x| x.is_finite())
     }
 
-    /// Twice the centre.
+    /// Twice the centre; what is infinite both ways is everywhere, and so in the middle.
     fn center(&self, axis: usize) -> f64 {
-        self.low[axis] + self.high[axis]
+        let (low, high) = (self.low[axis], self.high[axis]);
+        if low.is_finite() && high.is_finite() { low + high } else { 0.0 }
     }
 }
 
@@ -117,7 +118,7 @@ fn deal_from<T: Copy + Ord>(
 }
 
 fn longest_axis<T>(elements: &[Boxed<T>]) -> usize {
-    let center = |element: &Boxed<T>| element.low + element.high;
+    let center = |element: &Boxed<T>| Vec3::from([0, 1, 2].map(|axis| element.center(axis)));
     let first = center(&elements[0]);
     let span = |(low, high): (Vec3, Vec3), element: &Boxed<T>| {
         (low.inf(&center(element)), high.sup(&center(element)))

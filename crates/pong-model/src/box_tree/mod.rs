@@ -118,14 +118,17 @@ impl NarrowBall {
     }
 }
 
-/// A finite number of single precision that is not greater. What lies below them all becomes the least: every upper
-/// bound is at least as great, so two boxes are not taken for apart.
+/// A finite number of single precision that is not greater. What lies below them all, and what is no number, becomes the
+/// least: every upper bound is at least as great, so two boxes are not taken for apart.
 #[inline(always)]
-#[allow(clippy::manual_clamp, reason = "of infinity less infinity, which is no number, this makes the least")]
+#[allow(clippy::manual_clamp, reason = "of what is no number this makes the least")]
 pub fn round_down(x: f64) -> f32 {
+    const MOST: f64 = f32::MAX as f64;
+    // Infinity would be taken from itself.
+    let x = if x > MOST { MOST } else { x };
     // In double precision: more than a unit in the last place below, also where the product underflows.
     let below = x - (x.abs() * (1.01 * f64::from(f32::EPSILON)) + f64::from(f32::MIN_POSITIVE));
-    (below as f32).max(-f32::MAX).min(f32::MAX)
+    below.max(-MOST).min(MOST) as f32
 }
 
 /// A finite number of single precision that is not smaller, likewise.

@@ -8,6 +8,7 @@ mod mesh_file;
 mod mesh_primitive;
 mod primitive;
 mod scalar;
+mod size;
 mod suggest;
 mod surface;
 

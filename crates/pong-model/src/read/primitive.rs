@@ -1,7 +1,7 @@
 //! Primitives, one function each.
 
 use super::group::{GroupReader, Place, authored_name, read_name, surface_index};
-use super::{Fields, Reader, custom, mesh_primitive};
+use super::{Fields, Reader, custom, mesh_primitive, size};
 use crate::draft::BodyDraft;
 use crate::model::{Item, PrimitiveInfo};
 use crate::ron_tree::Node;
@@ -67,7 +67,9 @@ pub(super) fn read_primitive(
         first_mirror: 0,
     };
     let mut primitive = Primitive { fields, at: node.at, path, x: place.x_bg.transform(), draft };
-    if let Some(info) = read_shape(groups.reader, &mut primitive, kind, info) {
+    if let Some(info) = read_shape(groups.reader, &mut primitive, kind, info)
+        && size::check(groups.reader, draft, &info, node.at)
+    {
         place_items(draft, place.group, &info);
         draft.body.primitives.push(info);
         draft.primitive_at.push(node.at);

@@ -29,12 +29,13 @@ impl Capture {
                 primitives += body.primitives.len() as u32;
             }
         }
-        let mut capture = Self { bodies, first_primitive, energies, bytes: Vec::new() };
-        let largest = capture.size(world.contact_capacity()?);
-        // Touched now, so that no page of it is new to the first large frame.
-        capture.bytes.resize(largest, 1);
-        capture.bytes.clear();
-        Ok(capture)
+        Ok(Self { bodies, first_primitive, energies, bytes: Vec::new() })
+    }
+
+    /// Takes the memory of a frame of so many bytes, so that no page of it is new to the first large one.
+    pub fn take_room(&mut self, largest: usize) {
+        self.bytes.resize(largest, 1);
+        self.bytes.clear();
     }
 
     /// The movable groups, as a run lists them.
@@ -51,7 +52,7 @@ impl Capture {
             + contacts * ContactRow::SIZE
     }
 
-    /// The last frame of the world. Takes no memory: there is room for the most contacts that a frame can have.
+    /// The last frame of the world. Takes no memory if there is room for the most contacts that a frame can have.
     pub fn frame(
         &mut self,
         world: &World,

@@ -27,6 +27,10 @@ pub enum WhenFull {
     Lose,
 }
 
+/// How long anyone waits for files that take nothing, unless the host says otherwise: longer than a disk that spins up or
+/// a server that restarts takes, shorter than anybody waits for a program to end.
+pub const LONGEST_WAIT: Duration = Duration::from_secs(30);
+
 /// How a run is recorded.
 #[derive(Clone, Debug)]
 pub struct RecordOptions {
@@ -50,6 +54,9 @@ pub struct RecordOptions {
     pub buffer_bytes: Option<usize>,
     /// How often what was written is made to count. A run that is cut off keeps what was flushed.
     pub flush_every: Duration,
+    /// How long anyone waits for files that take nothing at all: a frame that waits for room is then lost, and so are all
+    /// that follow; a log that is closed then ends where it was flushed. 30 s unless the host says otherwise.
+    pub longest_wait: Duration,
     /// Called in the thread that writes the files as it begins: a host whose threads have a real-time priority lowers
     /// that of this one here.
     pub on_thread_start: Option<fn()>,
@@ -68,6 +75,7 @@ impl Default for RecordOptions {
             when_full: WhenFull::Wait,
             buffer_bytes: None,
             flush_every: Duration::from_secs(1),
+            longest_wait: LONGEST_WAIT,
             on_thread_start: None,
         }
     }

@@ -9,7 +9,9 @@ use super::{RecordOptions, WhenFull, describe, folder};
 use crate::error::LogError;
 use crate::event::{Event, LoggedEvent};
 use crate::table::{EnergyRow, FrameRow};
-use pong_engine::{EngineError, ModelId, ObjectId, PairId, World};
+use pong_engine::{
+    EngineError, ModelId, ObjectId, PairId, World, leave_room_for_small_things, require_memory,
+};
 use pong_model::Surface;
 use rtrb::{Producer, RingBuffer};
 use std::io::Write as _;
@@ -17,7 +19,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Records a sealed world.
 ///
@@ -43,6 +45,9 @@ pub struct Recorder {
     line: Vec<u8>,
     peak: usize,
     size: usize,
+    longest_wait: Duration,
+    /// The process whose log this is. A fork of it has no thread that writes.
+    process: u32,
 }
 
 /// How a log stands.
@@ -73,6 +78,12 @@ const ROOM_FOR_EVENTS: usize = 1 << 16;
 /// Longest line of an event that is written in a frame: the numbers of all pairs in one, at most.
 const LINE: usize = 256;
 const DIGITS_OF_A_PAIR: usize = 11;
+/// What the thread and its files take at most beside that, bytes: a stack, and what tables gather.
+const FILES: usize = 4 << 20;
+/// Time between two looks of one who waits for the files.
+const LOOK: Duration = Duration::from_micros(200);
+/// What a fork of the process is told of the log.
+const OF_THE_PARENT: &str = "log: it belongs to the process that began it, not to this fork of it; stop it here and begin one in another folder";
 
 impl Recorder {
     /// Begins a log of a sealed world in a folder. `models` tells where each model came from, in the order in which
@@ -88,24 +99,32 @@ impl Recorder {
         options: &RecordOptions,
     ) -> Result<Self, LogError> {
         let state_size = world.state_size()?;
-        folder::prepare(folder, options.overwrite)?;
-        let models = models::keep(world, models, folder)?;
-        let run = describe::describe(world, models, options)?;
-        let capture = Capture::new(world, options.energies)?;
+        let mut capture = Capture::new(world, options.energies)?;
         let frame = capture.size(world.contact_capacity()?);
         let pairs = world.pairs().len();
         let line = LINE + pairs * DIGITS_OF_A_PAIR;
         let least = (2 * message::room(&[line, frame])).max(message::room(&[BLOCK_HEAD + state_size]));
         let wanted = options.buffer_bytes.unwrap_or(BUFFER).max(least) + ROOM_FOR_EVENTS;
         let longest = frame.max(BLOCK_HEAD + state_size).max(line);
+        // The ring, what the thread and the frame's path keep, and what a contact state takes once.
+        let kept = 2 * frame + line + state_size + FILES;
+        require(wanted.saturating_add(longest).saturating_add(kept))?;
+        folder::prepare(folder, options.overwrite)?;
+        let models = models::keep(world, models, folder)?;
+        let run = describe::describe(world, models, options)?;
+        capture.take_room(frame);
         let (producer, consumer) = ring(wanted);
         let writer = Writer::create(folder, run, options)?;
         let shared = Arc::new(Shared::default());
+        // Before the thread: the allocator reserves address space for it.
+        let (line, message) = (Vec::with_capacity(line), Vec::with_capacity(longest));
+        let block = if world.has_contact_state() { vec![0; state_size] } else { Vec::new() };
+        leave_room_for_small_things();
         let thread = {
             let (shared, on_start) = (Arc::clone(&shared), options.on_thread_start);
             std::thread::Builder::new().name("pong log".to_owned()).spawn(move || {
                 on_start.iter().for_each(|call| call());
-                writer.work(consumer, Vec::with_capacity(longest), &shared);
+                writer.work(consumer, message, &shared);
             })
         };
         let thread = thread.map_err(|reason| {
@@ -126,11 +145,13 @@ impl Recorder {
             events_lost: None,
             events_lost_ever: 0,
             blocks: 0,
-            line: Vec::with_capacity(line),
+            line,
             peak: 0,
             size: wanted,
+            longest_wait: options.longest_wait,
+            process: std::process::id(),
         };
-        recorder.tell_how_it_begins(world, state_size)?;
+        recorder.tell_how_it_begins(world, block)?;
         Ok(recorder)
     }
 
@@ -249,7 +270,10 @@ impl Recorder {
     /// How the log stands. Takes memory only where something has failed.
     pub fn status(&self) -> RecordStatus {
         let shared = &self.shared;
-        let error = if shared.failed.load(Ordering::Acquire) {
+        let error = if self.is_forked() {
+            // Another thread may have held the lock of the text when the process was forked.
+            Some(OF_THE_PARENT.to_owned())
+        } else if shared.failed.load(Ordering::Acquire) {
             shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner).clone()
         } else {
             None
@@ -280,22 +304,51 @@ impl Recorder {
     }
 
     /// Writes what is left and closes the log; [`status`](Self::status) tells how it went. Nothing is recorded any more.
+    /// Files that take nothing for [`longest_wait`](RecordOptions::longest_wait) are given up.
     pub fn close(&mut self) {
+        if self.is_forked() {
+            // The thread is the parent's, and so is what it has in hand.
+            std::mem::forget(self.thread.take());
+            self.producer = None;
+            return;
+        }
         self.when_full = WhenFull::Wait;
         self.tell_lost();
         self.producer = None;
-        if let Some(thread) = self.thread.take() {
-            thread.thread().unpark();
-            if thread.join().is_err() {
-                let text =
-                    "log: the thread that writes it has failed; the log ends where it was flushed".to_owned();
-                *self.shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(text);
-                self.shared.failed.store(true, Ordering::Release);
+        let Some(thread) = self.thread.take() else { return };
+        thread.thread().unpark();
+        let mut patience = Patience::new(&self.shared, self.longest_wait);
+        while !thread.is_finished() {
+            if patience.is_at_an_end(&self.shared) {
+                return self.give_up();
             }
+            std::thread::sleep(LOOK);
+        }
+        if thread.join().is_err() {
+            self.fail(
+                "log: the thread that writes it has failed; the log ends where it was flushed".to_owned(),
+            );
         }
     }
 
-    fn tell_how_it_begins(&mut self, world: &World, state_size: usize) -> Result<(), LogError> {
+    /// The files take nothing: whatever the thread still has in hand is lost.
+    fn give_up(&mut self) {
+        let frames = self.shared.frames.load(Ordering::Relaxed);
+        let waited = self.longest_wait.as_secs_f64();
+        self.fail(format!("log: the files took nothing for {waited} s; the log ends after {frames} frames"));
+    }
+
+    fn fail(&mut self, text: String) {
+        *self.shared.error.lock().unwrap_or_else(std::sync::PoisonError::into_inner) = Some(text);
+        self.shared.failed.store(true, Ordering::Release);
+    }
+
+    /// Whether this is a copy of the recorder in a fork of its process.
+    fn is_forked(&self) -> bool {
+        self.process != std::process::id()
+    }
+
+    fn tell_how_it_begins(&mut self, world: &World, mut block: Vec<u8>) -> Result<(), LogError> {
         for (id, model) in world.models() {
             let surfaces = world.surfaces(id)?.iter().zip(&model.surfaces);
             for (surface, _) in surfaces.filter(|(now, authored)| now != authored) {
@@ -308,7 +361,6 @@ impl Recorder {
             }
         }
         if world.has_contact_state() {
-            let mut block = vec![0; state_size];
             world.save_state(&mut block)?;
             self.restored(&block);
         }
@@ -389,9 +441,12 @@ impl Recorder {
         self.producer.as_mut().is_some_and(|producer| message::push(producer, kind, parts))
     }
 
-    /// Whether there is so much room in the ring, now or, if the host wants to wait, soon.
+    /// Whether there is so much room in the ring, now or, if the host wants to wait, soon. In a fork there is none: nobody
+    /// would ever write it.
     fn wait_for(&mut self, room: usize) -> bool {
-        let Some(producer) = &self.producer else { return false };
+        let forked = self.is_forked();
+        let Some(producer) = self.producer.as_ref().filter(|_| !forked) else { return false };
+        let mut patience = None;
         loop {
             if producer.slots() >= room {
                 return true;
@@ -403,8 +458,34 @@ impl Recorder {
                 return false;
             };
             thread.thread().unpark();
-            std::thread::sleep(Duration::from_micros(200));
+            let patience = patience.get_or_insert_with(|| Patience::new(&self.shared, self.longest_wait));
+            if patience.is_at_an_end(&self.shared) {
+                self.give_up();
+                return false;
+            }
+            std::thread::sleep(LOOK);
         }
+    }
+}
+
+/// Ends when the files have taken nothing for too long.
+struct Patience {
+    alive: u64,
+    since: Instant,
+    at_most: Duration,
+}
+
+impl Patience {
+    fn new(shared: &Shared, at_most: Duration) -> Self {
+        Self { alive: shared.alive.load(Ordering::Relaxed), since: Instant::now(), at_most }
+    }
+
+    fn is_at_an_end(&mut self, shared: &Shared) -> bool {
+        let alive = shared.alive.load(Ordering::Relaxed);
+        if alive != self.alive {
+            *self = Self::new(shared, self.at_most);
+        }
+        self.since.elapsed() >= self.at_most
     }
 }
 
@@ -424,4 +505,22 @@ fn ring(bytes: usize) -> (Producer<u8>, rtrb::Consumer<u8>) {
         chunk.commit_all();
     }
     (producer, consumer)
+}
+
+/// Whether there is so much memory, before any of it is taken.
+fn require(bytes: usize) -> Result<(), EngineError> {
+    const WHAT: &str = "response log: what may wait for the disk, and the largest frame";
+    const CURE: &str = "ask for fewer `buffer_bytes`, or for a smaller `contact_capacity` of the world";
+    if memory_available().is_some_and(|available| bytes as u64 > available) {
+        return Err(EngineError::OutOfMemory { what: WHAT, bytes, cure: CURE });
+    }
+    require_memory(WHAT, bytes, CURE)
+}
+
+/// What the system can give without taking it from others, bytes, where it tells: it promises more than that, and ends
+/// the process that touches it.
+fn memory_available() -> Option<u64> {
+    let told = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = told.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
 }

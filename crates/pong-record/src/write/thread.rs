@@ -27,6 +27,9 @@ pub(super) struct Shared {
     pub bytes: AtomicU64,
     /// Frames that were handed over and could not be written.
     pub dropped: AtomicU64,
+    /// Rises with everything that the files took, and whenever there was nothing to take: who waits for the files sees
+    /// whether they go on.
+    pub alive: AtomicU64,
     /// Frames that were never handed over.
     pub lost: AtomicU64,
 }
@@ -60,6 +63,7 @@ impl Writer {
             let last_round = consumer.is_abandoned();
             while let Some(kind) = message::pop(&mut consumer, &mut message) {
                 self.take(kind, &message, shared);
+                shared.alive.fetch_add(1, Ordering::Relaxed);
                 if flushed.elapsed() >= self.flush_every {
                     self.try_to(shared, Self::flush);
                     flushed = Instant::now();
@@ -72,6 +76,7 @@ impl Writer {
                 self.try_to(shared, Self::flush);
                 flushed = Instant::now();
             }
+            shared.alive.fetch_add(1, Ordering::Relaxed);
             std::thread::park_timeout(NAP);
         }
         let lost = shared.lost.load(Ordering::Relaxed);

@@ -1,0 +1,97 @@
+//! How much memory sealing takes, asked for before any of it is taken.
+//!
+//! What fails in the middle cannot be told: Rust's collections end the process. So the sizes that follow from the scene
+//! are added up first, and one block of the sum is asked for and given back. Two sums: of what grows with the pairs of
+//! movable groups, before they are listed, and of what the frames get, once their limits are known.
+
+use super::{GroupPair, Limits, Plan};
+use crate::account::WrenchUse;
+use crate::error::EngineError;
+use crate::frame::{Block, Interval, Motion, ROUND};
+use crate::scene::Scene;
+use crate::state::{PairBook, PairPose};
+use pong_geometry::{Pose, Twist, Wrench};
+use pong_threads::MAX_WORKERS;
+
+/// What is always left for names, reports and the allocator's own books, bytes.
+const SLACK: usize = 1 << 18;
+
+/// Stack of a worker, bytes: what Rust gives a thread that does not ask, its guard page included.
+const STACK: usize = (2 << 20) + (1 << 16);
+
+/// Asks the system for so many bytes in one piece and gives them back.
+///
+/// # Errors
+/// [`EngineError::OutOfMemory`] with the size, if it has not that much. Telling it takes no memory.
+pub fn require_memory(what: &'static str, bytes: usize, cure: &'static str) -> Result<(), EngineError> {
+    let mut block = Vec::<u8>::new();
+    let outcome = block.try_reserve_exact(bytes);
+    // What nobody looks at need not be asked for.
+    std::hint::black_box(block.as_mut_ptr());
+    outcome.map_err(|_| EngineError::OutOfMemory { what, bytes, cure })
+}
+
+/// Has the allocator keep some room for what follows, in small pieces: once threads run, another of their reservations may
+/// have taken what is left of the address space.
+pub fn leave_room_for_small_things() {
+    const PIECES: usize = 64;
+    const PIECE: usize = 1 << 10;
+    let pieces: [Vec<u8>; PIECES] = std::array::from_fn(|_| Vec::with_capacity(PIECE));
+    std::hint::black_box(&pieces);
+}
+
+/// What listing and judging the pairs of movable groups takes, and what the frames keep of each, bytes.
+pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
+    /// A list that grows by doubling has up to twice its room, and the half of it that it grew from, for a moment.
+    const GROWING: usize = 3;
+    /// Sorting borrows half a list.
+    const SORTING: usize = 2;
+    /// What the step adviser and sets of bodies keep of a pair.
+    const JUDGING: usize = 64;
+    let listed = SORTING * size_of::<GroupPair>() + 2 * GROWING * size_of::<Plan>() + JUDGING;
+    let advised = if scene.step_plan.is_some() { 1024 } else { 0 };
+    let tables = scene.pairs.iter().map(|pair| {
+        let surfaces = |object: usize| scene.models[scene.objects[object].model].surfaces.len();
+        2 * surfaces(pair.a) * surfaces(pair.b) * size_of::<Option<crate::law::PairProps>>()
+    });
+    let names = scene.objects.iter().map(|object| 4 * object.name.len() + 256).sum::<usize>();
+    let bodies = scene.bodies.len() * 256;
+    let each = listed + advised + per_pair(scene);
+    pairs.saturating_mul(each).saturating_add(tables.sum::<usize>() + names + bodies + SLACK)
+}
+
+/// What frames keep of a pair of movable groups, bytes.
+fn per_pair(scene: &Scene) -> usize {
+    let crew = usize::from(scene.config.workers.is_some());
+    let books = scene
+        .config
+        .accounts
+        .map_or(0, |wrench_use| size_of::<PairBook>() + WrenchUse::late(wrench_use) * size_of::<Wrench>());
+    let intervals = if scene.config.accounts.is_some() { size_of::<Interval>() } else { 0 };
+    // The contact states that take turns, the one that a stuck worker may hold, and the frame's own.
+    let states = 3 + crew;
+    states * (size_of::<PairPose>() + books) + intervals + (1 + crew) * size_of::<[Motion; 2]>()
+}
+
+/// What the frames get, bytes.
+pub(super) fn for_frames(
+    scene: &Scene,
+    pairs: usize,
+    limits: &Limits,
+    capacity: usize,
+    stride: usize,
+) -> usize {
+    let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS));
+    let lanes = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
+    let contacts = capacity.saturating_mul(limits.bytes_per_contact(lanes, stride));
+    let scratch = limits.arena_bytes + limits.scratch_bytes + limits.least_lane_bytes(stride);
+    let blocks = 2 * ROUND * size_of::<Block>();
+    let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
+    let sum = pairs
+        .saturating_mul(per_pair(scene))
+        .saturating_add(contacts)
+        .saturating_add((lanes + 1).saturating_mul(scratch))
+        .saturating_add(workers * STACK + blocks + bodies + SLACK);
+    // Rounding up of every piece to what the allocator hands out.
+    sum.saturating_add(sum / 16)
+}
