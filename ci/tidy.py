@@ -20,11 +20,12 @@ ARROWS = {
     "pong-trade": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-tune": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-import": {"pong-geometry", "pong-model"},
+    "pong-invariance": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
     "pong-capi": {"pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {
-        "pong-geometry", "pong-import", "pong-model", "pong-engine", "pong-executive", "pong-record", "pong-verify",
-        "pong-trade", "pong-tune", "pong-view",
+        "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
+        "pong-verify", "pong-trade", "pong-tune", "pong-view",
     },
 }
 MAY_BE_UNSAFE = {"pong-capi", "pong-threads"}

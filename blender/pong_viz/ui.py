@@ -26,15 +26,15 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
 
     filename_ext = ".json"
     filter_glob: StringProperty(default="run.json", options={"HIDDEN"})
-    fps: IntProperty(name="Pictures per second", default=30, min=1)
+    fps: IntProperty(name="Frame rate", description="Pictures per second", default=30, min=1)
     speed: FloatProperty(name="Speed", description="0.1: ten times slower than life", default=1.0, min=1e-6)
     part: BoolProperty(name="A part of the run", description="Only from one instant to another", default=False)
     start: FloatProperty(name="From", description="Time in the log", default=0.0, **_SECONDS)
     end: FloatProperty(name="To", description="Time in the log", default=1.0, **_SECONDS)
     relative_to: StringProperty(name="Hold still", description="Body that the view follows; empty for the common frame")
     shapes: EnumProperty(name="Shapes", default="missing", items=(
-        ("missing", "Where there are no graphics", "Draw the primitives of bodies without an object of their own"),
-        ("touched", "And those that touch", "As before and, over graphics, each primitive while it touches"),
+        ("missing", "If no graphics", "Draw the primitives of bodies without an object of their own"),
+        ("touched", "And touched", "As before and, over graphics, each primitive while it touches"),
         ("all", "All", "Draw the primitives of every body"),
         ("none", "None", "Draw no primitives"),
     ))
@@ -43,7 +43,7 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
     most_contacts: IntProperty(name="Contacts", description="Shown at once", default=64, min=1)
     alpha: FloatProperty(name="Opacity", default=0.55, min=0.0, max=1.0)
     camera: BoolProperty(name="Camera and lights", description="Add a camera that has all in view, and two suns", default=True)
-    look: BoolProperty(name="Workbench and object colors", description="Render with Workbench and let 3D views show the "
+    look: BoolProperty(name="Set look", description="Render with Workbench and let 3D views show the "
                        "objects' own colors, so that bodies and arrows are told apart; else the scene's own settings stay",
                        default=True)
 

@@ -9,6 +9,8 @@ from ..store.marks import BOUND_ITEMS
 from ..store.references import select_only
 from .targets import Selection, selected
 
+DISPLAY_SHARE = 0.5  # of the largest object: so long are the axes of a new root or group
+
 
 def topmost(objects):
     """Those objects that hang below none of the others."""
@@ -40,10 +42,14 @@ def hang(obj, parent):
     obj.matrix_world = world
 
 
-def new_empty(context, name, like, shape):
-    """An empty in the collection of another object."""
+def new_empty(context, name, members, shape):
+    """An empty in the collection of the first of some objects, as large as suits them."""
     obj = bpy.data.objects.new(name, None)
     obj.empty_display_type = shape
+    context.view_layer.update()
+    below = [each for member in members for each in (member, *member.children_recursive)]
+    obj.empty_display_size = DISPLAY_SHARE * max((max(each.dimensions) for each in below), default=0.0) or 1.0
+    like = members[0] if members else None
     collections = like.users_collection if like is not None else ()
     (collections[0] if collections else context.collection).objects.link(obj)
     return obj
@@ -72,7 +78,7 @@ class PONG_OT_root_new(bpy.types.Operator):
 
     def execute(self, context):
         members = topmost(selected(context))
-        root = new_empty(context, self.name, members[0] if members else None, "PLAIN_AXES")
+        root = new_empty(context, self.name, members, "PLAIN_AXES")
         root.pong.role, root.pong.version = "root", VERSION
         context.view_layer.update()
         for member in members:
@@ -107,7 +113,7 @@ class PONG_OT_group_new(bpy.types.Operator):
         if any(member.pong.role == "root" for member in members):
             self.report({"ERROR"}, "A root cannot hang below a group: select what is below it")
             return {"CANCELLED"}
-        group = new_empty(context, self.name, members[0], "ARROWS")
+        group = new_empty(context, self.name, members, "ARROWS")
         group.pong.role, group.pong.version = "group", VERSION
         group.pong.movable, group.pong.bound = self.movable, self.bound
         group.parent = common_parent(members)

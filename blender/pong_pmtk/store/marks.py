@@ -182,10 +182,13 @@ def _part(mesh, part):
 def left_over(obj):
     """(attribute, part) of marked elements that no object of the mesh names: those of objects that were joined to it."""
     mesh = obj.data
+    ours = elements.attributes(mesh)
+    if not ours:
+        return []
     users = [obj] if mesh.users <= 1 else [other for other in bpy.data.objects if other.data == mesh]
     named = {name for user in users for name in (user.pong.inactive, *(part.attribute for part in user.pong.parts))}
     found = []
-    for attribute, sort, stem in elements.attributes(mesh):
+    for attribute, sort, stem in ours:
         chosen = elements.indices(mesh, attribute, sort) if attribute not in named else []
         if chosen:
             found.append((attribute, Part(name=stem.lower(), kind=stem, **{sort: chosen})))

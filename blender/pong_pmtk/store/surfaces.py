@@ -71,9 +71,9 @@ NUMBERS = {
     "dissipation": ("s/m", ("normal", FIELDS, "dissipation"), "Dissipation", "Damping over stiffness times depth"),
     "mu": ("", ("friction", FIELDS, "mu"), "μ", "Kinetic coefficient of friction"),
     "static_excess": ("", ("friction", FIELDS, "static_excess"), "Static Excess", "Breaks away at (1 + a)·μ"),
-    "bristle_stiffness": ("N/m", ("friction", FIELDS, "stiffness"), "Bristle Stiffness",
-                          "Two thirds of the normal stiffness unless given"),
-    "bristle_damping": ("N·s/m", ("friction", FIELDS, "damping"), "Bristle Damping", "Damping of the bristle"),
+    "bristle_stiffness": ("N/m", ("friction", FIELDS, "stiffness"), "Bristle Spring",
+                          "Stiffness of the bristle; two thirds of the normal stiffness unless given"),
+    "bristle_damping": ("N·s/m", ("friction", FIELDS, "damping"), "Bristle Damper", "Damping of the bristle"),
     "slip_speed": ("m/s", ("friction", FIELDS, "slip_speed"), "Slip Speed", "Speed at which the full force is reached"),
 }
 
@@ -92,8 +92,8 @@ class Laws:
     normal_name: spec.text("normal", FIELDS, "name", name="Law")
     normal_parameters: spec.numbers("normal", FIELDS, "parameters", name="Parameters")
     use_static_excess: spec.given("friction", FIELDS, "static_excess", name="Static Excess")
-    use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Stiffness")
-    use_bristle_damping: spec.given("friction", FIELDS, "damping", name="Bristle Damping")
+    use_bristle_stiffness: spec.given("friction", FIELDS, "stiffness", default=1e5, name="Bristle Spring")
+    use_bristle_damping: spec.given("friction", FIELDS, "damping", name="Bristle Damper")
     friction_name: spec.text("friction", FIELDS, "name", name="Law")
     friction_parameters: spec.numbers("friction", FIELDS, "parameters", name="Parameters")
 

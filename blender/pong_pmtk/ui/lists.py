@@ -6,6 +6,7 @@ import bpy
 from ..store.references import current_root, parents_first
 
 ROLE_ICONS = {"root": "OUTLINER_OB_EMPTY", "group": "EMPTY_ARROWS", "primitive": "MESH_CUBE", "none": "DOT"}
+INDENT = 1.5  # in widths of a separator, for each level
 WITH_MU = ("Bristle", "Coulomb")
 SEVERITY_ICONS = {"error": "CANCEL", "warning": "ERROR", "hint": "INFO"}
 
@@ -15,15 +16,17 @@ class PONG_UL_tree(bpy.types.UIList):
 
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
-        for _ in range(depth(item)):
-            row.label(text="", icon="BLANK1")
+        if depth(item):
+            row.separator(factor=INDENT * depth(item))
         op = row.operator("pong.select_tree", text="", icon=ROLE_ICONS[item.pong.role], emboss=False)
         op.name, op.below = item.name, True
         row.label(text=item.pong.label or item.name)
+        row = row.row(align=True)
+        row.alignment = "RIGHT"
         if item.pong.role == "primitive":
             row.label(text=contents(item.pong))
         elif item.pong.role == "group":
-            icon = "CON_TRANSLIKE" if item.pong.movable else "LOCKED"
+            icon = "UNLOCKED" if item.pong.movable else "LOCKED"
             row.prop(item.pong, "movable", text="", icon=icon, emboss=False)
         if item.pong.surface:
             row.label(text=item.pong.surface, icon="MATERIAL")
@@ -66,9 +69,11 @@ class PONG_UL_surfaces(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
         row.prop(item, "name", text="", emboss=False, icon="MATERIAL")
-        row.label(text="rigid" if item.rigid else item.stiffness_text)
-        row.label(text=f"{item.friction}, μ {item.mu_text}" if item.friction in WITH_MU else item.bl_rna.properties[
-            "friction"].enum_items[item.friction].name)
+        values = row.row(align=True)
+        values.alignment = "RIGHT"
+        values.label(text="rigid" if item.rigid else item.stiffness_text)
+        if item.friction in WITH_MU:
+            values.label(text=f"μ {item.mu_text}")
 
 
 class PONG_UL_pairs(bpy.types.UIList):
@@ -80,8 +85,11 @@ class PONG_UL_parts(bpy.types.UIList):
     def draw_item(self, _context, layout, _data, item, _icon, _active_data, _active_property, _index):
         row = layout.row(align=True)
         row.prop(item, "name", text="", emboss=False)
-        row.label(text=item.kind)
-        row.label(text=item.surface)
+        values = row.row(align=True)
+        values.alignment = "RIGHT"
+        values.label(text=item.kind)
+        if item.surface:
+            values.label(text=item.surface)
 
 
 class PONG_UL_findings(bpy.types.UIList):

@@ -17,6 +17,11 @@ class Panel:
     bl_category = "Pong"
 
 
+def split(layout):
+    """Names before their fields; no dots for keyframes, which nothing here has."""
+    layout.use_property_split, layout.use_property_decorate = True, False
+
+
 class PONG_PT_model(Panel, bpy.types.Panel):
     bl_label = "Model"
 
@@ -28,7 +33,7 @@ class PONG_PT_model(Panel, bpy.types.Panel):
             layout.operator("pong.root_new", icon="ADD")
             layout.operator("pong.import_ron", icon="IMPORT")
             return
-        layout.use_property_split = True
+        split(layout)
         layout.prop(root.pong_model, "label", text="Name", placeholder=root.name)
         layout.prop(root.pong_model, "entry_memory")
         row = layout.row(align=True)
@@ -61,7 +66,7 @@ class PONG_PT_object(Panel, bpy.types.Panel):
 
     def draw(self, context):
         layout, obj = self.layout, context.object
-        layout.use_property_split = True
+        split(layout)
         mark = obj.pong
         layout.label(text=obj.name, icon="OBJECT_DATA")
         layout.prop(mark, "role")
@@ -108,9 +113,10 @@ def draw_optional(layout, holder, name, field=""):
     """A number that need not be given, behind its switch; `field`: the property that shows it, if another one."""
     row = layout.row(heading=holder.bl_rna.properties[name].name)
     row.prop(holder, f"use_{name}", text="")
-    value = row.row()
-    value.enabled = getattr(holder, f"use_{name}")
-    value.prop(holder, field or name, text="")
+    if getattr(holder, f"use_{name}"):
+        row.prop(holder, field or name, text="")
+    else:
+        row.label(text="default")
 
 
 def draw_surface_choice(layout, context, holder, name="surface"):
@@ -139,7 +145,9 @@ class PONG_PT_parts(Panel, bpy.types.Panel):
             column.operator(operator, text="", icon=icon)
         if len(mark.parts):
             part = mark.parts[min(mark.active_part, len(mark.parts) - 1)]
-            draw_surface_choice(layout, context, part)
+            column = layout.column()
+            split(column)
+            draw_surface_choice(column, context, part)
             row = layout.row(align=True)
             row.operator("pong.part_assign", text="Assign").take_out = False
             row.operator("pong.part_assign", text="Take Out").take_out = True
@@ -166,7 +174,7 @@ class PONG_PT_surfaces(Panel, bpy.types.Panel):
         if len(settings.surfaces):
             layout.operator("pong.surface_assign", text="Assign to Selected", icon="CHECKMARK")
             surface = settings.surfaces[min(settings.active_surface, len(settings.surfaces) - 1)]
-            layout.use_property_split = True
+            split(layout)
             layout.prop(surface, "rigid")
             if not surface.rigid:
                 draw_quantity(layout, surface, "stiffness")
@@ -229,7 +237,7 @@ class PONG_PT_pairs(Panel, bpy.types.Panel):
         column.operator("pong.pair_remove", text="", icon="REMOVE")
         if len(settings.pairs):
             pair = settings.pairs[min(settings.active_pair, len(settings.pairs) - 1)]
-            layout.use_property_split = True
+            split(layout)
             layout.prop_search(pair, "first", settings, "surfaces")
             layout.prop(pair, "second")
             draw_optional(layout, pair, "stiffness", "stiffness_text")
@@ -252,13 +260,18 @@ class PONG_PT_findings(Panel, bpy.types.Panel):
                 for line in wrapped(text, context.region.width):
                     box.label(text=line)
             if item.fix:
-                layout.operator("pong.finding_fix", text=f"Fix: {item.fix}", icon="TOOL_SETTINGS").index = -1
+                layout.operator("pong.finding_fix", text=f"Fix: {titled(item.fix)}", icon="TOOL_SETTINGS").index = -1
                 alike = sum(other.rule == item.rule and bool(other.fix) for other in found.findings)
                 if alike > 1:
                     layout.operator("pong.findings_fix", text=f"Fix All {alike} of This Kind").rule = item.rule
             offered = sum(bool(other.fix) for other in found.findings)
             if offered > 1:
                 layout.operator("pong.findings_fix", text=f"Fix All {offered}").rule = ""
+
+
+def titled(fix):
+    """The name of a repair as a button has it."""
+    return fix.replace("-", " ").title()
 
 
 def wrapped(text, width_px):

@@ -111,7 +111,7 @@ class Lists(InBlender):
             recorder = Recorder()
             # Blender makes a list anew for every line, so one that has filtered nothing must do.
             lists.PONG_UL_tree.draw_item(types.SimpleNamespace(), bpy.context, recorder, None, obj, 0, None, "", 0)
-            self.assertEqual(recorder.icons.count("BLANK1"), depth)
+            self.assertAlmostEqual(sum(recorder.separators), lists.INDENT * depth)
 
     def test_a_click_in_the_tree_selects(self):
         top = root()
@@ -187,7 +187,7 @@ class Panels(InBlender):
                                               ("HuntCrossley", "Bristle", True), ("HuntCrossley", "Bristle", False)):
             surface.normal, surface.friction, surface.use_restitution = normal, friction, restitution
             for kind in ("Sphere", "Ellipsoid", "Ray", "TriangleMesh"):
-                obj = mark(new(kind, mesh(CUBE), top), kind=kind, file="a.obj")
+                obj = mark(new(kind, mesh(CUBE), top), kind=kind, file="a.obj", reach=0.01, thickness=0.01)
                 activate(obj)
                 for holder, name in self.drawn():
                     definition = holder.bl_rna.properties[name]
@@ -221,7 +221,7 @@ class Recorder:
     """A layout that draws nothing, and fails where Blender's would complain."""
 
     def __init__(self, above=None):
-        self.icons = above.icons if above else []
+        self.separators = above.separators if above else []
         self.shown = above.shown if above else []  # (property group, name)
 
     def prop(self, data, name, **_options):
@@ -246,8 +246,11 @@ class Recorder:
         module, function = name.split(".")
         assert enum in getattr(getattr(bpy.ops, module), function).get_rna_type().properties, (name, enum)
 
-    def label(self, icon="", **_options):
-        self.icons.append(icon)
+    def label(self, **_options):
+        pass
+
+    def separator(self, factor=1.0):
+        self.separators.append(factor)
 
     def _inner(self, **_options):
         return Recorder(self)

@@ -151,6 +151,15 @@ class Tree(InBlender):
         self.assertEqual((door.name, door.movable, door.bound), ("door", True, "Obb"))
         np.testing.assert_allclose(door.position, (5.3, 0, 0), atol=1e-6)
 
+    def test_new_roots_and_groups_are_shown_as_large_as_suits_what_they_hold(self):
+        small = new("small", mesh(CUBE), scale=(0.01, 0.02, 0.01))
+        activate(small)
+        bpy.ops.pong.root_new()
+        self.assertAlmostEqual(bpy.context.object.empty_display_size, 0.02, places=6)
+        activate(small)
+        bpy.ops.pong.group_new()
+        self.assertAlmostEqual(bpy.context.object.empty_display_size, 0.02, places=6)
+
     def test_grouping_at_the_parents_origin_moves_nothing_by_a_bit(self):
         top = root()
         tip = mark(new("tip", parent=top, location=(0.1, 0.2, 0.3), rotation=(0.1, 0.2, 0.3)), kind="Point")

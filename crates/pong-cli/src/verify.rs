@@ -1,6 +1,7 @@
-//! `pong verify`: the cases with known answers and the extremes, and their reports.
+//! `pong verify`: the cases with known answers and the extremes, and their reports; the invariances.
 
 use crate::terminal::{print, tell};
+use pong_invariance::{Order, Survey, invariances};
 use pong_verify::extremes::{self, Extreme, Length};
 use pong_verify::{Case, cases, report};
 use std::path::PathBuf;
@@ -14,10 +15,25 @@ pub(crate) struct Arguments {
     /// Instead of the cases the extremes of the range, each with its margin.
     #[arg(long)]
     extremes: bool,
+    /// Instead of the cases random scenes against their turned, moved, cut, reordered twins, which must answer alike.
+    #[arg(long, conflicts_with_all = ["extremes", "output"])]
+    invariances: bool,
+    /// With --invariances: how many scenes.
+    #[arg(long, requires = "invariances", default_value_t = 20_000)]
+    scenes: u64,
+    /// With --invariances: only scenes of this family (plate, valley, junction, …; a wrong name lists them).
+    #[arg(long, requires = "invariances")]
+    family: Option<String>,
+    /// With --invariances: which scenes; the same seed makes the same.
+    #[arg(long, requires = "invariances", default_value_t = 1)]
+    seed: u64,
+    /// With --invariances: the first scene of the seed, to see one again.
+    #[arg(long, requires = "invariances", default_value_t = 0)]
+    first: u64,
     /// With --extremes: also the soaks, which take minutes.
     #[arg(long, requires = "extremes")]
     long: bool,
-    /// Only these cases, by id (V3, or E11 with --extremes); may be given several times.
+    /// Only these cases, by id (V3, or E11 with --extremes, or `cut` with --invariances); may be given several times.
     #[arg(long, value_name = "ID", conflicts_with = "output")]
     only: Vec<String>,
     /// Also writes the report (docs/verification.md, docs/extremes.md) to this file.
@@ -31,6 +47,9 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if arguments.extremes {
         return main_of_extremes(arguments);
+    }
+    if arguments.invariances {
+        return main_of_invariances(arguments);
     }
     let chosen = match choose(&arguments.only) {
         Ok(chosen) => chosen,
@@ -91,6 +110,43 @@ fn main_of_extremes(arguments: &Arguments) -> ExitCode {
     let failed = findings.iter().filter(|finding| !finding.passes()).count();
     print(&format!("\n{} of {} extremes hold\n", findings.len() - failed, findings.len()));
     finish(arguments, &extremes::markdown(&findings), failed)
+}
+
+fn main_of_invariances(arguments: &Arguments) -> ExitCode {
+    if let Some(unknown) = arguments.only.iter().find(|name| invariances::find(name).is_none()) {
+        tell(format!("there is no invariance `{unknown}`; `pong verify --invariances --list` names them"));
+        return ExitCode::from(2);
+    }
+    if arguments.list {
+        let lines = invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says));
+        print(&lines.collect::<String>());
+        return ExitCode::SUCCESS;
+    }
+    let families = || pong_invariance::make::touched::FAMILIES.iter().map(|(name, _)| *name);
+    if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
+        let known: Vec<_> = families().collect();
+        tell(format!("there is no family of scenes `{unknown}`; there are {}", known.join(", ")));
+        return ExitCode::from(2);
+    }
+    let order = Order {
+        family: arguments.family.clone(),
+        seed: arguments.seed,
+        first: arguments.first,
+        scenes: arguments.scenes,
+        only: arguments.only.clone(),
+        threads: std::thread::available_parallelism().map_or(1, usize::from),
+        kept: 1,
+    };
+    let told = AtomicUsize::new(0);
+    let survey = Survey::run(&order, &|done| {
+        let tenth = (10 * done / order.scenes) as usize;
+        if told.fetch_max(tenth, Ordering::Relaxed) < tenth {
+            tell(format!("[{done}/{}]", order.scenes));
+        }
+    });
+    survey.found.iter().for_each(|found| print(&found.text()));
+    print(&survey.text());
+    if survey.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }
 
 /// The cases of these ids, all if there are none, or the first id that no case has.

@@ -99,6 +99,22 @@ impl Polyhedron {
         }
         inside
     }
+
+    /// Which of eight points are not [outside](crate::primitive::Containment::Outside) of this piece.
+    #[inline(always)]
+    pub fn lanes_inside_or_at_wall_in<S: Simd>(&self, simd: S, points: &Lanes) -> LaneBits {
+        let (zero, slack) = (simd.splat(0.0), simd.splat(self.planes().wall_slack));
+        let points = Loaded::new(simd, points);
+        let mut inside = LaneBits::MAX;
+        for face in &self.faces {
+            let limit = if face.active { zero } else { slack };
+            inside &= simd.bits(simd.below(points.heights_above(face), limit));
+            if inside == 0 {
+                break;
+            }
+        }
+        inside
+    }
 }
 
 /// Eight points in registers.

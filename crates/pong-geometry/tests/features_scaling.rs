@@ -11,9 +11,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::line_segment_plane::line_segment_plane;
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
 use pong_geometry::interference::point_plane::point_plane;
-use pong_geometry::interference::point_polyhedron::{
-    follow, point_below_face, pushing_face, shallowest_face,
-};
+use pong_geometry::interference::point_polyhedron::{follow, point_below_face, shallowest_face};
 use pong_geometry::interference::point_sphere::point_sphere;
 use pong_geometry::interference::ray_plane::{ray_contact, ray_plane};
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
@@ -111,7 +109,7 @@ impl Scene {
                 all.push(least.and_then(|face| point_below_face(&p, solid, face)));
                 let walked = (0..solid.faces.len())
                     .find(|&f| inside && solid.faces[f].active)
-                    .map(|f| pushing_face(&p, solid, follow(&p, solid, f)));
+                    .map(|f| follow(&p, solid, f).pushes);
                 all.push(walked.and_then(|face| point_below_face(&p, solid, face)));
                 let ball = Sphere { center: p, ..self.sphere };
                 all.push(match least {

@@ -10,7 +10,7 @@ use common::{Random, cuboid, cuboid_corners, hull_with_walls, moved, stretched_h
 use oracle_support::{Worst, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
-    entry_of_line, face_most_along, follow, point_below_face, pushing_face, shallowest_face,
+    entry_of_line, face_most_along, follow, point_below_face, shallowest_face,
 };
 use pong_geometry::primitive::Polyhedron;
 
@@ -103,24 +103,37 @@ fn lines_enter_where_stepping_finds_them() {
     assert!(missed > 300 && border < 40);
 }
 
-/// 2.4 written down again: while it lowers the depth, go to the active neighbour with n·n' > 0.3 of least depth.
+/// Whether two faces share an edge.
+fn adjacent(shape: &Polyhedron, f: usize, g: usize) -> bool {
+    let (a, b) = (polygon(shape, f), polygon(shape, g));
+    f != g && a.iter().filter(|corner| b.contains(corner)).count() == 2
+}
+
+/// The least depth over a face and its active neighbours, and the faces that have it.
+fn pushed(p: &Vec3, shape: &Polyhedron, face: usize) -> (f64, Vec<usize>) {
+    let depth = |f: usize| shape.faces[f].offset - shape.faces[f].normal.dot(p);
+    let candidates =
+        (0..shape.faces.len()).filter(|&g| g == face || (adjacent(shape, face, g) && shape.faces[g].active));
+    let candidates: Vec<usize> = candidates.collect();
+    let least = candidates.iter().map(|&g| depth(g)).fold(f64::INFINITY, f64::min);
+    (least, candidates.into_iter().filter(|&g| depth(g) == least).collect())
+}
+
+/// 2.4 written down again: while it lowers the depth, go to the active neighbour with n·n' > 0.3 of least depth, unless
+/// what pushes there is deeper.
 fn walked(p: &Vec3, shape: &Polyhedron, remembered: usize) -> usize {
-    let adjacent = |f: usize, g: usize| {
-        let (a, b) = (polygon(shape, f), polygon(shape, g));
-        f != g && a.iter().filter(|corner| b.contains(corner)).count() == 2
-    };
     let depth = |f: usize| shape.faces[f].offset - shape.faces[f].normal.dot(p);
     let mut here = remembered;
     loop {
         let mut candidates: Vec<usize> = (0..shape.faces.len())
-            .filter(|&g| adjacent(here, g) && shape.faces[g].active)
+            .filter(|&g| adjacent(shape, here, g) && shape.faces[g].active)
             .filter(|&g| shape.faces[g].normal.dot(&shape.faces[here].normal) > 0.3)
             .filter(|&g| depth(g) < depth(here))
             .collect();
         candidates.sort_by(|&a, &b| depth(a).total_cmp(&depth(b)).then(a.cmp(&b)));
         match candidates.first() {
-            Some(&next) => here = next,
-            None => return here,
+            Some(&next) if pushed(p, shape, next).0 <= pushed(p, shape, here).0 => here = next,
+            _ => return here,
         }
     }
 }
@@ -139,20 +152,12 @@ fn memory_walks_as_defined() {
         }
         walks += 1;
         let reached = follow(&p, shape, start);
-        assert_eq!(reached, walked(&p, shape, start));
-        turns += usize::from(reached != start);
-        let corners = polygon(shape, reached);
-        let best = (0..shape.faces.len())
-            .filter(|&g| {
-                let shared = polygon(shape, g).iter().filter(|c| corners.contains(c)).count();
-                g == reached || (shared == 2 && shape.faces[g].active)
-            })
-            .min_by(|&a, &b| shape.height(b, &p).total_cmp(&shape.height(a, &p)))
-            .expect("itself");
-        let pushes = pushing_face(&p, shape, reached);
-        assert_eq!(shape.height(pushes, &p), shape.height(best, &p));
-        let contact = point_below_face(&p, shape, pushes).expect("inside");
-        assert_eq!((contact.normal, contact.feature.index()), (shape.faces[pushes].normal, pushes));
+        assert_eq!(reached.face, walked(&p, shape, start));
+        turns += usize::from(reached.face != start);
+        let (least, faces) = pushed(&p, shape, reached.face);
+        assert_eq!((reached.depth, reached.pushes), (least, faces[0]));
+        let contact = point_below_face(&p, shape, reached.pushes).expect("inside");
+        assert_eq!((contact.normal, contact.feature.index()), (shape.faces[faces[0]].normal, faces[0]));
         // Depth over the walk is never less than the plain least depth.
         let least = shallowest_face(&p, shape).expect("active");
         assert!(contact.depth >= -shape.height(least, &p));
@@ -165,6 +170,39 @@ fn memory_walks_as_defined() {
     assert!(turns > 1000);
 }
 
+/// Along any path inside a hull the depth grows by no more than the path is long: a step of the walk never raises it.
+#[test]
+fn along_a_path_the_depth_never_steps_up() {
+    let mut random = Random(404);
+    let (mut frames, mut turned, mut stayed) = (0, 0, 0);
+    while frames < 200_000 {
+        let corners: Vec<Vec3> = (0..8).map(|_| random.direction() * random.between(0.5, 1.0)).collect();
+        let hull = common::hull(&corners);
+        let step = random.between(1e-4, 0.05);
+        let mut p = corners.iter().sum::<Vec3>() / 8.0;
+        let mut heading = random.direction();
+        let mut memory = (random.bits() % hull.faces.len() as u64) as usize;
+        let mut depth = follow(&p, &hull, memory).depth;
+        for _ in 0..200 {
+            heading = (heading + random.direction() * 0.3).normalize();
+            let next = p + heading * step;
+            if !hull.contains(&next) {
+                heading = -heading;
+                continue;
+            }
+            p = next;
+            let reached = follow(&p, &hull, memory);
+            assert!(reached.depth <= depth + step + 1e-14, "{corners:?} {p:?}: {depth} {reached:?}");
+            turned += usize::from(reached.face != memory);
+            stayed += usize::from(reached.face != shallowest_face(&p, &hull).expect("active"));
+            (memory, depth) = (reached.face, reached.depth);
+            frames += 1;
+        }
+    }
+    println!("{frames} frames, memory moved in {turned}, held back from the least deep face in {stayed}");
+    assert!(turned > 1000 && stayed > 1000);
+}
+
 /// Through a thin plate: remembered from above, a point past the middle is still pushed up.
 #[test]
 fn memory_never_goes_round_a_sharp_rim() {
@@ -175,14 +213,13 @@ fn memory_never_goes_round_a_sharp_rim() {
     for _ in 0..1000 {
         let p =
             Vec3::new(random.between(-0.9, 0.9), random.between(-0.9, 0.9), random.between(-0.0099, 0.0099));
-        assert_eq!(follow(&p, &plate, top), top);
-        assert_eq!(pushing_face(&p, &plate, top), top);
-        assert_eq!(pushing_face(&p, &plate, follow(&p, &plate, bottom)), bottom);
+        let (above, below) = (follow(&p, &plate, top), follow(&p, &plate, bottom));
+        assert_eq!((above.face, above.pushes, below.pushes), (top, top, bottom));
     }
     // Near the rim the side may push, the far face may not: memory stays where it is.
     let p = Vec3::new(0.999, 0.0, -0.009);
-    assert_eq!(follow(&p, &plate, top), top);
-    assert_eq!(pushing_face(&p, &plate, top), face(Vec3::x()));
+    let reached = follow(&p, &plate, top);
+    assert_eq!((reached.face, reached.pushes), (top, face(Vec3::x())));
 }
 
 /// Round a twelve-sided prism memory follows, however many facets the point went on in one step.
@@ -198,7 +235,7 @@ fn memory_follows_a_faceted_curve() {
                 continue;
             }
             let p = middle + shape.faces[goal].normal * 0.9;
-            assert_eq!(follow(&p, &shape, start), goal);
+            assert_eq!(follow(&p, &shape, start).face, goal);
         }
     }
 }
@@ -209,7 +246,7 @@ fn degenerate_lines_and_ties() {
     let middle = Vec3::zeros();
     assert_eq!(shallowest_face(&middle, &shape), Some(0), "a tie goes to the lowest face");
     for face in 0..6 {
-        assert_eq!(follow(&middle, &shape, face), face, "no walk without gain");
+        assert_eq!(follow(&middle, &shape, face).face, face, "no walk without gain");
     }
     // Through an edge and a vertex: one of the faces there, where the line meets it.
     for from in [Vec3::new(2.0, 2.0, 0.0), Vec3::repeat(2.0), Vec3::new(1.0, 2.0, 0.0), Vec3::repeat(1.0)] {
@@ -239,7 +276,7 @@ fn ties_go_to_the_lower_face() {
         let tied: Vec<usize> = (0..6).filter(|&f| cube.faces[f].height(&p) == -0.5).collect();
         assert_eq!(tied.len(), 2);
         for &reached in &tied {
-            assert_eq!(pushing_face(&p, &cube, reached), tied[0]);
+            assert_eq!(follow(&p, &cube, reached).pushes, tied[0]);
         }
     }
     // A tall prism of eight sides around z, seen from its middle: from the top, and from the bottom, both ways to the side
@@ -259,7 +296,7 @@ fn ties_go_to_the_lower_face() {
             assert_eq!(heights[0], heights[1]);
             let side = if slopes[0] < slopes[1] { 1.0 } else { -1.0 };
             let reached = follow(&Vec3::zeros(), &prism, face(at(0.0, start, 0.0)));
-            assert_eq!(reached, face(at(side, 0.0, 0.0)));
+            assert_eq!(reached.face, face(at(side, 0.0, 0.0)));
         }
     }
 }

@@ -85,6 +85,10 @@ pub(crate) enum Stance {
     Behind,
     /// Counts only where nothing else is as deep.
     Spare,
+    /// A point in a piece, at an inner wall: counts unless the point is in a piece of lower index as well.
+    AtWall,
+    /// A point at an inner wall of a piece, but beyond: counts only where rounding leaves the point in no piece at all.
+    BeyondWall,
     /// Turned out not to count.
     Dropped,
 }

@@ -6,7 +6,7 @@ use crate::sharing::{Sharer, share_within};
 use crate::state::{NO_FACE, Role};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
-use pong_geometry::primitive::{PrimitiveKind, TriangleSet};
+use pong_geometry::primitive::{PolyhedronFace, PrimitiveKind, TriangleSet};
 
 /// Relative: a spare contact counts if no other is deeper by more than rounding.
 const SPARE_DEPTH_SLACK: f64 = 1e-9;
@@ -22,14 +22,20 @@ pub(super) fn settle(
     sharers: &mut List<'_, Sharer>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
-    if found.len() == 1 {
-        // A lone contact has nothing to share with: it keeps the weight 1.
+    if let [alone] = &mut found[..] {
+        // It has nothing to share with and keeps the weight 1; nor is there a piece behind the wall.
+        if alone.stance == Stance::BeyondWall {
+            alone.stance = Stance::Dropped;
+        }
         return Ok(());
     }
     let mut outcome = Ok(());
     found.sort_unstable_by_key(Found::order);
     keep_first_ray_hits(found);
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
+        if group.iter().any(|contact| matches!(contact.stance, Stance::AtWall | Stance::BeyondWall)) {
+            settle_at_walls(group, context);
+        }
         if group[0].shares && group.len() > 1 {
             outcome = outcome.and(settle_surface(group, &context.body_b.triangles, sharers, scratch));
         }
@@ -56,6 +62,48 @@ fn keep_first_ray_hits(found: &mut [Found]) {
             first = Some(if nearer { other } else { before });
         }
     }
+}
+
+/// A point (or a sphere's centre) at inner walls of a body is in one of its pieces, whatever rounding says: where several
+/// walls meet, each piece works out by itself on which side of its own walls the point is.
+///
+/// Of the pieces that it is in, the first counts. If it is in none, it is where rounding opens a gap: the first piece
+/// counts that has all its neighbours there. Without the neighbours it is not a gap but the outside, beside a convex edge
+/// in which a wall ends.
+fn settle_at_walls(group: &mut [Found], context: &PairContext<'_>) {
+    let in_piece = |contact: &Found| contact.entry_face != NO_FACE && contact.stance != Stance::BeyondWall;
+    let first = match group.iter().position(in_piece) {
+        Some(first) => Some(first),
+        None => (0..group.len()).find(|&index| has_neighbors_at_walls(group, index, context)),
+    };
+    for (index, contact) in group.iter_mut().enumerate() {
+        let is_at_wall = matches!(contact.stance, Stance::AtWall | Stance::BeyondWall);
+        if is_at_wall && first != Some(index) {
+            contact.stance = Stance::Dropped;
+        }
+    }
+}
+
+/// Whether at each wall of a piece at which the point is there is one of the other pieces that it is in or at.
+fn has_neighbors_at_walls(group: &[Found], index: usize, context: &PairContext<'_>) -> bool {
+    let found = &group[index];
+    if found.stance != Stance::BeyondWall {
+        return false;
+    }
+    let (body_a, element) = (context.body_a, found.element_a as usize);
+    let local = match found.shares {
+        true => body_a.spheres[element].center,
+        false => body_a.points[element].position,
+    };
+    let point = context.motion.x_ba.point(&local);
+    let polyhedra = &context.body_b.polyhedra;
+    // Twins have the same plane to the bit.
+    let has_twin = |wall: &PolyhedronFace| {
+        let is_twin = |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
+        let pieces = group.iter().filter(|other| other.stance == Stance::BeyondWall);
+        pieces.into_iter().any(|other| polyhedra[other.element_b as usize].faces.iter().any(is_twin))
+    };
+    polyhedra[found.element_b as usize].walls_at(&point).all(has_twin)
 }
 
 /// Contacts of one sphere or ellipsoid with one surface.

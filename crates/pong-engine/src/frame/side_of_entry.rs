@@ -4,7 +4,7 @@
 use crate::state::{ContactKey, ContactMemory, NO_FACE, Role};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
-    entry_of_line, face_most_along, follow, pushing_face, shallowest_face,
+    entry_of_line, face_most_along, follow, shallowest_face,
 };
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact, TriangleView};
@@ -48,7 +48,7 @@ impl PolyhedronEntry<'_> {
             None => self.entered_by()?,
         };
         let reached = follow(&self.point, polyhedron, start);
-        Some(EntryFace { reached, pushes: pushing_face(&self.point, polyhedron, reached) })
+        Some(EntryFace { reached: reached.face, pushes: reached.pushes })
     }
 
     fn polyhedron(&self) -> &Polyhedron {

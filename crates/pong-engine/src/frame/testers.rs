@@ -25,7 +25,7 @@ use pong_geometry::interference::{
     sphere_triangle_pairs::SphereTrianglePairs,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
-use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Ray, Sphere};
+use pong_geometry::primitive::{Containment, Ellipsoid, LineSegment, Point, Ray, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::lanes;
 use pong_model::{Body, Item, PrimitiveInfo};
@@ -149,7 +149,7 @@ impl<'a> Target<'a> {
         }
         let polyhedron = &self.context.body_b.polyhedra[self.item_b.element as usize];
         match chunk.kind {
-            PrimitiveKind::Point => near & polyhedron.lanes_contain_in(simd, &chunk.centers),
+            PrimitiveKind::Point => near & polyhedron.lanes_inside_or_at_wall_in(simd, &chunk.centers),
             PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, &chunk.centers, chunk.radii),
             _ => near,
         }
@@ -192,6 +192,15 @@ pub(super) fn test_waiting(
 #[inline]
 fn thickness_for(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
     context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
+}
+
+/// How a point in a piece of a body stands among those of the same surface.
+fn stance_of(containment: Containment) -> Stance {
+    match containment {
+        Containment::AtWall => Stance::AtWall,
+        Containment::BeyondWall => Stance::BeyondWall,
+        Containment::Inside | Containment::Outside => Stance::Plain,
+    }
 }
 
 /// One element as A against one element as B.
@@ -239,12 +248,21 @@ impl<'a> Side<'a> {
                 self.whole(point_ellipsoid(&point.position, &body.ellipsoids[b]), found);
             }
             _ => {
-                // Only points inside get here.
+                // Only points inside, or at an inner wall, get here.
                 let polyhedron = &body.polyhedra[b];
+                let stance = match polyhedron.planes().all_active {
+                    true => Stance::Plain,
+                    false => stance_of(polyhedron.containment(&point.position)),
+                };
                 let local = self.body_a().points[self.item_a.element as usize].position;
                 let Some(face) = self.entry_face(&local, &point.position) else { return };
                 let contact = point_below_face(&point.position, polyhedron, face.pushes);
-                self.with_entry_face(contact, face.reached, found);
+                if let Some(contact) = contact {
+                    self.emit(&contact, found, |out| {
+                        out.entry_face = face.reached as u32;
+                        out.stance = stance;
+                    });
+                }
             }
         }
     }
@@ -304,8 +322,11 @@ impl<'a> Side<'a> {
 
     fn test_sphere_polyhedron(&self, sphere: &Sphere, found: &mut Findings<'_>) {
         let polyhedron = &self.body_b().polyhedra[self.item_b.element as usize];
-        if !polyhedron.contains(&sphere.center) {
+        let containment = polyhedron.containment(&sphere.center);
+        if matches!(containment, Containment::Outside | Containment::BeyondWall) {
             self.sharing(sphere_outside_polyhedron(sphere, polyhedron), found);
+        }
+        if containment == Containment::Outside {
             return;
         }
         let local = self.body_a().spheres[self.item_a.element as usize].center;
@@ -313,6 +334,7 @@ impl<'a> Side<'a> {
         let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
         self.emit(&contact, found, |out| {
             out.shares = true;
+            out.stance = stance_of(containment);
             out.entry_face = face.reached as u32;
         });
     }
@@ -403,12 +425,6 @@ impl<'a> Side<'a> {
     fn sharing(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |out| out.shares = true);
-        }
-    }
-
-    fn with_entry_face(&self, contact: Option<Interference>, face: usize, found: &mut Findings<'_>) {
-        if let Some(contact) = contact {
-            self.emit(&contact, found, |out| out.entry_face = face as u32);
         }
     }
 

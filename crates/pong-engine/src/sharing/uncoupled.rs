@@ -6,15 +6,20 @@
 //! Problem", theorem 4.4.9). The deepest contact enters first. There need not be a potential, nor continuity, nor a
 //! unique solution; the pivots decide, always the same way.
 //!
-//! The tableau of n contacts has n·(2n + 2) numbers. They come from an arena that was sized beforehand.
+//! Where two normals agree but for an angle θ, as those of a plate in pieces do, the method divides by 1 − g² = θ². The
+//! tableau is therefore kept in twice the digits ([`Twofold`]): of 1e-15, the rounding of the normals, θ² is still a number.
+//! It has n·(n + 2) of them for n contacts, the columns of the variables that are zero: those of the others are unit vectors.
+//! They come from an arena that was sized beforehand.
 
-use super::{Sharer, coupling};
+use super::twofold::Twofold;
+use super::{Coupling, Sharer, deepest_of};
 use pong_arena::{Arena, Demand, Full};
 
 /// What the tableau of so many contacts takes.
 pub(super) fn tableau(contacts: usize) -> Demand {
-    let columns = contacts.saturating_mul(2).saturating_add(2);
-    Demand::default().and::<u32>(contacts).and::<f64>(contacts.saturating_mul(columns))
+    let columns = contacts.saturating_add(2);
+    let cells = contacts.saturating_mul(columns);
+    Demand::default().and::<u32>(contacts).and::<u32>(contacts.saturating_add(1)).and::<Twofold>(cells)
 }
 
 /// Fills in the λ of every contact.
@@ -22,52 +27,59 @@ pub(super) fn tableau(contacts: usize) -> Demand {
 /// # Errors
 /// [`Full`] if the tableau does not fit into the scratch memory: nothing is filled in.
 pub(super) fn share(contacts: &mut [Sharer], scratch: &Arena) -> Result<(), Full> {
-    let mut tableau = Tableau::new(contacts, scratch)?;
+    // In units of the largest depth no product leaves the range of numbers.
+    let unit = contacts[deepest_of(contacts)].depth;
+    let mut tableau = Tableau::new(contacts, unit, scratch)?;
     tableau.solve();
     for (i, contact) in contacts.iter_mut().enumerate() {
-        contact.lambda = tableau.lambda(i);
+        contact.lambda = tableau.lambda(i) * unit;
     }
     Ok(())
 }
 
-/// Lemke's tableau: w − G·λ − 1·z₀ = −δ. Columns: w (n), λ (n), z₀, right side.
+/// Lemke's tableau of w − G·λ − 1·z₀ = −δ: each row is solved for one variable, the others are zero. Variables are numbered
+/// w (n), λ (n), z₀. Columns: those of the variables that are zero, and the right side.
 struct Tableau<'a> {
     n: usize,
     /// Row after row.
-    cells: &'a mut [f64],
+    cells: &'a mut [Twofold],
     /// Which variable each row solves for.
     basis: &'a mut [u32],
+    /// Which variable each column belongs to.
+    zero: &'a mut [u32],
 }
 
 impl<'a> Tableau<'a> {
-    fn new(contacts: &[Sharer], scratch: &'a Arena) -> Result<Self, Full> {
+    fn new(contacts: &[Sharer], unit: f64, scratch: &'a Arena) -> Result<Self, Full> {
         let n = contacts.len();
-        // Both are asked for before either may be refused: the arena's peak then tells the whole need.
-        let (basis, cells) = (scratch.slice(n, 0), scratch.slice(n * (2 * n + 2), 0.0));
-        let mut tableau = Self { n, cells: cells?, basis: basis? };
+        // All are asked for before any may be refused: the arena's peak then tells the whole need.
+        let (basis, zero) = (scratch.slice(n, 0), scratch.slice(n + 1, 0));
+        let cells = scratch.slice(n * (n + 2), Twofold::default());
+        let mut tableau = Self { n, cells: cells?, basis: basis?, zero: zero? };
+        tableau.zero[n] = 2 * n as u32;
         for i in 0..n {
             tableau.basis[i] = i as u32;
+            tableau.zero[i] = (n + i) as u32;
             let row = tableau.row_mut(i);
-            row[i] = 1.0;
             for j in 0..n {
-                row[n + j] = if i == j { -1.0 } else { -coupling(&contacts[i], &contacts[j]) };
+                row[j] = if i == j { Twofold::from(-1.0) } else { -cosine(&contacts[i], &contacts[j]) };
             }
-            row[2 * n] = -1.0;
-            row[2 * n + 1] = -contacts[i].depth;
+            row[n] = Twofold::from(-1.0);
+            row[n + 1] = Twofold::from(-contacts[i].depth / unit);
         }
         Ok(tableau)
     }
 
     fn columns(&self) -> usize {
-        2 * self.n + 2
+        self.n + 2
     }
 
-    fn row(&self, row: usize) -> &[f64] {
+    fn row(&self, row: usize) -> &[Twofold] {
         let columns = self.columns();
         &self.cells[row * columns..(row + 1) * columns]
     }
 
-    fn row_mut(&mut self, row: usize) -> &mut [f64] {
+    fn row_mut(&mut self, row: usize) -> &mut [Twofold] {
         let columns = self.columns();
         &mut self.cells[row * columns..(row + 1) * columns]
     }
@@ -75,7 +87,7 @@ impl<'a> Tableau<'a> {
     fn solve(&mut self) {
         let n = self.n as u32;
         let artificial = 2 * n;
-        let right = 2 * self.n + 1;
+        let right = self.n + 1;
         // z₀ enters where the right side is most negative: at the deepest contact.
         let mut row = 0;
         for i in 1..self.n {
@@ -83,30 +95,33 @@ impl<'a> Tableau<'a> {
                 row = i;
             }
         }
-        let mut entering = artificial;
+        let mut column = self.n;
         // The bound only guards against cycling among contacts that differ by rounding.
         for _ in 0..64 * (self.n + 1) {
             let leaving = self.basis[row];
-            self.pivot(row, entering);
+            self.pivot(row, column);
             if leaving == artificial {
                 return;
             }
-            entering = if leaving < n { leaving + n } else { leaving - n };
-            match self.ratio_test(entering as usize) {
+            let entering = if leaving < n { leaving + n } else { leaving - n };
+            let Some(next) = self.zero.iter().position(|&variable| variable == entering) else { return };
+            column = next;
+            match self.ratio_test(column) {
                 Some(next) => row = next,
                 None => return,
             }
         }
     }
 
-    /// The row that limits the entering variable; z₀ leaves as soon as it may, other ties go to the lower row.
+    /// The row that limits the entering variable, given by its column; z₀ leaves as soon as it may, other ties go to the lower row.
     fn ratio_test(&self, entering: usize) -> Option<usize> {
-        const PIVOT_MIN: f64 = 1e-12;
-        let right = 2 * self.n + 1;
+        /// The square of the angle by which rounding may turn equal normals.
+        const PIVOT_MIN: f64 = 1e-29;
+        let right = self.n + 1;
         let artificial = 2 * self.n as u32;
         let rows = self.cells.chunks_exact(self.columns()).enumerate();
-        let mut best: Option<(usize, f64)> = None;
-        for (i, row) in rows.filter(|(_, row)| row[entering] > PIVOT_MIN) {
+        let mut best: Option<(usize, Twofold)> = None;
+        for (i, row) in rows.filter(|(_, row)| row[entering].value() > PIVOT_MIN) {
             let ratio = row[right] / row[entering];
             let wins = match best {
                 None => true,
@@ -119,23 +134,30 @@ impl<'a> Tableau<'a> {
         best.map(|(row, _)| row)
     }
 
-    fn pivot(&mut self, row: usize, entering: u32) {
+    /// Solves a row for the variable of a column; the one that it was solved for becomes zero.
+    fn pivot(&mut self, row: usize, column: usize) {
         let columns = self.columns();
-        let column = entering as usize;
         let (before, rest) = self.cells.split_at_mut(row * columns);
         let (pivot_row, after) = rest.split_at_mut(columns);
-        let factor = 1.0 / pivot_row[column];
-        pivot_row.iter_mut().for_each(|x| *x *= factor);
+        let factor = Twofold::from(1.0) / pivot_row[column];
+        pivot_row[column] = Twofold::from(1.0);
+        pivot_row.iter_mut().for_each(|x| *x = *x * factor);
         for other in before.chunks_exact_mut(columns).chain(after.chunks_exact_mut(columns)) {
-            let factor = other[column];
-            other.iter_mut().zip(&*pivot_row).for_each(|(x, p)| *x -= factor * p);
+            let factor = std::mem::take(&mut other[column]);
+            other.iter_mut().zip(&*pivot_row).for_each(|(x, p)| *x = *x - factor * *p);
         }
-        self.basis[row] = entering;
+        std::mem::swap(&mut self.basis[row], &mut self.zero[column]);
     }
 
     fn lambda(&self, contact: usize) -> f64 {
         let variable = (self.n + contact) as u32;
         let row = self.basis.iter().position(|&solved| solved == variable);
-        row.map_or(0.0, |row| self.row(row)[2 * self.n + 1].max(0.0))
+        row.map_or(0.0, |row| self.row(row)[self.n + 1].value().max(0.0))
     }
+}
+
+/// How much two contacts couple, in twice the digits: 1 less what it lacks to 1.
+fn cosine(a: &Sharer, b: &Sharer) -> Twofold {
+    let coupling = Coupling::new(a, b);
+    if coupling.is_near { Twofold::sum(1.0, -coupling.gap) } else { Twofold::from(coupling.cosine) }
 }

@@ -98,47 +98,66 @@ pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<
     entry.filter(|entry| entry.at < leave)
 }
 
-/// From a remembered face, the face that memory reaches: it walks to the neighbour of least depth while that
-/// lowers the depth, never round a sharp rim.
-pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> usize {
-    let mut reached = remembered;
-    let mut depth = -polyhedron.height(reached, p);
-    // Every step lowers the depth, so no face is met twice.
-    loop {
-        let mut next = None;
-        for rim in polyhedron.rim(reached) {
+/// What memory reaches from a remembered face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// The face that is remembered next.
+    pub face: usize,
+    /// The face that pushes: of the reached face and its active neighbours, the one of least depth.
+    pub pushes: usize,
+    /// Its depth, m.
+    pub depth: f64,
+}
+
+/// From a remembered face memory walks to the neighbour of least depth while that lowers the depth, never round a sharp
+/// rim, and never to where the face that pushes is deeper: a face reached may lack a sharp neighbour that pushed before.
+///
+/// So the depth that comes out is at most that of the face that pushes without the walk, and between two commits it grows
+/// by no more than the point has moved.
+pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
+    let mut here = Reached::at(p, polyhedron, remembered);
+    // Every step lowers the depth below the face reached, so no face is met twice.
+    while let Some(next) = less_deep_neighbor(p, polyhedron, here.face) {
+        let there = Reached::at(p, polyhedron, next);
+        if there.depth > here.depth {
+            break;
+        }
+        here = there;
+    }
+    here
+}
+
+impl Reached {
+    fn at(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Self {
+        let mut best = Self { face, pushes: face, depth: -polyhedron.height(face, p) };
+        for rim in polyhedron.rim(face) {
             let neighbor = rim.neighbor as usize;
-            let face = &polyhedron.faces[neighbor];
-            let followed = face.normal.dot(&polyhedron.faces[reached].normal) > FOLLOWED_COSINE_MIN;
-            let candidate = -face.height(p);
-            let better =
-                candidate < depth || (candidate == depth && next.is_some_and(|best| neighbor < best));
-            if face.active && followed && better {
-                depth = candidate;
-                next = Some(neighbor);
+            let depth = -polyhedron.height(neighbor, p);
+            let nearer = depth < best.depth || (depth == best.depth && neighbor < best.pushes);
+            if polyhedron.faces[neighbor].active && nearer {
+                (best.pushes, best.depth) = (neighbor, depth);
             }
         }
-        match next {
-            Some(face) => reached = face,
-            None => return reached,
-        }
+        best
     }
 }
 
-/// The face that pushes: of the reached face and its active neighbours, the one of least depth.
-pub fn pushing_face(p: &Vec3, polyhedron: &Polyhedron, reached: usize) -> usize {
-    let mut best = reached;
-    let mut depth = -polyhedron.height(reached, p);
-    for rim in polyhedron.rim(reached) {
+/// The active neighbour across a blunt edge below which the point is least deep, if that is less than below the face.
+fn less_deep_neighbor(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Option<usize> {
+    let mut next = None;
+    let mut depth = -polyhedron.height(face, p);
+    for rim in polyhedron.rim(face) {
         let neighbor = rim.neighbor as usize;
-        let candidate = -polyhedron.height(neighbor, p);
-        let nearer = candidate < depth || (candidate == depth && neighbor < best);
-        if polyhedron.faces[neighbor].active && nearer {
-            best = neighbor;
+        let other = &polyhedron.faces[neighbor];
+        let followed = other.normal.dot(&polyhedron.faces[face].normal) > FOLLOWED_COSINE_MIN;
+        let candidate = -other.height(p);
+        let better = candidate < depth || (candidate == depth && next.is_some_and(|best| neighbor < best));
+        if other.active && followed && better {
             depth = candidate;
+            next = Some(neighbor);
         }
     }
-    best
+    next
 }
 
 /// The contact of a point inside with the face that pushes; `None` if the point lies on it.

@@ -14,6 +14,8 @@ pub struct FacePlanes {
     pub all_active: bool,
     /// Whether also none is closed.
     pub simple: bool,
+    /// How near a point must be to an inner wall to be at it, m.
+    pub wall_slack: f64,
 }
 
 /// Eight planes. Lanes beyond the last face repeat it: what holds for all faces, or for any, is then the same, and of
@@ -52,7 +54,26 @@ impl PlaneBlock {
     }
 }
 
+impl PlaneBlock {
+    /// For which planes a point at these heights is below, or at an inner wall.
+    #[inline(always)]
+    pub fn held_or_at_wall<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
+        let below = simd.bits(simd.below(heights, simd.splat(0.0)));
+        below | simd.bits(simd.below(heights, simd.splat(wall_slack))) & !self.active
+    }
+
+    /// At which planes of inner walls a point at these heights is, or beyond.
+    #[inline(always)]
+    pub fn walls_reached<S: Simd>(&self, simd: S, heights: S::Eight, wall_slack: f64) -> LaneBits {
+        simd.bits(simd.below(simd.splat(-wall_slack), heights)) & !self.active
+    }
+}
+
 impl FacePlanes {
+    /// Relative to a piece's diameter: two opposite inner walls within this count as one plane, and a point within this
+    /// of a wall is at it. Where several walls meet, rounding leaves a point in none of the pieces, or in several.
+    pub const WALL_TOLERANCE: f64 = 1e-6;
+
     /// Most blocks that kernels keep in registers.
     pub const IN_REGISTERS: usize = 4;
 
@@ -71,12 +92,13 @@ impl FacePlanes {
         &self.blocks[index.min(self.blocks.len() - 1)]
     }
 
-    /// The planes of the faces.
-    pub fn new(faces: &[PolyhedronFace]) -> Self {
+    /// The planes of the faces of a piece of some diameter, m.
+    pub fn new(faces: &[PolyhedronFace], diameter: f64) -> Self {
         let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);
         let all_active = faces.iter().all(|face| face.active);
         let simple = all_active && !faces.iter().any(|face| face.closed);
-        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, all_active, simple }
+        let wall_slack = Self::WALL_TOLERANCE * diameter;
+        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, all_active, simple, wall_slack }
     }
 }
 

@@ -13,7 +13,8 @@ pub use curved::{Ellipsoid, Sphere};
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
 pub use polyhedron::{
-    EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
+    Containment, EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex,
+    RimEdge,
 };
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};

@@ -96,6 +96,19 @@ pub struct EdgePush {
     pub outwards: [Vec3; 2],
 }
 
+/// Whether a point is in one piece of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Containment {
+    /// Inside, away from every inner wall.
+    Inside,
+    /// Inside (the tie rule of inner walls included), at an inner wall.
+    AtWall,
+    /// Outside, but only because it is at an inner wall and beyond.
+    BeyondWall,
+    /// Outside.
+    Outside,
+}
+
 /// A vertex of one piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolyhedronVertex {
@@ -114,7 +127,7 @@ impl Polyhedron {
     /// The finished polyhedron: planes, edges and vertices are set out for the tests.
     pub fn new(parts: PolyhedronParts) -> Self {
         Self {
-            planes: FacePlanes::new(&parts.faces),
+            planes: FacePlanes::new(&parts.faces, parts.diameter),
             edge_blocks: EdgeBlocks::new(&parts),
             vertex_blocks: VertexBlock::all(&parts),
             parts,
@@ -170,6 +183,19 @@ impl Polyhedron {
         let planes = self.planes();
         run_at_level!(planes_hold(p: Vec3, planes: FacePlanes) -> bool)
     }
+
+    /// Where a point is. Beside the piece's inner walls that is not this piece's business alone: see [`Containment`].
+    #[inline]
+    pub fn containment(&self, p: &Vec3) -> Containment {
+        let planes = self.planes();
+        run_at_level!(containment_in(p: Vec3, planes: FacePlanes) -> Containment)
+    }
+
+    /// The planes of the inner walls at which a point is, or beyond.
+    pub fn walls_at<'a>(&'a self, p: &'a Vec3) -> impl Iterator<Item = &'a PolyhedronFace> {
+        let slack = self.planes.wall_slack;
+        self.faces.iter().filter(move |face| !face.active && face.height(p) > -slack)
+    }
 }
 
 impl std::ops::Deref for Polyhedron {
@@ -210,6 +236,28 @@ fn planes_hold<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> bool {
         #[inline(always)]
         |block| block.held(simd, block.heights(simd, &at)) == LaneBits::MAX,
     )
+}
+
+#[inline(always)]
+fn containment_in<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> Containment {
+    let at = Splat::new(simd, p);
+    let (mut held, mut near, mut walls) = (LaneBits::MAX, LaneBits::MAX, 0);
+    for block in &planes.blocks {
+        let heights = block.heights(simd, &at);
+        held &= block.held(simd, heights);
+        if !planes.all_active {
+            near &= block.held_or_at_wall(simd, heights, planes.wall_slack);
+            walls |= block.walls_reached(simd, heights, planes.wall_slack);
+        }
+        if held != LaneBits::MAX && (planes.all_active || near != LaneBits::MAX) {
+            return Containment::Outside;
+        }
+    }
+    match (held == LaneBits::MAX, walls) {
+        (true, 0) => Containment::Inside,
+        (true, _) => Containment::AtWall,
+        _ => Containment::BeyondWall,
+    }
 }
 
 impl PolyhedronFace {

@@ -1,0 +1,206 @@
+//! The shortest vector that clears contacts which all couple: from the nearest point of a hull.
+//!
+//! With q_i = n_i/δ_i the conditions n_i·t ≥ δ_i read q_i·t ≥ 1, and the shortest t is p/|p|² with p the point of the
+//! convex hull of the q_i that is nearest to the origin: p = Σ μ_i·q_i, μ ≥ 0, Σ μ = 1, and q_i·p ≥ |p|² for all i. Then
+//! λ_i = μ_i/(|p|²·δ_i), and Σ w_i = Σ μ_i·|t|²/δ_i²: on a flat plate, where every δ_i is |t|, the weights sum to one
+//! *whatever* the μ_i are. So rounding, which leaves the μ_i of equal normals undetermined, cannot show in the force.
+//!
+//! In three dimensions at most three points carry p. The deepest contact is the first; while some contact is violated, the
+//! points that carry p and the most violated one are solved by trying the at most seven subsets with the new one. |t| grows
+//! with every exchange, so none repeats.
+//!
+//! Everything is seen from the deepest contact and measured in its depth: of nearly parallel normals the differences are
+//! exact where products of the normals are not.
+
+use super::{Coupling, Sharer, deepest_of};
+use pong_geometry::Vec3;
+
+/// Relative to the largest depth: how far a contact may be violated. The depths themselves are not rounded better.
+const VIOLATION_MAX: f64 = 1e-15;
+/// By how much |p|² may rise in an exchange: a few roundings of 1.
+const GAIN_SLACK: f64 = 1e-15;
+
+/// The shortest vector that clears all contacts, and the at most three that decide it.
+#[derive(Clone, Copy)]
+pub(super) struct Shortest {
+    /// The contacts that decide it.
+    pub members: [usize; 3],
+    /// Their λ, m.
+    pub lambdas: [f64; 3],
+    /// How many they are.
+    pub count: usize,
+    /// The vector, m.
+    pub t: Vec3,
+    deepest: usize,
+    hull_point: HullPoint,
+}
+
+impl Shortest {
+    /// Of contacts which all couple; there is at least one.
+    pub fn new(contacts: &[Sharer]) -> Self {
+        let deepest = deepest_of(contacts);
+        let mut best = Self::at(contacts, deepest, HullPoint::of_one(Place::new(contacts, deepest, deepest)));
+        let allowed = VIOLATION_MAX * contacts[deepest].depth;
+        // The bound only guards against endless exchange of contacts that differ by rounding.
+        for _ in 0..8 * contacts.len() {
+            let Some(worst) = best.most_violated(contacts, allowed) else { break };
+            match best.exchange(contacts, worst, allowed) {
+                Some(better) if better.hull_point.gain() <= best.hull_point.gain() + GAIN_SLACK => {
+                    best = better
+                }
+                _ => break,
+            }
+        }
+        best
+    }
+
+    fn at(contacts: &[Sharer], deepest: usize, hull_point: HullPoint) -> Self {
+        let base = &contacts[deepest];
+        let scale = base.depth / (1.0 + hull_point.gain());
+        let lambda = |k: usize| {
+            let place = &hull_point.places[k];
+            scale * hull_point.parts[k] * (base.depth / contacts[place.contact].depth)
+        };
+        Self {
+            members: hull_point.places.map(|place| place.contact),
+            lambdas: std::array::from_fn(lambda),
+            count: hull_point.count,
+            t: (base.normal + hull_point.offset) * scale,
+            deepest,
+            hull_point,
+        }
+    }
+
+    /// By how much a contact is cleared more than it must be: n·t − δ, m; negative if it is violated.
+    pub fn slack(&self, contacts: &[Sharer], contact: usize) -> f64 {
+        let (base, contact) = (&contacts[self.deepest], &contacts[contact]);
+        let coupling = Coupling::new(base, contact);
+        if !coupling.is_near {
+            return contact.normal.dot(&self.t) - contact.depth;
+        }
+        // n·t − δ with n = n_d + m and t = (n_d + a)·s, where δ_d = s·(1 + 2·n_d·a + |a|²).
+        let HullPoint { offset, rise, .. } = &self.hull_point;
+        let scale = base.depth / (1.0 + self.hull_point.gain());
+        let turned = (contact.normal - base.normal).dot(offset) - coupling.gap;
+        (base.depth - contact.depth) + scale * (turned - (rise + offset.norm_squared()))
+    }
+
+    fn most_violated(&self, contacts: &[Sharer], allowed: f64) -> Option<usize> {
+        let (mut worst, mut least) = (None, -allowed);
+        for contact in 0..contacts.len() {
+            let slack = self.slack(contacts, contact);
+            if slack < least {
+                (worst, least) = (Some(contact), slack);
+            }
+        }
+        worst
+    }
+
+    /// The solution for the members and one more contact: of all subsets with that contact the first that clears them,
+    /// or the one that misses by least.
+    fn exchange(&self, contacts: &[Sharer], entering: usize, allowed: f64) -> Option<Self> {
+        let entering = Place::new(contacts, self.deepest, entering);
+        let mut best: Option<(f64, Self)> = None;
+        // Bit k of the subset stands for member k.
+        for subset in 0..1_usize << self.count {
+            if subset.count_ones() > 2 {
+                continue;
+            }
+            let mut places = [entering; 3];
+            let mut count = 1;
+            for (k, &place) in self.hull_point.places[..self.count].iter().enumerate() {
+                if subset >> k & 1 == 1 {
+                    places[count] = place;
+                    count += 1;
+                }
+            }
+            let Some(hull_point) = HullPoint::nearest(places, count) else { continue };
+            let candidate = Self::at(contacts, self.deepest, hull_point);
+            let pool = self.members[..self.count].iter().chain([&entering.contact]);
+            let missed = pool.map(|&i| -candidate.slack(contacts, i)).fold(0.0, f64::max);
+            if missed <= allowed {
+                return Some(candidate);
+            }
+            if best.as_ref().is_none_or(|(least, _)| missed < *least) {
+                best = Some((missed, candidate));
+            }
+        }
+        best.map(|(_, candidate)| candidate)
+    }
+}
+
+/// Where the q of a contact lies, seen from that of the deepest contact d.
+#[derive(Clone, Copy)]
+struct Place {
+    contact: usize,
+    /// a = (q − q_d)·δ_d.
+    offset: Vec3,
+    /// Its part along n_d: a·n_d = g·δ_d/δ − 1.
+    rise: f64,
+}
+
+impl Place {
+    fn new(contacts: &[Sharer], deepest: usize, contact: usize) -> Self {
+        let (base, own) = (&contacts[deepest], &contacts[contact]);
+        let turned = (own.normal - base.normal) * base.depth + base.normal * (base.depth - own.depth);
+        let rise = -Coupling::new(base, own).beyond(own.depth, base.depth) / own.depth;
+        Self { contact, offset: turned / own.depth, rise }
+    }
+}
+
+/// A point of the hull of at most three places, seen from the deepest contact's.
+#[derive(Clone, Copy)]
+struct HullPoint {
+    places: [Place; 3],
+    /// μ, positive, of sum one.
+    parts: [f64; 3],
+    count: usize,
+    offset: Vec3,
+    rise: f64,
+}
+
+impl HullPoint {
+    fn of_one(place: Place) -> Self {
+        Self { places: [place; 3], parts: [1.0, 0.0, 0.0], count: 1, offset: place.offset, rise: place.rise }
+    }
+
+    /// |p|² less that of the deepest contact alone.
+    fn gain(&self) -> f64 {
+        2.0 * self.rise + self.offset.norm_squared()
+    }
+
+    /// The point nearest to the origin of the line or plane through some places; `None` if it is not between them.
+    fn nearest(places: [Place; 3], count: usize) -> Option<Self> {
+        let first = &places[0];
+        let edge = |k: usize| places[k].offset - first.offset;
+        // How much nearer the origin comes along an edge: −q·e, q the first place.
+        let gained = |k: usize, edge: &Vec3| first.rise - places[k].rise - first.offset.dot(edge);
+        let parts = match count {
+            1 => return Some(Self::of_one(*first)),
+            2 => {
+                let edge = edge(1);
+                let second = gained(1, &edge) / edge.norm_squared();
+                [1.0 - second, second, 0.0]
+            }
+            _ => {
+                let edges = [edge(1), edge(2)];
+                let gained = [gained(1, &edges[0]), gained(2, &edges[1])];
+                let across = edges[0].dot(&edges[1]);
+                let determinant = edges[0].cross(&edges[1]).norm_squared();
+                let second = (gained[0] * edges[1].norm_squared() - gained[1] * across) / determinant;
+                let third = (gained[1] * edges[0].norm_squared() - gained[0] * across) / determinant;
+                [1.0 - second - third, second, third]
+            }
+        };
+        // Of equal places the quotients are not numbers: they decide nothing.
+        if !parts[..count].iter().all(|part| *part > 0.0) {
+            return None;
+        }
+        let mut point = Self { places, parts, count, offset: Vec3::zeros(), rise: 0.0 };
+        for (place, part) in places[..count].iter().zip(parts) {
+            point.offset += place.offset * part;
+            point.rise += place.rise * part;
+        }
+        Some(point)
+    }
+}

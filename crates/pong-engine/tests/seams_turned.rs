@@ -1,0 +1,293 @@
+//! Seams in any pose: what is one plate or one solid answers as one however it is cut and turned, with its vertices in
+//! double or single precision, flat or folded by a little (docs/theory.md, 2.2).
+
+mod common;
+
+use common::*;
+use pong_engine::Contact;
+use pong_geometry::{Quat, Vec3};
+
+const K: f64 = 1e5;
+
+fn steel() -> String {
+    surface(K, "")
+}
+
+fn single(p: Vec3) -> Vec3 {
+    p.map(|x| f64::from(x as f32))
+}
+
+fn tuple(p: &Vec3) -> String {
+    format!("({:?},{:?},{:?})", p.x, p.y, p.z)
+}
+
+fn list(places: &[Vec3]) -> String {
+    places.iter().map(tuple).collect::<Vec<_>>().join(",")
+}
+
+/// What the contacts of one primitive of A come to.
+struct Push {
+    weights: f64,
+    force: Vec3,
+    deepest: f64,
+    /// The largest difference of two normals.
+    spread: f64,
+    count: usize,
+}
+
+fn push(contacts: &[Contact], primitive: u32) -> Push {
+    let own: Vec<&Contact> = contacts.iter().filter(|c| c.a.primitive == primitive).collect();
+    let spread = own.iter().flat_map(|a| own.iter().map(|b| (a.normal - b.normal).norm()));
+    Push {
+        weights: own.iter().map(|c| c.weight).sum(),
+        force: own.iter().map(|c| c.normal * c.normal_force).sum(),
+        deepest: own.iter().map(|c| c.depth).fold(0.0, f64::max),
+        spread: spread.fold(0.0, f64::max),
+        count: own.len(),
+    }
+}
+
+/// A ball and an egg, one right above the other.
+fn balls() -> String {
+    model(
+        "balls",
+        &steel(),
+        "Sphere(name: \"ball\", center: (0,0,0), radius: 1.0), \
+         Ellipsoid(name: \"egg\", center: (0,0,0), semi_axes: (1.2,0.9,1.0), orientation: (0.5,0.1,-0.7,0.5))",
+    )
+}
+
+/// Both rest on the body with the centre this far from the origin, turned at random. The weights of either sum to one,
+/// but for the square of the angle between the normals that share; so does the force.
+fn must_weigh_one(rig: &mut Rig, random: &mut Random, center: Vec3, case: &str) -> usize {
+    rig.world.forget(rig.objects[0]).unwrap();
+    let turn = random.rotation();
+    rig.place_a(center, turn);
+    rig.world.evaluate().unwrap();
+    let contacts = rig.world.contacts();
+    let mut most = 0;
+    for primitive in 0..2 {
+        let push = push(&contacts, primitive);
+        assert!(push.count > 0, "{case}: nothing carries {primitive} at {center:?}");
+        let allowed = 1e-9 + push.spread * push.spread;
+        assert!((push.weights - 1.0).abs() <= allowed, "{case}: weights {} {contacts:?}", push.weights);
+        let force = push.force.norm() / (0.5 * K * push.deepest);
+        assert!((force - 1.0).abs() <= allowed, "{case}: force {force} {contacts:?}");
+        most = most.max(push.count);
+    }
+    most
+}
+
+/// A plate of six vertices round one, folded up by an angle at each seam, or of two triangles.
+fn plate(random: &mut Random, turn: &Quat, fold: f64, in_single: bool) -> String {
+    let rim = if random.unit() < 0.5 { 4 } else { 3 + (random.unit() * 5.0) as usize };
+    let mut vertices = Vec::new();
+    let mut triangles = Vec::new();
+    if random.unit() < 0.5 {
+        let corners = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)];
+        // Folded about the diagonal.
+        let height = |(x, y): (f64, f64)| fold * (x - y).abs() / 2.0;
+        vertices.extend(corners.map(|c| Vec3::new(c.0, c.1, height(c))));
+        triangles.extend(["(0,1,2)".to_owned(), "(0,2,3)".to_owned()]);
+    } else {
+        vertices.push(Vec3::zeros());
+        for k in 0..rim {
+            let angle = std::f64::consts::TAU * (k as f64 + random.between(-0.2, 0.2)) / rim as f64;
+            let height = fold * random.between(0.7, 1.3);
+            vertices.push(Vec3::new(2.0 * angle.cos(), 2.0 * angle.sin(), height));
+            triangles.push(format!("(0,{},{})", k + 1, (k + 1) % rim + 1));
+        }
+    }
+    let place = |v: &Vec3| if in_single { single(turn * v) } else { turn * v };
+    let vertices: Vec<Vec3> = vertices.iter().map(place).collect();
+    let mesh = format!(
+        "TriangleMesh(name: \"m\", vertices: [{}], triangles: [{}])",
+        list(&vertices),
+        triangles.join(",")
+    );
+    model("plate", &steel(), &mesh)
+}
+
+#[test]
+fn plates_in_any_pose_carry_like_one_plane() {
+    let mut random = Random(51);
+    let mut shared = 0;
+    for round in 0..2500 {
+        let turn = random.rotation();
+        let fold = if round % 2 == 0 { 0.0 } else { 10.0_f64.powf(random.between(-9.0, -3.0)) };
+        let in_single = round % 4 >= 2;
+        let mut rig = Rig::new(&balls(), &plate(&mut random, &turn, fold, in_single));
+        for pose in 0..8 {
+            // Right over the seams and the vertex, within what the fold lets both sides push, and anywhere.
+            let beside = [0.0, 0.3 * fold, 0.05][pose % 3];
+            let along = if pose < 4 { random.between(-0.3, 0.3) } else { 0.0 };
+            let height = random.between(0.5, 0.86);
+            let place = Vec3::new(along, along, height)
+                + random.vector(beside).component_mul(&Vec3::new(1.0, 1.0, 0.0));
+            let case = format!("round {round}, fold {fold:e}, single precision {in_single}");
+            shared += usize::from(must_weigh_one(&mut rig, &mut random, turn * place, &case) > 1);
+        }
+    }
+    println!("{shared} of 20000 poses shared");
+    assert!(shared > 1000, "{shared}");
+}
+
+/// Boxes that abut along planes through the middle: cut once, twice or three times, in any order.
+struct Cut {
+    /// Corners of the pieces, low and high.
+    pieces: Vec<[Vec3; 2]>,
+    axes: usize,
+}
+
+impl Cut {
+    fn new(axes: usize, random: &mut Random) -> Self {
+        let mut pieces: Vec<[Vec3; 2]> = (0..1_usize << axes)
+            .map(|side| {
+                let is_cut = |axis: usize| axis < axes;
+                let is_high = |axis: usize| side >> axis & 1 == 1;
+                let low = |axis, _| if is_cut(axis) && is_high(axis) { 0.0 } else { -1.0 };
+                let high = |axis, _| if is_cut(axis) && !is_high(axis) { 0.0 } else { 1.0 };
+                [Vec3::from_fn(low), Vec3::from_fn(high)]
+            })
+            .collect();
+        for k in (1..pieces.len()).rev() {
+            pieces.swap(k, (random.unit() * (k + 1) as f64) as usize);
+        }
+        Self { pieces, axes }
+    }
+
+    fn model(&self, turn: &Quat, in_single: bool) -> String {
+        let piece = |(index, [low, high]): (usize, &[Vec3; 2])| {
+            let corner =
+                |k: usize| Vec3::from_fn(|axis, _| if k >> axis & 1 == 1 { high[axis] } else { low[axis] });
+            let place = |v: Vec3| if in_single { single(turn * v) } else { turn * v };
+            let corners: Vec<Vec3> = (0..8).map(|k| place(corner(k))).collect();
+            // The faces look along -z, z, -y, y, -x, x.
+            let is_wall = |face: &usize| {
+                let axis = 2 - face / 2;
+                axis < self.axes && if face.is_multiple_of(2) { low[axis] == 0.0 } else { high[axis] == 0.0 }
+            };
+            let walls: Vec<String> = (0..6).filter(is_wall).map(|face| face.to_string()).collect();
+            format!(
+                "Polyhedron(name: \"p{index}\", vertices: [{}], faces: [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],\
+                 [0,4,6,2],[1,3,7,5]], inactive_faces: [{}])",
+                list(&corners),
+                walls.join(",")
+            )
+        };
+        let pieces: Vec<String> = self.pieces.iter().enumerate().map(piece).collect();
+        model("cut", &steel(), &pieces.join(","))
+    }
+}
+
+#[test]
+fn abutting_boxes_in_any_pose_carry_like_one_plane() {
+    let mut random = Random(52);
+    let mut shared = 0;
+    for round in 0..600 {
+        let turn = random.rotation();
+        let in_single = round % 2 == 1;
+        let body = Cut::new(1 + round % 2, &mut random).model(&turn, in_single);
+        let mut rig = Rig::new(&balls(), &body);
+        for pose in 0..8 {
+            // On the top, over the wall between two pieces or the line between four.
+            let beside = [0.0, 1e-12, 0.05][pose % 3];
+            let along = if pose < 4 { random.between(-0.2, 0.2) } else { 0.0 };
+            let place = Vec3::new(0.0, along, 1.0 + random.between(0.5, 0.86)) + random.vector(beside);
+            let case = format!("round {round}, single precision {in_single}");
+            shared += usize::from(must_weigh_one(&mut rig, &mut random, turn * place, &case) > 1);
+        }
+    }
+    println!("{shared} of 4800 poses shared");
+}
+
+/// On the walls between pieces, the lines where four meet and the point where eight do: one contact, as deep as in the
+/// whole box.
+#[test]
+fn a_point_where_pieces_meet_has_one_contact() {
+    let mut random = Random(53);
+    let movers = model(
+        "movers",
+        &steel(),
+        "Point(name: \"p\", position: (0,0,0)), Sphere(name: \"s\", center: (0,0,0), radius: 0.1)",
+    );
+    for round in 0..600 {
+        let turn = random.rotation();
+        let in_single = round % 2 == 1;
+        let cut = Cut::new(1 + round % 3, &mut random);
+        let mut rig = Rig::new(&movers, &cut.model(&turn, in_single));
+        for pose in 0..60 {
+            // Beside each cut by nothing, by rounding, or by much.
+            let beside = |axis: usize, random: &mut Random| match (axis < cut.axes, pose % 4) {
+                (true, 0 | 1) => 0.0,
+                (true, 2) => random.between(-3e-16, 3e-16),
+                (true, _) if random.unit() < 0.5 => 0.0,
+                _ => random.between(-0.95, 0.95),
+            };
+            let place = Vec3::from_fn(|axis, _| beside(axis, &mut random));
+            let depth = 1.0 - place.amax();
+            rig.world.forget(rig.objects[0]).unwrap();
+            rig.place_a(turn * place, random.rotation());
+            rig.world.evaluate().unwrap();
+            let contacts = rig.world.contacts();
+            let case =
+                format!("round {round}, cut {} times, single precision {in_single}, {place:?}", cut.axes);
+            // Single precision moves the faces by its rounding.
+            let tolerance = if in_single { 1e-6 } else { 1e-14 };
+            for (primitive, expected) in [(0, depth), (1, depth + 0.1)] {
+                let own: Vec<&Contact> = contacts.iter().filter(|c| c.a.primitive == primitive).collect();
+                let weights: f64 = own.iter().map(|c| c.weight).sum();
+                assert!((weights - 1.0).abs() < 1e-9, "{case}: {contacts:?}");
+                assert!(primitive == 1 || own.len() == 1, "{case}: {contacts:?}");
+                let off = own.iter().map(|c| (c.depth - expected).abs()).fold(0.0, f64::max);
+                assert!(off < tolerance, "{case}: off by {off:e} {contacts:?}");
+            }
+        }
+    }
+}
+
+/// A roof whose ridge lies in the wall between its halves; on request each half cut once more, across the ridge.
+fn roof(cuts: &[f64]) -> String {
+    let mut pieces = Vec::new();
+    for (number, ends) in cuts.windows(2).enumerate() {
+        let (near, far) = (ends[0], ends[1]);
+        for side in [-1.0, 1.0] {
+            let corners = [(side, 0.0), (0.0, 0.0), (0.0, 0.5)];
+            let places: Vec<Vec3> =
+                [near, far].iter().flat_map(|&y| corners.map(|(x, z)| Vec3::new(x, y, z))).collect();
+            // Bottom, wall, slope, then the two ends.
+            let mut faces =
+                vec![vec![0, 1, 4, 3], vec![1, 2, 5, 4], vec![2, 0, 3, 5], vec![0, 2, 1], vec![3, 4, 5]];
+            if side < 0.0 {
+                faces.iter_mut().for_each(|face| face.reverse());
+            }
+            let mut walls = vec!["1"];
+            walls.extend((number > 0).then_some("3"));
+            walls.extend((number + 2 < cuts.len()).then_some("4"));
+            pieces.push(format!(
+                "Polyhedron(name: \"p{number}{side}\", vertices: [{}], faces: {faces:?}, inactive_faces: [{}])",
+                list(&places),
+                walls.join(",")
+            ));
+        }
+    }
+    model("roof", &steel(), &pieces.join(","))
+}
+
+/// Beside a ridge in which an inner wall ends, a point just outside is outside, though the slope of the piece beyond the
+/// wall would pass above it.
+#[test]
+fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
+    let tip = model("tip", &steel(), "Point(name: \"p\", position: (0,0,0))");
+    for cuts in [&[-1.0, 1.0][..], &[-1.0, 0.1, 1.0]] {
+        let mut rig = Rig::new(&tip, &roof(cuts));
+        for (x, inside) in [(1e-7, false), (-1e-7, false), (1e-7, true), (-1e-7, true)] {
+            // The slopes fall by half of what one goes sideways.
+            let z = 0.5 - 0.5 * f64::abs(x) + if inside { -1e-8 } else { 1e-8 };
+            rig.world.forget(rig.objects[0]).unwrap();
+            rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
+            rig.world.evaluate().unwrap();
+            assert_eq!(rig.world.contact_count(), usize::from(inside), "{cuts:?} {x:e} {inside}");
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! A scene with its world and its answers, which all twins are held against.
+
+use crate::play::{Answer, Refusal, Stage};
+use crate::scene::Scene;
+
+/// A scene that was played.
+pub struct Base {
+    /// The scene.
+    pub scene: Scene,
+    /// Its world, free to play other states.
+    pub stage: Stage,
+    /// The answers, frame by frame.
+    pub answers: Vec<Answer>,
+}
+
+impl Base {
+    /// Loads a scene and plays it.
+    pub fn new(scene: Scene) -> Result<Self, Refusal> {
+        let mut stage = Stage::set_up(&scene, 0)?;
+        let answers = stage.play(&scene.frames)?;
+        Ok(Self { scene, stage, answers })
+    }
+
+    /// Largest force of a contact up to a frame, N.
+    pub fn largest(&self, frame: usize) -> f64 {
+        self.answers[..=frame].iter().map(|answer| answer.largest).fold(0.0, f64::max)
+    }
+}

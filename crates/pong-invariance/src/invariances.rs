@@ -1,0 +1,184 @@
+//! The list of all invariances: what is claimed, and the check of it.
+
+use crate::base::Base;
+use crate::judge::{Verdict, compare};
+use crate::make;
+use crate::properties::{friction, memory, sides};
+use crate::random::Random;
+use crate::scene::Scene;
+use crate::twin::{Twin, manner, place, shape};
+
+/// One claim about any scene.
+#[derive(Clone, Copy)]
+pub struct Invariance {
+    /// Short, for `--only`.
+    pub name: &'static str,
+    /// The claim in words.
+    pub says: &'static str,
+    /// Tried on one scene of so many.
+    pub every: u64,
+    /// Makes scenes of its own; the scenes of every tester if none.
+    pub make: Option<fn(&mut Random) -> Scene>,
+    /// Whether only bits will do.
+    pub is_bits: bool,
+    /// Whether the claim holds for any scene, so that a smaller one that breaks it is as good. Where it holds for the scene
+    /// that was made for it, as for a ball led without slip, that scene is shown as it is.
+    pub is_general: bool,
+    /// The check.
+    pub check: Check,
+}
+
+/// How a claim is checked.
+#[derive(Clone, Copy)]
+pub enum Check {
+    /// By a twin.
+    Twin(fn(&Scene, &mut Random) -> Option<Twin>),
+    /// By a twin that depends on what was touched.
+    AimedTwin(fn(&Base, &mut Random) -> Option<Twin>),
+    /// In its own way.
+    Property(fn(&mut Base, &mut Random) -> Verdict),
+}
+
+impl Invariance {
+    /// Tries it on a scene.
+    pub fn judge(&self, base: &mut Base, random: &mut Random) -> Verdict {
+        let twin = match self.check {
+            Check::Twin(make) => make(&base.scene, random),
+            Check::AimedTwin(make) => make(base, random),
+            Check::Property(check) => return check(base, random),
+        };
+        match twin {
+            Some(twin) => compare(base, &twin, self.is_bits, random),
+            None => Verdict::DoesNotApply,
+        }
+    }
+}
+
+const fn twin(
+    name: &'static str,
+    says: &'static str,
+    make: fn(&Scene, &mut Random) -> Option<Twin>,
+) -> Invariance {
+    Invariance {
+        name,
+        says,
+        every: 1,
+        make: None,
+        is_bits: false,
+        is_general: true,
+        check: Check::Twin(make),
+    }
+}
+
+const fn bits(
+    name: &'static str,
+    says: &'static str,
+    every: u64,
+    make: fn(&Scene, &mut Random) -> Option<Twin>,
+) -> Invariance {
+    Invariance { name, says, every, make: None, is_bits: true, is_general: true, check: Check::Twin(make) }
+}
+
+const fn property(
+    name: &'static str,
+    says: &'static str,
+    every: u64,
+    make: Option<fn(&mut Random) -> Scene>,
+    check: fn(&mut Base, &mut Random) -> Verdict,
+) -> Invariance {
+    Invariance { name, says, every, make, is_bits: false, is_general: true, check: Check::Property(check) }
+}
+
+/// All of them.
+pub const INVARIANCES: &[Invariance] = &[
+    twin("turned", "the whole scene turned", place::turned),
+    twin("moved", "the whole scene moved by a few sizes, drifting", place::moved),
+    twin("far", "the whole scene turned, 6.8e6 or 1e8 m away, drifting at 7.7 km/s", place::far),
+    twin("group_frame", "other axes and origins of the groups", place::group_frame),
+    twin("scaled", "lengths times 1e-6 to 1e6", place::scaled),
+    Invariance {
+        name: "cut",
+        says: "faces, plates and solids cut into more triangles and pieces, half of them under the foot",
+        every: 1,
+        make: None,
+        is_bits: false,
+        is_general: true,
+        check: Check::AimedTwin(shape::cut),
+    },
+    twin("reordered", "primitives, triangles, faces and corners in another order, renamed", shape::reordered),
+    bits("swapped", "the Objects of a pair of different kinds swapped", 2, shape::swapped),
+    bits("regrouped", "primitives hung into groups of groups", 4, shape::regrouped),
+    bits("bounded", "other kinds of bounding volumes, other leaves", 2, shape::bounded),
+    bits("negated", "quaternions negated", 4, place::negated),
+    bits("thrown_away", "evaluations between, thrown away", 2, manner::thrown_away),
+    bits("restored", "contact state saved, and restored into another world", 4, manner::restored),
+    bits("forgotten", "played again after all was forgotten", 4, manner::forgotten),
+    bits("workers", "one to three workers", 50, manner::workers),
+    property(
+        "committed_again",
+        "the states of a commit, evaluated again, give the same wrench to 1e-12",
+        1,
+        None,
+        friction::committed_again,
+    ),
+    property(
+        "beside",
+        "states 1e-12 of the size away give a wrench as near, friction included",
+        1,
+        Some(friction::sliding),
+        friction::beside,
+    ),
+    Invariance {
+        is_general: false,
+        ..property(
+            "rolling",
+            "rolling with spin about the normal asks for no friction: to second order in the step",
+            8,
+            Some(friction::rolling),
+            friction::refined,
+        )
+    },
+    property(
+        "set_down",
+        "a body set down outside is pushed as one that came from outside",
+        2,
+        Some(sides::set_down_scene),
+        sides::set_down,
+    ),
+    property(
+        "depth_steps",
+        "the depth of a point in a solid never grows by more than the point moves",
+        2,
+        Some(memory::path_in_a_hull),
+        memory::depth_steps,
+    ),
+];
+
+/// The invariance of a name.
+pub fn find(name: &str) -> Option<&'static Invariance> {
+    INVARIANCES.iter().find(|invariance| invariance.name == name)
+}
+
+/// The scene of an index: the same for all invariances without scenes of their own. Of one family of scenes, if it is
+/// named.
+pub fn scene(invariance: &Invariance, family: Option<&str>, seed: u64, index: u64) -> Scene {
+    let mut shared = Random::new(seed, 0, index);
+    match (invariance.make, family) {
+        (Some(make), _) => make(&mut Random::new(seed, stream(invariance), index)),
+        (None, Some(family)) => {
+            make::scene_of(&mut shared, family).unwrap_or_else(|| make::scene(&mut shared))
+        }
+        (None, None) => make::scene(&mut shared),
+    }
+}
+
+/// The numbers with which a scene's twin is made.
+pub fn numbers(invariance: &Invariance, seed: u64, index: u64) -> Random {
+    Random::new(seed, 1000 + stream(invariance), index)
+}
+
+/// Of its name, so that it stays when the list grows.
+fn stream(invariance: &Invariance) -> u64 {
+    invariance.name.bytes().fold(7_u64, |sum, byte| sum.wrapping_mul(131).wrapping_add(u64::from(byte))) >> 8
+        | 1
+}

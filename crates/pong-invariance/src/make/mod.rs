@@ -1,0 +1,133 @@
+//! Random scenes of every tester: what is touched, what touches it, and a history whose feet stand on faces, seams, walls,
+//! edges, corners and where pieces meet, as well as anywhere.
+
+pub mod meshes;
+pub mod path;
+pub mod solids;
+pub mod touched;
+
+use crate::random::Random;
+use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
+use pong_geometry::{Quat, Vec3};
+
+/// A scene of any family.
+pub fn scene(random: &mut Random) -> Scene {
+    let (name, make) = touched::FAMILIES[random.below(touched::FAMILIES.len())];
+    family(random, name, make)
+}
+
+/// A scene of one family, by its name.
+pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
+    let (name, make) = touched::FAMILIES.iter().find(|(known, _)| *known == name)?;
+    Some(family(random, name, *make))
+}
+
+fn family(random: &mut Random, name: &'static str, make: touched::Make) -> Scene {
+    // A third of the scenes has round numbers: exact seams, right angles and ties are met by those alone.
+    let is_round = random.chance(0.35);
+    let mut touched = make(random, is_round);
+    touched::tilt(random, &mut touched, is_round);
+    let kinds = kinds_that_touch(&touched[0]);
+    let mut touching = vec![toucher(random, kinds, is_round)];
+    while random.chance(0.2) {
+        touching.push(toucher(random, kinds, is_round));
+    }
+    let mut size = 1.0;
+    if random.chance(0.3) {
+        size = random.log_between(1e-3, 1e3);
+    }
+    let [a, b] = surfaces(random, size);
+    let mut scene = Scene {
+        family: name,
+        bodies: [Body::new(touching, a), Body::new(touched, b)],
+        swapped: random.chance(0.3),
+        frames: Vec::new(),
+        size: 1.0,
+    };
+    scene.frames = path::history(random, &scene, is_round);
+    rescaled(&scene, size)
+}
+
+/// The kinds that have a tester against one.
+fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
+    match shape {
+        Shape::Plane { .. } | Shape::Polyhedron(_) => &["Point", "LineSegment", "Ray", "Sphere", "Ellipsoid"],
+        Shape::Mesh(_) => &["Sphere", "Sphere", "Ellipsoid", "Ellipsoid", "Ray"],
+        Shape::Sphere { .. } => &["Point", "Sphere"],
+        _ => &["Point"],
+    }
+}
+
+fn toucher(random: &mut Random, kinds: &[&str], is_round: bool) -> Shape {
+    let place = if is_round || random.chance(0.5) { Vec3::zeros() } else { random.vector(0.5) };
+    let size = if is_round { random.pick(&[0.25, 0.5, 1.0]) } else { random.log_between(0.05, 1.0) };
+    match random.pick(kinds) {
+        "Point" => Shape::Point { position: place },
+        "LineSegment" => {
+            let along = if is_round { Vec3::x() } else { random.direction() };
+            Shape::Segment { ends: [place - along * size, place + along * size] }
+        }
+        "Ray" => {
+            let direction = if is_round { -Vec3::z() } else { random.direction() };
+            Shape::Ray { origin: place, direction, length: size, axial: random.chance(0.4) }
+        }
+        "Sphere" => Shape::Sphere { center: place, radius: size },
+        _ => {
+            let part = |random: &mut Random| {
+                if is_round { random.pick(&[0.5, 0.75, 1.0]) } else { random.between(0.25, 1.0) }
+            };
+            let semi_axes = Vec3::from_fn(|_, _| size * part(random));
+            let orientation = if is_round { Quat::identity() } else { random.rotation() };
+            Shape::Ellipsoid { center: place, semi_axes, orientation }
+        }
+    }
+}
+
+/// Two surfaces that may meet: one law each of force and friction, other values. Damping is such that its forces are of
+/// the order of the spring's.
+fn surfaces(random: &mut Random, size: f64) -> [Surface; 2] {
+    let law = random.below(6);
+    let friction = random.below(4);
+    let ramp = if random.chance(0.2) { random.log_between(1e-4, 1e-1) * size } else { 0.0 };
+    let rigid = random.below(6);
+    let scale = random.log_between(1e2, 1e7);
+    let mut one = |index: usize| {
+        let stiffness = if rigid == index { f64::INFINITY } else { scale * random.log_between(0.3, 3.0) };
+        let spring = stiffness.min(scale);
+        let normal = match law {
+            0..=1 => Normal::Linear { damping: 0.0, ramp },
+            2..=3 => Normal::Linear { damping: spring * random.between(0.0, 0.1), ramp },
+            4 => Normal::HuntCrossley { dissipation: random.between(0.0, 1.0) / size, exponent: 1.0 },
+            _ => Normal::HuntCrossley { dissipation: random.between(0.0, 1.0) / size, exponent: 1.5 },
+        };
+        let excess = if random.chance(0.3) { random.between(0.0, 0.5) } else { 0.0 };
+        let friction = match friction {
+            0 => Friction::Smooth,
+            1 | 2 => Friction::Bristle {
+                mu: random.between(0.1, 1.0),
+                excess,
+                stiffness: spring * random.between(0.3, 1.0),
+                damping: if random.chance(0.5) { spring * random.between(0.0, 0.05) } else { 0.0 },
+            },
+            _ => Friction::Coulomb { mu: random.between(0.1, 1.0), slip_speed: 1e-2 * size },
+        };
+        Surface { stiffness, normal, friction }
+    };
+    [one(0), one(1)]
+}
+
+/// The same scene in another unit of length. Stiffness and friction as they are: forces scale with lengths where the law
+/// is linear in them, see [`crate::twin`].
+pub fn rescaled(scene: &Scene, s: f64) -> Scene {
+    let mut scaled = scene.clone();
+    scaled.size *= s;
+    for body in &mut scaled.bodies {
+        body.shapes = body.shapes.iter().map(|shape| shape.scaled(s)).collect();
+        body.place.position *= s;
+    }
+    for state in scaled.frames.iter_mut().flatten() {
+        state.position = state.position.map(|x| x * s);
+        state.linear_velocity = state.linear_velocity.map(|x| x * s);
+    }
+    scaled
+}

@@ -1,0 +1,181 @@
+//! A scene in the engine: its models loaded, its frames evaluated and committed, the answers kept.
+
+use crate::scene::{Scene, Shape};
+use crate::text;
+use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World};
+use pong_geometry::extension::Extensions;
+use pong_geometry::{Vec3, Wrench};
+use std::sync::Arc;
+
+/// What one frame told.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// Wrenches on both groups about their origins, along the axes of the common frame.
+    pub wrenches: [Wrench; 2],
+    /// Largest force of a contact, N.
+    pub largest: f64,
+    /// Contacts, deepest first: depth, weight and which feature pushes. For reading, not for comparing.
+    pub contacts: Vec<Touch>,
+    /// A hash of every number of the frame, bit by bit.
+    pub bits: u64,
+}
+
+/// A contact in short.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Depth, m.
+    pub depth: f64,
+    /// Weight.
+    pub weight: f64,
+    /// Normal force, N.
+    pub normal_force: f64,
+    /// Friction force on A, N, in the common frame.
+    pub friction: Vec3,
+    /// From B to A, in the common frame.
+    pub normal: Vec3,
+    /// Where the force acts, m, in the common frame.
+    pub point: Vec3,
+    /// Primitives of A and B, and the element of B.
+    pub of: [u32; 3],
+    /// Number of the feature of B.
+    pub feature: u32,
+    /// End of a segment.
+    pub end: u32,
+    /// Whether friction sticks.
+    pub sticks: bool,
+}
+
+/// A sealed world of a scene.
+pub struct Stage {
+    /// The world.
+    pub world: World,
+    objects: [ObjectId; 2],
+    groups: [InterfaceId; 2],
+}
+
+/// Why a scene cannot be played, in the engine's words.
+pub type Refusal = String;
+
+impl Stage {
+    /// Loads the models and seals the world.
+    pub fn set_up(scene: &Scene, workers: usize) -> Result<Self, Refusal> {
+        let settings = WorkerSettings { workers, oversubscribe: true, ..WorkerSettings::default() };
+        let workers = (workers > 0).then_some(settings);
+        let contact_capacity = capacity(scene);
+        let mut world = World::new(Config { workers, contact_capacity, ..Config::default() });
+        let mut add = |body: usize, name: &str| -> Result<ObjectId, Refusal> {
+            let text = text::model(&scene.bodies[body], name, name);
+            let model = pong_model::parse(&text, &format!("{name}.ron"), None, &Extensions::new());
+            let model = model.map_err(|errors| errors.to_string())?;
+            let model = world.add_model(Arc::new(model)).map_err(|error| error.to_string())?;
+            world.create_object(model, name).map_err(|error| error.to_string())
+        };
+        let objects = [add(0, "a")?, add(1, "b")?];
+        let [first, second] = if scene.swapped { [objects[1], objects[0]] } else { objects };
+        let mut begin = || {
+            world.pair(first, second)?;
+            world.seal()?;
+            Ok([world.interface(objects[0], "")?, world.interface(objects[1], "")?])
+        };
+        let groups = begin().map_err(|error: pong_engine::EngineError| error.to_string())?;
+        Ok(Self { world, objects, groups })
+    }
+
+    /// Sets the states of a frame and evaluates them.
+    pub fn evaluate(&mut self, states: &[State; 2]) -> Result<Answer, Refusal> {
+        let [a, b] = [(self.groups[0], states[0]), (self.groups[1], states[1])];
+        let report = self.world.set_states(&[a, b]).and_then(|()| self.world.evaluate());
+        let report = report.map_err(|error| error.to_string())?;
+        if report.status.contains(StatusBits::CONTACT_LIMIT) {
+            return Err("more contacts than the capacity".to_owned());
+        }
+        self.answer().map_err(|error| error.to_string())
+    }
+
+    /// Evaluates and commits a frame.
+    pub fn step(&mut self, states: &[State; 2]) -> Result<Answer, Refusal> {
+        let answer = self.evaluate(states)?;
+        self.commit()?;
+        Ok(answer)
+    }
+
+    /// Commits the states set.
+    pub fn commit(&mut self) -> Result<(), Refusal> {
+        self.world.commit().map_err(|error| error.to_string())
+    }
+
+    /// Plays a history from the beginning: nothing is remembered of an earlier one.
+    pub fn play(&mut self, frames: &[[State; 2]]) -> Result<Vec<Answer>, Refusal> {
+        self.forget()?;
+        frames.iter().map(|states| self.step(states)).collect()
+    }
+
+    /// Drops all contact state.
+    pub fn forget(&mut self) -> Result<(), Refusal> {
+        self.world.forget(self.objects[0]).map_err(|error| error.to_string())
+    }
+
+    fn answer(&self) -> Result<Answer, pong_engine::EngineError> {
+        let [a, b] = self.groups;
+        let wrenches = [self.world.wrench_common(a)?, self.world.wrench_common(b)?];
+        let mut bits = Bits::default();
+        for wrench in [self.world.wrench(a)?, self.world.wrench(b)?] {
+            bits.vector(&wrench.force);
+            bits.vector(&wrench.moment);
+        }
+        let (mut largest, mut contacts) = (0.0_f64, Vec::new());
+        for contact in self.world.contacts_iter() {
+            largest = largest.max(contact.force.norm());
+            for vector in [&contact.point, &contact.normal, &contact.force, &contact.slip_velocity] {
+                bits.vector(vector);
+            }
+            for number in [contact.depth, contact.rate, contact.weight, contact.stored] {
+                bits.word(number.to_bits());
+            }
+            bits.word(u64::from(contact.end) << 1 | u64::from(contact.sticks));
+            contacts.push(Touch {
+                depth: contact.depth,
+                weight: contact.weight,
+                normal_force: contact.normal_force,
+                friction: contact.friction_force,
+                normal: contact.normal,
+                point: contact.point,
+                of: [contact.a.primitive, contact.b.primitive, contact.b.element],
+                feature: contact.feature,
+                end: contact.end,
+                sticks: contact.sticks,
+            });
+        }
+        contacts.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        Ok(Answer { wrenches, largest, contacts, bits: bits.0 })
+    }
+}
+
+/// Room for all contacts that a small scene can have: less to set up. The worst case of the engine else.
+fn capacity(scene: &Scene) -> Option<usize> {
+    let elements = |shape: &Shape| match shape {
+        Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
+        _ => 2,
+    };
+    let [a, b] = [0, 1].map(|body| scene.bodies[body].shapes.iter().map(elements).sum::<usize>());
+    (a * b <= 256).then_some(a * b + 8)
+}
+
+struct Bits(u64);
+
+impl Default for Bits {
+    fn default() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+}
+
+impl Bits {
+    fn word(&mut self, word: u64) {
+        let mixed = (self.0 ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        self.0 = mixed ^ mixed >> 29;
+    }
+
+    fn vector(&mut self, vector: &Vec3) {
+        vector.iter().for_each(|number| self.word(number.to_bits()));
+    }
+}

@@ -1,0 +1,277 @@
+//! A scene as plain data: two bodies and the states of a history. Models and twins are made from it.
+
+use pong_engine::State;
+use pong_geometry::{Pose, Quat, Vec3};
+
+/// What the two bodies are made of and what happens to them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Which maker it comes from.
+    pub family: &'static str,
+    /// The first is named first in the pair, unless `swapped`.
+    pub bodies: [Body; 2],
+    /// Whether the second body is named first in the pair.
+    pub swapped: bool,
+    /// States of both movable groups, one frame after the other. Each is evaluated and committed.
+    pub frames: Vec<[State; 2]>,
+    /// About as large as the bodies, m.
+    pub size: f64,
+}
+
+/// One Object with one movable group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Its primitives, in the order of the model.
+    pub shapes: Vec<Shape>,
+    /// Number in the name of each primitive.
+    pub names: Vec<usize>,
+    /// What all of them are made of.
+    pub surface: Surface,
+    /// How the primitives hang in groups.
+    pub grouping: Grouping,
+    /// Pose of the group that holds the primitives, in the movable group.
+    pub place: Pose,
+}
+
+/// How primitives are gathered in groups below the movable one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grouping {
+    /// How many consecutive primitives each leaf holds; one leaf with all if empty.
+    pub leaves: Vec<usize>,
+    /// Bounding volume of each group, in turn; the default if empty.
+    pub bounds: Vec<&'static str>,
+    /// Most elements of a leaf, if limited.
+    pub leaf_size: Option<usize>,
+    /// Leaves hang below so many groups more.
+    pub depth: usize,
+}
+
+/// Stiffness and laws of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// N/m, or N/m^1.5; infinite for a rigid surface.
+    pub stiffness: f64,
+    /// Law of the normal force.
+    pub normal: Normal,
+    /// Law of friction.
+    pub friction: Friction,
+}
+
+/// Law of the normal force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Normal {
+    /// Spring and damper.
+    Linear {
+        /// N·s/m.
+        damping: f64,
+        /// Depth over which the damping sets in, m.
+        ramp: f64,
+    },
+    /// Damping that grows with depth.
+    HuntCrossley {
+        /// s/m.
+        dissipation: f64,
+        /// 1 or 1.5.
+        exponent: f64,
+    },
+}
+
+/// Law of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Friction {
+    /// None.
+    Smooth,
+    /// A bristle that sticks and slips.
+    Bristle {
+        /// Coefficient of slip.
+        mu: f64,
+        /// By how much more it holds at break-away.
+        excess: f64,
+        /// N/m.
+        stiffness: f64,
+        /// N·s/m.
+        damping: f64,
+    },
+    /// Regularised Coulomb friction.
+    Coulomb {
+        /// Coefficient.
+        mu: f64,
+        /// Speed at which the full force is reached, m/s.
+        slip_speed: f64,
+    },
+}
+
+/// A primitive, in the words of a model file. Lengths in m.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Shape {
+    Point { position: Vec3 },
+    Segment { ends: [Vec3; 2] },
+    Ray { origin: Vec3, direction: Vec3, length: f64, axial: bool },
+    Sphere { center: Vec3, radius: f64 },
+    Ellipsoid { center: Vec3, semi_axes: Vec3, orientation: Quat },
+    Plane { normal: Vec3, offset: f64 },
+    Polyhedron(Solid),
+    Mesh(Mesh),
+}
+
+/// A convex solid; each face counter-clockwise seen from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Solid {
+    /// Corners, m.
+    pub vertices: Vec<Vec3>,
+    /// Corners of each face.
+    pub faces: Vec<Vec<usize>>,
+    /// Faces that are inner walls.
+    pub inactive: Vec<usize>,
+}
+
+/// Triangles, each counter-clockwise seen from the front.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Corners, m.
+    pub vertices: Vec<Vec3>,
+    /// Corners of each triangle.
+    pub triangles: Vec<[usize; 3]>,
+    /// Whether the back pushes too.
+    pub two_sided: bool,
+    /// How far behind the front a centre is still pushed, m; by default the smallest semi-axis of what touches.
+    pub thickness: Option<f64>,
+}
+
+impl Shape {
+    /// Its kind, as in a model file.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Point { .. } => "Point",
+            Self::Segment { .. } => "LineSegment",
+            Self::Ray { .. } => "Ray",
+            Self::Sphere { .. } => "Sphere",
+            Self::Ellipsoid { .. } => "Ellipsoid",
+            Self::Plane { .. } => "Plane",
+            Self::Polyhedron(_) => "Polyhedron",
+            Self::Mesh(_) => "TriangleMesh",
+        }
+    }
+
+    /// The same primitive carried by a pose.
+    pub fn carried(&self, pose: &Pose) -> Self {
+        let point = |p: &Vec3| pose.orientation * p + pose.position;
+        let turned = |v: &Vec3| pose.orientation * v;
+        match self {
+            Self::Point { position } => Self::Point { position: point(position) },
+            Self::Segment { ends } => Self::Segment { ends: [point(&ends[0]), point(&ends[1])] },
+            Self::Ray { origin, direction, length, axial } => Self::Ray {
+                origin: point(origin),
+                direction: turned(direction),
+                length: *length,
+                axial: *axial,
+            },
+            Self::Sphere { center, radius } => Self::Sphere { center: point(center), radius: *radius },
+            Self::Ellipsoid { center, semi_axes, orientation } => Self::Ellipsoid {
+                center: point(center),
+                semi_axes: *semi_axes,
+                orientation: pose.orientation * orientation,
+            },
+            Self::Plane { normal, offset } => {
+                let normal = turned(normal);
+                Self::Plane { normal, offset: offset * normal.norm() + normal.dot(&pose.position) }
+            }
+            Self::Polyhedron(solid) => Self::Polyhedron(Solid {
+                vertices: solid.vertices.iter().map(point).collect(),
+                ..solid.clone()
+            }),
+            Self::Mesh(mesh) => {
+                Self::Mesh(Mesh { vertices: mesh.vertices.iter().map(point).collect(), ..mesh.clone() })
+            }
+        }
+    }
+
+    /// The same primitive in another unit of length.
+    pub fn scaled(&self, s: f64) -> Self {
+        match self {
+            Self::Point { position } => Self::Point { position: position * s },
+            Self::Segment { ends } => Self::Segment { ends: ends.map(|end| end * s) },
+            Self::Ray { origin, direction, length, axial } => {
+                Self::Ray { origin: origin * s, direction: *direction, length: length * s, axial: *axial }
+            }
+            Self::Sphere { center, radius } => Self::Sphere { center: center * s, radius: radius * s },
+            Self::Ellipsoid { center, semi_axes, orientation } => {
+                Self::Ellipsoid { center: center * s, semi_axes: semi_axes * s, orientation: *orientation }
+            }
+            Self::Plane { normal, offset } => Self::Plane { normal: *normal, offset: offset * s },
+            Self::Polyhedron(solid) => Self::Polyhedron(Solid {
+                vertices: solid.vertices.iter().map(|v| v * s).collect(),
+                ..solid.clone()
+            }),
+            Self::Mesh(mesh) => Self::Mesh(Mesh {
+                vertices: mesh.vertices.iter().map(|v| v * s).collect(),
+                thickness: mesh.thickness.map(|thickness| thickness * s),
+                ..mesh.clone()
+            }),
+        }
+    }
+
+    /// Corners that a model may give in single precision.
+    pub fn vertices_mut(&mut self) -> &mut [Vec3] {
+        match self {
+            Self::Polyhedron(solid) => &mut solid.vertices,
+            Self::Mesh(mesh) => &mut mesh.vertices,
+            _ => &mut [],
+        }
+    }
+}
+
+impl Body {
+    /// A body of these primitives.
+    pub fn new(shapes: Vec<Shape>, surface: Surface) -> Self {
+        let names = (0..shapes.len()).collect();
+        Self { shapes, names, surface, grouping: Grouping::default(), place: Pose::identity() }
+    }
+
+    /// The same body of other primitives.
+    pub fn with_shapes(&self, shapes: Vec<Shape>) -> Self {
+        let names = (0..shapes.len()).collect();
+        Self { shapes, names, grouping: Grouping::default(), ..self.clone() }
+    }
+}
+
+impl Scene {
+    /// Spring of the pair at depths like the scene's size, N/m, for judging what rounding may do.
+    pub fn stiffness(&self) -> f64 {
+        let [a, b] = [0, 1].map(|body| {
+            let surface = &self.bodies[body].surface;
+            match surface.normal {
+                Normal::HuntCrossley { exponent, .. } if exponent > 1.0 => {
+                    surface.stiffness * self.size.sqrt()
+                }
+                _ => surface.stiffness,
+            }
+        });
+        if a.is_infinite() {
+            b
+        } else if b.is_infinite() {
+            a
+        } else {
+            a * b / (a + b)
+        }
+    }
+
+    /// Largest damping of either surface, N·s/m.
+    pub fn damping(&self) -> f64 {
+        let of = |surface: &Surface| {
+            let normal = match surface.normal {
+                Normal::Linear { damping, .. } => damping,
+                Normal::HuntCrossley { dissipation, .. } => {
+                    dissipation * surface.stiffness.min(1e12) * self.size
+                }
+            };
+            let friction = match surface.friction {
+                Friction::Bristle { damping, .. } => damping,
+                Friction::Smooth | Friction::Coulomb { .. } => 0.0,
+            };
+            normal + friction
+        };
+        of(&self.bodies[0].surface) + of(&self.bodies[1].surface)
+    }
+}

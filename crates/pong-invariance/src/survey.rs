@@ -1,0 +1,313 @@
+//! Many scenes on all cores, what came of them, and each kind of disagreement made small.
+
+use crate::base::Base;
+use crate::invariances::{INVARIANCES, Invariance, numbers, scene};
+use crate::judge::{Finding, Verdict};
+use crate::reduce;
+use crate::scene::Scene;
+use crate::text;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// What is asked for.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// Of all scenes.
+    pub seed: u64,
+    /// Index of the first scene.
+    pub first: u64,
+    /// How many.
+    pub scenes: u64,
+    /// Only these invariances; all if empty.
+    pub only: Vec<String>,
+    /// Only scenes of this family, where an invariance does not make its own.
+    pub family: Option<String>,
+    /// Threads.
+    pub threads: usize,
+    /// How many disagreements of each invariance and family are made small and kept.
+    pub kept: usize,
+}
+
+/// Counts of one invariance.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// Scenes compared.
+    pub compared: u64,
+    /// Of these, answers that differ where physics itself jumps.
+    pub at_a_jump: u64,
+    /// Answers that differ.
+    pub differ: u64,
+    /// The largest such difference, over the largest term.
+    pub worst: f64,
+    /// Of what differs, how many by family of scene.
+    pub families: BTreeMap<&'static str, u64>,
+    /// Of what stands at jumps, how many by family of scene.
+    pub jumps: BTreeMap<&'static str, u64>,
+}
+
+/// A disagreement made small.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Which invariance.
+    pub name: &'static str,
+    /// Options of the command that shows it again.
+    pub again: String,
+    /// The scene as it was made.
+    pub whole: Scene,
+    /// The smallest that still disagrees.
+    pub scene: Scene,
+    /// How it disagrees.
+    pub finding: Finding,
+}
+
+/// What came of all scenes.
+#[derive(Debug, Default)]
+pub struct Survey {
+    /// Scenes made.
+    pub scenes: u64,
+    /// Scenes that the loader or the engine refused, and why, some of them.
+    pub refused: u64,
+    /// Examples of refusals.
+    pub refusals: Vec<String>,
+    /// By invariance.
+    pub tallies: BTreeMap<&'static str, Tally>,
+    /// Some disagreements made small.
+    pub found: Vec<Found>,
+}
+
+/// Scenes that a thread takes at a time.
+const PORTION: u64 = 64;
+
+/// Comparisons in which the scene stands within rounding of a jump of the physics itself, at most: feet are put on edges,
+/// corners and ties on purpose. More would mean that jumps are where none belong.
+pub const JUMPS_MOST: f64 = 2e-2;
+
+impl Survey {
+    /// Runs an order.
+    pub fn run(order: &Order, progress: &(impl Fn(u64) + Sync)) -> Self {
+        let asked = |invariance: &&Invariance| {
+            order.only.is_empty() || order.only.iter().any(|name| name == invariance.name)
+        };
+        let asked: Vec<&'static Invariance> = INVARIANCES.iter().filter(asked).collect();
+        let next = AtomicU64::new(0);
+        let total = Mutex::new(Self::default());
+        std::thread::scope(|threads| {
+            for _ in 0..order.threads.max(1) {
+                threads.spawn(|| {
+                    let mut mine = Self::default();
+                    loop {
+                        let from = next.fetch_add(PORTION, Ordering::Relaxed);
+                        if from >= order.scenes {
+                            break;
+                        }
+                        for index in from..order.scenes.min(from + PORTION) {
+                            mine.one(order, &asked, order.first + index);
+                        }
+                        progress(order.scenes.min(from + PORTION));
+                    }
+                    if let Ok(mut total) = total.lock() {
+                        total.add(mine, order.kept);
+                    }
+                });
+            }
+        });
+        total.into_inner().unwrap_or_default()
+    }
+
+    /// One index: its scene against all twins, and the scenes that invariances make for themselves.
+    fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
+        let mut shared = None;
+        for invariance in asked.iter().filter(|invariance| index.is_multiple_of(invariance.every)) {
+            let mut own = None;
+            let base = match invariance.make {
+                Some(_) => {
+                    self.base(invariance, order, index, &mut own);
+                    &mut own
+                }
+                None => {
+                    if shared.is_none() {
+                        self.base(invariance, order, index, &mut shared);
+                        if shared.is_none() {
+                            // Refused once, it is refused by all.
+                            return;
+                        }
+                    }
+                    &mut shared
+                }
+            };
+            if let Some(base) = base {
+                self.judge(order, invariance, index, base);
+            }
+        }
+    }
+
+    fn base(&mut self, invariance: &Invariance, order: &Order, index: u64, out: &mut Option<Base>) {
+        self.scenes += 1;
+        match Base::new(scene(invariance, order.family.as_deref(), order.seed, index)) {
+            Ok(base) => *out = Some(base),
+            Err(refusal) => {
+                self.refused += 1;
+                if self.refusals.len() < 5 {
+                    self.refusals.push(format!("{} {index}: {refusal}", invariance.name));
+                }
+            }
+        }
+    }
+
+    fn judge(&mut self, order: &Order, invariance: &'static Invariance, index: u64, base: &mut Base) {
+        let verdict = invariance.judge(base, &mut numbers(invariance, order.seed, index));
+        let tally = self.tallies.entry(invariance.name).or_default();
+        match verdict {
+            Verdict::DoesNotApply => {}
+            Verdict::Agrees => tally.compared += 1,
+            Verdict::AtAJump(_) => {
+                tally.compared += 1;
+                tally.at_a_jump += 1;
+                *tally.jumps.entry(base.scene.family).or_default() += 1;
+            }
+            Verdict::Differs(finding) => {
+                tally.compared += 1;
+                tally.differ += 1;
+                tally.worst = tally.worst.max(finding.relative);
+                *tally.families.entry(base.scene.family).or_default() += 1;
+                let known =
+                    |found: &&Found| found.name == invariance.name && found.whole.family == base.scene.family;
+                if self.found.iter().filter(known).count() < order.kept {
+                    self.found.push(smallest(invariance, order, index, &base.scene, finding));
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, other: Self, kept: usize) {
+        self.scenes += other.scenes;
+        self.refused += other.refused;
+        self.refusals.extend(other.refusals);
+        self.refusals.truncate(5);
+        for (name, tally) in other.tallies {
+            let sum = self.tallies.entry(name).or_default();
+            sum.compared += tally.compared;
+            sum.at_a_jump += tally.at_a_jump;
+            sum.differ += tally.differ;
+            sum.worst = sum.worst.max(tally.worst);
+            for (family, count) in tally.families {
+                *sum.families.entry(family).or_default() += count;
+            }
+            for (family, count) in tally.jumps {
+                *sum.jumps.entry(family).or_default() += count;
+            }
+        }
+        for found in other.found {
+            let known = |old: &&Found| old.name == found.name && old.whole.family == found.whole.family;
+            if self.found.iter().filter(known).count() < kept {
+                self.found.push(found);
+            }
+        }
+    }
+
+    /// Whether nothing disagrees, and jumps are as rare as they must be.
+    pub fn holds(&self) -> bool {
+        self.differ() == 0
+            && self.refused == 0
+            && self.at_jumps() as f64 <= JUMPS_MOST * self.compared() as f64
+    }
+
+    /// Disagreements of all invariances.
+    pub fn differ(&self) -> u64 {
+        self.tallies.values().map(|tally| tally.differ).sum()
+    }
+
+    /// Comparisons of all invariances.
+    pub fn compared(&self) -> u64 {
+        self.tallies.values().map(|tally| tally.compared).sum()
+    }
+
+    /// Answers at jumps of all invariances.
+    pub fn at_jumps(&self) -> u64 {
+        self.tallies.values().map(|tally| tally.at_a_jump).sum()
+    }
+
+    /// A table to read.
+    pub fn text(&self) -> String {
+        let mut text = format!(
+            "{:<16} {:>10} {:>8} {:>8} {:>8}  claim\n",
+            "invariance", "compared", "at jumps", "differ", "worst"
+        );
+        for invariance in INVARIANCES {
+            let Some(tally) = self.tallies.get(invariance.name) else { continue };
+            let Tally { compared, at_a_jump, differ, worst, families, jumps } = tally;
+            let bits = if invariance.is_bits { " (bits)" } else { "" };
+            let name = invariance.name;
+            let says = invariance.says;
+            let _ = writeln!(
+                text,
+                "{name:<16} {compared:>10} {at_a_jump:>8} {differ:>8} {worst:>8.0e}  {says}{bits}"
+            );
+            for (title, counts) in [("at jumps", jumps), ("differ", families)] {
+                if !counts.is_empty() {
+                    let _ = writeln!(text, "{:<16} {title}: {counts:?}", "");
+                }
+            }
+        }
+        let _ = writeln!(
+            text,
+            "{} scenes, {} comparisons: {} at jumps of the physics itself, {} disagreements; {} scenes refused",
+            self.scenes,
+            self.compared(),
+            self.at_jumps(),
+            self.differ(),
+            self.refused
+        );
+        for refusal in &self.refusals {
+            let _ = writeln!(text, "refused: {refusal}");
+        }
+        text
+    }
+}
+
+/// Reduces a scene that disagrees.
+fn smallest(
+    invariance: &'static Invariance,
+    order: &Order,
+    index: u64,
+    whole: &Scene,
+    finding: Finding,
+) -> Found {
+    let verdict = |scene: &Scene| {
+        let mut base = Base::new(scene.clone()).ok()?;
+        match invariance.judge(&mut base, &mut numbers(invariance, order.seed, index)) {
+            Verdict::Differs(finding) => Some(finding),
+            _ => None,
+        }
+    };
+    // A twin that the loader refuses is another matter than one that answers otherwise.
+    let differs = |scene: &Scene| verdict(scene).is_some_and(|found| found.is_refusal == finding.is_refusal);
+    let scene = if invariance.is_general { reduce::reduce(whole, differs) } else { whole.clone() };
+    let name = invariance.name;
+    let family = order.family.as_ref().map_or(String::new(), |family| format!(" --family {family}"));
+    let again = format!("--only {name}{family} --seed {} --first {index} --scenes 1", order.seed);
+    let finding = verdict(&scene).unwrap_or(finding);
+    Found { name, again, whole: whole.clone(), scene, finding }
+}
+
+impl Found {
+    /// The small scene, its twin and how they differ.
+    pub fn text(&self) -> String {
+        let Self { name, again, whole, scene, finding } = self;
+        let mut text = format!(
+            "---- {name}, {}: frame {} differs by {:.1e} of the largest term\n{}\n\nthe smallest scene that shows it\n{}",
+            whole.family,
+            finding.frame,
+            finding.relative,
+            finding.says,
+            text::scene(scene)
+        );
+        if let Some(twin) = finding.twin.as_ref().filter(|twin| *twin != scene) {
+            let _ = write!(text, "\nits twin\n{}", text::scene(twin));
+        }
+        let _ = writeln!(text, "again, from the scene as it was made: pong verify --invariances {again}\n");
+        text
+    }
+}

@@ -1,0 +1,90 @@
+//! Twins: the same scene told in another way, and how its wrenches are read in the words of the first.
+
+pub mod manner;
+pub mod place;
+pub mod shape;
+
+use crate::play::{Answer, Refusal, Stage};
+use crate::scene::Scene;
+use pong_geometry::{Pose, Quat, Vec3, Wrench};
+
+/// A scene that must give the same answers.
+#[derive(Clone, Debug)]
+pub struct Twin {
+    /// The scene.
+    pub scene: Scene,
+    /// How its wrenches are read.
+    pub back: Back,
+    /// How it is played.
+    pub manner: Manner,
+    /// By how much telling it in another way moved something, m.
+    pub rounding: f64,
+    /// By how much that changed a velocity, m/s.
+    pub rounding_of_velocity: f64,
+}
+
+/// From the wrenches of a twin to those of the first scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Back {
+    /// By which the whole scene was turned.
+    pub turn: Quat,
+    /// Forces of the twin over those of the first.
+    pub force: f64,
+    /// Moments of the twin over those of the first.
+    pub moment: f64,
+    /// Origins of the twin's groups in the groups of the first, m.
+    pub origins: [Vec3; 2],
+}
+
+/// How a scene is played.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Manner {
+    /// Every frame evaluated and committed.
+    #[default]
+    Plain,
+    /// Other states are evaluated between, and thrown away.
+    ThrownAway(u64),
+    /// The contact state is saved after half of the frames and restored into a new world.
+    Restored,
+    /// In a world that has played other frames before and was made to forget them.
+    Forgotten,
+    /// With so many workers.
+    Workers(usize),
+}
+
+impl Twin {
+    /// The same scene, to be changed.
+    pub fn of(scene: &Scene) -> Self {
+        let back =
+            Back { turn: Quat::identity(), force: 1.0, moment: 1.0, origins: [Vec3::zeros(), Vec3::zeros()] };
+        Self { scene: scene.clone(), back, manner: Manner::Plain, rounding: 0.0, rounding_of_velocity: 0.0 }
+    }
+
+    /// The same scene played in another way.
+    pub fn played(scene: &Scene, manner: Manner) -> Self {
+        Self { manner, ..Self::of(scene) }
+    }
+
+    /// Plays it; where only states differ, in the world of the first scene.
+    pub fn play(&self, first: &Scene, stage: &mut Stage) -> Result<Vec<Answer>, Refusal> {
+        if let Manner::Plain | Manner::Forgotten = self.manner
+            && first.bodies == self.scene.bodies
+            && first.swapped == self.scene.swapped
+        {
+            return stage.play(&self.scene.frames);
+        }
+        manner::play(&self.scene, self.manner)
+    }
+
+    /// A frame's wrenches as the first scene would tell them.
+    pub fn read(&self, answer: &Answer, first: &Scene, frame: usize) -> [Wrench; 2] {
+        let Back { turn, force, moment, origins } = self.back;
+        std::array::from_fn(|body| {
+            let Wrench { force: f, moment: m } = answer.wrenches[body];
+            let f = turn.inverse() * f / force;
+            let pose: Pose = first.frames[frame][body].pose();
+            let arm = pose.orientation * origins[body];
+            Wrench { force: f, moment: turn.inverse() * m / moment + arm.cross(&f) }
+        })
+    }
+}

@@ -1,0 +1,124 @@
+//! Twins that stand elsewhere: turned, moved, far away, in other axes of their groups, in another unit of length.
+
+use super::Twin;
+use crate::make::rescaled;
+use crate::random::Random;
+use crate::scene::{Body, Friction, Normal, Scene};
+use pong_engine::State;
+use pong_geometry::{Pose, Quat, Twist, Vec3};
+
+/// Every state seen from a frame that stands at `pose` in the common one and drifts; `turn` takes the old common
+/// components into the new ones.
+fn seen(scene: &mut Scene, turn: &Quat, shift: &Vec3, drift: &Vec3) {
+    for state in scene.frames.iter_mut().flatten() {
+        let (pose, twist) = (state.pose(), state.twist());
+        let pose = Pose { position: turn * pose.position + shift, orientation: turn * pose.orientation };
+        let twist = Twist { linear: turn * twist.linear + drift, angular: turn * twist.angular };
+        *state = State::from_motion(&pose, &twist);
+    }
+}
+
+/// The whole scene turned.
+pub fn turned(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    let turn = match random.chance(0.2) {
+        // Quarter turns keep round numbers round.
+        true => crate::random::rotation_about(
+            &random.pick(&[Vec3::x(), Vec3::y(), Vec3::z()]),
+            std::f64::consts::FRAC_PI_2,
+        ),
+        false => random.rotation(),
+    };
+    seen(&mut twin.scene, &turn, &Vec3::zeros(), &Vec3::zeros());
+    twin.back.turn = turn;
+    Some(twin)
+}
+
+/// The whole scene moved by a few of its sizes, and drifting.
+pub fn moved(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    let [shift, drift] = [random.vector(5.0 * scene.size), random.vector(5.0 * scene.size)];
+    seen(&mut twin.scene, &Quat::identity(), &shift, &drift);
+    Some(twin)
+}
+
+/// The whole scene turned and moved to a low orbit, or further, drifting at kilometres per second.
+pub fn far(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    let turn = random.rotation();
+    let distance = random.pick(&[6.8e6, 1e8]);
+    let drift = random.direction() * 7.7e3;
+    seen(&mut twin.scene, &turn, &(random.direction() * distance), &drift);
+    twin.back.turn = turn;
+    twin.rounding = 4.0 * f64::EPSILON * distance;
+    twin.rounding_of_velocity = 4.0 * f64::EPSILON * drift.norm();
+    Some(twin)
+}
+
+/// The axes of one or both groups turned and moved; half of the time by a pose of the group that holds the primitives.
+pub fn group_frame(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    for body in 0..2 {
+        if random.chance(0.3) {
+            continue;
+        }
+        let shift = if random.chance(0.5) { Vec3::zeros() } else { random.vector(scene.size) };
+        let frame = Pose { position: shift, orientation: random.rotation() };
+        let back = frame.inverse();
+        let Body { shapes, place, .. } = &mut twin.scene.bodies[body];
+        match random.chance(0.5) {
+            true => *place = back.compose(place),
+            false => {
+                let whole = back.compose(place);
+                *shapes = shapes.iter().map(|shape| shape.carried(&whole)).collect();
+                *place = Pose::identity();
+            }
+        }
+        for states in &mut twin.scene.frames {
+            let (pose, twist) = (states[body].pose(), states[body].twist());
+            let arm = pose.orientation * frame.position;
+            let twist = Twist { linear: twist.linear + twist.angular.cross(&arm), ..twist };
+            states[body] = State::from_motion(&pose.compose(&frame), &twist);
+        }
+        twin.back.origins[body] = frame.position;
+    }
+    Some(twin)
+}
+
+/// Another unit of length: forces scale with it where stiffness in N/m stays.
+pub fn scaled(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let s = match random.chance(0.3) {
+        true => libm::exp2(random.between(-20.0, 20.0).round()),
+        false => random.log_between(1e-6, 1e6),
+    };
+    let mut twin = Twin::of(scene);
+    twin.scene = rescaled(scene, s);
+    for body in &mut twin.scene.bodies {
+        match &mut body.surface.normal {
+            Normal::Linear { ramp, .. } => *ramp *= s,
+            Normal::HuntCrossley { dissipation, exponent } => {
+                *dissipation /= s;
+                if *exponent > 1.0 {
+                    body.surface.stiffness /= s.sqrt();
+                }
+            }
+        }
+        if let Friction::Coulomb { slip_speed, .. } = &mut body.surface.friction {
+            *slip_speed *= s;
+        }
+    }
+    twin.back.force = s;
+    twin.back.moment = s * s;
+    Some(twin)
+}
+
+/// Some quaternions negated.
+pub fn negated(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    for state in twin.scene.frames.iter_mut().flatten() {
+        if random.chance(0.5) {
+            state.orientation = state.orientation.map(|x| -x);
+        }
+    }
+    Some(twin)
+}

@@ -1,0 +1,306 @@
+//! Twins of the same shape, described in another way: cut, reordered, regrouped, bounded otherwise, paired otherwise.
+
+use super::Twin;
+use crate::base::Base;
+use crate::cutting;
+use crate::make::meshes;
+use crate::random::{Random, rotation_between};
+use crate::scene::{Grouping, Mesh, Scene, Shape, Solid};
+use pong_geometry::Vec3;
+
+/// The Objects named in the other order, where no kind is on both sides.
+pub fn swapped(scene: &Scene, _: &mut Random) -> Option<Twin> {
+    let kinds = |body: usize| scene.bodies[body].shapes.iter().map(Shape::kind);
+    (!kinds(0).any(|kind| kinds(1).any(|other| other == kind))).then_some(())?;
+    let mut twin = Twin::of(scene);
+    twin.scene.swapped = !scene.swapped;
+    Some(twin)
+}
+
+/// Other bounding volumes and leaves around the same primitives.
+pub fn bounded(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    for body in &mut twin.scene.bodies {
+        let bounds = (0..4).map(|_| random.pick(&["Aabb", "Sphere", "Obb"])).collect();
+        let leaf_size = random.chance(0.5).then(|| 1 + random.below(8));
+        body.grouping = Grouping { bounds, leaf_size, ..body.grouping.clone() };
+    }
+    Some(twin)
+}
+
+/// The same primitives in the same order, hung into groups of groups.
+pub fn regrouped(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    for body in &mut twin.scene.bodies {
+        let mut left = body.shapes.len();
+        let mut leaves = Vec::new();
+        while left > 0 {
+            let count = 1 + random.below(left);
+            leaves.push(count);
+            left -= count;
+        }
+        body.grouping = Grouping { leaves, depth: random.below(3), ..body.grouping.clone() };
+    }
+    Some(twin)
+}
+
+/// Primitives, triangles, corners and faces in another order, under other names.
+pub fn reordered(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    for body in &mut twin.scene.bodies {
+        let order = random.order(body.shapes.len());
+        body.shapes = order.iter().map(|index| reordered_shape(&body.shapes[*index], random)).collect();
+        body.names = random.order(body.shapes.len()).iter().map(|name| name + 10).collect();
+    }
+    Some(twin)
+}
+
+fn reordered_shape(shape: &Shape, random: &mut Random) -> Shape {
+    match shape {
+        Shape::Mesh(mesh) => {
+            let (vertices, new) = renumbered(&mesh.vertices, random);
+            let turned = |triangle: [usize; 3], by: usize| [0, 1, 2].map(|k| new[triangle[(k + by) % 3]]);
+            let order = random.order(mesh.triangles.len());
+            let triangles =
+                order.iter().map(|index| turned(mesh.triangles[*index], random.below(3))).collect();
+            Shape::Mesh(Mesh { vertices, triangles, ..mesh.clone() })
+        }
+        Shape::Polyhedron(solid) => {
+            let (vertices, new) = renumbered(&solid.vertices, random);
+            let order = random.order(solid.faces.len());
+            let mut faces = Vec::new();
+            for index in &order {
+                let mut face: Vec<usize> = solid.faces[*index].iter().map(|corner| new[*corner]).collect();
+                let by = random.below(face.len());
+                face.rotate_left(by);
+                faces.push(face);
+            }
+            let is_inactive = |index: &usize| solid.inactive.contains(index);
+            let inactive =
+                order.iter().enumerate().filter(|(_, old)| is_inactive(old)).map(|(new, _)| new).collect();
+            Shape::Polyhedron(Solid { vertices, faces, inactive })
+        }
+        other => other.clone(),
+    }
+}
+
+/// Corners in another order, and the new number of each.
+fn renumbered(vertices: &[Vec3], random: &mut Random) -> (Vec<Vec3>, Vec<usize>) {
+    let order = random.order(vertices.len());
+    let mut new = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(place, old)| new[*old] = place);
+    (order.iter().map(|old| vertices[*old]).collect(), new)
+}
+
+/// Faces cut into more triangles, solids into pieces: anywhere, and through the very place where A pushes.
+pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
+    let scene = &base.scene;
+    let mut twin = Twin::of(scene);
+    let shapes = &scene.bodies[1].shapes;
+    let aim = aim(base, random);
+    let shapes = match shapes.as_slice() {
+        [Shape::Mesh(mesh)] => vec![Shape::Mesh(cut_mesh(mesh, aim.map(|aim| aim.0), random))],
+        [Shape::Polyhedron(_)] => {
+            let pieces = cut_solid(shapes, aim, random)?;
+            is_fair(base, &pieces).then_some(())?;
+            pieces.into_iter().map(Shape::Polyhedron).collect()
+        }
+        [Shape::Plane { normal, offset }] => vec![Shape::Mesh(plate(base, normal, *offset, random)?)],
+        _ => return None,
+    };
+    twin.scene.bodies[1] = scene.bodies[1].with_shapes(shapes);
+    Some(twin)
+}
+
+/// A place where A pushes in some frame, and the way out there, in B's group.
+fn aim(base: &Base, random: &mut Random) -> Option<(Vec3, Vec3)> {
+    let frame = random.below(base.answers.len());
+    let contacts = &base.answers[frame].contacts;
+    if contacts.is_empty() || base.scene.bodies[1].place != pong_geometry::Pose::identity() {
+        return None;
+    }
+    let touch = &contacts[random.below(contacts.len())];
+    let x_bw = base.scene.frames[frame][1].pose().inverse();
+    Some((x_bw.orientation * touch.point + x_bw.position, x_bw.orientation * touch.normal))
+}
+
+fn cut_mesh(mesh: &Mesh, aim: Option<Vec3>, random: &mut Random) -> Mesh {
+    let mut mesh = mesh.clone();
+    if let Some(aim) = aim.filter(|_| random.chance(0.6)) {
+        cutting::cut_at(&mut mesh, &aim, random.chance(0.5));
+    }
+    if mesh.triangles.len() < 100 && random.chance(0.2) {
+        return cutting::cut_in_four(&mesh);
+    }
+    let steps = random.below(4);
+    cutting::cut_mesh(&mesh, random, steps)
+}
+
+fn cut_solid(shapes: &[Shape], aim: Option<(Vec3, Vec3)>, random: &mut Random) -> Option<Vec<Solid>> {
+    let [Shape::Polyhedron(solid)] = shapes else { return None };
+    let mut pieces = vec![solid.clone()];
+    for _ in 0..1 + random.below(4) {
+        let middle = solid.vertices.iter().sum::<Vec3>() / solid.vertices.len() as f64;
+        let (through, normal) = match aim.filter(|_| random.chance(0.7)) {
+            Some((foot, out)) => (foot, random.across(&out)),
+            None => {
+                let toward = random.pick(&solid.vertices);
+                (middle + (toward - middle) * random.between(0.0, 0.5), random.direction())
+            }
+        };
+        if let Some(cut) = cutting::cut_all(&pieces, &normal, normal.dot(&through)) {
+            pieces = cut;
+        }
+    }
+    (pieces.len() > 1).then_some(pieces)
+}
+
+/// A plate of triangles instead of a half space, so large that nothing reaches its rim and so thick that nothing gets
+/// through. For balls and ellipsoids alone: a plunger sees a triangle's thickness.
+fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option<Mesh> {
+    let is_round_shape = |shape: &Shape| matches!(shape, Shape::Sphere { .. } | Shape::Ellipsoid { .. });
+    base.scene.bodies[0].shapes.iter().all(is_round_shape).then_some(())?;
+    let normal = normal.normalize();
+    let size = base.scene.size;
+    let middle = aim(base, random).map_or(normal * offset, |(foot, _)| foot);
+    let middle = middle - normal * (normal.dot(&middle) - offset);
+    let turn = rotation_between(&Vec3::z(), &normal);
+    let mut plate = meshes::plate(random, false);
+    // Corner or seam under the foot, or neither.
+    let under = match random.below(3) {
+        0 => random.pick(&plate.vertices),
+        1 => {
+            let [p, q, _] = random.pick(&plate.triangles);
+            let t = random.unit();
+            plate.vertices[p] * (1.0 - t) + plate.vertices[q] * t
+        }
+        _ => random.vector(0.3),
+    };
+    // At the plate's rim there would be an end to it.
+    let under = if under.x.abs().max(under.y.abs()) > 0.6 { Vec3::zeros() } else { under };
+    for vertex in &mut plate.vertices {
+        let flat = Vec3::new(vertex.x - under.x, vertex.y - under.y, 0.0);
+        *vertex = middle + turn * (flat * (40.0 * size));
+    }
+    plate.thickness = Some(100.0 * size);
+    Some(plate)
+}
+
+/// Whether pieces can give the answer of the whole. They do where a push leaves by the piece in which it begins, and where
+/// the way in leads into that piece at once. A piece knows its own faces alone: a point deep in one piece and nearest to a
+/// face of another, a step through one piece into the next, an ellipsoid so deep that several of its overlaps with pieces
+/// count, have an answer of their own (docs/invariances.md).
+fn is_fair(base: &Base, pieces: &[Solid]) -> bool {
+    let [Shape::Polyhedron(whole)] = base.scene.bodies[1].shapes.as_slice() else { return false };
+    let cut = Cut { base, whole, pieces, slack: 1e-9 * base.scene.size };
+    (0..base.scene.frames.len()).all(|frame| {
+        let shapes = base.scene.bodies[0].shapes.iter().enumerate();
+        shapes.into_iter().all(|(index, shape)| cut.is_fair_for(frame, index, shape))
+    })
+}
+
+/// A solid that was cut.
+struct Cut<'b> {
+    base: &'b Base,
+    whole: &'b Solid,
+    pieces: &'b [Solid],
+    slack: f64,
+}
+
+impl Cut<'_> {
+    /// For one primitive of A in one frame.
+    fn is_fair_for(&self, frame: usize, index: usize, shape: &Shape) -> bool {
+        let back = self.base.scene.frames[frame][1].pose().orientation.inverse();
+        let mut touches =
+            self.base.answers[frame].contacts.iter().filter(|touch| touch.of[0] as usize == index);
+        let at = |p: &Vec3| self.seen(frame, p);
+        match shape {
+            Shape::Point { position } => {
+                let from = at(position);
+                touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth))
+                    && self.comes_in(frame, position)
+            }
+            Shape::Sphere { center, radius } => {
+                let from = at(center);
+                is_outside(self.whole, &from, self.slack)
+                    || touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth - radius))
+                        && self.comes_in(frame, center)
+            }
+            Shape::Ellipsoid { semi_axes, .. } => touches.all(|touch| touch.depth < 0.05 * semi_axes.min()),
+            Shape::Ray { origin, .. } => is_outside(self.whole, &at(origin), self.slack),
+            Shape::Segment { ends } => {
+                let Some(first) = touches.next() else { return true };
+                let is_flat = touches.all(|touch| (touch.normal - first.normal).norm() < 1e-9);
+                let out = back * first.normal;
+                let mut ends = ends.iter().map(at);
+                is_flat && ends.all(|end| self.leaves(&end, &out, depth_along(self.whole, &end, &out)))
+            }
+            Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
+        }
+    }
+
+    /// A place of A's group in a frame, in B's group.
+    fn seen(&self, frame: usize, place: &Vec3) -> Vec3 {
+        let states = &self.base.scene.frames[frame];
+        let x_ba = pong_geometry::Pose::relative(&states[0].pose(), &states[1].pose())
+            .compose(&self.base.scene.bodies[0].place);
+        x_ba.orientation * place + x_ba.position
+    }
+
+    fn holds(&self, x: &Vec3) -> impl Iterator<Item = &Solid> {
+        self.pieces.iter().filter(move |piece| is_inside(piece, x, self.slack))
+    }
+
+    /// Whether some piece holds a place, and the foot from which it is pushed.
+    fn leaves(&self, from: &Vec3, out: &Vec3, depth: f64) -> bool {
+        let foot = from + out * depth;
+        self.holds(from).any(|piece| is_inside(piece, &foot, self.slack))
+    }
+
+    /// Whether the straight way since the frame before leads from outside or from the same piece.
+    fn comes_in(&self, frame: usize, place: &Vec3) -> bool {
+        let now = self.seen(frame, place);
+        if frame == 0 || is_outside(self.whole, &now, self.slack) {
+            return true;
+        }
+        let before = self.seen(frame - 1, place);
+        let entry = entry(self.whole, &before, &now);
+        self.holds(&now).any(|piece| is_inside(piece, &entry, self.slack))
+    }
+}
+
+/// Where the straight way from one place to another comes into a solid; where it begins, if it begins inside.
+fn entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Vec3 {
+    let mut t = 0.0_f64;
+    for face in &solid.faces {
+        let (normal, p) = plane_of(solid, face);
+        let [start, end] = [from, to].map(|x| normal.dot(&(x - p)));
+        if start > 0.0 && end < start {
+            t = t.max(start / (start - end));
+        }
+    }
+    from + (to - from) * t.min(1.0)
+}
+
+fn plane_of(solid: &Solid, face: &[usize]) -> (Vec3, Vec3) {
+    let [p, q, r] = [0, 1, 2].map(|k| solid.vertices[face[k]]);
+    ((q - p).cross(&(r - p)).normalize(), p)
+}
+
+/// Depth below the faces that look that way.
+fn depth_along(solid: &Solid, x: &Vec3, out: &Vec3) -> f64 {
+    let highest = solid.vertices.iter().map(|v| out.dot(v)).fold(f64::NEG_INFINITY, f64::max);
+    highest - out.dot(x)
+}
+
+fn is_inside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
+    solid.faces.iter().all(|face| {
+        let (normal, p) = plane_of(solid, face);
+        normal.dot(&(x - p)) <= slack
+    })
+}
+
+/// Outside for sure: a centre in the surface itself counts as inside.
+fn is_outside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
+    !is_inside(solid, x, slack)
+}
