@@ -11,7 +11,7 @@ use common::{
     stretched_hull,
 };
 use pong_geometry::interference::Interference;
-use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
+use pong_geometry::interference::ellipsoid_polyhedron::{ellipsoid_piece, ellipsoid_polyhedron};
 use pong_geometry::primitive::{Ellipsoid, Polyhedron};
 use pong_geometry::{Mat3, Vec3};
 
@@ -454,21 +454,39 @@ fn abutting_pieces_push_as_one_plate() {
     }
 }
 
+/// Two minima of one body, each found by the piece that has it: which is less deep is for the body to say.
 #[test]
-fn a_lower_piece_does_not_pull_through_the_wall_above() {
+fn a_piece_finds_the_minimum_of_its_own_features() {
     let wall = |n: &Vec3, d: f64| n.z > 0.9 && d.abs() < 1e-9;
     // Wide, so that the far side below is the nearest active face.
     let corners = cuboid_corners(Vec3::new(-3.0, -3.0, -1.0), Vec3::new(3.0, 3.0, 0.0));
     let lower = hull_with_walls(&corners, &wall);
-    let at = |z: f64| Ellipsoid {
-        center: Vec3::new(0.1, 0.0, z),
+    for z in [0.2, -0.7] {
+        let e = Ellipsoid {
+            center: Vec3::new(0.1, 0.0, z),
+            axes: Mat3::identity(),
+            semi_axes: Vec3::new(0.4, 0.4, 0.3),
+        };
+        let contact = ellipsoid_polyhedron(&e, &lower).expect("the far side");
+        assert!(contact.normal == -Vec3::z() && (contact.depth - 1.3 - z).abs() < 1e-15, "{contact:?}");
+    }
+}
+
+/// Where all feet lie beside a piece its least active face stands in for it, with the overlap of its own normal.
+#[test]
+fn a_piece_without_a_foot_has_a_stand_in() {
+    let wall_at_zero = |n: &Vec3, d: f64| n.x > 0.9 && d.abs() < 1e-9;
+    let corners = cuboid_corners(Vec3::new(-1.0, -1.0, -0.5), Vec3::new(0.0, 1.0, 0.0));
+    let left = hull_with_walls(&corners, &wall_at_zero);
+    let e = Ellipsoid {
+        center: Vec3::new(0.1, 0.2, 0.05),
         axes: Mat3::identity(),
-        semi_axes: Vec3::new(0.4, 0.4, 0.3),
+        semi_axes: Vec3::new(0.4, 0.3, 0.2),
     };
-    assert_eq!(ellipsoid_polyhedron(&at(0.2), &lower), None);
-    // With the centre inside, the far side is the way out.
-    let contact = ellipsoid_polyhedron(&at(-0.7), &lower).expect("inside");
-    assert!(contact.normal == -Vec3::z() && (contact.depth - 0.6).abs() < 1e-15);
+    assert_eq!(ellipsoid_polyhedron(&e, &left), None);
+    let found = ellipsoid_piece(&e, &left).expect("they overlap");
+    assert!(found.stands_in, "{found:?}");
+    assert!(found.interference.normal == Vec3::z() && (found.interference.depth - 0.15).abs() < 1e-15);
 }
 
 #[test]

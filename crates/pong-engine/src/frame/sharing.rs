@@ -2,6 +2,7 @@
 
 use super::buffers::{Found, Stance};
 use super::input::PairContext;
+use super::pieces::{drop_what_the_body_lacks, pushes_before};
 use crate::sharing::{Sharer, share_within};
 use crate::state::{NO_FACE, Role};
 use pong_arena::{Arena, Full, List};
@@ -37,6 +38,10 @@ pub(super) fn settle(
             settle_at_walls(group, context);
         }
         if group[0].shares && group.len() > 1 {
+            let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
+            if (kind_a, group[0].kind_b) == (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) {
+                drop_what_the_body_lacks(group, &context.body_b.polyhedra);
+            }
             outcome = outcome.and(settle_surface(group, &context.body_b.triangles, sharers, scratch));
         }
     }
@@ -144,10 +149,10 @@ fn drop_deeper_of_convex_faces(group: &mut [Found], triangles: &TriangleSet) {
             continue;
         }
         let is_covered = group.iter().any(|other| {
-            let less_deep = other.depth < contact.depth
-                || (other.depth == contact.depth && other.element_b < contact.element_b);
             let counts = other.role == Role::Pushes && is_triangles_face(other);
-            counts && less_deep && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other))
+            counts
+                && pushes_before(other, contact)
+                && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other))
         });
         if is_covered {
             group[i].role = Role::Silent;
@@ -182,7 +187,8 @@ fn meet_below(contact: &Found, other: &Found) -> bool {
 fn drop_idle_spares(group: &mut [Found]) {
     let deepest = group
         .iter()
-        .filter(|contact| contact.stance != Stance::Spare && contact.role == Role::Pushes)
+        .filter(|contact| !matches!(contact.stance, Stance::Spare | Stance::Dropped))
+        .filter(|contact| contact.role == Role::Pushes)
         .map(|contact| contact.depth)
         .fold(0.0, f64::max);
     for contact in group.iter_mut().filter(|contact| contact.stance == Stance::Spare) {

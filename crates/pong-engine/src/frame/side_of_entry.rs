@@ -1,17 +1,19 @@
 //! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
 //! (physics contract, 2.2 and 2.4).
 
-use crate::state::{ContactKey, ContactMemory, NO_FACE, Role};
+use super::nearest_side::{Nearby, ROUNDING, visit_triangles};
+use crate::state::{ContactKey, ContactMemory, NO_FACE, Role, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
 };
 use pong_geometry::interference::ray_triangle::ray_triangle;
-use pong_geometry::interference::triangle_features::{Standing, TriangleContact, TriangleView};
+use pong_geometry::interference::triangle_features::{
+    Standing, TriangleContact, TriangleView, is_in_front_of_a_face, place_on_feature,
+};
+use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
-use pong_geometry::simd::Portable;
-use pong_model::Body;
-use pong_model::box_tree::{Child, lanes};
+use pong_model::{Body, Item};
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +118,7 @@ impl PolyhedronEntry<'_> {
 pub(super) struct TriangleEntry<'a> {
     pub memory: &'a ContactMemory,
     pub body: &'a Body,
-    pub triangle: u32,
+    pub triangle: Item,
     /// The centre, in B's frame.
     pub center: Vec3,
     /// Where it was at the last commit, in B's frame.
@@ -126,32 +128,95 @@ pub(super) struct TriangleEntry<'a> {
 impl TriangleEntry<'_> {
     /// Whether a contact pushes or is barred; `None` if it does not count at all.
     pub fn role(&self, key: &ContactKey, contact: &TriangleContact) -> Option<Role> {
-        let normal = &contact.interference.normal;
-        let continues = |role| self.memory.matching(key, normal, role).is_some();
+        let nearby = self.nearby();
+        let may_be_behind = contact.standing != Standing::Front || nearby.is_mirror();
+        if may_be_behind && nearby.is_behind(contact) {
+            return self.pushes_from_behind(key, contact).then_some(Role::Pushes);
+        }
+        let continues = |role| self.memory.matching(key, &contact.interference.normal, role).is_some();
         if continues(Role::Pushes) || continues(Role::Silent) {
             return Some(Role::Pushes);
         }
-        let behind = contact.standing == Standing::Behind;
         if continues(Role::Barred) {
-            return (!behind).then_some(Role::Barred);
+            return Some(Role::Barred);
         }
         let Some(earlier) = self.earlier else { return Some(Role::Pushes) };
-        let view = TriangleView::new(&self.body.triangles, self.triangle);
-        if view.height(&earlier) >= 0.0 {
-            return Some(Role::Pushes);
+        let barred = !self.was_in_front(&earlier) && self.came_from_behind(&earlier, key.shell_b);
+        Some(if barred { Role::Barred } else { Role::Pushes })
+    }
+
+    /// Whether a feature that the centre is behind pushes it back to the front: the centre came from there.
+    ///
+    /// It did if it was behind a feature that pushed the same way at the last commit, if it was in front of a face of this
+    /// one, or if its line since then has come through the surface from the front and not gone deeper since than it lies below
+    /// this feature: another sheet of the surface, on whose back the centre has been all the time, is farther away.
+    fn pushes_from_behind(&self, key: &ContactKey, contact: &TriangleContact) -> bool {
+        let Some(earlier) = self.earlier else { return true };
+        let Interference { depth, normal, point_a, feature } = &contact.interference;
+        if self.was_held_behind(key, normal, &earlier) {
+            return true;
         }
-        if behind {
-            return None;
+        if self.memory.matching(key, normal, Role::Barred).is_some() {
+            return false;
         }
-        Some(if self.came_from_behind(&earlier, key.shell_b) { Role::Barred } else { Role::Pushes })
+        let set = &self.body.triangles;
+        let is_mirror = self.nearby().is_mirror();
+        if self.was_in_front(&earlier)
+            || (!is_mirror && is_in_front_of_a_face(&earlier, set, self.triangle.element, *feature, 0.0))
+        {
+            return true;
+        }
+        if is_mirror && self.height_of(&earlier) >= -ROUNDING * earlier.amax() {
+            // In the plane, which counts as on the front: nothing has been crossed.
+            return false;
+        }
+        let below = depth - normal.dot(&(self.center - point_a));
+        if below > (self.center - earlier).norm() {
+            return false;
+        }
+        let crossed = self.last_crossings(&earlier, key.shell_b);
+        crossed.from_front < crossed.from_behind && below <= crossed.from_front * (1.0 + ROUNDING)
+    }
+
+    /// Whether the centre was in front of the triangle at the last commit. A centre in a two-sided triangle is on its
+    /// front.
+    fn was_in_front(&self, earlier: &Vec3) -> bool {
+        let height = self.height_of(earlier);
+        if self.nearby().is_mirror() { height > ROUNDING * earlier.amax() } else { height >= 0.0 }
+    }
+
+    fn height_of(&self, p: &Vec3) -> f64 {
+        TriangleView::new(&self.body.triangles, self.triangle.element).height(p)
+    }
+
+    /// Whether a contact that is remembered, of nearly this normal, held the centre from behind, or in its plane.
+    fn was_held_behind(&self, key: &ContactKey, normal: &Vec3, earlier: &Vec3) -> bool {
+        let (_, records) = self.memory.under(key);
+        records.iter().any(|record| {
+            let place = || place_on_feature(&self.body.triangles, Feature(record.feature));
+            let is_behind = |place: Vec3| {
+                let arm = earlier - place;
+                record.normal.dot(&arm) <= ROUNDING * (arm.norm() + earlier.amax())
+            };
+            record.role != Role::Barred
+                && record.normal.dot(normal) > SAME_WAY_COSINE_MIN
+                && place().is_some_and(is_behind)
+        })
     }
 
     /// Whether the last crossing of the surface by the straight line since the last commit was from behind.
     fn came_from_behind(&self, earlier: &Vec3, shell: u32) -> bool {
+        let crossed = self.last_crossings(earlier, shell);
+        crossed.from_behind < crossed.from_front
+    }
+
+    /// The last crossings of the surface by the straight line since the last commit.
+    fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let path = self.center - earlier;
         let length = path.norm();
+        let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         if length == 0.0 {
-            return false;
+            return last;
         }
         let ray = |origin: Vec3, direction: Vec3| Ray {
             origin,
@@ -162,34 +227,28 @@ impl TriangleEntry<'_> {
         };
         let forward = ray(*earlier, path / length);
         let backward = ray(self.center, -path / length);
-        // Distances of crossings from the present centre: the smaller came later.
-        let (mut from_behind, mut from_front) = (f64::INFINITY, f64::INFINITY);
-        self.visit_triangles(&earlier.inf(&self.center), &earlier.sup(&self.center), &mut |triangle| {
-            let set = &self.body.triangles;
+        visit_triangles(self.body, &earlier.inf(&self.center), &earlier.sup(&self.center), &mut |item| {
+            let (set, triangle) = (&self.body.triangles, item.element);
             if set.triangles[triangle as usize].shell != shell {
                 return;
             }
             if let Some(hit) = ray_triangle(&backward, set, triangle, 0.0) {
-                from_behind = from_behind.min(hit.distance);
+                last.from_behind = last.from_behind.min(hit.distance);
             }
             if let Some(hit) = ray_triangle(&forward, set, triangle, 0.0) {
-                from_front = from_front.min(length - hit.distance);
+                last.from_front = last.from_front.min(length - hit.distance);
             }
         });
-        from_behind < from_front
+        last
     }
 
-    /// Calls `visit` with every triangle whose box meets that between two corners.
-    fn visit_triangles(&self, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(u32)) {
-        let tree = &self.body.tree;
-        for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
-            batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {
-                for lane in lanes(met) {
-                    if let Child::Element(place) = node.child(lane) {
-                        visit(tree.items[(batch.items.start + place) as usize].element);
-                    }
-                }
-            });
-        }
+    fn nearby(&self) -> Nearby<'_> {
+        Nearby { body: self.body, item: self.triangle, center: self.center }
     }
+}
+
+/// How far before its end a line last crossed a surface from either side, m; infinite if it did not.
+struct LastCrossings {
+    from_behind: f64,
+    from_front: f64,
 }

@@ -4,6 +4,7 @@ use super::buffers::{Found, Stance};
 use super::carried::Carried;
 use super::chunk::Chunk;
 use super::input::PairContext;
+use super::nearest_side::{KnownSides, Nearby};
 use super::relative::Motion;
 use super::side_of_entry::{PolyhedronEntry, TriangleEntry};
 use crate::dispatch::has_tester;
@@ -14,7 +15,7 @@ use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
-    Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
+    Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_piece,
     ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
     line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
     point_plane::point_plane, point_polyhedron::point_below_face, point_sphere::point_sphere,
@@ -39,6 +40,7 @@ pub(super) struct Findings<'m> {
     /// less than a frame may keep.
     pub overflowed: bool,
     waiting: &'m mut Waiting,
+    sides: KnownSides,
 }
 
 /// Spheres that may touch triangles, until eight are together or the batch of B ends.
@@ -60,7 +62,7 @@ impl<'m> Findings<'m> {
     pub fn new(list: List<'m, Found>, waiting: &'m mut Waiting) -> Self {
         // A panic may have left some.
         waiting.pairs.clear();
-        Self { list, seen: 0, overflowed: false, waiting }
+        Self { list, seen: 0, overflowed: false, waiting, sides: KnownSides::default() }
     }
 
     pub fn clear(&mut self) {
@@ -343,7 +345,13 @@ impl<'a> Side<'a> {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         match kind_b {
             Plane => self.whole(ellipsoid_plane(ellipsoid, &body.planes[b]), found),
-            Polyhedron => self.sharing(ellipsoid_polyhedron(ellipsoid, &body.polyhedra[b]), found),
+            Polyhedron => {
+                let Some(contact) = ellipsoid_piece(ellipsoid, &body.polyhedra[b]) else { return };
+                self.emit(&contact.interference, found, |out| {
+                    out.shares = true;
+                    out.stance = if contact.stands_in { Stance::Spare } else { Stance::Plain };
+                });
+            }
             _ => {
                 let local = self.body_a().ellipsoids[self.item_a.element as usize].center;
                 let thickness = self.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis());
@@ -367,12 +375,16 @@ impl<'a> Side<'a> {
 
     /// A contact of one sphere's or ellipsoid's centre with one triangle, unless the centre came from behind.
     fn on_triangle(&self, local: &Vec3, center: &Vec3, contact: TriangleContact, found: &mut Findings<'_>) {
+        let earlier = self.motion().since_commit.map(|since| since.x_ba.point(local));
+        if earlier.is_none() && self.is_set_down_in_front(center, &contact, &mut found.sides) {
+            return;
+        }
         let entry = TriangleEntry {
             memory: self.context.memory,
             body: self.body_b(),
-            triangle: self.item_b.element,
+            triangle: self.item_b,
             center: *center,
-            earlier: self.motion().since_commit.map(|since| since.x_ba.point(local)),
+            earlier,
         };
         let key = self.key();
         let Some(role) = entry.role(&key, &contact) else { return };
@@ -385,6 +397,13 @@ impl<'a> Side<'a> {
                 Standing::Spare => Stance::Spare,
             };
         });
+    }
+
+    /// Whether a contact would push a centre without an earlier place from behind, though the centre is in front of the
+    /// surface at its nearest point.
+    fn is_set_down_in_front(&self, center: &Vec3, contact: &TriangleContact, sides: &mut KnownSides) -> bool {
+        let nearby = Nearby { body: self.body_b(), item: self.item_b, center: *center };
+        nearby.is_behind(contact) && sides.in_front(self.item_a, nearby.surface(), || nearby.is_in_front())
     }
 
     /// For a point inside B's polyhedron, the face that memory reaches and the one that pushes.

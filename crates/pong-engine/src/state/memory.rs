@@ -7,6 +7,9 @@ use pong_geometry::{Pose, Vec3};
 /// In [`ContactRecord::entry_face`]: no side of entry is remembered.
 pub(crate) const NO_FACE: u32 = u32::MAX;
 
+/// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
+pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
+
 /// What a contact is remembered under. Its order is the order of every sum.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct ContactKey {
@@ -225,14 +228,14 @@ impl ContactMemory {
     }
 
     /// The record of the given role that a present contact with normal `n` continues: the one under its key with
-    /// the largest n·n', ties by feature, if that exceeds ½.
+    /// the largest n·n', ties by feature, if that exceeds [`SAME_WAY_COSINE_MIN`].
     pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: Role) -> Option<usize> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;
         for (i, record) in records.iter().enumerate().filter(|(_, record)| record.role == role) {
             let cosine = record.normal.dot(normal);
             let closer = match best {
-                None => cosine > 0.5,
+                None => cosine > SAME_WAY_COSINE_MIN,
                 Some((b, most)) => cosine > most || (cosine == most && record.feature < records[b].feature),
             };
             if closer {

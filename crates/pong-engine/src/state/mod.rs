@@ -10,5 +10,7 @@ mod tests;
 pub use block::StateError;
 pub(crate) use block::{block_len, fnv1a, read_block, write_block, write_packed};
 pub(crate) use books::{Books, PairBook};
-pub(crate) use memory::{ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role};
+pub(crate) use memory::{
+    ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role, SAME_WAY_COSINE_MIN,
+};
 pub(crate) use merge::Remembered;

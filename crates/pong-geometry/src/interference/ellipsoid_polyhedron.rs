@@ -33,10 +33,13 @@
 //!
 //! # Inner walls
 //!
-//! Only active features push. A piece whose active features hold no foot has no contact: its neighbour has. Two
-//! kinds of far minima would push the body through a whole piece and are left out: those deeper than the least
-//! overlap of any active face (its foot lies in a neighbour, which pushes), and those that push back against an inner
-//! wall (`n·n_wall < 0`) which the centre is beyond and which is nearer (the centre lies in a neighbour).
+//! Only active features push, and a piece knows nothing of its neighbours. Of the body that all pieces make up it finds
+//! the minimum among its own features, by the same tests: each feature of the body belongs to one piece, so the body's
+//! minimum is found by the piece that has it. What other pieces find besides are other local minima, not less deep:
+//! which of them count is for the body to say, which sees them all. Two rules belong to a piece: a minimum deeper than
+//! the least overlap of one of its active faces is left out, since the body's is not deeper; and where none of its
+//! features holds a foot, its least active face is told as a [stand-in](PieceContact::stands_in), which counts only if
+//! no piece of the body has found more.
 
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
@@ -60,15 +63,31 @@ const HARDLY_INSIDE: f64 = 1e-6;
 /// Overlap that is no more than the rounding of a depth, as a share of the largest length.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Tests an ellipsoid (A) against one convex piece (B).
-#[inline]
-pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
-    run_at_level!(ellipsoid_polyhedron_in(e: Ellipsoid, p: Polyhedron) -> Option<Interference>)
+/// What an ellipsoid has with one convex piece of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PieceContact {
+    /// Depth, normal, point, feature.
+    pub interference: Interference,
+    /// No feature of the piece holds a foot: this is the least overlap of an active face, whose foot lies beside the
+    /// piece. It counts only if no other piece of the body has a contact of its own.
+    pub stands_in: bool,
 }
 
-/// [`ellipsoid_polyhedron`] within a kernel.
+/// Tests an ellipsoid (A) against one convex solid (B), or one piece of a body for the contacts of its own features.
+#[inline]
+pub fn ellipsoid_polyhedron(e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
+    ellipsoid_piece(e, p).filter(|contact| !contact.stands_in).map(|contact| contact.interference)
+}
+
+/// Tests an ellipsoid (A) against one convex piece of a body (B).
+#[inline]
+pub fn ellipsoid_piece(e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
+    run_at_level!(ellipsoid_piece_in(e: Ellipsoid, p: Polyhedron) -> Option<PieceContact>)
+}
+
+/// [`ellipsoid_piece`] within a kernel.
 #[inline(always)]
-pub fn ellipsoid_polyhedron_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option<Interference> {
+fn ellipsoid_piece_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
     let prepared = PreparedEllipsoid::new(e);
     let (lead, suspects) = Lead::find(simd, &prepared, p)?;
     settle(e, &prepared, p, lead, &suspects)
@@ -81,20 +100,17 @@ fn settle(
     p: &Polyhedron,
     lead: Lead,
     suspects: &Suspects,
-) -> Option<Interference> {
+) -> Option<PieceContact> {
     let face =
         Candidate { depth: lead.depth, normal: p.faces[lead.face].normal, feature: Feature::face(lead.face) };
-    let found = if suspects.count == 0 {
-        Some(face)
+    let (least, stands_in) = if suspects.count == 0 {
+        (face, false)
     } else {
-        Search::new(e, prepared, p, lead, face, p.planes().all_active).least(suspects)
+        Search::new(e, prepared, p, lead, face, p.planes().all_active).least(suspects)?
     };
-    found.map(|least| Interference {
-        depth: least.depth,
-        normal: least.normal,
-        point_a: prepared.deepest(&least.normal),
-        feature: least.feature,
-    })
+    let Candidate { depth, normal, feature } = least;
+    let point_a = prepared.deepest(&normal);
+    Some(PieceContact { interference: Interference { depth, normal, point_a, feature }, stands_in })
 }
 
 /// The active face of least overlap.
@@ -290,7 +306,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn least(mut self, suspects: &Suspects) -> Option<Candidate> {
+    /// The least candidate, and whether it only stands in for the piece.
+    fn least(mut self, suspects: &Suspects) -> Option<(Candidate, bool)> {
         let mut witness = None;
         if !suspects.pierces {
             let found = self.overlap_witness()?;
@@ -308,7 +325,7 @@ impl<'a> Search<'a> {
         if self.best.is_none() && self.all_active {
             self.stand_in(witness);
         }
-        self.best
+        self.best.map(|best| (best, false)).or(Some((self.lead_face, true)))
     }
 
     /// A point of the polyhedron in the ellipsoid, from the centre, where the ellipsoid is the unit ball.
@@ -488,19 +505,9 @@ impl<'a> Search<'a> {
     fn offer(&mut self, candidate: Candidate) {
         let wins =
             self.best.is_none_or(|best| (candidate.depth, candidate.feature) < (best.depth, best.feature));
-        if candidate.depth > 0.0 && wins && !self.pushes_into_a_wall(candidate.depth, &candidate.normal) {
+        if candidate.depth > 0.0 && wins {
             self.best = Some(candidate);
         }
-    }
-
-    fn pushes_into_a_wall(&self, depth: f64, normal: &Vec3) -> bool {
-        !self.all_active
-            && self.polyhedron.faces.iter().filter(|face| !face.active).any(|wall| {
-                let height = wall.height(&self.ellipsoid.center);
-                height > 0.0
-                    && wall.normal.dot(normal) < 0.0
-                    && self.prepared.widened(&wall.normal).norm() - height < depth
-            })
     }
 
     /// Candidates above this cannot win.

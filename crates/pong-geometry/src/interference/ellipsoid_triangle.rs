@@ -12,6 +12,12 @@
 //! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex across the
 //! normal at hand. What only rounding keeps from pushing is emitted as spare.
 //!
+//! An ellipsoid may sink into a valley so deep that the foot on either of two faces lies beyond their concave edge, and
+//! neither face holds it. The feet say nothing then: each lies in the plane of its own face, and neither is over the
+//! other. The centre decides instead, by heights and distances that are zero only where it lies in a plane that bounds
+//! the regions. The face stands in, emitted as spare, so that it counts only where nothing else is as deep: in front of
+//! it if the centre is not beyond the edge, behind it if it would push a ball.
+//!
 //! Degenerate cases: centre in the plane, on an edge or a vertex counts as in front; there the nearest surface point's
 //! normal decides.
 
@@ -159,6 +165,11 @@ fn passes_beside(e: &PreparedEllipsoid, view: &TriangleView) -> bool {
     })
 }
 
+/// Whether a face holds the foot of its deepest point inside its outline.
+fn holds_foot(edges: &TriangleEdges<'_>, foot: &Vec3) -> bool {
+    !(0..3).any(|k| edges.is_beyond(k, foot))
+}
+
 struct Tester<'a> {
     ellipsoid: &'a Ellipsoid,
     prepared: &'a PreparedEllipsoid,
@@ -185,13 +196,13 @@ struct EdgeMinimum {
 impl Tester<'_> {
     fn emit_face(&self, emit: &mut dyn FnMut(TriangleContact)) {
         let depth = self.half_width - self.height;
-        let behind = self.height < 0.0;
-        if behind && -self.height >= self.thickness {
+        let behind = self.is_behind(self.height);
+        if behind && -self.height >= self.thickness - self.foot_slack {
             return;
         }
         let foot = self.foot_on(&self.view.normal, depth);
-        let holds = self.edges.hold_foot(&foot);
-        if !holds && (0..3).any(|k| self.edges.beyond(k, &foot) > self.foot_slack) {
+        let holds = holds_foot(&self.edges, &foot);
+        if !holds && !self.stands_in(&foot) {
             return;
         }
         if (0..3).any(|k| self.edge_is_less_deep(k, depth)) {
@@ -214,15 +225,65 @@ impl Tester<'_> {
                 let other = TriangleView { index: neighbor, corners: self.set.corners(neighbor), normal };
                 let height = other.height(&self.ellipsoid.center);
                 let other_depth = self.prepared.widened(&normal).norm() - height;
-                let less = other_depth < depth || (other_depth == depth && neighbor < self.view.index);
-                let holds = || other.holds_foot(self.set, &self.foot_on(&normal, other_depth));
-                if less && holds() {
+                let less = self.is_less_deep((other_depth, neighbor), (depth, self.view.index));
+                let edges = || TriangleEdges::new(self.set, &other);
+                if less && holds_foot(&edges(), &self.foot_on(&normal, other_depth)) {
                     return true;
                 }
                 let bound = self.prepared.arc_bound(&[self.view.normal, normal], &[self.height, height]);
                 bound < depth * (1.0 - DEPTH_SLACK) && self.minimum_less_deep_than(k, depth)
             }
         }
+    }
+
+    /// Whether the first of two faces, given with their depths, pushes before the second. Of two that rounding alone
+    /// tells apart it is the lower, however the scene is turned. Both faces come to the same conclusion.
+    fn is_less_deep(&self, (depth, face): (f64, u32), (other_depth, other_face): (f64, u32)) -> bool {
+        let rounding = FOOT_SLACK * (self.prepared.largest + self.ellipsoid.center.amax());
+        let difference = depth - other_depth;
+        difference < -rounding || (difference <= rounding && face < other_face)
+    }
+
+    /// Whether the face stands in for a foot that it does not hold: beyond an edge by rounding, or where concave and flat
+    /// edges have lost it and the centre says so (see the head of this file).
+    fn stands_in(&self, foot: &Vec3) -> bool {
+        let lost = |k: &usize| self.edges.beyond(*k, foot) > self.foot_slack;
+        if !(0..3).filter(lost).all(|k| self.is_lost_beyond(k)) {
+            return false;
+        }
+        if self.is_behind(self.height) {
+            return !(0..3).any(|k| lost(&k))
+                || (0..3).all(|k| !self.center_is_beyond(k) || self.is_lower_of_two_behind(k));
+        }
+        (0..3).filter(lost).all(|k| !self.center_is_beyond(k))
+    }
+
+    /// Whether edge `k`, beyond which the foot lies, is concave or flat, and the other face does not hold its own foot
+    /// there either.
+    fn is_lost_beyond(&self, k: usize) -> bool {
+        let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
+        let other = TriangleView::new(self.set, neighbor);
+        let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
+        let from_edge = self.foot_on(&other.normal, depth) - self.view.edge_ends(k)[0];
+        depth <= 0.0 || outward.dot(&from_edge) > 0.0
+    }
+
+    /// Whether the centre lies beyond edge `k`; what only rounding puts there does not.
+    fn center_is_beyond(&self, k: usize) -> bool {
+        self.edges.beyond(k, &self.ellipsoid.center) > self.foot_slack
+    }
+
+    /// Whether a centre beyond edge `k` is beyond and behind the other face as well, of which this is the lower.
+    fn is_lower_of_two_behind(&self, k: usize) -> bool {
+        let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
+        let other_height = TriangleView::new(self.set, neighbor).height(&self.ellipsoid.center);
+        let beyond_other = outward.dot(&(self.ellipsoid.center - self.view.edge_ends(k)[0]));
+        self.view.index < neighbor && beyond_other > self.foot_slack && self.is_behind(other_height)
+    }
+
+    /// Whether a centre of this height is behind; what only rounding puts there is in the plane, and so in front.
+    fn is_behind(&self, height: f64) -> bool {
+        height < -self.foot_slack
     }
 
     /// Where the deepest point comes to lie once the ellipsoid is pushed out.
@@ -260,7 +321,7 @@ impl Tester<'_> {
         let from_edge = self.ellipsoid.center - first;
         let neighbor = match self.edges.class(k) {
             EdgeClass::Silent { .. } => return [None, None],
-            EdgeClass::Free if self.height < 0.0 => return [None, None],
+            EdgeClass::Free if self.is_behind(self.height) => return [None, None],
             EdgeClass::Free => None,
             EdgeClass::Convex { normal, outward, .. } => Some((normal, outward)),
         };
@@ -355,7 +416,7 @@ impl Tester<'_> {
                 return;
             }
         }
-        let mut in_front = |t: &TriangleView| t.height(&self.ellipsoid.center) >= 0.0;
+        let mut in_front = |t: &TriangleView| !self.is_behind(t.height(&self.ellipsoid.center));
         let pushes = vertex_pushes(self.set, self.view.index, corner, &normal, &mut in_front);
         let Some(strictly) = pushes else { return };
         if let Some(standing) = self.standing(&normal, &apex, strictly) {
@@ -377,8 +438,9 @@ impl Tester<'_> {
     /// `None` if the centre is too far behind the plane through `p` across the normal.
     fn standing(&self, normal: &Vec3, p: &Vec3, strictly: bool) -> Option<Standing> {
         let height = normal.dot(&(self.ellipsoid.center - p));
-        if height < 0.0 {
-            return (strictly && -height < self.thickness).then_some(Standing::Behind);
+        if self.is_behind(height) {
+            let within = -height < self.thickness - self.foot_slack;
+            return (strictly && within).then_some(Standing::Behind);
         }
         Some(if strictly { Standing::Front } else { Standing::Spare })
     }

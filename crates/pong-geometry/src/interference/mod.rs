@@ -11,6 +11,7 @@ pub mod ellipsoid_triangle;
 mod highest_face;
 pub mod line_segment_plane;
 pub mod line_segment_polyhedron;
+pub mod nearest_on_triangle;
 pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;
@@ -48,6 +49,17 @@ pub struct Interference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Feature(pub u32);
 
+/// What a feature is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    /// A face, a triangle, or the primitive as a whole.
+    Face,
+    /// An edge.
+    Edge,
+    /// A vertex.
+    Vertex,
+}
+
 impl Feature {
     /// The primitive as a whole: planes, spheres, ellipsoids.
     pub const WHOLE: Self = Self(0);
@@ -69,9 +81,18 @@ impl Feature {
         Self(2 << Self::KIND_SHIFT | index as u32)
     }
 
+    /// What it is.
+    pub fn kind(self) -> FeatureKind {
+        match self.0 >> Self::KIND_SHIFT {
+            0 => FeatureKind::Face,
+            1 => FeatureKind::Edge,
+            _ => FeatureKind::Vertex,
+        }
+    }
+
     /// Whether this is a face.
     pub fn is_face(self) -> bool {
-        self.0 >> Self::KIND_SHIFT == 0
+        self.kind() == FeatureKind::Face
     }
 
     /// The index within its kind.

@@ -12,7 +12,7 @@
 //! numbers, for the features on both its sides, so that rounding opens no gap between them; where an edge is
 //! silent there is no third region, and a point that rounding puts outside both faces belongs to the lower one.
 
-use super::Interference;
+use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
 use crate::primitive::{MayPush, NO_NEIGHBOR, TriangleSet};
 use std::cell::OnceCell;
@@ -119,13 +119,6 @@ impl TriangleView {
         }
     }
 
-    /// Whether the triangle holds the foot of `p`: inside its outline, or beyond both faces of a silent edge,
-    /// which belongs to the lower of the two: in front that is the seam that rounding leaves, behind the wedge
-    /// between the two prisms.
-    pub fn holds_foot(&self, set: &TriangleSet, p: &Vec3) -> bool {
-        TriangleEdges::new(set, self).hold_foot(p)
-    }
-
     /// Whether this triangle owns edge `k`, which may push.
     #[inline]
     pub(super) fn pushes_with_edge(&self, set: &TriangleSet, k: usize) -> bool {
@@ -213,12 +206,9 @@ impl<'a> TriangleEdges<'a> {
         beyond > 0.0 || beyond.is_nan()
     }
 
-    /// As [`TriangleView::holds_foot`].
-    pub fn hold_foot(&self, p: &Vec3) -> bool {
-        (0..3).all(|k| !self.is_beyond(k, p) || self.has_beyond(k, p))
-    }
-
-    /// Whether a point beyond edge `k` still belongs to this triangle ([`TriangleView::holds_foot`]).
+    /// Whether a point beyond edge `k` still belongs to this triangle: where it lies beyond both faces of a silent edge
+    /// it belongs to the lower of the two. In front that is the seam that rounding leaves, behind the wedge between the
+    /// two prisms.
     pub fn has_beyond(&self, k: usize, p: &Vec3) -> bool {
         // A free edge has no neighbour.
         let neighbor = self.set.triangles[self.view.index as usize].neighbors[k];
@@ -340,6 +330,62 @@ pub fn vertex_pushes(
     })?;
     let seen_from_front = if fan.open { in_front } else { length == 0.0 || turn > 0.0 };
     seen_from_front.then_some(strictly)
+}
+
+/// Whether the surface around a vertex is seen from its front, for a point of which the vertex is the nearest place;
+/// `direction` points from the vertex to the point (any length). A point in the vertex counts as in front.
+///
+/// As in [`vertex_pushes`], the sum of the triangles that the edges make in a plane across `direction` has the sense in
+/// which the surface runs around the vertex, whether the fan is closed or open.
+pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize, direction: &Vec3) -> bool {
+    /// An edge across the direction would reach infinitely far in that plane.
+    const COSINE_MIN: f64 = 1e-12;
+    let apex = set.corners(triangle)[corner];
+    let length = direction.norm();
+    let mut turn = 0.0;
+    walk_fan(set, triangle, corner, &mut |t, at| {
+        let corners = set.corners(t);
+        let edges = [corners[(at + 1) % 3] - apex, corners[(at + 2) % 3] - apex];
+        let below = edges.map(|edge| (-direction.dot(&edge)).max(COSINE_MIN * length * edge.norm()));
+        turn += direction.dot(&edges[0].cross(&edges[1])) * (length / below[0]) * (length / below[1]);
+    });
+    length == 0.0 || turn >= 0.0
+}
+
+/// Whether a point is in front of one of the faces that meet at a feature of a triangle, or behind it by no more than
+/// `rounding` (m).
+pub fn is_in_front_of_a_face(
+    p: &Vec3,
+    set: &TriangleSet,
+    triangle: u32,
+    feature: Feature,
+    rounding: f64,
+) -> bool {
+    let in_front = |t: u32| TriangleView::new(set, t).height(p) >= -rounding;
+    let record = &set.triangles[triangle as usize];
+    match feature.kind() {
+        FeatureKind::Face => in_front(triangle),
+        FeatureKind::Edge => {
+            let neighbor = record.neighbors[feature.index() % 3];
+            in_front(triangle) || (neighbor != NO_NEIGHBOR && in_front(neighbor))
+        }
+        FeatureKind::Vertex => {
+            let corner = corner_of(set, triangle, feature.index() as u32);
+            walk_fan_while(set, triangle, corner, |t, _| !in_front(t)).is_none()
+        }
+    }
+}
+
+/// A place on a feature of a triangle surface, m; `None` if the set has no such feature.
+pub fn place_on_feature(set: &TriangleSet, feature: Feature) -> Option<Vec3> {
+    let index = feature.index();
+    let corner = |triangle: usize, k: usize| Some(set.triangles.get(triangle)?.vertices[k] as usize);
+    let vertex = match feature.kind() {
+        FeatureKind::Face => corner(index, 0)?,
+        FeatureKind::Edge => corner(index / 3, index % 3)?,
+        FeatureKind::Vertex => index,
+    };
+    set.vertices.get(vertex).copied()
 }
 
 fn corner_of(set: &TriangleSet, triangle: u32, vertex: u32) -> usize {

@@ -1,0 +1,123 @@
+//! On which side of a surface of triangles a centre lies, told from the surface's nearest point: for a centre without an
+//! earlier place.
+
+use pong_geometry::Vec3;
+use pong_geometry::interference::Interference;
+use pong_geometry::interference::nearest_on_triangle::{is_in_front_at, nearest_on_triangle};
+use pong_geometry::interference::triangle_features::{TriangleContact, is_in_front_of_a_face};
+use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::simd::{LANES, Portable};
+use pong_model::box_tree::{Child, lanes};
+use pong_model::{Body, Item};
+
+/// How much wider than a distance the box is in which triangles at that distance are looked for.
+const REACH_SLACK: f64 = 1e-6;
+
+/// Relative to the lengths involved: a centre this little in front of a plane, or behind it, is in it.
+pub(super) const ROUNDING: f64 = 1e-12;
+
+/// A triangle of a body, and the centre of a sphere or ellipsoid.
+pub(super) struct Nearby<'a> {
+    pub body: &'a Body,
+    pub item: Item,
+    pub center: Vec3,
+}
+
+/// The sides that were asked for in a block, so that each ball and surface are looked at once.
+#[derive(Default)]
+pub(super) struct KnownSides {
+    of: [Option<(Item, u32, bool)>; LANES],
+    next: usize,
+}
+
+impl KnownSides {
+    /// Whether an element of A is in front of a surface; `find` answers if nobody has asked before.
+    pub fn in_front(&mut self, item_a: Item, shell: u32, find: impl FnOnce() -> bool) -> bool {
+        let known = self.of.iter().flatten().find(|(item, of, _)| (*item, *of) == (item_a, shell));
+        if let Some((_, _, in_front)) = known {
+            return *in_front;
+        }
+        let in_front = find();
+        self.of[self.next] = Some((item_a, shell, in_front));
+        self.next = (self.next + 1) % LANES;
+        in_front
+    }
+}
+
+impl Nearby<'_> {
+    /// Whether the triangle is the back of a two-sided one.
+    pub fn is_mirror(&self) -> bool {
+        self.item.element >= self.body.primitives[self.item.primitive as usize].first_mirror
+    }
+
+    /// Whether the centre is behind a contact with the triangle: behind all faces that meet at what pushes. A centre in a
+    /// two-sided triangle is on its front, so it is behind the back.
+    pub fn is_behind(&self, contact: &TriangleContact) -> bool {
+        let Interference { depth, normal, point_a, feature } = &contact.interference;
+        let arm = self.center - point_a;
+        let (height, rounding) = (normal.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center.amax()));
+        if self.is_mirror() && height <= rounding {
+            return true;
+        }
+        let (set, triangle) = (&self.body.triangles, self.item.element);
+        height < -rounding && !is_in_front_of_a_face(&self.center, set, triangle, *feature, rounding)
+    }
+
+    /// The surface that the triangle belongs to; that of its front, if it is a back.
+    pub fn surface(&self) -> u32 {
+        self.shell(self.front())
+    }
+
+    /// Whether the centre is in front of the surface at the surface's point that is nearest to it. Of a two-sided
+    /// triangle every centre is in front.
+    ///
+    /// The nearest of all triangles of the surface decides, of equally near ones the first in the model: so bounding
+    /// volumes, leaves and blocks decide nothing.
+    pub fn is_in_front(&self) -> bool {
+        let set = &self.body.triangles;
+        let (front, shell) = (self.front(), self.surface());
+        let distance = |triangle: u32| nearest_on_triangle(&self.center, &set.corners(triangle));
+        let (mut square, mut place) = distance(front);
+        let mut nearest = Item { element: front, ..self.item };
+        let reach = Vec3::repeat(square.sqrt() * (1.0 + REACH_SLACK));
+        visit_triangles(self.body, &(self.center - reach), &(self.center + reach), &mut |item| {
+            if self.shell(item.element) == shell {
+                let (other, at) = distance(item.element);
+                if (other, item.element) < (square, nearest.element) {
+                    (square, place, nearest) = (other, at, item);
+                }
+            }
+        });
+        // A centre on the surface is in front, however rounding places it.
+        let rounding = ROUNDING * self.center.amax();
+        let info = &self.body.primitives[nearest.primitive as usize];
+        square <= rounding * rounding
+            || info.first_mirror < info.elements.end
+            || is_in_front_at(&self.center, set, nearest.element, place)
+    }
+
+    /// The triangle itself, or the one whose back it is.
+    fn front(&self) -> u32 {
+        let info = &self.body.primitives[self.item.primitive as usize];
+        let element = self.item.element;
+        if self.is_mirror() { element - info.first_mirror + info.elements.start } else { element }
+    }
+
+    fn shell(&self, triangle: u32) -> u32 {
+        self.body.triangles.triangles[triangle as usize].shell
+    }
+}
+
+/// Calls `visit` with every triangle whose box meets that between two corners.
+pub(super) fn visit_triangles(body: &Body, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
+    let tree = &body.tree;
+    for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
+        batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {
+            for lane in lanes(met) {
+                if let Child::Element(place) = node.child(lane) {
+                    visit(tree.items[(batch.items.start + place) as usize]);
+                }
+            }
+        });
+    }
+}

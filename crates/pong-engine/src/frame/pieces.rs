@@ -1,0 +1,77 @@
+//! Which contacts of one ellipsoid with the pieces of one body count: those that the uncut body would have.
+
+use super::buffers::{Found, Stance};
+use pong_geometry::Vec3;
+use pong_geometry::primitive::Polyhedron;
+
+/// Relative: depths this close are one depth, so that rounding does not choose between two features.
+const DEPTH_SLACK: f64 = 1e-12;
+/// Relative to the distance of two places: how far in front of a plane a place counts as in it. A fold that single
+/// precision can hold is steeper.
+const PLANE_SLACK: f64 = 1e-9;
+/// Relative to the coordinates: places this close are one place, where the pieces of a flat face meet.
+const PLACE_SLACK: f64 = 1e-9;
+
+/// Marks as dropped what an ellipsoid would not have on the uncut body (`group`: its contacts with the pieces of one
+/// body).
+///
+/// A piece finds the least overlap among its own features. Of two pieces' features that meet convexly, only the less
+/// deep is the minimum translation; features that meet concavely, as two walls of a corner, are overcome each for itself.
+/// A contact that only stands in for a piece counts if there is none but such.
+pub(super) fn drop_what_the_body_lacks(group: &mut [Found], pieces: &[Polyhedron]) {
+    let stands_in = |contact: &Found| contact.stance == Stance::Spare;
+    if !group.iter().all(stands_in) {
+        group
+            .iter_mut()
+            .filter(|contact| stands_in(contact))
+            .for_each(|spare| spare.stance = Stance::Dropped);
+    }
+    for i in 0..group.len() {
+        let contact = &group[i];
+        let is_covered = group.iter().any(|other| {
+            let counts = other.stance != Stance::Dropped;
+            counts && pushes_before(other, contact) && meet_convexly(contact, other, pieces)
+        });
+        if contact.stance != Stance::Dropped && is_covered {
+            group[i].stance = Stance::Dropped;
+        }
+    }
+}
+
+/// Whether the first contact is less deep; of two equally deep ones the first in the order of sums is.
+pub(super) fn pushes_before(contact: &Found, other: &Found) -> bool {
+    let rounding = DEPTH_SLACK * other.depth;
+    let difference = contact.depth - other.depth;
+    difference < -rounding || (difference <= rounding && contact.order() < other.order())
+}
+
+/// Whether what is touched belongs to one convex body: each place lies below the plane through the other across its
+/// normal, or in it.
+fn meet_convexly(contact: &Found, other: &Found, pieces: &[Polyhedron]) -> bool {
+    if contact.stance == Stance::Spare {
+        // The feet lie beside the pieces and say nothing; the faces themselves do.
+        return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
+    }
+    let (here, there) = (touched(contact), touched(other));
+    let apart = there - here;
+    let distance = apart.norm();
+    if distance <= PLACE_SLACK * (here.amax() + there.amax()) {
+        return false;
+    }
+    contact.normal.dot(&apart) <= PLANE_SLACK * distance
+        && other.normal.dot(&apart) >= -PLANE_SLACK * distance
+}
+
+/// Where A's deepest point comes to lie once it is pushed out.
+fn touched(contact: &Found) -> Vec3 {
+    contact.point_a + contact.normal * contact.depth
+}
+
+/// Whether the face of one contact lies below the plane of another, or in it.
+fn lies_below(of: &Found, other: &Found, pieces: &[Polyhedron]) -> bool {
+    let piece = &pieces[of.element_b as usize];
+    let plane = &pieces[other.element_b as usize].faces[other.feature.index()];
+    let corners = piece.rim(of.feature.index()).iter().map(|rim| piece.vertices[rim.start as usize].position);
+    corners.map(|corner| plane.height(&corner)).fold(f64::NEG_INFINITY, f64::max)
+        <= PLANE_SLACK * piece.diameter
+}
