@@ -7,7 +7,7 @@ use crate::sharing::{Sharer, share_within};
 use crate::state::{NO_FACE, Role};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
-use pong_geometry::primitive::{PolyhedronFace, PrimitiveKind, TriangleSet};
+use pong_geometry::primitive::{Containment, PolyhedronFace, PrimitiveKind, TriangleSet};
 
 /// Relative: a spare contact counts if no other is deeper by more than rounding.
 const SPARE_DEPTH_SLACK: f64 = 1e-9;
@@ -36,6 +36,9 @@ pub(super) fn settle(
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
         if group.iter().any(|contact| matches!(contact.stance, Stance::AtWall | Stance::BeyondWall)) {
             settle_at_walls(group, context);
+        }
+        if group[0].half && group.len() > 1 {
+            keep_first_of_tips_at_walls(group, context);
         }
         if group[0].shares && group.len() > 1 {
             let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
@@ -85,6 +88,23 @@ fn settle_at_walls(group: &mut [Found], context: &PairContext<'_>) {
         let is_at_wall = matches!(contact.stance, Stance::AtWall | Stance::BeyondWall);
         if is_at_wall && first != Some(index) {
             contact.stance = Stance::Dropped;
+        }
+    }
+}
+
+/// The tip of a segment at inner walls of a body is in one of its pieces as well: of those that have it, the first counts.
+fn keep_first_of_tips_at_walls(group: &mut [Found], context: &PairContext<'_>) {
+    let polyhedra = &context.body_b.polyhedra;
+    for index in 1..group.len() {
+        let (before, tip) = (&group[..index], &group[index]);
+        // Where a segment leaves differs from piece to piece; its tip is the same to the bit.
+        let is_same_tip = |other: &Found| other.point_a == tip.point_a && other.stance != Stance::Dropped;
+        let is_at_wall = || match polyhedra[tip.element_b as usize].containment(&tip.point_a) {
+            Containment::AtWall | Containment::BeyondWall => true,
+            Containment::Inside | Containment::Outside => false,
+        };
+        if tip.kind_b == PrimitiveKind::Polyhedron && before.iter().any(is_same_tip) && is_at_wall() {
+            group[index].stance = Stance::Dropped;
         }
     }
 }

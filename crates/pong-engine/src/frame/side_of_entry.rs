@@ -1,5 +1,5 @@
 //! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
-//! (physics contract, 2.2 and 2.4).
+//! (docs/theory.md, 2.2 and 2.4).
 
 use super::nearest_side::{Nearby, ROUNDING, visit_triangles};
 use crate::state::{ContactKey, ContactMemory, NO_FACE, Role, SAME_WAY_COSINE_MIN};

@@ -1,4 +1,4 @@
-//! Several contacts of one ball with one surface share one spring (physics contract, 2.2).
+//! Several contacts of one ball with one surface share one spring (docs/theory.md, 2.2).
 //!
 //! Contacts of depth δ_i and normal n_i get λ_i, the solution of
 //!

@@ -1,4 +1,4 @@
-//! Point (A) – polyhedron (B): the side of entry (physics contract, 2.4).
+//! Point (A) – polyhedron (B): the side of entry (docs/theory.md, 2.4).
 //!
 //! A point inside is pushed out through the face that it came in by, or through a neighbour of that face when
 //! this is nearer. Which face that is, is remembered by the engine; here are the questions it asks of one piece.
@@ -13,7 +13,7 @@ use crate::primitive::Polyhedron;
 use crate::simd::{Simd, run_at_level};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
-/// across anything sharper it stays (physics contract, 2.4).
+/// across anything sharper it stays (docs/theory.md, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
 
 /// The contact of a point that remembers no side: with the active face under which it lies least deep.

@@ -1,7 +1,7 @@
 //! Convex planar polyhedra with their surface topology.
 //!
 //! A polyhedron is one convex piece of a body. Pieces that touch along *inactive* faces (inner walls) form one
-//! surface (physics contract, section 2.1); what an edge or a vertex may push is therefore a property of the
+//! surface (docs/theory.md, 2.2); what an edge or a vertex may push is therefore a property of the
 //! whole surface and is worked out when the model is loaded.
 
 use super::edge_blocks::{EdgeBlocks, VertexBlock};
