@@ -151,6 +151,7 @@ static void order_before_seal(scene *s)
     REFUSED(pong_commit_pairs(s->world, &s->pair, 1), WRONG_PHASE, "seal");
     REFUSED(pong_forget_object(s->world, s->ball), WRONG_PHASE, "seal");
     REFUSED(pong_contact_state_size(s->world, &size), WRONG_PHASE, "seal");
+    REFUSED(pong_contact_state_used(s->world, &size), WRONG_PHASE, "seal");
     REFUSED(pong_save_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
     REFUSED(pong_restore_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");

@@ -122,6 +122,9 @@
 /// A law of the user's; its parameters stay as the model gives them.
 #define PONG_NORMAL_CUSTOM 3
 
+/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+#define PONG_NORMAL_INHERITED 4
+
 /// No friction.
 #define PONG_FRICTION_NONE 0
 
@@ -133,6 +136,9 @@
 
 /// A law of the user's; its parameters stay as the model gives them.
 #define PONG_FRICTION_CUSTOM 3
+
+/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+#define PONG_FRICTION_INHERITED 4
 
 /// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
 #define PONG_LOG_LOSE 0
@@ -420,7 +426,7 @@ typedef struct pong_seal_report {
     uint64_t group_pairs;
     /// Most contacts of a frame.
     uint64_t contact_capacity;
-    /// Size of the saved contact state, bytes.
+    /// Size of the largest contact state that can be saved, bytes.
     uint64_t contact_state_size;
     /// How many warnings there are: see pong_seal_warning().
     uint64_t warning_count;
@@ -1079,21 +1085,37 @@ pong_status pong_get_worker(const struct pong_world *world,
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_worker_text(const struct pong_world *world, size_t lane, const char **text);
 
-/// Size of the saved contact state, bytes; fixed when the world is sealed.
+/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
+/// made once, is large enough for ever.
 pong_status pong_contact_state_size(const struct pong_world *world, size_t *size);
 
-/// Saves the committed contact state into the caller's buffer of `size` bytes, of which the first
-/// pong_contact_state_size() are written. The bytes hold no pointer: write them to a file, keep them, compare them.
+/// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
+/// is mostly far below pong_contact_state_size().
+pong_status pong_contact_state_used(const struct pong_world *world, size_t *size);
+
+/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
+/// the first pong_contact_state_used() bytes; those behind, up to pong_contact_state_size(), become zero. The bytes hold no
+/// pointer: write them to a file, keep them, compare them. To save often and fast give no more than is used.
 pong_status pong_save_contact_state(const struct pong_world *world,
                                     void *buffer,
                                     size_t size);
 
-/// Restores a contact state of exactly pong_contact_state_size() bytes, saved by this world or by one that was
-/// built by the same calls. The states of the movable groups are the host's and are not part of it.
-/// PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
+/// Restores a contact state that was saved by this world or by one that was built by the same calls: the bytes that saving
+/// used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are the host's and are
+/// not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
 pong_status pong_restore_contact_state(struct pong_world *world,
                                        const void *buffer,
                                        size_t size);
+
+/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
+/// frame of a run, and after pong_forget_object(). `force` NULL: what moves along what it touches has slid for long and has its
+/// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
+/// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
+/// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.
+pong_status pong_preload_friction(struct pong_world *world,
+                                  struct pong_pair_id pair,
+                                  const double *force,
+                                  size_t *count);
 
 /// Number of surfaces of a model.
 pong_status pong_surface_count(const struct pong_world *world, struct pong_model_id model, size_t *count);

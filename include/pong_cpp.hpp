@@ -268,12 +268,20 @@ public:
 
     std::vector<unsigned char> save_contact_state() const {
         std::vector<unsigned char> bytes(
-            result<std::size_t>([&](std::size_t* out) { return pong_contact_state_size(get(), out); }));
+            result<std::size_t>([&](std::size_t* out) { return pong_contact_state_used(get(), out); }));
         check(pong_save_contact_state(get(), bytes.data(), bytes.size()));
         return bytes;
     }
     void restore_contact_state(const std::vector<unsigned char>& bytes) {
         check(pong_restore_contact_state(get(), bytes.data(), bytes.size()));
+    }
+    /// Friction as if what slides had slid for long: pong_preload_friction(). Returns how many bristles were set.
+    std::size_t preload_sliding(PairId pair) {
+        return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, nullptr, out); });
+    }
+    /// Friction that holds a force on the Object named first, N, along the common axes.
+    std::size_t preload_holding(PairId pair, const Vec3& force) {
+        return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, force.data(), out); });
     }
     void forget(ObjectId object) { check(pong_forget_object(get(), object)); }
     void set_pair_enabled(PairId pair, bool enabled) { check(pong_set_pair_enabled(get(), pair, enabled ? 1 : 0)); }

@@ -108,7 +108,7 @@ static void frames(scene *s)
 
 static void contact_state(scene *s)
 {
-    size_t size = 0;
+    size_t size = 0, used = 0;
     unsigned char *saved, *again;
     pong_wrench first, second;
     OK(pong_contact_state_size(s->world, &size));
@@ -121,20 +121,44 @@ static void contact_state(scene *s)
     TEST(first.force[0] < -0.5);
     slide_to(s, 0.3);
     OK(pong_restore_contact_state(s->world, saved, size));
+    OK(pong_contact_state_used(s->world, &used));
+    TEST(used < size / 4);
+    OK(pong_save_contact_state(s->world, again, used));
+    TEST(memcmp(saved, again, used) == 0);
+    OK(pong_restore_contact_state(s->world, again, used));
     OK(pong_save_contact_state(s->world, again, size));
     TEST(memcmp(saved, again, size) == 0);
     second = slide_to(s, 2e-4);
     TEST(memcmp(&first, &second, sizeof first) == 0);
-    REFUSED(pong_save_contact_state(s->world, saved, size - 1), BUFFER_TOO_SMALL, "make it larger");
+    OK(pong_contact_state_used(s->world, &used));
+    REFUSED(pong_save_contact_state(s->world, saved, used - 1), BUFFER_TOO_SMALL, "make it larger");
     REFUSED(pong_save_contact_state(s->world, NULL, size), NULL_ARGUMENT, "`buffer`");
-    REFUSED(pong_restore_contact_state(s->world, saved, size - 1), BAD_STATE_BLOCK, "bytes");
+    REFUSED(pong_restore_contact_state(s->world, saved, used - 1), BAD_STATE_BLOCK, "bytes");
+    REFUSED(pong_restore_contact_state(s->world, saved, size + 1), BAD_STATE_BLOCK, "bytes");
     REFUSED(pong_restore_contact_state(s->world, NULL, 0), BAD_STATE_BLOCK, "bytes");
-    saved[size / 2] ^= 1;
+    saved[used / 2] ^= 1;
     REFUSED(pong_restore_contact_state(s->world, saved, size), BAD_STATE_BLOCK, "damaged");
     OK(pong_forget_object(s->world, s->ball));
     TEST(slide_to(s, 5e-4).force[0] == 0.0);
     free(saved);
     free(again);
+}
+
+static void preload(scene *s)
+{
+    const double force[3] = {-0.25, 0.0, 3.0}, not_finite[3] = {NAN, 0.0, 0.0};
+    size_t count = 0;
+    pong_wrench wrench;
+    slide_to(s, 0.0);
+    OK(pong_forget_object(s->world, s->ball));
+    OK(pong_preload_friction(s->world, s->pair, force, &count));
+    TEST(count == 1);
+    OK(pong_step(s->world));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_COMMON, &wrench));
+    TEST(fabs(wrench.force[0] + 0.25) < 1e-12 && fabs(wrench.force[1]) < 1e-12);
+    OK(pong_preload_friction(s->world, s->pair, NULL, NULL));
+    REFUSED(pong_preload_friction(s->world, s->pair, not_finite, &count), BAD_VALUE, "NaN");
+    OK(pong_forget_object(s->world, s->ball));
 }
 
 static void surfaces(scene *s)
@@ -564,6 +588,7 @@ int main(void)
     contacts(&s);
     frames(&s);
     contact_state(&s);
+    preload(&s);
     surfaces(&s);
     pairs_and_rates(&s);
     threads(&s);

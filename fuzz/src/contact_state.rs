@@ -122,7 +122,7 @@ fn set_states(world: &mut World, interfaces: &[InterfaceId], shift: f64) {
 }
 
 fn saved(world: &World) -> Vec<u8> {
-    let mut block = vec![0; world.state_size().expect("sealed")];
-    world.save_state(&mut block).expect("a block of this size");
+    let mut block = Vec::new();
+    world.save_state_packed(&mut block).expect("sealed");
     block
 }

@@ -102,7 +102,7 @@ fn contact_state(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(),
     let middle = scene.states.len() / 2;
     scene.states[..middle].iter().for_each(|states| _ = rig.step(states));
     scene.states[middle..].iter().find(|states| touching(&mut rig, states)).ok_or("nothing touches")?;
-    let mut block = vec![0; rig.world.state_size()?];
+    let mut block = vec![0; rig.world.state_used()?];
     rig.world.save_state(&mut block)?;
     group.bench_function(BenchmarkId::new("save_state", name), |bencher| {
         bencher.iter(|| rig.world.save_state(black_box(&mut block)));

@@ -22,7 +22,11 @@ def canonical(model: Model) -> Model:
 
 
 def _surface(surface: dict) -> dict:
-    return {key: surface[key] for key in ("stiffness", "normal", "friction") if surface.get(key) is not None}
+    fields = {key: surface[key] for key in ("stiffness", "normal", "friction") if surface.get(key) is not None}
+    if "friction" in surface and surface.get("stiffness") == float("inf"):
+        # Of a rigid surface no friction is something else than friction that is left to what it meets.
+        fields["friction"] = surface["friction"]
+    return fields
 
 
 def _group(group: Group, is_root: bool = False) -> Group:

@@ -71,6 +71,7 @@ class ModelReader(ValueReader):
             self.fault(fields["name"].at, "model", "empty-name", "the model has no name", "name it")
         memory = self.attempt(self.boolean, self.optional(fields, "entry_memory"), "model", default=True)
         surfaces = self.attempt_required(node, fields, "surfaces", "model", self.surfaces) or {}
+        self.model_name = name
         pairs = self.attempt(self.pairs, self.optional(fields, "pairs"), surfaces, default=[])
         self.defined = surfaces
         root = self.attempt_required(node, fields, "root", "model", self.root)
@@ -113,7 +114,8 @@ class ModelReader(ValueReader):
             surface["normal"] = normal
             self.check_restitution(fields["normal"], normal, surface["stiffness"], path)
         friction = self.attempt(self.friction_law, self.optional(fields, "friction"), path)
-        if friction is not None:
+        if friction is not None or ("friction" in fields and surface["stiffness"] == float("inf")):
+            # A rigid surface that says none is another than one that leaves it to what it meets.
             surface["friction"] = friction
         return surface
 
@@ -170,7 +172,9 @@ class ModelReader(ValueReader):
         if not isinstance(node.value, Tuple) or len(node.value.items) != 2 or node.value.name:
             self.wrong_type(node, path, 'two names ("steel", "rubber")')
         pair = tuple(self.text_value(item, path) for item in node.value.items)
-        if not any(name in surfaces for name in pair):
+        # `model/surface` is that surface of the model of that name.
+        own = {*surfaces, *(f"{getattr(self, 'model_name', None)}/{surface}" for surface in surfaces)}
+        if not any(name in own for name in pair):
             cause = f'neither "{pair[0]}" nor "{pair[1]}" is defined in this file'
             cure = "at least one must be; the other may be another model's"
             self.fault(node.at, path, "unknown-surface", cause, cure)

@@ -65,7 +65,7 @@ def surface(fields: dict) -> Block:
     items = [("stiffness: ", number(fields["stiffness"]))]
     if fields.get("normal") is not None:
         items.append(("normal: ", law(fields["normal"], NORMAL_LAWS)))
-    if fields.get("friction") is not None:
+    if fields.get("friction") is not None or ("friction" in fields and fields["stiffness"] == float("inf")):
         items.append(("friction: ", law(fields["friction"], FRICTION_LAWS)))
     return Block("(", ")", items)
 

@@ -8,13 +8,13 @@ from .changes import changed, watched
 from .spec import FIELDS
 
 NORMAL_LAWS = [
-    ("DEFAULT", "Undamped", "A linear spring without damping", None),
+    ("DEFAULT", "Undamped", "A linear spring without damping; of a rigid surface, the law of what it meets", None),
     ("Linear", "Linear", "Spring and damper in parallel that never pull", {"damping": 0.0}),
     ("HuntCrossley", "Hunt-Crossley", "Damping that grows with depth", {"dissipation": 0.0, "exponent": 1.0}),
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 FRICTION_LAWS = [
-    ("DEFAULT", "None", "No friction", None),
+    ("DEFAULT", "None", "No friction; of a rigid surface, that of what it meets", None),
     ("Bristle", "Bristle", "A bristle that sticks and slips", {"mu": 0.2}),
     ("Coulomb", "Coulomb", "Regularised: creeps under any load", {"mu": 0.2, "slip_speed": 0.001}),
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),

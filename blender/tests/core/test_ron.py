@@ -224,8 +224,11 @@ class Layout(unittest.TestCase):
             "a": {"stiffness": 1.0, "normal": Tagged("Linear", {"restitution": {"e": 0.5, "mass": 2.0}, "ramp": 0.1})},
             "b": {"stiffness": 1.0, "normal": Tagged("Custom", {"name": "cubic", "parameters": (1.0, 2.0)})},
             "c": {"stiffness": 1.0, "friction": Tagged("Coulomb", {"mu": 0.1, "slip_speed": 0.001})},
+            "d": {"stiffness": float("inf")},
+            "e": {"stiffness": float("inf"), "friction": None},
         }
         pairs = [{"surfaces": ("a", "b"), "friction": None}, {"surfaces": ("a", "x"), "stiffness": 3.0}]
+        pairs += [{"surfaces": ("m/a", "x/a"), "stiffness": 4.0}]
         group = Group(
             "r", surface="a", bound="Custom:torus", primitives=[Primitive("Point", "p", {"position": (0, 0, 0)})]
         )

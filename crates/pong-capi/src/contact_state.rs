@@ -1,12 +1,16 @@
 //! Saving and restoring the contact state.
 
 use crate::guard::{Failure, with_world};
+use crate::ids::pong_pair_id;
 use crate::pointers::{Out, OutArray, array};
 use crate::status::pong_status;
 use crate::world::pong_world;
+use pong_engine::FrictionPreload;
+use pong_geometry::Vec3;
 use std::ffi::c_void;
 
-/// Size of the saved contact state, bytes; fixed when the world is sealed.
+/// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
+/// made once, is large enough for ever.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size: *mut usize) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
@@ -18,8 +22,22 @@ pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size:
     }
 }
 
-/// Saves the committed contact state into the caller's buffer of `size` bytes, of which the first
-/// pong_contact_state_size() are written. The bytes hold no pointer: write them to a file, keep them, compare them.
+/// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
+/// is mostly far below pong_contact_state_size().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_contact_state_used(world: *const pong_world, size: *mut usize) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            Out::new(size, "size")?.set(inner.world.state_used()?);
+            Ok(())
+        })
+    }
+}
+
+/// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
+/// the first pong_contact_state_used() bytes; those behind, up to pong_contact_state_size(), become zero. The bytes hold no
+/// pointer: write them to a file, keep them, compare them. To save often and fast give no more than is used.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_save_contact_state(
     world: *const pong_world,
@@ -29,21 +47,22 @@ pub unsafe extern "C" fn pong_save_contact_state(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let needed = inner.world.state_size()?;
+            let needed = inner.world.state_used()?;
+            let written = size.min(inner.world.state_size()?);
             if size < needed {
                 let message =
                     format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
                 return Err(Failure::new(pong_status::BufferTooSmall, message));
             }
-            let mut out = OutArray::new(buffer.cast::<u8>(), needed, "buffer")?;
+            let mut out = OutArray::new(buffer.cast::<u8>(), written, "buffer")?;
             Ok(inner.world.save_state(out.zeroed())?)
         })
     }
 }
 
-/// Restores a contact state of exactly pong_contact_state_size() bytes, saved by this world or by one that was
-/// built by the same calls. The states of the movable groups are the host's and are not part of it.
-/// PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
+/// Restores a contact state that was saved by this world or by one that was built by the same calls: the bytes that saving
+/// used, or more of the buffer, up to pong_contact_state_size(). The states of the movable groups are the host's and are
+/// not part of it. PONG_STATUS_BAD_STATE_BLOCK: the world keeps the contact state it had.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_restore_contact_state(
     world: *mut pong_world,
@@ -55,7 +74,46 @@ pub unsafe extern "C" fn pong_restore_contact_state(
         with_world(world, |inner| {
             let block = array(buffer.cast::<u8>(), size, "buffer")?;
             inner.world.restore_state(block)?;
-            inner.tell_log(|log| log.restored(block));
+            // The block ends where what is remembered now does.
+            let used = inner.world.state_used()?;
+            inner.tell_log(|log| log.restored(&block[..used]));
+            Ok(())
+        })
+    }
+}
+
+/// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
+/// frame of a run, and after pong_forget_object(). `force` NULL: what moves along what it touches has slid for long and has its
+/// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
+/// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
+/// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_preload_friction(
+    world: *mut pong_world,
+    pair: pong_pair_id,
+    force: *const f64,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let out = Out::optional(count, "count")?;
+            let preload = if force.is_null() {
+                FrictionPreload::Sliding
+            } else {
+                let force = array(force, 3, "force")?;
+                FrictionPreload::Holding(Vec3::new(force[0], force[1], force[2]))
+            };
+            let set = inner.world.preload_friction(pair.id(), &preload)?;
+            // For the log it is what a restored contact state is.
+            if inner.log.is_some() {
+                let mut block = Vec::new();
+                inner.world.save_state_packed(&mut block)?;
+                inner.tell_log(|log| log.restored(&block));
+            }
+            if let Some(out) = out {
+                out.set(set);
+            }
             Ok(())
         })
     }

@@ -16,7 +16,7 @@ pub struct pong_seal_report {
     pub group_pairs: u64,
     /// Most contacts of a frame.
     pub contact_capacity: u64,
-    /// Size of the saved contact state, bytes.
+    /// Size of the largest contact state that can be saved, bytes.
     pub contact_state_size: u64,
     /// How many warnings there are: see pong_seal_warning().
     pub warning_count: u64,

@@ -17,6 +17,8 @@ pub const PONG_NORMAL_HUNT_CROSSLEY: i32 = 1;
 pub const PONG_NORMAL_HUNT_CROSSLEY_HERTZ: i32 = 2;
 /// A law of the user's; its parameters stay as the model gives them.
 pub const PONG_NORMAL_CUSTOM: i32 = 3;
+/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+pub const PONG_NORMAL_INHERITED: i32 = 4;
 
 /// No friction.
 pub const PONG_FRICTION_NONE: i32 = 0;
@@ -26,6 +28,8 @@ pub const PONG_FRICTION_BRISTLE: i32 = 1;
 pub const PONG_FRICTION_COULOMB: i32 = 2;
 /// A law of the user's; its parameters stay as the model gives them.
 pub const PONG_FRICTION_CUSTOM: i32 = 3;
+/// That of the surface it meets: of a rigid surface that names none. It stays rigid.
+pub const PONG_FRICTION_INHERITED: i32 = 4;
 
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
 /// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
@@ -149,7 +153,7 @@ impl From<&Surface> for pong_surface_values {
         match surface.normal {
             NormalLaw::Linear { damping, ramp } => (values.damping, values.ramp) = (damping, ramp),
             NormalLaw::HuntCrossley { dissipation, .. } => values.dissipation = dissipation,
-            NormalLaw::Custom { .. } => {}
+            NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match surface.friction {
             FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
@@ -161,7 +165,7 @@ impl From<&Surface> for pong_surface_values {
             FrictionLaw::Coulomb { mu, slip_speed } => {
                 (values.friction, values.friction_slip_speed) = (mu, slip_speed);
             }
-            FrictionLaw::None | FrictionLaw::Custom { .. } => {}
+            FrictionLaw::None | FrictionLaw::Custom { .. } | FrictionLaw::Inherited => {}
         }
         values
     }
@@ -183,7 +187,7 @@ impl pong_surface_values {
         match &mut new.normal {
             NormalLaw::Linear { damping, ramp } => (*damping, *ramp) = (self.damping, self.ramp),
             NormalLaw::HuntCrossley { dissipation, .. } => *dissipation = self.dissipation,
-            NormalLaw::Custom { .. } => {}
+            NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
         }
         match &mut new.friction {
             FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
@@ -194,7 +198,7 @@ impl pong_surface_values {
             FrictionLaw::Coulomb { mu, slip_speed } => {
                 (*mu, *slip_speed) = (self.friction, self.friction_slip_speed);
             }
-            FrictionLaw::None | FrictionLaw::Custom { .. } => {}
+            FrictionLaw::None | FrictionLaw::Custom { .. } | FrictionLaw::Inherited => {}
         }
         Ok(new)
     }
@@ -206,6 +210,7 @@ fn normal_number(law: &NormalLaw) -> i32 {
         NormalLaw::HuntCrossley { exponent: Exponent::One, .. } => PONG_NORMAL_HUNT_CROSSLEY,
         NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => PONG_NORMAL_HUNT_CROSSLEY_HERTZ,
         NormalLaw::Custom { .. } => PONG_NORMAL_CUSTOM,
+        NormalLaw::Inherited => PONG_NORMAL_INHERITED,
     }
 }
 
@@ -215,5 +220,6 @@ fn friction_number(law: &FrictionLaw) -> i32 {
         FrictionLaw::Bristle { .. } => PONG_FRICTION_BRISTLE,
         FrictionLaw::Coulomb { .. } => PONG_FRICTION_COULOMB,
         FrictionLaw::Custom { .. } => PONG_FRICTION_CUSTOM,
+        FrictionLaw::Inherited => PONG_FRICTION_INHERITED,
     }
 }

@@ -10,7 +10,7 @@ use pong_engine::{Laws, combine_surfaces};
 use pong_executive::Simulation;
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
-use pong_model::{FrictionLaw, Model, Surface, printable};
+use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -49,6 +49,10 @@ pub(crate) struct Arguments {
     /// How many contacts carry the body together; each gets its share.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     contacts: u32,
+    /// Mass that friction feels along the surface, kg, if it is another than the effective mass: of a body that rolls
+    /// 1/(1/m + r²/I), of a ball 2/7 of its mass. Of a model alone.
+    #[arg(long, value_name = "KG", conflicts_with = "depth")]
+    friction_mass: Option<f64>,
     /// How near the depth must come, %.
     #[arg(long, value_name = "%", default_value_t = 5.0)]
     depth_within: f64,
@@ -119,6 +123,17 @@ impl Arguments {
         Ok(1.0 / self.mass.iter().map(|mass| 1.0 / mass).sum::<f64>())
     }
 
+    /// What one contact feels along the surface, over the effective mass.
+    fn friction_share(&self, mass: f64) -> Result<f64, String> {
+        match self.friction_mass {
+            Some(wrong) if wrong.is_nan() || wrong <= 0.0 => {
+                Err(format!("--friction-mass: it is {wrong} kg; give a mass above zero"))
+            }
+            Some(along) => Ok(along / mass / f64::from(self.contacts)),
+            None => Ok(1.0 / f64::from(self.contacts)),
+        }
+    }
+
     /// How masses, frame and coupling are stated above every answer.
     fn stated(&self, step: Option<f64>, coupling: Coupling) -> String {
         let step = step.map_or("step of the adviser's choice".to_owned(), |step| {
@@ -159,7 +174,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         (None, Some(speed)) => format!(", closing at {} m/s (the scene's start)\n", number(speed)),
         (None, None) => ", closing speed not known: give --speed\n".to_owned(),
     };
-    text += &limits::told(&report, &plan);
+    text += &limits::told(&report, &plan, 1.0 / f64::from(arguments.contacts));
     for warning in &report.warnings {
         text += &format!("warning: {}\n", printable(&warning.to_string()));
     }
@@ -199,7 +214,7 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
     if let Some(step) = arguments.step() {
         let plan =
             StepPlan { step, coupling, closing_speed: arguments.speed, accuracy: Some(arguments.accuracy()) };
-        text += &surfaces(&model, mass, &plan);
+        text += &surfaces(&model, mass, &plan, arguments.friction_share(mass)?);
     } else if arguments.depth.is_none() {
         return Err(
             "--rate: give the host's frames a second, or a wanted --depth and --restitution".to_owned()
@@ -211,11 +226,11 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
     Ok(text)
 }
 
-/// Every surface of a model against a rigid partner of its own kind.
-fn surfaces(model: &Model, mass: f64, plan: &StepPlan) -> String {
+/// Every surface of a model against a rigid partner.
+fn surfaces(model: &Model, mass: f64, plan: &StepPlan, friction_share: f64) -> String {
     let mut report = pong_engine::advice::StepReport::default();
     for surface in &model.surfaces {
-        let judged = combine_surfaces(surface, &rigid(surface), None, &Laws::default())
+        let judged = combine_surfaces(surface, &rigid(), None, &Laws::default())
             .map_err(|error| error.cause)
             .and_then(|props| {
                 let groups = [surface.name.clone(), "rigid".to_owned()];
@@ -226,13 +241,15 @@ fn surfaces(model: &Model, mass: f64, plan: &StepPlan) -> String {
             Err(cause) => report.not_judged.push(format!("`{}`: {cause}", surface.name)),
         }
     }
-    limits::told(&report, plan)
+    limits::told(&report, plan, friction_share)
 }
 
-fn rigid(surface: &Surface) -> Surface {
-    let mut partner = Surface { name: "rigid".to_owned(), stiffness: f64::INFINITY, ..surface.clone() };
-    if let FrictionLaw::Bristle { stiffness, .. } = &mut partner.friction {
-        *stiffness = Some(f64::INFINITY);
+/// What leaves all to a surface: its yield, its laws.
+fn rigid() -> Surface {
+    Surface {
+        name: "rigid".to_owned(),
+        stiffness: f64::INFINITY,
+        normal: NormalLaw::Inherited,
+        friction: FrictionLaw::Inherited,
     }
-    partner
 }

@@ -127,6 +127,40 @@ fn what_may_go_wrong_is_a_note() {
     }
 }
 
+/// c_t = 2·√(k_t·m_t): of a rolling ball m_t = 2/7·m, of n contacts each an nth of it. At it nothing rings.
+#[test]
+fn damping_of_friction_follows_from_the_mass_along_the_surface() {
+    let bristle = r#""advised": (stiffness: 1.5e6, friction: Bristle(mu: 0.3))"#;
+    let here = folder("friction", bristle, "RungeKutta4", 1e-4);
+    let (mass, k) = (2.0 / 7.0, 1e6_f64);
+    for contacts in [1.0, 4.0] {
+        let arguments = format!(
+            "advise point.ron --mass 1 --friction-mass {mass} --step 1e-4 --coupling stages --contacts {contacts}"
+        );
+        let (code, out, err) = pong(&here, &arguments);
+        assert_eq!(code, 0, "{err}");
+        let row = out
+            .lines()
+            .find(|line| line.contains("advised · rigid") && line.contains("1000000"))
+            .unwrap_or_default();
+        let cells: Vec<&str> = row.split_whitespace().collect();
+        let got: Vec<f64> = cells[3..].iter().map(|cell| cell.parse().unwrap()).collect();
+        let each: f64 = mass / contacts;
+        let rings = (k / each).sqrt() / std::f64::consts::TAU;
+        let expected = [each, k, 0.0, rings, 2.0 * (k * each).sqrt()];
+        for (got, expected) in got.iter().zip(expected) {
+            assert!((got - expected).abs() <= 1e-5 * expected, "{got} {expected}\n{out}");
+        }
+        let damping = got[4];
+        let damped = bristle.replace("mu: 0.3", &format!("mu: 0.3, damping: {:?}", damping * 1.001));
+        let (_, out, _) = pong(&folder("friction_damped", &damped, "RungeKutta4", 1e-4), &arguments);
+        let row = out.lines().find(|line| line.contains("advised · rigid") && line.contains("1000000"));
+        assert_eq!(row.unwrap().split_whitespace().nth(6), Some("-"), "{out}");
+    }
+    let (code, _, err) = pong(&here, "advise point.ron --mass 1 --friction-mass 0 --step 1e-4");
+    assert!(code == 1 && err.contains("--friction-mass: it is 0 kg"), "{err}");
+}
+
 #[test]
 fn wrong_wishes_are_refused() {
     let here = folder("wrong_wishes", r#""advised": (stiffness: 1e4)"#, "RungeKutta4", 1e-3);

@@ -123,6 +123,65 @@ fn run_writes_csv_files_that_can_be_read() {
     assert!(code == 0 && folder.join("drop_out/states.csv").exists());
 }
 
+/// The state at the end is the one that is looked for first: 500 steps, a record every 300.
+#[test]
+fn the_last_state_of_a_run_is_in_its_csv_files() {
+    let folder = folder("csv_end");
+    std::fs::write(folder.join("odd.ron"), DROP.replace("record_every: 100", "record_every: 300")).unwrap();
+    assert_eq!(pong(&folder, &["run", "odd.ron", "-q", "-o", "odd"]).0, 0);
+    assert_eq!(pong(&folder, &["run", "drop.ron", "-q", "-o", "even"]).0, 0);
+    for name in ["states", "wrenches", "contacts", "energies"] {
+        let [odd, even] = ["odd", "even"]
+            .map(|out| std::fs::read_to_string(folder.join(out).join(format!("{name}.csv"))).unwrap());
+        assert_eq!(odd.lines().last(), even.lines().last(), "{name}");
+        let at = |text: &str, time: &str| text.lines().filter(|line| line.starts_with(time)).count();
+        assert_eq!(at(&odd, "0.5,"), at(&even, "0.5,"), "{name}: once");
+        assert!(at(&odd, "0.3,") == at(&even, "0.3,") && at(&odd, "0.4,") == 0, "{name}");
+    }
+}
+
+/// Gravity as one number, as other tools have it.
+#[test]
+fn a_gravity_of_one_number_is_told_how_to_be_three() {
+    let folder = folder("gravity");
+    for (written, found) in
+        [("-9.81", "floating point"), ("10", "integer"), ("(0, -9.81)", "2 elements"), ("\"down\"", "string")]
+    {
+        std::fs::write(folder.join("wrong.ron"), DROP.replace("(0, 0, -9.81)", written)).unwrap();
+        let (code, _, err) = pong(&folder, &["run", "wrong.ron"]);
+        assert_eq!(code, 1, "{written}");
+        assert_holds(&err, &["wrong.ron:7:", found, "`gravity`", "gravity: (0.0, 0.0, -9.81)"]);
+    }
+}
+
+/// Nothing says that the groups of a model meet each other, but a scene that pairs it with itself.
+#[test]
+fn check_does_not_refuse_what_nobody_pairs() {
+    let folder = folder("check_rigid");
+    let rigid = r#"(format: "pong-model", version: 1, name: "walls", surfaces: { "rigid": (stiffness: inf) },
+        root: (name: "walls", surface: "rigid", groups: [
+            (name: "wall", primitives: [Plane(name: "p", normal: (0, 0, 1), offset: 0)]),
+            (name: "door", movable: true, primitives: [Sphere(name: "knob", center: (0, 0, 1), radius: 0.1)])]))"#;
+    std::fs::write(folder.join("walls.ron"), rigid).unwrap();
+    let (code, out, err) = pong(&folder, &["check", "walls.ron", "ball.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert_holds(
+        &out,
+        &["`walls` cannot be paired with itself:\n  note: surfaces `walls/rigid` and `walls/rigid`: both"],
+    );
+    // Who pairs it is told.
+    let scene = DROP
+        .replace("\"ground.ron\"", "\"walls.ron\"")
+        .replace("[(motion: Fixed)]", "[(motion: Fixed), (group: \"door\", motion: Fixed)]");
+    let scene = scene.replace("pairs: [", "pairs: [(\"ground\", \"ground\"), ");
+    std::fs::write(folder.join("paired.ron"), scene).unwrap();
+    let (code, _, err) = pong(&folder, &["run", "paired.ron"]);
+    assert!(
+        code == 1 && err.contains("surfaces `walls/rigid` and `walls/rigid`: both surfaces are rigid"),
+        "{err}"
+    );
+}
+
 fn accounts_close_and_hold_what_the_contacts_store(folder: &Path) {
     let last = |name: &str| -> HashMap<String, String> {
         let text = std::fs::read_to_string(folder.join(name)).unwrap();
@@ -187,7 +246,7 @@ fn check_describes_models_and_their_meetings() {
         "surface `soft`: k 100000 N/m, linear",
         "`frame/bars/tip` sits on an end of `frame/bars/bar`: their springs add up to 150000 N/m",
         "`frame` with itself: 1 pair of movable groups",
-        "warning: `frame` and `frame` are paired but nothing",
+        "warning: models `frame` and `frame` are paired but nothing of one can touch anything of the other (`frame` with itself)",
         "`frame` and `ground`: 2 pairs of movable groups",
         "Point–Plane: 2 pairs of primitives",
         "LineSegment–Plane: 1 pair of primitives",

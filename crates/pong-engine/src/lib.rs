@@ -39,6 +39,7 @@ pub use account::{Account, PairAccount, Verdict, WrenchUse};
 pub use contact::{Contact, ContactSide, Ledger};
 pub use dispatch::has_tester;
 pub use error::EngineError;
+pub use frame::FrictionPreload;
 pub use friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::{
@@ -51,6 +52,8 @@ pub use report::{
     FrameCounts, FrameReport, MemoryReport, Passage, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
 };
 pub use scene::{Config, State, WorkerSettings};
-pub use sealed::{SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
+pub use sealed::{
+    MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory,
+};
 pub use state::StateError;
 pub use world::World;

@@ -2,13 +2,13 @@
 
 use crate::account::Account;
 use crate::error::EngineError;
-use crate::frame::{self, Crew, Frame, FrameInput, Given, Motion, ROUND};
+use crate::frame::{self, Crew, Frame, FrameInput, FrictionPreload, Given, Motion, ROUND};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable, leave_room_for_small_things};
 use crate::state::{
-    Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, read_block, write_block,
-    write_packed,
+    Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, needed_len, read_block,
+    write_block,
 };
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
@@ -165,6 +165,18 @@ impl Running {
         self.evaluated = false;
     }
 
+    /// Preloads the bristles of a pair of Objects after a commit of the last frame; answers how many there are.
+    pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
+        self.let_go_of_memory();
+        let preloaded = self.frame.preloaded(scene, &self.sealed, pair, preload);
+        take_turns(&mut self.memory, &mut self.spares, |old, next| {
+            next.copy_from(old);
+            next.preload(&preloaded);
+        });
+        self.changed();
+        preloaded.len()
+    }
+
     /// Drops what is remembered of some pairs of movable groups.
     pub fn forget(&mut self, forgotten: impl Fn(&GroupPair) -> bool) {
         self.let_go_of_memory();
@@ -207,11 +219,11 @@ impl Running {
         write_block(&self.memory, self.sealed.hash, out)
     }
 
-    pub fn save_state_packed(&self, out: &mut Vec<u8>) {
-        write_packed(&self.memory, self.sealed.hash, out);
+    pub fn state_used(&self) -> usize {
+        needed_len(&self.memory)
     }
 
-    pub fn restore_state(&mut self, scene: &Scene, block: &[u8], packed: bool) -> Result<(), StateError> {
+    pub fn restore_state(&mut self, scene: &Scene, block: &[u8]) -> Result<(), StateError> {
         self.let_go_of_memory();
         let sealed = Arc::clone(&self.sealed);
         let exists = |key: &ContactKey| {
@@ -221,7 +233,7 @@ impl Running {
         let mut outcome = Ok(());
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            outcome = read_block(next, sealed.hash, block, packed, exists);
+            outcome = read_block(next, sealed.hash, block, exists);
         });
         outcome?;
         self.changed();

@@ -4,7 +4,7 @@ use crate::account::{Account, PairAccount, WrenchUse};
 use crate::advice::{self, ActingReport, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::error::EngineError;
-use crate::frame::Passed;
+use crate::frame::{FrictionPreload, Passed};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
@@ -13,7 +13,7 @@ use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, State
 use crate::sealed::{self, SealReport};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
-use pong_model::{Model, Surface};
+use pong_model::{LARGEST, Model, Surface};
 use std::sync::Arc;
 
 /// A contact world: Objects, pairs and everything remembered between frames.
@@ -197,7 +197,7 @@ impl World {
             report.stable_step = Some(step.stable_step());
             report.surely_stable_step = Some(step.surely_stable_step());
             report.warnings.extend(step.warnings);
-            report.notes = step.notes;
+            report.notes.extend(step.notes);
         }
         let running = Running::start(&self.scene, sealed, tables, self.clock)?;
         report.workers = running.worker_starts().to_vec();
@@ -298,6 +298,31 @@ impl World {
         let report = self.evaluate()?;
         self.commit()?;
         Ok(report)
+    }
+
+    /// Accepts the states presently set, as [`commit`](Self::commit), and then preloads the bristles between two paired
+    /// Objects: a contact that is there when a run begins is not a new one, and its friction needs no way to build up.
+    /// For the first frame, and after [`forget`](Self::forget). Answers how many bristles were set; contacts without a bristle
+    /// or without load have none. What the bristles store then, the host has put in. Allocates.
+    pub fn preload_friction(
+        &mut self,
+        pair: PairId,
+        preload: &FrictionPreload,
+    ) -> Result<usize, EngineError> {
+        let index = self.pair_index(pair)?;
+        if let FrictionPreload::Holding(force) = preload
+            && !force.iter().all(|x| x.abs() <= LARGEST)
+        {
+            let cause = format!(
+                "the force is ({}, {}, {}) N; give numbers up to {LARGEST:e}",
+                force.x, force.y, force.z
+            );
+            return Err(EngineError::BadValue { what: "preload of friction".to_owned(), cause });
+        }
+        self.running("preload friction")?;
+        self.commit()?;
+        let scene = Arc::clone(&self.scene);
+        Ok(self.running_mut("preload friction")?.preload(&scene, index, preload))
     }
 
     /// Wrench on a movable group in the last frame: about the group's origin, expressed in the group's frame.
@@ -431,35 +456,36 @@ impl World {
         all
     }
 
-    /// Size of the contact state block, bytes; fixed when the world is sealed.
+    /// Size of the largest contact state block that this world can have, bytes; fixed when the world is sealed. A buffer of
+    /// this size is always large enough to save into.
     pub fn state_size(&self) -> Result<usize, EngineError> {
         Ok(self.running("ask for the size of the contact state")?.state_size())
     }
 
-    /// Saves the committed contact state into a buffer of [`state_size`](Self::state_size) bytes.
+    /// Size of the block of what is remembered now, bytes: it grows and shrinks with the contacts of the last commit.
+    pub fn state_used(&self) -> Result<usize, EngineError> {
+        Ok(self.running("ask for the size of the contact state")?.state_used())
+    }
+
+    /// Saves the committed contact state into a buffer of at least [`state_used`](Self::state_used) bytes. What lies behind
+    /// them in the buffer, up to [`state_size`](Self::state_size), becomes zero.
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), EngineError> {
         Ok(self.running("save the contact state")?.save_state(out)?)
     }
 
-    /// Restores a contact state that a world built by the same calls saved. The states of the movable groups are
-    /// the host's and are not part of it.
+    /// Restores a contact state that a world built by the same calls saved: the block alone, or with zeros behind it up to
+    /// [`state_size`](Self::state_size). The states of the movable groups are the host's and are not part of it.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
         let scene = Arc::clone(&self.scene);
-        Ok(self.running_mut("restore the contact state")?.restore_state(&scene, block, false)?)
+        Ok(self.running_mut("restore the contact state")?.restore_state(&scene, block)?)
     }
 
-    /// Saves the committed contact state as [`save_state`](Self::save_state) does, without the room for contacts that there
-    /// are not, into a buffer that becomes as long as it must: for keeping many. Its last eight bytes, too, are a hash of
-    /// the whole state.
+    /// Saves the committed contact state into a buffer that becomes as long as the block. The last eight bytes are a hash
+    /// of all before them.
     pub fn save_state_packed(&self, out: &mut Vec<u8>) -> Result<(), EngineError> {
-        self.running("save the contact state")?.save_state_packed(out);
-        Ok(())
-    }
-
-    /// Restores what [`save_state_packed`](Self::save_state_packed) saved.
-    pub fn restore_state_packed(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        let scene = Arc::clone(&self.scene);
-        Ok(self.running_mut("restore the contact state")?.restore_state(&scene, block, true)?)
+        let running = self.running("save the contact state")?;
+        out.resize(running.state_used(), 0);
+        Ok(running.save_state(out)?)
     }
 
     /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.

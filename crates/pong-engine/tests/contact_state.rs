@@ -162,17 +162,45 @@ fn a_foreign_or_damaged_block_is_refused_and_loses_nothing() {
     rig.place([path(0.0), State::identity()]);
     rig.world.step().unwrap();
     let good = saved(&rig.world);
+    let used = rig.world.state_used().unwrap();
     let mut damaged = good.clone();
-    let middle = damaged.len() / 2;
-    damaged[middle] ^= 1;
+    damaged[used / 2] ^= 1;
+    let mut behind = good.clone();
+    behind[used] = 1;
+    let longer = [&good[..], &[0]].concat();
     let (a, _) = sliding_pair();
     let other =
         Rig::new(&a, &model("other", &surface(1.0, ""), "Plane(name: \"p\", normal: (0,0,1), offset: 0.0)"));
     let foreign = saved(&other.world);
-    for block in [&damaged[..], &foreign[..], &good[..good.len() - 1], &[][..]] {
+    for block in [&damaged[..], &behind[..], &longer[..], &foreign[..], &good[..used - 1], &[][..]] {
         assert!(matches!(rig.world.restore_state(block), Err(EngineError::State(_))));
         assert_eq!(saved(&rig.world), good);
     }
+}
+
+/// The size that a host asks for once is enough for ever; what is kept is as long as what is remembered.
+#[test]
+fn a_state_takes_no_room_for_contacts_that_there_are_not() {
+    let mut rig = rig();
+    let before = rig.world.state_used().unwrap();
+    rig.place([path(0.0), State::identity()]);
+    rig.world.step().unwrap();
+    let (used, most) = (rig.world.state_used().unwrap(), rig.world.state_size().unwrap());
+    assert!(before < used && 100 * used < most, "{before}, {used}, {most} bytes");
+    let mut kept = Vec::new();
+    rig.world.save_state_packed(&mut kept).unwrap();
+    assert_eq!(kept.len(), used);
+    let whole = saved(&rig.world);
+    assert!(whole[..used] == kept && whole[used..].iter().all(|byte| *byte == 0));
+    let onward = steps(&mut rig, 1..20);
+    for block in [&kept[..], &whole[..used + 5], &whole[..]] {
+        rig.world.restore_state(block).unwrap();
+        assert_eq!(saved(&rig.world), whole);
+        assert_eq!(steps(&mut rig, 1..20), onward);
+    }
+    let object = rig.world.object("a").unwrap();
+    rig.world.forget(object).unwrap();
+    assert_eq!(rig.world.state_used().unwrap(), before);
 }
 
 #[test]

@@ -191,7 +191,7 @@ fn calls_in_the_wrong_phase_or_of_another_world_are_refused() {
 #[test]
 fn surfaces_that_do_not_go_together_are_all_named_at_seal() {
     let two_rigid = |name: &str, primitive: &str| {
-        let surfaces = "\"s\": (stiffness: inf), \"t\": (stiffness: 1e5, normal: HuntCrossley(dissipation: 0.1, exponent: 1.0))";
+        let surfaces = "\"s\": (stiffness: inf, normal: Linear(damping: 0)), \"t\": (stiffness: 1e5, normal: HuntCrossley(dissipation: 0.1, exponent: 1.0))";
         model(name, surfaces, primitive)
     };
     let mut world = World::new(Config::default());

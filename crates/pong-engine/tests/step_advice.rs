@@ -112,6 +112,47 @@ fn equal_springs_on_one_body_add() {
     }
 }
 
+/// Which of four terms asks for the step, as it is planted, in each way of using the wrench.
+#[test]
+fn a_note_tells_which_term_asks_for_the_step() {
+    let feet = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let masses = [GroupMass::point(3.0), GroupMass::immovable()];
+    let soft = "stiffness: 1000.0, normal: Linear(damping: 1), friction: ";
+    let bristle = |k: f64, c: f64| format!("Bristle(mu: 0.5, stiffness: {k:?}, damping: {c:?})");
+    let cases = [
+        ("normal stiffness", "stiffness: 1e6, normal: Linear(damping: 1), friction: ", bristle(1e3, 1.0)),
+        ("normal damping", "stiffness: 1e3, normal: Linear(damping: 2000), friction: ", bristle(1e3, 1.0)),
+        ("friction stiffness", soft, bristle(1e6, 1.0)),
+        ("friction damping", soft, bristle(1e3, 2000.0)),
+        ("normal stiffness and its friction stiffness", "stiffness: 1e6, friction: ", bristle(1e6, 0.0)),
+        (
+            "normal damping and its friction damping",
+            "stiffness: 1e3, normal: Linear(damping: 2000), friction: ",
+            bristle(1e3, 2000.0),
+        ),
+    ];
+    for (term, normal, friction) in cases {
+        let feet =
+            points(&feet).replace("stiffness: 1000000.0, friction: None", &format!("{normal}{friction}"));
+        let ground = floor().replace(", friction: None", "");
+        for coupling in [Coupling::OncePerStep, Coupling::StageWise] {
+            let plan = |step| StepPlan { accuracy: None, ..StepPlan::new(step, coupling) };
+            let sure = meet([&feet, &ground], masses, &plan(1e-9)).surely_stable_step();
+            let report = meet([&feet, &ground], masses, &plan(1.01 * sure));
+            let [SetupNote::StepMayBeTooLong { told }] = &report.notes[..] else {
+                panic!("{:?}", report.notes)
+            };
+            let asked = format!("its {term} asks for that, most of all between `feet/s` and `floor/s`");
+            assert!(told.contains(&asked), "{coupling:?}: {told}");
+        }
+    }
+    // A warning of one contact: which spring, of which surfaces, by which of its terms.
+    let alone = points(&[[0.0; 3]]).replace("friction: None", "normal: Linear(damping: 1e5)");
+    let report = meet([&alone, &floor()], masses, &plan(1e-3));
+    let told = report.warnings.iter().map(ToString::to_string).collect::<String>();
+    assert!(told.contains("(surfaces `feet/s` and `floor/s`)") && told.contains("by its damping"), "{told}");
+}
+
 /// A point l off the mass centre finds 1/(1/m + l²/I): a rod of 3 kg and 4 m struck at its end weighs ¾ kg.
 #[test]
 fn a_lever_makes_a_contact_quicker() {

@@ -5,7 +5,7 @@ use crate::error::ExecutiveError;
 use crate::load::Load;
 use crate::spring::{Spring, SpringAction, SpringEnd};
 use crate::state::{FreeState, Inertia, Rates};
-use pong_engine::{InterfaceId, State, World};
+use pong_engine::{FrictionPreload, InterfaceId, PairId, State, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 /// The ground as the end of a spring.
@@ -80,6 +80,17 @@ impl System {
         self.hand_in(time)?;
         self.world.step()?;
         self.take_wrenches()
+    }
+
+    /// The world accepts the states, with friction preloaded between two Objects; wrenches stay as they were.
+    pub fn preload_friction(
+        &mut self,
+        time: f64,
+        pair: PairId,
+        preload: &FrictionPreload,
+    ) -> Result<usize, ExecutiveError> {
+        self.hand_in(time)?;
+        Ok(self.world.preload_friction(pair, preload)?)
     }
 
     /// # Errors

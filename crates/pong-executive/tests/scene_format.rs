@@ -66,6 +66,34 @@ fn every_example_builds_and_runs() {
     }
 }
 
+/// The scene of the section on preloads: both balls begin with the friction that they are to have. The one that slides has μ·k·δ,
+/// 3 N, from the start; the one that is held stands still where without a preload it would swing.
+#[test]
+fn preloaded_friction_is_there_at_the_start() {
+    let folder = model_folder("preloaded");
+    let text = blocks().into_iter().filter(|(head, _)| *head == "scene").nth(1).unwrap().1;
+    let forces = |built: &mut BuiltScene| {
+        built.simulation.settle().unwrap();
+        let contacts: Vec<_> = built.simulation.world().contacts_iter().collect();
+        assert_eq!(contacts.len(), 2);
+        contacts.into_iter().map(|contact| contact.friction_force).collect::<Vec<_>>()
+    };
+    let mut built = build(text, &folder);
+    let [sliding, held] = forces(&mut built)[..] else { unreachable!() };
+    assert!((sliding.x + 3.0).abs() < 1e-9 && sliding.y.abs() < 1e-9, "{sliding}");
+    assert!((held.x - 1.0).abs() < 1e-12 && held.y.abs() < 1e-12, "{held}");
+    let begin = text.find("preload: [").unwrap();
+    let end = begin + text[begin..].find("],").unwrap() + 2;
+    let without = format!("{}{}", &text[..begin], &text[end..]);
+    assert!(forces(&mut build(&without, &folder)).iter().all(|force| force.norm() < 1e-12));
+    // What is wrong with a preload is told.
+    let turned = text.replace("(pair: (\"held\", \"ground\")", "(pair: (\"ground\", \"held\")");
+    let told = Scene::parse(&turned, "turned.ron", &folder).unwrap().build().err().unwrap().to_string();
+    assert!(told.contains("preload/(ground, held): `pairs` has these two the other way round"), "{told}");
+    let apart = build(&text.replace("(0.0, 1.0, 0.0999)", "(0.0, 1.0, 0.2)"), &folder);
+    assert!(apart.warnings.iter().any(|warning| warning.contains("preload/(held, ground): no bristle")));
+}
+
 /// The alternative's models are in place of the scene's, and what a variation says holds in place of what the file does.
 #[test]
 fn a_scene_is_built_with_something_else_than_it_says() {

@@ -84,6 +84,7 @@ impl Fnv {
                 self.number(*dissipation);
             }
             NormalLaw::Custom { name, parameters } => self.custom_law(3, name, parameters),
+            NormalLaw::Inherited => self.word(4),
         }
     }
 
@@ -103,6 +104,7 @@ impl Fnv {
                 self.number(*slip_speed);
             }
             FrictionLaw::Custom { name, parameters } => self.custom_law(3, name, parameters),
+            FrictionLaw::Inherited => self.word(4),
         }
     }
 

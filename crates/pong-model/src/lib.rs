@@ -34,7 +34,7 @@ pub use element::Element;
 pub use error::{ModelError, ModelErrors};
 pub use model::{Balls, Batch, Body, ChunkBoxes, Item, Model, Node, PrimitiveInfo, Tree};
 pub use printable::{printable, printable_lines};
-pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface, pair_entries};
 
 use pong_geometry::extension::Extensions;
 use read::Reader;

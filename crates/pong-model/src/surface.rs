@@ -1,5 +1,7 @@
 //! Surface properties: stiffness, damping and friction, per surface and per pair of surfaces.
 
+use crate::model::Model;
+
 /// A named surface: what primitives are made of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Surface {
@@ -14,7 +16,55 @@ pub struct Surface {
     pub friction: FrictionLaw,
 }
 
+impl PairOverride {
+    /// How many of the two names say the model, if the entry is for these two surfaces, given as (model, surface); `None` if
+    /// it is not. Of two entries that are, the one that says more goes first.
+    pub fn names_models(&self, a: (&str, &str), b: (&str, &str)) -> Option<usize> {
+        let [one, other] = &self.surfaces;
+        let in_order = |x, y| Some(names(one, x)? + names(other, y)?);
+        in_order(a, b).max(in_order(b, a))
+    }
+}
+
+/// The entries of the tables of two models that hold for a surface of each, with the models they stand in: of all that name
+/// the two, those that say most of which models they mean.
+pub fn pair_entries<'m>(
+    (model_a, a): (&'m Model, &Surface),
+    (model_b, b): (&'m Model, &Surface),
+) -> Vec<(&'m Model, &'m PairOverride)> {
+    let models = [model_a, model_b].into_iter().take(if std::ptr::eq(model_a, model_b) { 1 } else { 2 });
+    let named = models.flat_map(|model| model.pair_overrides.iter().map(move |entry| (model, entry)));
+    let (a, b) = ((model_a.name.as_str(), a.name.as_str()), (model_b.name.as_str(), b.name.as_str()));
+    let ranked: Vec<_> =
+        named.filter_map(|(model, entry)| Some((entry.names_models(a, b)?, model, entry))).collect();
+    let most = ranked.iter().map(|(rank, ..)| *rank).max();
+    ranked
+        .into_iter()
+        .filter(|(rank, ..)| Some(*rank) == most)
+        .map(|(_, model, entry)| (model, entry))
+        .collect()
+}
+
+/// 1 if a name of an entry says model and surface, 0 if only the surface, `None` if it is another's.
+fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
+    if entry == surface {
+        return Some(0);
+    }
+    let rest = entry.strip_prefix(model)?.strip_prefix('/')?;
+    (rest == surface).then_some(1)
+}
+
 impl Surface {
+    /// Whether an entry of the table of pairs means this surface, of a model of that name.
+    pub fn is_called(&self, entry: &str, model: &str) -> bool {
+        names(entry, (model, &self.name)).is_some()
+    }
+
+    /// Whether it says nothing of its own about a law, and so takes that of what it meets.
+    pub fn inherits(&self) -> bool {
+        self.normal == NormalLaw::Inherited || self.friction == FrictionLaw::Inherited
+    }
+
     /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
     /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
     /// do sums of stiffnesses.
@@ -52,6 +102,8 @@ pub enum NormalLaw {
         /// Handed to the law as they stand.
         parameters: Vec<f64>,
     },
+    /// That of the surface it meets: a rigid surface that names none.
+    Inherited,
 }
 
 /// Exponent of the depth in the Hunt-Crossley law.
@@ -93,12 +145,15 @@ pub enum FrictionLaw {
         /// Handed to the law as they stand.
         parameters: Vec<f64>,
     },
+    /// That of the surface it meets: a rigid surface that names none.
+    Inherited,
 }
 
 /// An entry of the model's table for a pair of surfaces: every value given replaces the combined one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PairOverride {
-    /// The two surfaces, in either order; they may be the same, and may belong to another model.
+    /// The two surfaces, in either order; they may be the same, and may belong to another model. `model/surface` is that
+    /// surface of that model alone, a name without a slash that of any model.
     pub surfaces: [String; 2],
     /// k of the pair, N/m (N/m^1.5).
     pub stiffness: Option<f64>,

@@ -80,6 +80,7 @@ enum Normal {
     Linear { damping: f64, ramp: f64 },
     HuntCrossley { dissipation: f64, hertz: bool },
     Custom { name: String, parameters: Vec<f64> },
+    Inherited,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,6 +90,7 @@ enum Friction {
     Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: f64 },
     Coulomb { mu: f64, slip_speed: f64 },
     Custom { name: String, parameters: Vec<f64> },
+    Inherited,
 }
 
 impl From<&Surface> for SurfaceValues {
@@ -101,6 +103,7 @@ impl From<&Surface> for SurfaceValues {
             NormalLaw::Custom { name, parameters } => {
                 Normal::Custom { name: name.clone(), parameters: parameters.clone() }
             }
+            NormalLaw::Inherited => Normal::Inherited,
         };
         let friction = match &surface.friction {
             FrictionLaw::None => Friction::None,
@@ -111,6 +114,7 @@ impl From<&Surface> for SurfaceValues {
             FrictionLaw::Custom { name, parameters } => {
                 Friction::Custom { name: name.clone(), parameters: parameters.clone() }
             }
+            FrictionLaw::Inherited => Friction::Inherited,
         };
         Self { stiffness: surface.stiffness, normal, friction }
     }
@@ -126,6 +130,7 @@ impl SurfaceValues {
                 NormalLaw::HuntCrossley { dissipation, exponent }
             }
             Normal::Custom { name, parameters } => NormalLaw::Custom { name, parameters },
+            Normal::Inherited => NormalLaw::Inherited,
         };
         let friction = match self.friction.clone() {
             Friction::None => FrictionLaw::None,
@@ -134,6 +139,7 @@ impl SurfaceValues {
             }
             Friction::Coulomb { mu, slip_speed } => FrictionLaw::Coulomb { mu, slip_speed },
             Friction::Custom { name, parameters } => FrictionLaw::Custom { name, parameters },
+            Friction::Inherited => FrictionLaw::Inherited,
         };
         Surface { name: name.to_owned(), stiffness: self.stiffness, normal, friction }
     }

@@ -78,7 +78,7 @@ impl Snapshot {
                 }
             }
         }
-        world.restore_state_packed(&self.block)
+        world.restore_state(&self.block)
     }
 }
 

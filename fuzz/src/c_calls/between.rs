@@ -3,7 +3,9 @@
 use super::frames::finite;
 use super::laws;
 use super::session::{Session, Sure, read_text};
-use pong::contact_state::{pong_contact_state_size, pong_restore_contact_state, pong_save_contact_state};
+use pong::contact_state::{
+    pong_contact_state_size, pong_contact_state_used, pong_restore_contact_state, pong_save_contact_state,
+};
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::objects::pong_forget_object;
 use pong::pairs::pong_set_pair_enabled;
@@ -41,10 +43,11 @@ impl Session<'_> {
     fn save(&mut self) {
         let (world, known) = self.world();
         let sealed = self.host().is_some_and(|host| host.sealed);
-        let mut needed = 0;
+        let (mut needed, mut most) = (0, 0);
         let sure = known.only_if(sealed);
         // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
-        self.call("size", sure, || unsafe { pong_contact_state_size(world, &mut needed) });
+        self.call("size", sure, || unsafe { pong_contact_state_size(world, &mut most) });
+        self.call("used", sure, || unsafe { pong_contact_state_used(world, &mut needed) });
         if !self.may_copy(needed) {
             return;
         }
@@ -59,7 +62,9 @@ impl Session<'_> {
         let done =
             self.call("save", sure, || unsafe { pong_save_contact_state(world, pointer.cast(), size) });
         if done {
-            assert!(block[needed..].iter().all(|byte| *byte == 0xA5), "written beyond the block");
+            let (behind, beyond) = block[needed..].split_at(size.min(most) - needed);
+            assert!(behind.iter().all(|byte| *byte == 0), "not cleared behind the block");
+            assert!(beyond.iter().all(|byte| *byte == 0xA5), "written beyond the largest block");
             block.truncate(needed);
             let words =
                 block.chunks_exact(8).map(|word| u64::from_le_bytes(word.try_into().expect("8 bytes")));
@@ -84,7 +89,7 @@ impl Session<'_> {
             let at = usize::from(u16::from_le_bytes(self.input.bytes()));
             match self.input.below(3) {
                 0 => block.truncate(at % block.len().max(1)),
-                1 => block.extend([0; 7]),
+                1 => block.extend([1; 7]),
                 _ => {
                     let at = at % block.len().max(1);
                     block.iter_mut().skip(at).take(1).for_each(|byte| *byte ^= 0x10);

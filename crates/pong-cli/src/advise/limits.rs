@@ -1,11 +1,13 @@
 //! What a step can hold: a table of contacts, and what goes wrong first.
 
 use crate::text::{count, number, table};
-use pong_engine::advice::{GroupLimits, PairLimits, StepPlan, StepReport};
+use pong_engine::advice::{
+    GroupLimits, PairLimits, SpringLimit, StepPlan, StepReport, critical_damping, longest_stable_step,
+};
 use pong_model::printable;
 
-/// The table and the verdict.
-pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
+/// The tables and the verdict. Along the surface a contact feels `friction_share` of its mass.
+pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) -> String {
     let mut text = String::new();
     if !report.pairs.is_empty() {
         text += "Single contacts, each on the effective mass of its two groups:\n";
@@ -22,6 +24,7 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
         ];
         let rows: Vec<Vec<String>> = report.pairs.iter().map(|pair| row(pair, plan)).collect();
         text += &table(&heading, &rows);
+        text += &friction(report, plan, friction_share);
         text += &together(report);
         text += &first_to_fail(report, plan);
     }
@@ -29,6 +32,45 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan) -> String {
         text += &format!("not judged: {}\n", printable(cause));
     }
     text
+}
+
+/// What is sticking, as a spring with its damper: how it rings, and which damping would stop it.
+fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
+    let springs: Vec<(&PairLimits, SpringLimit)> = report
+        .pairs
+        .iter()
+        .filter_map(|pair| Some((pair, pair.friction.filter(|friction| friction.spring.stiffness > 0.0)?)))
+        .collect();
+    if springs.is_empty() {
+        return String::new();
+    }
+    let heading = [
+        "friction between",
+        "kg",
+        "k_t N/m",
+        "c_t N·s/m",
+        "rings at Hz",
+        "critical c_t N·s/m",
+        "stable with it to s",
+    ];
+    let row = |(pair, limit): &(&PairLimits, SpringLimit)| {
+        let (mass, k, c) = (share * pair.mass, limit.spring.stiffness, limit.spring.damping);
+        let critical = critical_damping(k, mass, plan.coupling, plan.step);
+        // Of a damped oscillation; one that is damped enough does not ring.
+        let ringing = k / mass - 0.25 * (c / mass) * (c / mass);
+        vec![
+            format!("{} · {}", pair.surfaces[1][0], pair.surfaces[1][1]),
+            number(mass),
+            number(k),
+            number(c),
+            if ringing > 0.0 { number(ringing.sqrt() / std::f64::consts::TAU) } else { "-".to_owned() },
+            number(critical),
+            number(longest_stable_step(plan.coupling, k, critical, mass)),
+        ]
+    };
+    let rows: Vec<Vec<String>> = springs.iter().map(row).collect();
+    "What sticks, as a spring on the mass that it feels along the surface (docs/advise.md, Damping of friction):\n".to_owned()
+        + &table(&heading, &rows)
 }
 
 /// What can act on one movable group at once.

@@ -51,6 +51,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         for (a, b) in meetings(&named) {
             match pairs::description(a, b) {
                 Ok(meeting) => text += &meeting,
+                // Nobody has said that its groups are to meet.
+                Err(problems) if Arc::ptr_eq(&a.model, &b.model) => {
+                    text += &format!("`{}` cannot be paired with itself:\n", a.name);
+                    problems.iter().for_each(|problem| text += &format!("  note: {}\n", printable(problem)));
+                }
                 Err(problems) => {
                     problems
                         .iter()

@@ -36,6 +36,9 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
     for warning in &report.warnings {
         text += &format!("  warning: {}\n", printable(&warning.to_string()));
     }
+    for note in &report.notes {
+        text += &format!("  note: {}\n", printable(&note.to_string()));
+    }
     let mut faces = Vec::new();
     for (body_a, body_b) in group_pairs(a, b, itself) {
         faces.extend(stiffness::faces_pressed((a, body_a), (b, body_b)));

@@ -4,7 +4,7 @@ use super::Named;
 use crate::text::{count, number};
 use pong_engine::{Laws, NormalProps, combine_surfaces};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Exponent, Model, PairOverride, Surface, printable};
+use pong_model::{Body, Exponent, Model, Surface, pair_entries, printable};
 use std::collections::BTreeMap;
 
 /// How many are told; the softer ones are only counted.
@@ -114,11 +114,7 @@ fn faces(body: &Body) -> BTreeMap<u32, &'static str> {
 
 /// Stiffness of a pair, and whether it goes with the power 3/2. `None` cannot be combined, which sealing tells.
 fn pair_stiffness(model_a: &Model, a: &Surface, model_b: &Model, b: &Surface) -> Option<(f64, bool)> {
-    let is_for = |entry: &&PairOverride| {
-        let [one, other] = &entry.surfaces;
-        (*one == a.name && *other == b.name) || (*one == b.name && *other == a.name)
-    };
-    let entry = model_a.pair_overrides.iter().chain(&model_b.pair_overrides).find(is_for);
+    let entry = pair_entries((model_a, a), (model_b, b)).first().map(|(_, entry)| *entry);
     let props = combine_surfaces(a, b, entry, &Laws::default()).ok()?;
     let hertz = matches!(props.normal, NormalProps::HuntCrossley { exponent: Exponent::ThreeHalves, .. });
     Some((props.stiffness, hertz))

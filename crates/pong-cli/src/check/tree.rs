@@ -139,6 +139,7 @@ fn surface_line(surface: &Surface) -> String {
             format!("Hunt-Crossley, exponent {}, χ {} s/m", exponent_text(*exponent), number(*dissipation))
         }
         NormalLaw::Custom { name, .. } => format!("law `{name}`"),
+        NormalLaw::Inherited => "the law of what it meets".to_owned(),
     };
     let friction = match &surface.friction {
         FrictionLaw::None => "no friction".to_owned(),
@@ -149,6 +150,7 @@ fn surface_line(surface: &Surface) -> String {
             format!("regularised Coulomb, μ {}, v_ε {} m/s", number(*mu), number(*slip_speed))
         }
         FrictionLaw::Custom { name, .. } => format!("friction law `{name}`"),
+        FrictionLaw::Inherited => "friction of what it meets".to_owned(),
     };
     let unit = match &surface.normal {
         NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => "N/m^1.5",

@@ -76,6 +76,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         tell(format!("warning: {warning}"));
     }
     if !arguments.quiet {
+        built.seal.notes.iter().for_each(|note| tell(format!("note: {note}")));
         built.simulation.step_notes().iter().for_each(|note| tell(format!("note: {note}")));
     }
     let mut statistics = Statistics::new(&built, arguments.acting);
@@ -123,7 +124,8 @@ fn advance(
             statistics.observe(&built.simulation);
             bar.inc(1);
         }
-        outputs.observe(&built.simulation, done).map_err(Failure::Output)?;
+        let last = done == built.steps;
+        outputs.observe(&built.simulation, done, last).map_err(Failure::Output)?;
     }
     bar.finish_and_clear();
     Ok(())

@@ -44,11 +44,12 @@ impl Outputs {
         Ok(outputs)
     }
 
-    /// Takes in the instant after so many steps, at which the world has committed.
-    pub fn observe(&mut self, simulation: &Simulation, done: u64) -> Result<(), String> {
+    /// Takes in the instant after so many steps, at which the world has committed. The last one of a run is in the CSV files
+    /// whether or not it falls on a record.
+    pub fn observe(&mut self, simulation: &Simulation, done: u64, last: bool) -> Result<(), String> {
         let energies = self.energies.then(|| energies(simulation));
         let (world, time) = (simulation.world(), simulation.time());
-        if let Some(csv) = self.csv.as_mut().filter(|_| done.is_multiple_of(self.csv_every)) {
+        if let Some(csv) = self.csv.as_mut().filter(|_| last || done.is_multiple_of(self.csv_every)) {
             csv.frame.energies = energies;
             csv.write(world, time).map_err(of_csv)?;
         }

@@ -1,9 +1,10 @@
 //! Every pair of movable groups against the host's step: single contacts, and all that can act on one group at once.
 
+use super::asking::{Known, of_group};
 use super::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
 use super::coupling::{Coupling, longest_stable_step, surely_stable_step};
 use super::mass::{GroupMass, StepPlan};
-use super::spring::{ContactSprings, Spring, springs};
+use super::spring::{Spring, springs};
 use super::together::{Load, pair_load};
 use super::warn::{notes, warnings};
 use crate::law::PairProps;
@@ -51,6 +52,8 @@ pub struct PairLimits {
     pub normal: SpringLimit,
     /// The friction spring that bears the least step, if there is friction.
     pub friction: Option<SpringLimit>,
+    /// `model/surface` of the two that make the normal spring, and of those that make the friction spring.
+    pub surfaces: [[String; 2]; 2],
     /// The bounce that is followed worst; `None` if no accuracy is asked, or for laws without a closed form.
     pub bounce: Option<BounceLimit>,
 }
@@ -108,8 +111,7 @@ impl Setting<'_> {
         let mut loads: BTreeMap<usize, (Load, f64)> = BTreeMap::new();
         for pair in self.group_pairs {
             let names = [pair.first, pair.second].map(|body| self.scene.body_name(body));
-            let met = self.met(pair);
-            if met.is_empty() {
+            if self.met(pair).is_empty() {
                 continue;
             }
             let unknown = [pair.first, pair.second].map(|body| self.masses[body].is_none());
@@ -120,18 +122,12 @@ impl Setting<'_> {
                 continue;
             }
             let Some(mass) = self.effective_mass(pair) else { continue };
-            let mut known = Vec::new();
-            for props in met {
-                match springs(props, mass, plan.closing_speed) {
-                    Ok(made) => known.push(made),
-                    Err(cause) => {
-                        report.not_judged.push(format!("`{}` and `{}`: {cause}", names[0], names[1]));
-                    }
-                }
-            }
+            let (known, causes) = self.known(pair, mass, plan);
+            let not_judged = causes.iter().map(|cause| format!("`{}` and `{}`: {cause}", names[0], names[1]));
+            report.not_judged.extend(not_judged);
             report.pairs.extend(pair_limits(names, mass, &known, plan));
-            let ratio = known.iter().map(ContactSprings::least_damped).fold(f64::INFINITY, f64::min);
-            let load = pair_load(self, pair, mass, plan);
+            let ratio = known.iter().map(|known| known.springs.least_damped()).fold(f64::INFINITY, f64::min);
+            let load = pair_load(self, pair, mass, plan, &[]);
             for body in [pair.first, pair.second] {
                 let (sum, least) = loads.entry(body).or_insert((Load::default(), f64::INFINITY));
                 (*sum, *least) = (sum.plus(load), least.min(ratio));
@@ -143,8 +139,29 @@ impl Setting<'_> {
         report.not_judged.dedup();
         report.not_judged.extend(untold.iter().map(|name| format!("`{name}`: no mass is given")));
         report.warnings = warnings(&report, plan);
-        report.notes = notes(&report, plan).into_iter().collect();
+        let asks = |group: &str| {
+            let body = loads.keys().find(|body| self.scene.body_name(**body) == group)?;
+            of_group(self, *body, plan)
+        };
+        report.notes = notes(&report, plan, asks).into_iter().collect();
         report
+    }
+
+    /// The contacts that a pair of movable groups can make, and why some are not known.
+    pub(super) fn known(
+        &self,
+        pair: &GroupPair,
+        mass: f64,
+        plan: &StepPlan,
+    ) -> (Vec<Known>, Vec<&'static str>) {
+        let (mut known, mut causes) = (Vec::new(), Vec::new());
+        for (props, surfaces) in self.met(pair) {
+            match springs(props, mass, plan.closing_speed) {
+                Ok(springs) => known.push(Known { springs, surfaces }),
+                Err(cause) => causes.push(cause),
+            }
+        }
+        (known, causes)
     }
 
     /// `None` for what does not yield or cannot be touched.
@@ -162,14 +179,14 @@ impl Setting<'_> {
     }
 
     /// 1/(1/m₁ + 1/m₂); `None` if neither yields.
-    fn effective_mass(&self, pair: &GroupPair) -> Option<f64> {
+    pub fn effective_mass(&self, pair: &GroupPair) -> Option<f64> {
         let inverse = |body: usize| self.masses[body].map_or(0.0, |known| 1.0 / known.mass);
         let sum = inverse(pair.first) + inverse(pair.second);
         (sum > 0.0).then(|| 1.0 / sum)
     }
 
-    /// Values of all pairs of surfaces that can meet between two movable groups, each once.
-    fn met(&self, pair: &GroupPair) -> Vec<&PairProps> {
+    /// Values and names of all pairs of surfaces that can meet between two movable groups, each once.
+    fn met(&self, pair: &GroupPair) -> Vec<(&PairProps, [String; 2])> {
         let mut met = BTreeMap::new();
         for (table, (a, b)) in pair.tables.iter().zip([(pair.first, pair.second), (pair.second, pair.first)])
         {
@@ -177,7 +194,15 @@ impl Setting<'_> {
                 met.insert((*table, surfaces), props);
             }
         }
-        met.into_values().collect()
+        let named = |(table, (a, b)): (usize, (u32, u32)), props| {
+            let table = &self.tables[table];
+            let full = |model: usize, surface: u32| {
+                let model = &self.scene.models[model];
+                format!("{}/{}", model.name, model.surfaces[surface as usize].name)
+            };
+            (props, [full(table.model_a, a), full(table.model_b, b)])
+        };
+        met.into_iter().map(|(key, props)| named(key, props)).collect()
     }
 
     fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &PairProps> {
@@ -215,34 +240,35 @@ pub fn judge_contact(
     mass: f64,
     plan: &StepPlan,
 ) -> Result<PairLimits, &'static str> {
-    let known = [springs(props, mass, plan.closing_speed)?];
+    let known = [Known { springs: springs(props, mass, plan.closing_speed)?, surfaces: groups.clone() }];
     Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
 }
 
-fn pair_limits(
-    groups: [String; 2],
-    mass: f64,
-    known: &[ContactSprings],
-    plan: &StepPlan,
-) -> Option<PairLimits> {
+fn pair_limits(groups: [String; 2], mass: f64, known: &[Known], plan: &StepPlan) -> Option<PairLimits> {
     let limit = |spring: Spring| {
         let (k, c) = (spring.stiffness, spring.damping);
         SpringLimit { spring, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
     };
-    let least = |limits: Vec<SpringLimit>| {
-        // Of two that are equally bad the stiffer.
-        let order = |x: &SpringLimit, y: &SpringLimit| {
-            let by_step = x.stable_step.total_cmp(&y.stable_step);
-            by_step.then(y.spring.stiffness.total_cmp(&x.spring.stiffness))
-        };
-        limits.into_iter().min_by(order)
-    };
-    let normal = least(known.iter().map(|made| limit(made.normal)).collect())?;
-    let friction = least(known.iter().filter_map(|made| made.friction).map(limit).collect());
+    let (normal, surfaces) =
+        least(known.iter().map(|known| (limit(known.springs.normal), &known.surfaces)).collect())?;
+    let with_friction =
+        known.iter().filter_map(|known| Some((limit(known.springs.friction?), &known.surfaces)));
+    let friction = least(with_friction.collect());
+    let surfaces = [surfaces, friction.map_or(surfaces, |(_, surfaces)| surfaces)].map(Clone::clone);
+    let friction = friction.map(|(limit, _)| limit);
+    let known: Vec<_> = known.iter().map(|known| known.springs).collect();
     let by_formula = known.iter().filter(|made| made.bounces_by_formula);
     let bounces = by_formula.filter_map(|made| bounce_limit(made.normal, mass, plan));
     let bounce = bounces.max_by(|x, y| x.error.rebound.total_cmp(&y.error.rebound));
-    Some(PairLimits { groups, mass, normal, friction, bounce })
+    Some(PairLimits { groups, mass, normal, friction, surfaces, bounce })
+}
+
+/// The spring that bears the least step; of two that are equally bad the stiffer.
+fn least(limits: Vec<(SpringLimit, &[String; 2])>) -> Option<(SpringLimit, &[String; 2])> {
+    limits.into_iter().min_by(|(x, _), (y, _)| {
+        let by_step = x.stable_step.total_cmp(&y.stable_step);
+        by_step.then(y.spring.stiffness.total_cmp(&x.spring.stiffness))
+    })
 }
 
 /// Beyond this damping ratio (restitution 0.01) hardly anything bounces.

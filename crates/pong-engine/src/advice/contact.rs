@@ -82,7 +82,7 @@ pub fn advise_contact(wish: &ContactWish) -> Result<ContactAdvice, EngineError> 
     let late = step * wish.coupling.lag();
     let damping = 2.0 * zeta * mass * frequency + stiffness * late;
     let friction_stiffness = 2.0 / 3.0 * stiffness;
-    let friction_damping = 2.0 * (friction_stiffness * mass).sqrt() + friction_stiffness * late;
+    let friction_damping = critical_damping(friction_stiffness, mass, wish.coupling, step);
     let stable = |k, c| longest_stable_step(wish.coupling, k, c, mass);
     Ok(ContactAdvice {
         stiffness,
@@ -98,6 +98,12 @@ pub fn advise_contact(wish: &ContactWish) -> Result<ContactAdvice, EngineError> 
         stable_step: stable(stiffness, damping).min(stable(friction_stiffness, friction_damping)),
         least_depth: wish.speed * depth_factor(zeta) * step / resolved,
     })
+}
+
+/// The damping (N·s/m) at which a spring of `stiffness` (N/m) on `mass` (kg) stops ringing: 2√(k·m), and what a wrench takes
+/// that comes late.
+pub fn critical_damping(stiffness: f64, mass: f64, coupling: Coupling, step: f64) -> f64 {
+    2.0 * (stiffness * mass).sqrt() + stiffness * step * coupling.lag()
 }
 
 /// The largest restitution that the damping is made for. A held wrench that loses nothing stands on the brink of gaining:

@@ -10,9 +10,11 @@
 //! | `mass.rs`, `spring.rs` | what the host tells of masses and step; what surfaces are to a step |
 //! | `together.rs`, `mobility.rs` | a bound of what can act on one movable group at once, levers and inertia included |
 //! | `acting.rs` | the same of what acts in a frame, exactly |
+//! | `asking.rs` | which term asks for a short step |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes of the seal |
 
 mod acting;
+mod asking;
 mod bounce;
 mod check;
 mod contact;
@@ -28,7 +30,7 @@ pub(crate) use acting::acting;
 pub use bounce::{Accuracy, BounceError, bounce_error, depth_factor, resolved_step};
 pub(crate) use check::Setting;
 pub use check::{BounceLimit, GroupLimits, PairLimits, SpringLimit, StepReport, judge_contact};
-pub use contact::{ContactAdvice, ContactWish, advise_contact};
+pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::{Coupling, longest_stable_step};
 pub use mass::{GroupMass, StepPlan};
 pub use spring::Spring;

@@ -14,6 +14,7 @@
 //! Each of these can only raise λ, but for levers of friction on balls and for the directions of supporting planes, which
 //! are tried on a grid.
 
+use super::asking::Term;
 use super::check::Setting;
 use super::mass::StepPlan;
 use super::mobility::{Mat6, Mobility, largest_eigenvalue};
@@ -90,11 +91,17 @@ struct Direction {
     planes: usize,
 }
 
-/// What the contacts of a pair do at once, by both its directions.
-pub(super) fn pair_load(setting: &Setting<'_>, pair: &GroupPair, mass: f64, plan: &StepPlan) -> Load {
+/// What the contacts of a pair do at once, by both its directions, without some of their terms.
+pub(super) fn pair_load(
+    setting: &Setting<'_>,
+    pair: &GroupPair,
+    mass: f64,
+    plan: &StepPlan,
+    without: &[Term],
+) -> Load {
     let directions = [(pair.first, pair.second, 0), (pair.second, pair.first, 1)];
     let loads = directions.map(|(a, b, flipped)| {
-        let direction = Direction::new(setting, pair, (a, b, flipped), mass, plan);
+        let direction = Direction::new(setting, pair, (a, b, flipped), mass, plan, without);
         direction.on_planes().plus(direction.on_others())
     });
     loads[0].plus(loads[1])
@@ -107,6 +114,7 @@ impl Direction {
         (a, b, flipped): (usize, usize, usize),
         mass: f64,
         plan: &StepPlan,
+        without: &[Term],
     ) -> Self {
         let (body_a, body_b) = (setting.scene.body(a), setting.scene.body(b));
         let mobility = |body: usize| setting.masses[body].as_ref().and_then(Mobility::new);
@@ -130,7 +138,7 @@ impl Direction {
                     let met = partners.iter().filter(|partner| meets(info, partner));
                     let values = met.map(|partner| table.props(info.surface, partner.surface));
                     let made = values.filter_map(|props| springs(props, mass, plan.closing_speed).ok());
-                    let made = made.reduce(stiffest);
+                    let made = made.reduce(stiffest).map(|made| made.without(without));
                     cached.push((info.kind, info.surface, made));
                     made
                 }

@@ -1,5 +1,6 @@
 //! What the step check tells before the first frame.
 
+use super::asking::of_spring;
 use super::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
 use super::coupling::Coupling;
 use super::mass::StepPlan;
@@ -22,35 +23,45 @@ pub(super) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning
     told
 }
 
-/// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same.
-pub(super) fn notes(report: &StepReport, plan: &StepPlan) -> Option<SetupNote> {
+/// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same. `asks` tells of a
+/// group which term of its contacts asks for its step.
+pub(super) fn notes(
+    report: &StepReport,
+    plan: &StepPlan,
+    asks: impl Fn(&str) -> Option<String>,
+) -> Option<SetupNote> {
     let warned = |group: &GroupLimits| {
         report.pairs.iter().any(|pair| pair.groups.contains(&group.group) && unstable(pair, plan).is_some())
     };
     let together = report.groups.iter().filter(|group| !warned(group) && may_grow(group, plan));
     let together: Vec<&GroupLimits> = together.collect();
     let worst = together.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step))?;
-    Some(SetupNote::StepMayBeTooLong { told: may(worst, together.len() - 1, plan) })
+    let asks = asks(&worst.group).map_or_else(String::new, |term| format!("; {term}"));
+    Some(SetupNote::StepMayBeTooLong { told: may(worst, together.len() - 1, plan) + &asks })
 }
 
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
-    let [a, b] = &pair.groups;
-    let (step, mass) = (plan.step, pair.mass);
+    let mass = pair.mass;
     if grows(&pair.normal, mass, plan) {
-        let (k, c) = (pair.normal.spring.stiffness, pair.normal.spring.damping);
         let cure = cure(pair.normal.stable_step, "give the surfaces some");
-        return Some(format!(
-            "`{a}` and `{b}`: a contact of {k:.3e} N/m and {c:.3e} N·s/m on {mass:.3e} kg gains energy at a step of \
-             {step:.3e} s; {cure}"
-        ));
+        return Some(gains(pair, "a contact", &pair.normal, &pair.surfaces[0], plan) + &cure);
     }
     let friction = pair.friction.filter(|friction| grows(friction, mass, plan))?;
-    let (k, c) = (friction.spring.stiffness, friction.spring.damping);
     let cure = cure(friction.stable_step, "give the friction some");
-    Some(format!(
-        "`{a}` and `{b}`: friction of {k:.3e} N/m and {c:.3e} N·s/m on {mass:.3e} kg gains energy at a step of \
-         {step:.3e} s; {cure}"
-    ))
+    Some(gains(pair, "friction", &friction, &pair.surfaces[1], plan) + &cure)
+}
+
+/// Which contact gains energy, and which of its terms asks for a shorter step.
+fn gains(pair: &PairLimits, what: &str, limit: &SpringLimit, of: &[String; 2], plan: &StepPlan) -> String {
+    let [a, b] = &pair.groups;
+    let [one, other] = of;
+    let (k, c, mass) = (limit.spring.stiffness, limit.spring.damping, pair.mass);
+    format!(
+        "`{a}` and `{b}`: {what} of {k:.3e} N/m and {c:.3e} N·s/m (surfaces `{one}` and `{other}`) on {mass:.3e} kg, by its \
+         {}, gains energy at a step of {:.3e} s; ",
+        of_spring(&limit.spring, plan.coupling, mass),
+        plan.step,
+    )
 }
 
 fn may_grow(group: &GroupLimits, plan: &StepPlan) -> bool {

@@ -67,7 +67,7 @@ pub(super) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
-fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
+pub(super) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
     let whole: f64 = same_key
         .filter(|other| {
             other.role == Role::Pushes && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
@@ -80,13 +80,18 @@ fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>)
 }
 
 impl PairContext<'_> {
+    /// The values of the two surfaces of a contact.
+    pub(super) fn props(&self, found: &Found) -> &PairProps {
+        let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
+        let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
+        self.table.props(surface_a, surface_b)
+    }
+
     /// Fills in the forces of a contact.
     fn press(&self, contact: &mut FrameContact, share: f64, custom: &mut [f64]) {
         custom.fill(0.0);
         let found = contact.found;
-        let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
-        let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
-        let props = self.table.props(surface_a, surface_b);
+        let props = self.props(&found);
         contact.point = found.point_a + found.normal * (props.share_a * found.depth);
         let velocity = self.motion.velocity_at(&contact.point);
         let closing = -found.normal.dot(&velocity);

@@ -16,6 +16,7 @@ mod nearest_side;
 mod order;
 mod passages;
 mod pieces;
+mod preload;
 mod reach;
 mod reduce;
 mod relative;
@@ -31,6 +32,7 @@ pub(crate) use buffers::{Frame, FrameContact, Place};
 pub(crate) use crew::Crew;
 pub(crate) use input::{Block, FrameInput};
 pub(crate) use passages::{Passed, least_travel_m, reach_m};
+pub use preload::FrictionPreload;
 pub(crate) use relative::Motion;
 pub(crate) use state_in::require_states;
 

@@ -6,11 +6,14 @@
 //!
 //! With the exponent 3/2 the shares are those of κ_i = k_i^(2/3) and k = (κ_A·κ_B/(κ_A + κ_B))^(3/2).
 //! k_t by the series rule, c_t by squared shares of k_t, each μ by 2·μ_A·μ_B/(μ_A + μ_B).
+//!
+//! A rigid surface has no share: what it does not say of a law is said by the other.
 
 use super::NormalForce;
 use crate::friction::FrictionForce;
 use crate::registry::Laws;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// The values of an ordered pair of surfaces.
@@ -67,6 +70,7 @@ pub fn combine(
             cure: "give one of the two surfaces a finite stiffness".to_owned(),
         });
     }
+    let (a, b) = (&*completed(a, b)?, &*completed(b, a)?);
     let exponent = pair_exponent(a, b, table);
     let (share_a, series) = in_series(a.stiffness, b.stiffness, exponent);
     let stiffness = table.and_then(|entry| entry.stiffness).unwrap_or(series);
@@ -79,6 +83,37 @@ pub fn combine(
         None => combined_friction(a, b, laws)?,
     };
     Ok(PairProps { share_a, stiffness, normal, friction })
+}
+
+/// A surface with what it leaves to the one it meets.
+fn completed<'s>(own: &'s Surface, other: &Surface) -> Result<Cow<'s, Surface>, CombineError> {
+    if own.inherits() && own.stiffness.is_finite() {
+        return Err(CombineError {
+            cause: format!("`{}` names no law, and is not rigid", own.name),
+            cure: "give it a normal and a friction law, or an infinite stiffness".to_owned(),
+        });
+    }
+    let mut full = Cow::Borrowed(own);
+    if own.normal == NormalLaw::Inherited {
+        full.to_mut().normal = other.normal.clone();
+    }
+    if own.friction == FrictionLaw::Inherited {
+        full.to_mut().friction = match other.friction.clone() {
+            // The bristle is the other's alone, too: that of a rigid surface does not yield.
+            FrictionLaw::Bristle { mu, static_excess, damping, .. } => {
+                FrictionLaw::Bristle { mu, static_excess, stiffness: None, damping }
+            }
+            law => law,
+        };
+    }
+    // Its damping has no share, so a ramp that it does not give is the other's.
+    if own.stiffness.is_infinite()
+        && let (NormalLaw::Linear { damping, ramp: 0.0 }, NormalLaw::Linear { ramp, .. }) =
+            (&own.normal, &other.normal)
+    {
+        full.to_mut().normal = NormalLaw::Linear { damping: *damping, ramp: *ramp };
+    }
+    Ok(full)
 }
 
 fn pair_exponent(a: &Surface, b: &Surface, table: Option<&PairOverride>) -> Exponent {
@@ -116,13 +151,35 @@ fn in_series(k_a: f64, k_b: f64, exponent: Exponent) -> (f64, f64) {
     }
 }
 
-fn needs_entry(a: &Surface, b: &Surface, what: &str) -> CombineError {
+/// `of` tells a surface's side of the difference.
+fn needs_entry(a: &Surface, b: &Surface, what: &str, of: impl Fn(&Surface) -> String) -> CombineError {
     CombineError {
-        cause: format!("surfaces `{}` and `{}` differ in {what}", a.name, b.name),
+        cause: format!("they differ in {what}: {} and {}", of(a), of(b)),
         cure: format!(
             "add an entry to `pairs` for (\"{}\", \"{}\") that says what holds between them",
             a.name, b.name
         ),
+    }
+}
+
+/// The name of a surface's normal law in a model file.
+fn law_name(surface: &Surface) -> String {
+    match &surface.normal {
+        NormalLaw::Linear { .. } => "Linear".to_owned(),
+        NormalLaw::HuntCrossley { .. } => "HuntCrossley".to_owned(),
+        NormalLaw::Custom { name, parameters } => format!("Custom `{name}` with {parameters:?}"),
+        NormalLaw::Inherited => "none".to_owned(),
+    }
+}
+
+/// The name of a surface's friction law in a model file.
+pub(crate) fn friction_name(surface: &Surface) -> String {
+    match &surface.friction {
+        FrictionLaw::None => "None".to_owned(),
+        FrictionLaw::Bristle { .. } => "Bristle".to_owned(),
+        FrictionLaw::Coulomb { .. } => "Coulomb".to_owned(),
+        FrictionLaw::Custom { name, parameters } => format!("Custom `{name}` with {parameters:?}"),
+        FrictionLaw::Inherited => "none".to_owned(),
     }
 }
 
@@ -131,7 +188,10 @@ fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, 
     match (&a.normal, &b.normal) {
         (NormalLaw::Linear { damping: c_a, ramp }, NormalLaw::Linear { damping: c_b, ramp: other }) => {
             if ramp != other {
-                return Err(needs_entry(a, b, "the ramp of their damping"));
+                return Err(needs_entry(a, b, "the ramp of their damping", |surface| match surface.normal {
+                    NormalLaw::Linear { ramp, .. } => format!("{ramp} m"),
+                    _ => law_name(surface),
+                }));
             }
             Ok(NormalLaw::Linear { damping: c_a * share_a * share_a + c_b * share_b * share_b, ramp: *ramp })
         }
@@ -140,7 +200,12 @@ fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, 
             NormalLaw::HuntCrossley { dissipation: chi_b, exponent: other },
         ) => {
             if exponent != other {
-                return Err(needs_entry(a, b, "the exponent of their force law"));
+                return Err(needs_entry(a, b, "the exponent of their force law", |surface| {
+                    match surface.normal {
+                        NormalLaw::HuntCrossley { exponent: Exponent::ThreeHalves, .. } => "1.5".to_owned(),
+                        _ => "1".to_owned(),
+                    }
+                }));
             }
             Ok(NormalLaw::HuntCrossley {
                 dissipation: chi_a * share_a + chi_b * share_b,
@@ -148,7 +213,7 @@ fn combined_normal(a: &Surface, b: &Surface, share_a: f64) -> Result<NormalLaw, 
             })
         }
         (custom @ NormalLaw::Custom { .. }, other) if custom == other => Ok(custom.clone()),
-        _ => Err(needs_entry(a, b, "their normal force law")),
+        _ => Err(needs_entry(a, b, "their normal force law", law_name)),
     }
 }
 
@@ -161,6 +226,7 @@ fn normal_props(law: &NormalLaw, laws: &Laws) -> Result<NormalProps, CombineErro
         NormalLaw::Custom { name, parameters } => {
             NormalProps::Custom { law: laws.normal(name)?, parameters: parameters.clone() }
         }
+        NormalLaw::Inherited => return Err(no_law("normal")),
     })
 }
 
@@ -193,7 +259,15 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
             FrictionLaw::Coulomb { mu: mu_b, slip_speed: other },
         ) => {
             if slip_speed != other {
-                return Err(needs_entry(a, b, "the slip speed of their friction law"));
+                return Err(needs_entry(
+                    a,
+                    b,
+                    "the slip speed of their friction law",
+                    |surface| match surface.friction {
+                        FrictionLaw::Coulomb { slip_speed, .. } => format!("{slip_speed} m/s"),
+                        _ => friction_name(surface),
+                    },
+                ));
             }
             Ok(FrictionProps::Coulomb { mu: harmonic(*mu_a, *mu_b), slip_speed: *slip_speed })
         }
@@ -201,7 +275,7 @@ fn combined_friction(a: &Surface, b: &Surface, laws: &Laws) -> Result<FrictionPr
             let (_, stiffness) = in_series(a.stiffness, b.stiffness, Exponent::One);
             table_friction(custom, stiffness, laws)
         }
-        _ => Err(needs_entry(a, b, "their friction law")),
+        _ => Err(needs_entry(a, b, "their friction law", friction_name)),
     }
 }
 
@@ -226,7 +300,15 @@ fn table_friction(
             stiffness: default_tangential(pair_stiffness),
             parameters: parameters.clone(),
         },
+        FrictionLaw::Inherited => return Err(no_law("friction")),
     })
+}
+
+fn no_law(which: &str) -> CombineError {
+    CombineError {
+        cause: format!("nothing says which {which} law holds"),
+        cure: format!("give one of the two surfaces, or an entry of `pairs`, a {which} law"),
+    }
 }
 
 fn default_tangential(stiffness: f64) -> f64 {
@@ -408,5 +490,74 @@ mod tests {
         };
         let props = combine(&ramped, &plain, Some(&entry), &Laws::default()).unwrap();
         assert_eq!(damping_of(&props), 3.0);
+    }
+
+    /// A rigid surface that names no law behaves as one that names the other's: law, exponent, ramp and friction.
+    #[test]
+    fn a_rigid_surface_takes_what_it_does_not_say_from_the_other() {
+        let silent = Surface {
+            normal: NormalLaw::Inherited,
+            friction: FrictionLaw::Inherited,
+            ..surface(f64::INFINITY, 0.0)
+        };
+        let normals = [
+            NormalLaw::Linear { damping: 30.0, ramp: 1e-4 },
+            NormalLaw::HuntCrossley { dissipation: 0.4, exponent: Exponent::One },
+            NormalLaw::HuntCrossley { dissipation: 0.4, exponent: Exponent::ThreeHalves },
+        ];
+        let frictions = [
+            FrictionLaw::None,
+            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.2, stiffness: Some(7e3), damping: 5.0 },
+            FrictionLaw::Bristle { mu: 0.3, static_excess: 0.0, stiffness: None, damping: 0.0 },
+            FrictionLaw::Coulomb { mu: 0.3, slip_speed: 1e-3 },
+        ];
+        let text = |a: &Surface, b: &Surface| format!("{:?}", combine(a, b, None, &Laws::default()).unwrap());
+        for normal in &normals {
+            for friction in &frictions {
+                let soft =
+                    Surface { normal: normal.clone(), friction: friction.clone(), ..surface(1e5, 0.0) };
+                // The other's law with numbers of no weight: a rigid surface does not yield.
+                let mut telling = Surface { stiffness: f64::INFINITY, ..soft.clone() };
+                if let FrictionLaw::Bristle { stiffness, .. } = &mut telling.friction {
+                    *stiffness = None;
+                }
+                assert_eq!(text(&silent, &soft), text(&telling, &soft));
+                assert_eq!(text(&soft, &silent), text(&soft, &telling));
+                let props = combine(&silent, &soft, None, &Laws::default()).unwrap();
+                assert_eq!((props.share_a, props.stiffness), (0.0, 1e5));
+                if let (NormalProps::Linear { damping, ramp }, NormalLaw::Linear { .. }) =
+                    (&props.normal, normal)
+                {
+                    assert_eq!((*damping, *ramp), (30.0, 1e-4));
+                }
+                if let (
+                    FrictionProps::Bristle { stiffness, .. },
+                    FrictionLaw::Bristle { stiffness: told, .. },
+                ) = (&props.friction, friction)
+                {
+                    assert_eq!(*stiffness, told.unwrap_or(2.0 / 3.0 * 1e5));
+                }
+            }
+        }
+    }
+
+    /// What a rigid surface does say holds: another law needs an entry, as ever; only a ramp that it leaves out does not.
+    #[test]
+    fn what_a_rigid_surface_says_holds() {
+        let rigid = surface(f64::INFINITY, 0.0);
+        let ramp = |ramp| NormalLaw::Linear { damping: 30.0, ramp };
+        let ramped = Surface { normal: ramp(1e-4), ..surface(1e5, 0.0) };
+        let props = combine(&rigid, &ramped, None, &Laws::default()).unwrap();
+        assert!(matches!(props.normal, NormalProps::Linear { damping: 30.0, ramp: 1e-4 }));
+        let other_ramp = Surface { normal: ramp(2e-4), ..rigid.clone() };
+        let error = combine(&other_ramp, &ramped, None, &Laws::default()).unwrap_err();
+        assert!(error.cause.contains("0.0002 m and 0.0001 m"), "{error:?}");
+        let hunt = NormalLaw::HuntCrossley { dissipation: 0.1, exponent: Exponent::One };
+        let error =
+            combine(&rigid, &Surface { normal: hunt, ..ramped.clone() }, None, &Laws::default()).unwrap_err();
+        assert!(error.cause.contains("normal force law: Linear and HuntCrossley"), "{error:?}");
+        // Only what is rigid may be silent.
+        let soft = Surface { normal: NormalLaw::Inherited, ..surface(1e4, 0.0) };
+        assert!(combine(&soft, &ramped, None, &Laws::default()).is_err());
     }
 }

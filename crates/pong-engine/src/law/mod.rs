@@ -4,6 +4,7 @@ mod combine;
 mod hunt_crossley;
 mod linear;
 
+pub(crate) use combine::friction_name;
 pub use combine::{CombineError, FrictionProps, NormalProps, PairProps, combine};
 
 use std::fmt::Debug;

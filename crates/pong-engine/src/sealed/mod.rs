@@ -10,7 +10,7 @@ pub(crate) use limits::Limits;
 pub use memory::{leave_room_for_small_things, require_memory};
 pub(crate) use plan::Plan;
 pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
-pub use warnings::{SetupNote, SetupWarning};
+pub use warnings::{MetIn, SetupNote, SetupWarning};
 
 use crate::account::WrenchUse;
 use crate::dispatch::has_tester;
@@ -26,7 +26,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Body, PrimitiveInfo, Surface};
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
-use surfaces::custom_stride;
+use surfaces::{custom_stride, friction_lost};
 use warnings::warnings;
 
 /// A pair of movable groups that are tested against each other.
@@ -74,7 +74,7 @@ impl Sealed {
         if self.keeps_accounts { self.group_pairs.len() } else { 0 }
     }
 
-    /// Size of the contact state block, bytes.
+    /// Size of the largest contact state block, bytes.
     pub fn state_size(&self) -> usize {
         let accounts = Books::block_len(self.account_pairs(), self.late);
         block_len(self.group_pairs.len(), self.record_capacity, self.custom_stride, accounts)
@@ -94,7 +94,7 @@ pub struct SealReport {
     pub group_pairs: usize,
     /// Most contacts of a frame.
     pub contact_capacity: usize,
-    /// Size of the contact state block, bytes.
+    /// Size of the largest contact state block, bytes.
     pub state_size: usize,
     /// Memory that the system had to have for the seal, bytes: a bound of what it took.
     pub memory: usize,
@@ -103,7 +103,7 @@ pub struct SealReport {
     /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend. What the planned step is
     /// too long for ([`World::plan_step`](crate::World::plan_step)).
     pub warnings: Vec<SetupWarning>,
-    /// What the planned step may be too long for.
+    /// Friction that one surface has and the other has not; what the planned step may be too long for.
     pub notes: Vec<SetupNote>,
     /// The longest step at which no contact by itself gains energy, s; `None` if no step is planned, infinite if nothing
     /// that yields can be touched.
@@ -182,8 +182,8 @@ pub(crate) fn seal(
         state_size: sealed.state_size(),
         memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
-        warnings: warnings(scene, &sealed.group_pairs),
-        notes: Vec::new(),
+        warnings: warnings(scene),
+        notes: friction_lost(scene, surfaces, &tables).into_iter().collect(),
         stable_step: None,
         surely_stable_step: None,
     };

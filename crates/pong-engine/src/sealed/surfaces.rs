@@ -1,10 +1,13 @@
 //! What pairs of surfaces make together: combined once, when a scene is sealed or a surface is changed.
 
+use super::SetupNote;
 use super::{GroupPair, can_be_tested, kind_name};
 use crate::error::EngineError;
-use crate::law::{FrictionProps, NormalProps, PairProps, combine};
+use crate::law::{FrictionProps, NormalProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
-use pong_model::{Body, Exponent, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface};
+use pong_model::{
+    Body, Exponent, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface, pair_entries,
+};
 use std::collections::BTreeSet;
 
 /// Values of all pairs of surfaces of two models, A's model first.
@@ -94,47 +97,96 @@ fn fill_table(
             let model_b = &scene.models[table.model_b];
             let a = &surfaces[table.model_a][info_a.surface as usize];
             let b = &surfaces[table.model_b][info_b.surface as usize];
-            let made = table_entry(model_a, model_b, a, b)
-                .and_then(|entry| combine(a, b, entry, &scene.laws).map_err(|e| (e.cause, e.cure)));
-            match made {
+            match combined(scene, (model_a, a), (model_b, b)) {
                 Ok(props) => table.props[slot] = Some(props),
-                Err((cause, cure)) => {
-                    let (a, b) = if a.name <= b.name { (a, b) } else { (b, a) };
-                    problems.insert(format!("surfaces `{}` and `{}`: {cause}; {cure}", a.name, b.name));
-                }
+                Err(problem) => _ = problems.insert(problem),
             }
         }
     }
 }
 
-/// The entry that the two models' tables hold for a pair of surfaces; they must not contradict each other.
-fn table_entry<'a>(
-    model_a: &'a Model,
-    model_b: &'a Model,
-    a: &Surface,
-    b: &Surface,
-) -> Result<Option<&'a PairOverride>, (String, String)> {
-    let find = |model: &'a Model| {
-        model.pair_overrides.iter().find(|entry| {
-            let [x, y] = &entry.surfaces;
-            (*x == a.name && *y == b.name) || (*x == b.name && *y == a.name)
+/// The values of a pair of surfaces of two models, or what is wrong with it.
+fn combined(
+    scene: &Scene,
+    (model_a, a): (&Model, &Surface),
+    (model_b, b): (&Model, &Surface),
+) -> Result<PairProps, String> {
+    let full = |model: &Model, surface: &Surface| format!("{}/{}", model.name, surface.name);
+    let made = table_entry((model_a, a), (model_b, b)).and_then(|entry| {
+        combine(a, b, entry, &scene.laws).map_err(|_| {
+            // Once more, for the same words with names that no other model has.
+            let [a, b] = [(model_a, a), (model_b, b)]
+                .map(|(model, surface)| Surface { name: full(model, surface), ..surface.clone() });
+            let (a, b) = if a.name <= b.name { (a, b) } else { (b, a) };
+            let error = combine(&a, &b, entry, &scene.laws).expect_err("the order decides no fault");
+            (error.cause, error.cure)
         })
-    };
-    match (find(model_a), find(model_b)) {
-        (Some(x), Some(y))
-            if (x.stiffness, &x.normal, &x.friction) != (y.stiffness, &y.normal, &y.friction) =>
-        {
-            Err((
-                format!(
-                    "models `{}` and `{}` give different values for this pair",
-                    model_a.name, model_b.name
-                ),
-                "make the two `pairs` entries equal or drop one".to_owned(),
-            ))
+    });
+    made.map_err(|(cause, cure)| {
+        let mut names = [full(model_a, a), full(model_b, b)];
+        names.sort();
+        format!("surfaces `{}` and `{}`: {cause}; {cure}", names[0], names[1])
+    })
+}
+
+/// Pairs of surfaces of which one has friction and the other none, so that there is none, and no entry says so.
+pub(super) fn friction_lost(
+    scene: &Scene,
+    surfaces: &[Vec<Surface>],
+    tables: &[SurfaceTable],
+) -> BTreeSet<SetupNote> {
+    let mut lost = BTreeSet::new();
+    for table in tables {
+        let models = [table.model_a, table.model_b].map(|model| &*scene.models[model]);
+        for (slot, _) in table.props.iter().enumerate().filter(|(_, props)| props.is_some()) {
+            let a = &surfaces[table.model_a][slot / table.columns];
+            let b = &surfaces[table.model_b][slot % table.columns];
+            let rough =
+                [a, b].map(|surface| !matches!(surface.friction, FrictionLaw::None | FrictionLaw::Inherited));
+            let smooth = [a, b].map(|surface| surface.friction == FrictionLaw::None);
+            let entry = table_entry((models[0], a), (models[1], b)).ok().flatten();
+            if entry.is_some_and(|entry| entry.friction.is_some()) {
+                continue;
+            }
+            let full = |side: usize, surface: &Surface| format!("{}/{}", models[side].name, surface.name);
+            lost.extend(match (rough, smooth) {
+                ([true, _], [_, true]) => Some(note(full(0, a), friction_name(a), full(1, b))),
+                ([_, true], [true, _]) => Some(note(full(1, b), friction_name(b), full(0, a))),
+                _ => None,
+            });
         }
-        (Some(entry), _) | (None, Some(entry)) => Ok(Some(entry)),
-        (None, None) => Ok(None),
     }
+    lost
+}
+
+fn note(rough: String, law: String, smooth: String) -> SetupNote {
+    SetupNote::NoFriction { rough, law, smooth }
+}
+
+/// The entry that the two models' tables hold for a pair of surfaces; they must not contradict each other.
+fn table_entry<'m>(
+    a: (&'m Model, &Surface),
+    b: (&'m Model, &Surface),
+) -> Result<Option<&'m PairOverride>, (String, String)> {
+    let entries = pair_entries(a, b);
+    let Some((model, entry)) = entries.first() else { return Ok(None) };
+    let values = |entry: &'m PairOverride| (entry.stiffness, &entry.normal, &entry.friction);
+    let Some((other_model, other)) = entries.iter().find(|(_, other)| values(other) != values(entry)) else {
+        return Ok(Some(entry));
+    };
+    let written = |entry: &PairOverride| format!("(\"{}\", \"{}\")", entry.surfaces[0], entry.surfaces[1]);
+    Err(if std::ptr::eq(*model, *other_model) {
+        let (one, two) = (written(entry), written(other));
+        (
+            format!("the entries {one} and {two} in `pairs` of model `{}` both hold and differ", model.name),
+            "make them equal or drop one".to_owned(),
+        )
+    } else {
+        (
+            format!("models `{}` and `{}` give different values for this pair", model.name, other_model.name),
+            "make the two `pairs` entries equal or drop one".to_owned(),
+        )
+    })
 }
 
 pub(super) fn custom_stride(tables: &[SurfaceTable]) -> usize {
@@ -154,10 +206,12 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
         (NormalLaw::Linear { .. }, NormalLaw::Linear { .. }) => true,
         (NormalLaw::HuntCrossley { exponent: a, .. }, NormalLaw::HuntCrossley { exponent: b, .. }) => a == b,
         (NormalLaw::Custom { name: a, .. }, NormalLaw::Custom { name: b, .. }) => a == b,
+        (NormalLaw::Inherited, NormalLaw::Inherited) => true,
         _ => false,
     };
     let same_friction = match (&old.friction, &new.friction) {
         (FrictionLaw::None, FrictionLaw::None)
+        | (FrictionLaw::Inherited, FrictionLaw::Inherited)
         | (FrictionLaw::Bristle { .. }, FrictionLaw::Bristle { .. })
         | (FrictionLaw::Coulomb { .. }, FrictionLaw::Coulomb { .. }) => true,
         (FrictionLaw::Custom { name: a, .. }, FrictionLaw::Custom { name: b, .. }) => a == b,
@@ -165,6 +219,11 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
     };
     if !same_normal || !same_friction {
         return bad("values may change between frames, laws may not; keep the law and change its numbers");
+    }
+    if new.inherits() && new.stiffness.is_finite() {
+        return bad(
+            "it is rigid and takes a law from what it meets, so it stays rigid; name the laws in the model",
+        );
     }
     if new.stiffness.is_nan() || new.stiffness <= 0.0 {
         return bad("the stiffness must be positive (infinite means rigid)");
@@ -185,13 +244,14 @@ pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), E
         NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
         NormalLaw::HuntCrossley { dissipation, .. } => &[*dissipation],
         NormalLaw::Custom { parameters, .. } => parameters,
+        NormalLaw::Inherited => &[],
     };
     let custom = matches!(new.normal, NormalLaw::Custom { .. });
     if numbers.iter().any(|x| !x.is_finite() || (!custom && !(0.0..=LARGEST).contains(x))) {
         return bad(&format!("damping values must lie within 0 and {LARGEST:e}"));
     }
     let rough: &[f64] = match &new.friction {
-        FrictionLaw::None => &[],
+        FrictionLaw::None | FrictionLaw::Inherited => &[],
         FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
             &[*mu, *static_excess, stiffness.unwrap_or(0.0), *damping]
         }

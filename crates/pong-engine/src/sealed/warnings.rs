@@ -1,24 +1,28 @@
 //! What sealing tells the author though the scene is valid.
 
-use super::{GroupPair, can_be_tested, kind_name};
+use super::{can_be_tested, kind_name};
 use crate::scene::Scene;
 use pong_model::Body;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Something the author may not have intended.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetupWarning {
-    /// Primitives of two kinds without a tester meet in a pair of Objects and are ignored.
+    /// Primitives of two kinds without a tester meet in Objects of two models and are ignored.
     IgnoredPair {
-        /// Names of the two Objects.
-        objects: [String; 2],
+        /// Names of the two models.
+        models: [String; 2],
         /// Names of the two kinds.
         kinds: [String; 2],
+        /// The pairs of Objects in which they meet.
+        met: MetIn,
     },
-    /// A pair of Objects in which nothing can touch.
+    /// Objects of two models are paired in which nothing can touch.
     NothingToTest {
-        /// Names of the two Objects.
-        objects: [String; 2],
+        /// Names of the two models.
+        models: [String; 2],
+        /// The pairs of Objects.
+        met: MetIn,
     },
     /// A contact gains energy at the planned step ([`World::plan_step`](crate::World::plan_step)).
     StepTooLong {
@@ -40,14 +44,45 @@ pub enum SetupWarning {
 impl std::fmt::Display for SetupWarning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::IgnoredPair { objects: [a, b], kinds: [kind_a, kind_b] } => {
-                write!(f, "`{a}` and `{b}`: {kind_a} and {kind_b} have no tester and ignore each other")
+            Self::IgnoredPair { models: [a, b], kinds: [kind_a, kind_b], met } => {
+                write!(
+                    f,
+                    "models `{a}` and `{b}`: {kind_a} and {kind_b} have no tester and ignore each other ({met})"
+                )
             }
-            Self::NothingToTest { objects: [a, b] } => {
-                write!(f, "`{a}` and `{b}` are paired but nothing of one can touch anything of the other")
+            Self::NothingToTest { models: [a, b], met } => {
+                write!(
+                    f,
+                    "models `{a}` and `{b}` are paired but nothing of one can touch anything of the other ({met})"
+                )
             }
             Self::StepTooLong { told } | Self::StepTooCoarse { told } => f.write_str(told),
             Self::StepNotJudged { told } => write!(f, "step not judged: {told}"),
+        }
+    }
+}
+
+/// Pairs of Objects of the same two models: one speaks for all.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MetIn {
+    /// Names of the two Objects of the first pair.
+    pub objects: [String; 2],
+    /// How many more pairs there are.
+    pub more: usize,
+}
+
+impl std::fmt::Display for MetIn {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [a, b] = &self.objects;
+        if a == b {
+            write!(f, "`{a}` with itself")?;
+        } else {
+            write!(f, "`{a}` and `{b}`")?;
+        }
+        match self.more {
+            0 => Ok(()),
+            1 => write!(f, " and 1 more pair"),
+            more => write!(f, " and {more} more pairs"),
         }
     }
 }
@@ -61,48 +96,88 @@ pub enum SetupNote {
         /// The movable group, how many contacts, and the longest step that is surely stable.
         told: String,
     },
+    /// One of two surfaces that can meet has friction and the other none, so between them there is none, and no entry of
+    /// `pairs` says so.
+    NoFriction {
+        /// `model/surface` that has friction.
+        rough: String,
+        /// Its law.
+        law: String,
+        /// `model/surface` that has none.
+        smooth: String,
+    },
 }
 
 impl std::fmt::Display for SetupNote {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::StepMayBeTooLong { told } => f.write_str(told),
+            Self::NoFriction { rough, law, smooth } => write!(
+                f,
+                "surfaces `{rough}` and `{smooth}`: no friction between them, for `{smooth}` has none though `{rough}` has \
+                 {law}; if that is not meant give `{smooth}` friction too, or the pair an entry in `pairs`"
+            ),
         }
     }
 }
 
-/// Everything about a scene that its author may not have intended.
-pub(super) fn warnings(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<SetupWarning> {
+/// Everything about a scene that its author may not have intended. What two models do is told once, however many Objects
+/// are made of them.
+pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
+    let mut paired: BTreeMap<([usize; 2], bool), MetIn> = BTreeMap::new();
+    for pair in &scene.pairs {
+        let models = [pair.a, pair.b].map(|object| scene.objects[object].model);
+        let in_order = models[0] <= models[1];
+        let (one, other) = if in_order { (pair.a, pair.b) } else { (pair.b, pair.a) };
+        let objects = [one, other].map(|object| scene.objects[object].name.clone());
+        let key = (if in_order { models } else { [models[1], models[0]] }, pair.a == pair.b);
+        paired.entry(key).and_modify(|met| met.more += 1).or_insert(MetIn { objects, more: 0 });
+    }
     let mut found = BTreeSet::new();
-    for (index, pair) in scene.pairs.iter().enumerate() {
-        let objects = [pair.a, pair.b].map(|object| scene.objects[object].name.clone());
-        let mut anything = false;
-        for groups in group_pairs.iter().filter(|groups| groups.pair == index) {
-            let (first, second) = (scene.body(groups.first), scene.body(groups.second));
-            let kinds = |body: &Body| -> BTreeSet<(String, usize)> {
-                let mut by_name: std::collections::BTreeMap<String, usize> = Default::default();
-                for (i, info) in body.primitives.iter().enumerate() {
-                    by_name.entry(kind_name(body, info).to_owned()).or_insert(i);
-                }
-                by_name.into_iter().collect()
-            };
-            for (name_a, a) in kinds(first) {
-                for (name_b, b) in kinds(second) {
-                    let a = (first, &first.primitives[a]);
-                    let b = (second, &second.primitives[b]);
+    for (([first, second], itself), met) in paired {
+        let models = [first, second].map(|model| scene.models[model].name.clone());
+        let (ignored, anything) = kinds_that_meet(scene, [first, second], itself);
+        for kinds in ignored {
+            found.insert(SetupWarning::IgnoredPair { models: models.clone(), kinds, met: met.clone() });
+        }
+        if !anything {
+            found.insert(SetupWarning::NothingToTest { models, met });
+        }
+    }
+    found.into_iter().collect()
+}
+
+/// Pairs of kinds without a tester in the movable groups of two models, and whether any two have one.
+fn kinds_that_meet(scene: &Scene, models: [usize; 2], itself: bool) -> (BTreeSet<[String; 2]>, bool) {
+    // One primitive of each kind.
+    let kinds = |body: &Body| -> BTreeMap<String, usize> {
+        let mut by_name = BTreeMap::new();
+        for (index, info) in body.primitives.iter().enumerate() {
+            by_name.entry(kind_name(body, info).to_owned()).or_insert(index);
+        }
+        by_name
+    };
+    let [first, second] = models.map(|model| {
+        let bodies = scene.models[model].bodies.iter();
+        bodies.map(|body| (body, kinds(body))).collect::<Vec<_>>()
+    });
+    let (mut ignored, mut anything) = (BTreeSet::new(), false);
+    for (index, (body_a, kinds_a)) in first.iter().enumerate() {
+        // A group never meets itself.
+        for (body_b, kinds_b) in second.iter().skip(if itself { index + 1 } else { 0 }) {
+            for (name_a, a) in kinds_a {
+                for (name_b, b) in kinds_b {
+                    let (a, b) = ((*body_a, &body_a.primitives[*a]), (*body_b, &body_b.primitives[*b]));
                     if can_be_tested(&scene.extensions, a, b) || can_be_tested(&scene.extensions, b, a) {
                         anything = true;
                     } else {
                         let mut kinds = [name_a.clone(), name_b.clone()];
                         kinds.sort();
-                        found.insert(SetupWarning::IgnoredPair { objects: objects.clone(), kinds });
+                        ignored.insert(kinds);
                     }
                 }
             }
         }
-        if !anything {
-            found.insert(SetupWarning::NothingToTest { objects });
-        }
     }
-    found.into_iter().collect()
+    (ignored, anything)
 }

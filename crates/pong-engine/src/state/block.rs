@@ -4,19 +4,19 @@
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
 //! | poses: known 8, two poses of 7 × 8, per pair of movable groups
 //! | accounts, if they are kept: PairBook::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
-//! | records: RECORD_LEN + 8 × custom numbers, per place of the world's contact capacity, unused ones zero
+//! | records: RECORD_LEN + 8 × custom numbers, for each contact that is remembered
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
-//! Little-endian. The size depends on the sealed world alone. A *packed* block has no unused places, and the checksum of
-//! the block that has them: for keeping many.
+//! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
+//! any size between the two holds a block: behind it are zeros.
 
 use super::books::{Books, PairBook};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
 use pong_geometry::{Pose, Vec3};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const TOTALS_AT: usize = 8 + 4 + 4 + 8;
 const HEADER_LEN: usize = TOTALS_AT + 2 * 8;
 const POSE_LEN: usize = 8 + 2 * 7 * 8;
@@ -28,8 +28,10 @@ const CHECKSUM_LEN: usize = 8;
 pub enum StateError {
     /// The buffer has the wrong length.
     Length {
-        /// Bytes that the sealed world needs.
-        expected: usize,
+        /// Bytes of the block.
+        least: usize,
+        /// Bytes of the largest block of this world, and so of a buffer that holds one with zeros behind it.
+        most: usize,
         /// Bytes given.
         got: usize,
     },
@@ -49,10 +51,11 @@ pub enum StateError {
 impl std::fmt::Display for StateError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Length { expected, got } => {
+            Self::Length { least, most, got } => {
                 write!(
                     f,
-                    "contact state: the buffer has {got} bytes where this world's block has {expected}; ask the world for the size"
+                    "contact state: the buffer has {got} bytes where the block has {least}; give as many, or up to {most} of \
+                     which those behind the block are zero"
                 )
             }
             Self::Foreign => write!(
@@ -76,14 +79,19 @@ impl std::fmt::Display for StateError {
 
 impl std::error::Error for StateError {}
 
-/// Size of the block of a sealed world whose accounts of pairs take so many bytes.
+/// Size of the largest block of a sealed world whose accounts of pairs take so many bytes.
 pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize, accounts: usize) -> usize {
     used_len(group_pairs, capacity, custom_stride) + accounts + CHECKSUM_LEN
 }
 
-/// Size of the block of a memory, bytes.
-fn expected_len(memory: &ContactMemory) -> usize {
+/// Size of the largest block of a memory, bytes.
+fn most_len(memory: &ContactMemory) -> usize {
     block_len(memory.poses.len(), memory.records.capacity(), memory.custom_stride, accounts_len(memory))
+}
+
+/// Size of the block of what a memory holds now, bytes.
+pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
+    block_len(memory.poses.len(), memory.records.len(), memory.custom_stride, accounts_len(memory))
 }
 
 fn accounts_len(memory: &ContactMemory) -> usize {
@@ -95,31 +103,22 @@ fn used_len(group_pairs: usize, records: usize, custom_stride: usize) -> usize {
     HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * custom_stride)
 }
 
-/// Writes the block. `out` must have the length that [`block_len`] gives.
+/// Writes the block into a buffer of at least [`needed_len`] bytes. What the buffer has room for beyond that, up to the
+/// largest block, is set to zero: buffers of one size can be compared and kept whole.
 pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> Result<(), StateError> {
-    let expected = expected_len(memory);
-    if out.len() != expected {
-        return Err(StateError::Length { expected, got: out.len() });
+    let (needed, most) = (needed_len(memory), most_len(memory));
+    if out.len() < needed {
+        return Err(StateError::Length { least: needed, most, got: out.len() });
     }
-    out.fill(0);
-    let used = write_used(memory, world_hash, out);
-    let checksum = fnv1a_with_zeros(&out[..used], expected - CHECKSUM_LEN - used);
-    out[expected - CHECKSUM_LEN..].copy_from_slice(&checksum.to_le_bytes());
+    let reached = out.len().min(most);
+    out[needed..reached].fill(0);
+    let used = write_used(memory, world_hash, &mut out[..needed]);
+    let checksum = fnv1a(&out[..used]);
+    out[used..needed].copy_from_slice(&checksum.to_le_bytes());
     Ok(())
 }
 
-/// Writes the packed block, however long it is.
-pub(crate) fn write_packed(memory: &ContactMemory, world_hash: u64, out: &mut Vec<u8>) {
-    let used =
-        used_len(memory.poses.len(), memory.records.len(), memory.custom_stride) + accounts_len(memory);
-    out.clear();
-    out.resize(used, 0);
-    write_used(memory, world_hash, out);
-    let checksum = fnv1a_with_zeros(out, expected_len(memory) - CHECKSUM_LEN - used);
-    out.extend(checksum.to_le_bytes());
-}
-
-/// Writes all but unused places and checksum; answers how many bytes that is.
+/// Writes all but the checksum; answers how many bytes that is.
 fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize {
     let mut writer = Writer { out, at: 0 };
     writer.bytes(&MAGIC);
@@ -137,8 +136,8 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.at
 }
 
-/// Reads a block, whole or packed, into a memory of the world that it belongs to. `exists` tells whether the primitive of A
-/// that a key names is there; it is asked of pairs that are.
+/// Reads a block, with or without zeros behind it, into a memory of the world that it belongs to. `exists` tells whether the
+/// primitive of A that a key names is there; it is asked of pairs that are.
 ///
 /// # Errors
 /// A block that is refused leaves the memory as it was.
@@ -146,10 +145,9 @@ pub(crate) fn read_block(
     memory: &mut ContactMemory,
     world_hash: u64,
     block: &[u8],
-    packed: bool,
     exists: impl Fn(&ContactKey) -> bool,
 ) -> Result<(), StateError> {
-    let count = check(memory, world_hash, block, packed, exists)?;
+    let count = check(memory, world_hash, block, exists)?;
     let mut reader = Reader { block, at: TOTALS_AT };
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
@@ -171,10 +169,8 @@ fn check(
     like: &ContactMemory,
     world_hash: u64,
     block: &[u8],
-    packed: bool,
     exists: impl Fn(&ContactKey) -> bool,
 ) -> Result<usize, StateError> {
-    let whole = expected_len(like);
     if block.len() < HEADER_LEN || block[..8] != MAGIC {
         return Err(StateError::Foreign);
     }
@@ -187,20 +183,18 @@ fn check(
     if reader.u64() != world_hash {
         return Err(StateError::World);
     }
-    // A count beyond the capacity would give any length.
-    let possible = count.min(like.records.capacity());
-    let used = used_len(like.poses.len(), possible, like.custom_stride) + accounts_len(like);
-    let expected = if packed { used + CHECKSUM_LEN } else { whole };
-    if block.len() != expected {
-        return Err(StateError::Length { expected, got: block.len() });
-    }
-    if count > possible {
+    // Such a count would give any length.
+    if count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
-    let (body, checksum) = block.split_at(expected - CHECKSUM_LEN);
-    let (used, unused) = body.split_at(used);
-    let zeros = whole - CHECKSUM_LEN - used.len();
-    if unused.iter().any(|byte| *byte != 0) || fnv1a_with_zeros(used, zeros).to_le_bytes() != checksum {
+    let used = used_len(like.poses.len(), count, like.custom_stride) + accounts_len(like);
+    let (least, most) = (used + CHECKSUM_LEN, most_len(like));
+    if !(least..=most).contains(&block.len()) {
+        return Err(StateError::Length { least, most, got: block.len() });
+    }
+    let (block, behind) = block.split_at(least);
+    let (contents, checksum) = block.split_at(used);
+    if fnv1a(contents).to_le_bytes() != checksum || !is_zero(behind) {
         return Err(StateError::Damaged);
     }
     reader.at = TOTALS_AT;
@@ -255,18 +249,11 @@ pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(FNV_PRIME))
 }
 
-/// [`fnv1a`] of bytes with `zeros` zero bytes after them. A zero byte only multiplies by the prime, so the room for contacts
-/// that there are not costs no pass over it.
-fn fnv1a_with_zeros(bytes: &[u8], zeros: usize) -> u64 {
-    let (mut hash, mut factor, mut left) = (fnv1a(bytes), FNV_PRIME, zeros);
-    while left > 0 {
-        if left % 2 == 1 {
-            hash = hash.wrapping_mul(factor);
-        }
-        factor = factor.wrapping_mul(factor);
-        left /= 2;
-    }
-    hash
+/// Whether all bytes are zero. By pieces, since room for all contacts that there could be is a million bytes.
+fn is_zero(bytes: &[u8]) -> bool {
+    let (pieces, rest) = bytes.as_chunks::<64>();
+    pieces.iter().all(|piece| piece.iter().fold(0, |any, byte| any | byte) == 0)
+        && rest.iter().all(|byte| *byte == 0)
 }
 
 struct Writer<'a> {
@@ -403,20 +390,5 @@ impl Reader<'_> {
             work: self.f64(),
             dissipated: self.f64(),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{fnv1a, fnv1a_with_zeros};
-
-    #[test]
-    fn zeros_that_are_only_counted_hash_as_if_they_were_read() {
-        for zeros in [0, 1, 2, 3, 7, 8, 1000, 65_537] {
-            let mut bytes = b"contact state".to_vec();
-            let counted = fnv1a_with_zeros(&bytes, zeros);
-            bytes.resize(bytes.len() + zeros, 0);
-            assert_eq!(counted, fnv1a(&bytes), "{zeros} zeros");
-        }
     }
 }

@@ -8,7 +8,7 @@ mod merge;
 mod tests;
 
 pub use block::StateError;
-pub(crate) use block::{block_len, fnv1a, read_block, write_block, write_packed};
+pub(crate) use block::{block_len, fnv1a, needed_len, read_block, write_block};
 pub(crate) use books::{Books, PairBook};
 pub(crate) use memory::{
     ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role, SAME_WAY_COSINE_MIN,

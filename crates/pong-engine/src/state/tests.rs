@@ -1,6 +1,6 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
-use super::block::{StateError, block_len, fnv1a, write_block, write_packed};
+use super::block::{StateError, block_len, fnv1a, needed_len, write_block};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
 use super::merge::Remembered;
 use pong_geometry::{Pose, Quat, Vec3};
@@ -10,11 +10,7 @@ const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
 
 fn read_block(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
-    super::block::read_block(memory, world, block, false, |_| true)
-}
-
-fn read_packed(memory: &mut ContactMemory, world: u64, block: &[u8]) -> Result<(), StateError> {
-    super::block::read_block(memory, world, block, true, |_| true)
+    super::block::read_block(memory, world, block, |_| true)
 }
 
 /// Numbers from a fixed seed.
@@ -218,19 +214,36 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(memory.matching(&elsewhere, &Vec3::z(), Role::Silent), None);
 }
 
+/// In a buffer that has room for the largest block.
 fn block_of(memory: &ContactMemory) -> Vec<u8> {
     let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.custom_stride, 0)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }
 
-/// The hash was recorded before the memory had a fixed size.
+/// And nothing behind it.
+fn tight_block_of(memory: &ContactMemory) -> Vec<u8> {
+    let mut block = vec![0xee; needed_len(memory)];
+    write_block(memory, WORLD, &mut block).unwrap();
+    block
+}
+
+/// The contents of a block of version 1 of the format, whose checksum stood behind room for all contacts: those of version 2
+/// are the same, with another number of the version. The hash is that of version 1.
 #[test]
-fn the_format_of_the_block_is_still_that_of_version_1() {
+fn the_contents_of_the_block_are_still_those_of_version_1() {
     let mut random = Random(5);
     let hash = (0..40).fold(0, |hash: u64, round| {
         let memory = random.memory(round % (CAPACITY + 1), round % 4);
-        hash.rotate_left(7) ^ fnv1a(&block_of(&memory))
+        let mut block = block_of(&memory);
+        let used = needed_len(&memory) - 8;
+        let (place, checksum) = (block.len() - 8, fnv1a(&block[..used]).to_le_bytes());
+        assert_eq!(block[used..used + 8], checksum);
+        block[8] = 1;
+        block[used..used + 8].fill(0);
+        let checksum = fnv1a(&block[..place]).to_le_bytes();
+        block[place..].copy_from_slice(&checksum);
+        hash.rotate_left(7) ^ fnv1a(&block)
     });
     assert_eq!(hash, 0x994a_14c4_76c4_2d22);
 }
@@ -249,7 +262,8 @@ fn a_block_gives_back_to_the_bit_what_was_saved_whatever_was_there_before() {
 #[test]
 fn a_damaged_byte_anywhere_is_refused_and_changes_nothing() {
     let mut random = Random(7);
-    let block = block_of(&random.memory(9, 1));
+    let saved = random.memory(9, 1);
+    let (block, tight) = (block_of(&saved), tight_block_of(&saved));
     let mut memory = random.memory(5, 1);
     let before = memory.clone();
     for at in 0..block.len() {
@@ -258,43 +272,52 @@ fn a_damaged_byte_anywhere_is_refused_and_changes_nothing() {
         assert!(read_block(&mut memory, WORLD, &damaged).is_err(), "byte {at}");
         assert!(memory == before, "byte {at}");
     }
-    for len in [0, 7, 8, 39, 40, block.len() - 1] {
+    for len in [0, 7, 8, 39, 40, tight.len() - 1] {
         assert!(read_block(&mut memory, WORLD, &block[..len]).is_err());
     }
+    assert!(read_block(&mut memory, WORLD, &[&block[..], &[0]].concat()).is_err());
     assert_eq!(read_block(&mut memory, WORLD + 1, &block), Err(StateError::World));
     assert!(memory == before);
 }
 
-/// A packed block is the whole one without its unused places: it gives back the same, and refuses what is damaged.
+/// A block is as long as what is remembered; with zeros behind it, up to the room that the largest has, it is the same block.
 #[test]
-fn a_packed_block_gives_back_what_was_saved_and_no_more() {
+fn a_block_has_no_room_for_contacts_that_there_are_not() {
     let mut random = Random(9);
-    let mut packed = vec![1, 2, 3];
     for round in 0..100 {
         let (memory, mut other) = two_memories(&mut random, round);
-        write_packed(&memory, WORLD, &mut packed);
-        let whole = block_of(&memory);
-        let used = packed.len() - 8;
-        assert_eq!((&packed[..used], &packed[used..]), (&whole[..used], &whole[whole.len() - 8..]));
-        assert!(whole[used..whole.len() - 8].iter().all(|byte| *byte == 0));
+        let (tight, whole) = (tight_block_of(&memory), block_of(&memory));
+        let numbers = memory.records.len() * (RECORD_BYTES + 8 * memory.custom_stride);
+        assert_eq!(tight.len(), RECORD + numbers + 8);
+        assert!(whole[..tight.len()] == tight && whole[tight.len()..].iter().all(|byte| *byte == 0));
+        // Beyond the room for the largest block a buffer is left alone.
+        let mut larger = vec![0xee; whole.len() + 100];
+        write_block(&memory, WORLD, &mut larger).unwrap();
+        assert!(larger[..whole.len()] == whole && larger[whole.len()..] == [0xee; 100]);
+        let mut smaller = vec![0xee; tight.len() - 1];
+        let (least, most, got) = (tight.len(), whole.len(), smaller.len());
+        assert_eq!(write_block(&memory, WORLD, &mut smaller), Err(StateError::Length { least, most, got }));
+        assert!(smaller.iter().all(|byte| *byte == 0xee));
         let before = other.clone();
-        assert!(packed.len() == whole.len() || read_block(&mut other, WORLD, &packed).is_err());
-        assert!(read_packed(&mut other, WORLD + 1, &packed).is_err() && other == before);
-        read_packed(&mut other, WORLD, &packed).unwrap();
-        assert!(other == memory);
+        assert!(read_block(&mut other, WORLD + 1, &tight).is_err() && other == before);
+        for until in [tight.len(), (tight.len() + whole.len()) / 2, whole.len()] {
+            other = before.clone();
+            read_block(&mut other, WORLD, &whole[..until]).unwrap();
+            assert!(other == memory);
+        }
     }
     let mut memory = random.memory(5, 1);
     let before = memory.clone();
-    write_packed(&random.memory(9, 1), WORLD, &mut packed);
-    for at in 0..packed.len() {
-        let mut damaged = packed.clone();
+    let tight = tight_block_of(&random.memory(9, 1));
+    for at in 0..tight.len() {
+        let mut damaged = tight.clone();
         damaged[at] ^= 1 << (at % 8);
-        assert!(read_packed(&mut memory, WORLD, &damaged).is_err() && memory == before, "byte {at}");
+        assert!(read_block(&mut memory, WORLD, &damaged).is_err() && memory == before, "byte {at}");
     }
-    for len in [0, 7, 8, 39, 40, packed.len() - 1] {
-        assert!(read_packed(&mut memory, WORLD, &packed[..len]).is_err() && memory == before, "{len} bytes");
+    for len in [0, 7, 8, 39, 40, tight.len() - 1] {
+        assert!(read_block(&mut memory, WORLD, &tight[..len]).is_err() && memory == before, "{len} bytes");
     }
-    assert!(read_packed(&mut memory, WORLD, &[&packed[..], &[0]].concat()).is_err());
+    assert!(read_block(&mut memory, WORLD, &[&tight[..], &[1]].concat()).is_err() && memory == before);
 }
 
 /// Where a record begins in the block, and its words in it.
@@ -316,7 +339,7 @@ fn forged(block: &[u8], at: usize, word: u32) -> Vec<u8> {
 fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_nothing() {
     let mut random = Random(8);
     let saved = random.memory(9, 0);
-    let block = block_of(&saved);
+    let block = tight_block_of(&saved);
     let mut memory = random.memory(5, 0);
     let before = memory.clone();
     let last = RECORD + 8 * RECORD_BYTES;
@@ -331,7 +354,7 @@ fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_noth
         assert_eq!(read_block(&mut memory, WORLD, &forged), Err(StateError::Damaged), "{what}");
         assert!(memory == before, "{what}");
     }
-    let empty = block_of(&random.memory(0, 0));
+    let empty = tight_block_of(&random.memory(0, 0));
     for count in [CAPACITY as u32 + 1, u32::MAX] {
         let forged = forged(&empty, 12, count);
         assert_eq!(read_block(&mut memory, WORLD, &forged), Err(StateError::Damaged), "{count} records");

@@ -1,7 +1,7 @@
 //! What a scene file says, field by field (docs/scene_format.md).
 
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
 pub(crate) type Triple = [f64; 3];
 pub(crate) type Six = [f64; 6];
@@ -20,7 +20,7 @@ pub(crate) struct Document {
     pub objects: Vec<ObjectEntry>,
     #[serde(default)]
     pub pairs: Vec<(String, String)>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "gravity")]
     pub gravity: Triple,
     #[serde(default)]
     pub loads: Vec<LoadEntry>,
@@ -35,7 +35,23 @@ pub(crate) struct Document {
     pub ledger: bool,
     pub contact_capacity: Option<usize>,
     #[serde(default)]
+    pub preload: Vec<PreloadEntry>,
+    #[serde(default)]
     pub alternatives: Vec<AlternativeEntry>,
+}
+
+/// Friction between two objects at the start.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename = "preload")]
+pub(crate) struct PreloadEntry {
+    pub pair: (String, String),
+    pub friction: FrictionEntry,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+pub(crate) enum FrictionEntry {
+    Sliding,
+    Holding(Triple),
 }
 
 /// Other files for some of the models.
@@ -45,6 +61,34 @@ pub(crate) struct AlternativeEntry {
     pub name: String,
     #[serde(deserialize_with = "pairs_of_map")]
     pub models: Vec<(String, String)>,
+}
+
+/// Three numbers; one alone is refused in words, for many tools give gravity so.
+fn gravity<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Triple, D::Error> {
+    struct Three;
+
+    impl<'de> Visitor<'de> for Three {
+        type Value = Triple;
+
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str(
+                "the three components of `gravity`, m/s² along the common axes: gravity: (0.0, 0.0, -9.81)",
+            )
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Triple, A::Error> {
+            let mut triple = Triple::default();
+            for (place, number) in triple.iter_mut().enumerate() {
+                *number = items.next_element()?.ok_or_else(|| A::Error::invalid_length(place, &self))?;
+            }
+            match items.next_element::<f64>()? {
+                None => Ok(triple),
+                Some(_) => Err(A::Error::invalid_length(4, &self)),
+            }
+        }
+    }
+
+    deserializer.deserialize_any(Three)
 }
 
 fn one() -> u64 {

@@ -1,13 +1,17 @@
 //! Loads, springs and the integrator of a scene.
 
-use super::document::{AxesEntry, Document, EndEntry, IntegratorEntry, LoadEntry, SpringEntry};
+use super::document::{
+    AxesEntry, Document, EndEntry, FrictionEntry, IntegratorEntry, LoadEntry, PreloadEntry, SpringEntry,
+};
 use super::error::Faults;
 use super::poses::{pose, pose_entry};
 use super::setting::Setting;
 use crate::body::{BodyId, RigidBody};
 use crate::integrate::Integrator;
 use crate::load::{Axes, Load, LoadHistory, LoadRow};
+use crate::simulation::Simulation;
 use crate::spring::{Spring, SpringEnd};
+use pong_engine::FrictionPreload;
 use pong_geometry::Wrench;
 
 pub(crate) fn integrator(document: &Document) -> Integrator {
@@ -124,4 +128,36 @@ fn spring(
         faults.note_line(thing, &line);
     }
     spring
+}
+
+/// Sets the friction that is there at the start; warns of a pair in which there is none to be set.
+pub(super) fn preload(
+    document: &Document,
+    simulation: &mut Simulation,
+    warnings: &mut Vec<String>,
+    faults: &mut Faults<'_>,
+) {
+    for PreloadEntry { pair: (a, b), friction } in &document.preload {
+        let thing = format!("preload/({a}, {b})");
+        let Some(place) = document.pairs.iter().position(|(one, other)| one == a && other == b) else {
+            let turned = document.pairs.iter().any(|(one, other)| one == b && other == a);
+            let cause =
+                if turned { "`pairs` has these two the other way round" } else { "`pairs` has no such pair" };
+            faults.note(&thing, cause, "name a pair of `pairs`, in its order");
+            continue;
+        };
+        let (pair, _) = simulation.world().pairs().nth(place).expect("every pair of the scene was made");
+        let preload = match friction {
+            FrictionEntry::Sliding => FrictionPreload::Sliding,
+            FrictionEntry::Holding(force) => FrictionPreload::Holding((*force).into()),
+        };
+        match simulation.preload_friction(pair, &preload) {
+            Err(error) => faults.note_line(&thing, &error.to_string()),
+            Ok(0) => warnings.push(format!(
+                "{thing}: no bristle is there to be preloaded at the start; place the two so that they touch (for `Sliding`: and \
+                 move), with `Bristle` friction, or leave it out"
+            )),
+            Ok(_) => {}
+        }
+    }
 }

@@ -114,7 +114,10 @@ impl Scene {
         }
         let world = std::mem::replace(&mut setting.world, World::new(pong_engine::Config::default()));
         let simulation = assemble(document, world, bodies, loads, springs);
-        let simulation = simulation.map_err(|error| faults.note_line("scene", &error.to_string())).ok();
+        let mut simulation = simulation.map_err(|error| faults.note_line("scene", &error.to_string())).ok();
+        if let Some(simulation) = &mut simulation {
+            effects::preload(document, simulation, &mut setting.warnings, &mut faults);
+        }
         let built = simulation.zip(seal).map(|(simulation, seal)| BuiltScene {
             name: document.name.clone(),
             objects: scene_objects(document, &setting, &simulation),

@@ -8,7 +8,7 @@ use crate::error::ExecutiveError;
 use crate::integrate::{Contact, Held, Integrator, Stages, euler, hold, runge_kutta};
 use crate::state::FreeState;
 use crate::system::System;
-use pong_engine::World;
+use pong_engine::{FrictionPreload, PairId, World};
 
 /// Something that looks at a running simulation.
 pub trait Observer {
@@ -82,6 +82,19 @@ impl Simulation {
             self.settled = true;
         }
         Ok(())
+    }
+
+    /// Preloads friction between two paired Objects as they are placed now ([`World::preload_friction`]): before the first step.
+    pub fn preload_friction(
+        &mut self,
+        pair: PairId,
+        preload: &FrictionPreload,
+    ) -> Result<usize, ExecutiveError> {
+        let time = self.time();
+        self.system.place(time, &self.states);
+        let set = self.system.preload_friction(time, pair, preload)?;
+        self.settled = false;
+        Ok(set)
     }
 
     /// Advances by one step.

@@ -59,7 +59,7 @@ pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
             let mut block = Vec::new();
             stage.world.save_state_packed(&mut block).map_err(|error| error.to_string())?;
             let mut other = Stage::set_up(scene, 0)?;
-            other.world.restore_state_packed(&block).map_err(|error| error.to_string())?;
+            other.world.restore_state(&block).map_err(|error| error.to_string())?;
             for states in &scene.frames[half..] {
                 answers.push(other.step(states)?);
             }

@@ -21,7 +21,7 @@ pub(crate) fn document(reader: &mut Reader<'_>, node: &Node) -> Option<ModelDraf
         None => Vec::new(),
     };
     let pair_overrides = match fields.optional("pairs") {
-        Some(node) => surface::pairs(reader, node, &surfaces),
+        Some(node) => surface::pairs(reader, node, name.as_deref().unwrap_or_default(), &surfaces),
         None => Vec::new(),
     };
     let mut bodies: Vec<BodyDraft> = Vec::new();

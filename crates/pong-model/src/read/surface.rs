@@ -42,6 +42,10 @@ fn surface(reader: &mut Reader<'_>, node: &Node, name: String, path: &str) -> Su
     };
     let stiffness = fields.required(reader, "stiffness").and_then(|node| stiffness(reader, node, path));
     surface.stiffness = stiffness.unwrap_or(1.0);
+    if surface.stiffness.is_infinite() {
+        // What it does not say below is said by what it meets.
+        (surface.normal, surface.friction) = (NormalLaw::Inherited, FrictionLaw::Inherited);
+    }
     if let Some(node) = fields.optional("normal") {
         surface.normal = normal_law(reader, node, path, stiffness).unwrap_or(surface.normal);
     }
@@ -257,13 +261,18 @@ fn custom(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<(String, V
     Some((name?, parameters))
 }
 
-/// Reads the `pairs` table.
-pub(super) fn pairs(reader: &mut Reader<'_>, node: &Node, defined: &[Surface]) -> Vec<PairOverride> {
+/// Reads the `pairs` table of a model of this name.
+pub(super) fn pairs(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    model: &str,
+    defined: &[Surface],
+) -> Vec<PairOverride> {
     let Some(items) = reader.list(node, "pairs") else { return Vec::new() };
     let mut pairs: Vec<PairOverride> = Vec::new();
     for (index, item) in items.iter().enumerate() {
         let path = format!("pairs[{index}]");
-        let Some(pair) = pair(reader, item, &path, defined) else { continue };
+        let Some(pair) = pair(reader, item, &path, (model, defined)) else { continue };
         let same = |other: &PairOverride| {
             let [a, b] = &other.surfaces;
             pair.surfaces == [a.clone(), b.clone()] || pair.surfaces == [b.clone(), a.clone()]
@@ -277,7 +286,10 @@ pub(super) fn pairs(reader: &mut Reader<'_>, node: &Node, defined: &[Surface]) -
     pairs
 }
 
-fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surface]) -> Option<PairOverride> {
+/// The name of the model and the surfaces that it defines.
+type Defined<'d> = (&'d str, &'d [Surface]);
+
+fn pair(reader: &mut Reader<'_>, node: &Node, path: &str, defined: Defined<'_>) -> Option<PairOverride> {
     let fields = Fields::open(reader, node, path, &["surfaces", "stiffness", "normal", "friction"])?;
     let names = fields.required(reader, "surfaces").and_then(|node| pair_names(reader, node, path, defined));
     let stiffness = match fields.optional("stiffness") {
@@ -329,7 +341,12 @@ fn wants_linear_restitution(node: &Node) -> bool {
     }
 }
 
-fn pair_names(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surface]) -> Option<[String; 2]> {
+fn pair_names(
+    reader: &mut Reader<'_>,
+    node: &Node,
+    path: &str,
+    (model, defined): Defined<'_>,
+) -> Option<[String; 2]> {
     let Value::Tuple(None, items) = &node.value else {
         let cause = format!("expected two names, found {}", node.value.describe());
         reader.fault(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
@@ -341,7 +358,8 @@ fn pair_names(reader: &mut Reader<'_>, node: &Node, path: &str, defined: &[Surfa
         return None;
     };
     let names = [reader.text(first, path)?, reader.text(second, path)?];
-    if !names.iter().any(|name| defined.iter().any(|surface| surface.name == *name)) {
+    let is_defined = |name: &String| defined.iter().any(|surface| surface.is_called(name, model));
+    if !names.iter().any(is_defined) {
         let cause = format!("neither \"{}\" nor \"{}\" is defined in this file", names[0], names[1]);
         reader.fault(
             node.at,

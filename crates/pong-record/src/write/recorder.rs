@@ -242,16 +242,9 @@ impl Recorder {
         self.event();
     }
 
-    /// A contact state was restored.
+    /// A contact state was restored: its block, with nothing behind it.
     pub fn restored(&mut self, block: &[u8]) {
-        let Some((contents, end)) = block.split_last_chunk::<8>() else { return };
-        // Most of it is room that nothing is in.
-        let used = contents.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
-        let mut head = [0; BLOCK_HEAD];
-        head[..8].copy_from_slice(&self.blocks.to_le_bytes());
-        head[8..16].copy_from_slice(&(block.len() as u64).to_le_bytes());
-        head[16..].copy_from_slice(end);
-        if !self.push(Kind::Block, &[&head, &contents[..used]]) {
+        if !self.push(Kind::Block, &[&self.blocks.to_le_bytes(), block]) {
             self.event_was_lost();
             return;
         }
@@ -361,7 +354,7 @@ impl Recorder {
             }
         }
         if world.has_contact_state() {
-            world.save_state(&mut block)?;
+            world.save_state_packed(&mut block)?;
             self.restored(&block);
         }
         Ok(())

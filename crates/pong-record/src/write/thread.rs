@@ -9,7 +9,7 @@ use crate::event;
 use crate::run::{self, Run};
 use rtrb::Consumer;
 use std::fs::File;
-use std::io::{BufWriter, Seek, SeekFrom, Write};
+use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -149,21 +149,13 @@ pub(super) fn block_file(number: u64) -> String {
     format!("{CONTACT_STATE}{number}.bin")
 }
 
-/// Length of what a message says of a contact state before its bytes: number, length and the last eight bytes of it.
-pub(super) const BLOCK_HEAD: usize = 24;
+/// Length of what a message says of a contact state before its bytes: its number.
+pub(super) const BLOCK_HEAD: usize = 8;
 
 fn write_block(folder: &Path, message: &[u8]) -> Result<(), LogError> {
-    let (head, body) = message.split_at(BLOCK_HEAD);
-    let word = |at: usize| u64::from_le_bytes(std::array::from_fn(|index| head[at + index]));
-    let (number, length) = (word(0), word(8));
+    let (head, block) = message.split_at(BLOCK_HEAD);
+    let number = u64::from_le_bytes(std::array::from_fn(|index| head[index]));
     let path = folder.join(block_file(number));
-    let write = || {
-        let mut file = File::create_new(&path)?;
-        file.write_all(body)?;
-        // What lies between is zeros.
-        file.set_len(length)?;
-        file.seek(SeekFrom::Start(length - 8))?;
-        file.write_all(&head[16..])
-    };
+    let write = || File::create_new(&path)?.write_all(block);
     write().map_err(|reason| LogError::unwritable(&path, &reason))
 }

@@ -1,0 +1,156 @@
+//! Which term of the contacts asks for a short step: stiffness or damping, of the normal force or of friction, and of which
+//! surfaces.
+//!
+//! Asked is what would lengthen the step most if it were not there. Where no term alone does, because another as large is
+//! left, both are named.
+
+use super::check::Setting;
+use super::coupling::{Coupling, longest_stable_step, surely_stable_step};
+use super::mass::StepPlan;
+use super::spring::{ContactSprings, Spring};
+use super::together::{Load, pair_load};
+
+/// A part of a contact that can limit a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Term {
+    /// k.
+    NormalStiffness,
+    /// c, or what stands for it in laws that follow the depth.
+    NormalDamping,
+    /// k_t of what sticks.
+    FrictionStiffness,
+    /// c_t, or the slope of regularised friction.
+    FrictionDamping,
+}
+
+impl std::fmt::Display for Term {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::NormalStiffness => "normal stiffness",
+            Self::NormalDamping => "normal damping",
+            Self::FrictionStiffness => "friction stiffness",
+            Self::FrictionDamping => "friction damping",
+        })
+    }
+}
+
+/// One term, or two that are as large as each other.
+const SUSPECTS: [&[Term]; 6] = [
+    &[Term::NormalStiffness],
+    &[Term::NormalDamping],
+    &[Term::FrictionStiffness],
+    &[Term::FrictionDamping],
+    &[Term::NormalStiffness, Term::FrictionStiffness],
+    &[Term::NormalDamping, Term::FrictionDamping],
+];
+
+/// A term that is taken away is made so small that no step feels it, and the equations stay regular.
+const FAINT: f64 = 1e-9;
+
+/// A step must grow by this factor before one term alone is called the cause.
+const ALONE: f64 = 1.1;
+
+impl ContactSprings {
+    /// The contact without some of its terms.
+    pub fn without(&self, terms: &[Term]) -> Self {
+        let faint = |term: Term| if terms.contains(&term) { FAINT } else { 1.0 };
+        let weaken = |spring: Spring, stiffness: Term, damping: Term| Spring {
+            stiffness: spring.stiffness * faint(stiffness),
+            damping: spring.damping * faint(damping),
+        };
+        Self {
+            normal: weaken(self.normal, Term::NormalStiffness, Term::NormalDamping),
+            friction: self
+                .friction
+                .map(|friction| weaken(friction, Term::FrictionStiffness, Term::FrictionDamping)),
+            bounces_by_formula: self.bounces_by_formula,
+        }
+    }
+
+    /// The spring that a term belongs to.
+    fn spring_of(&self, term: Term) -> Option<Spring> {
+        match term {
+            Term::NormalStiffness | Term::NormalDamping => Some(self.normal),
+            Term::FrictionStiffness | Term::FrictionDamping => self.friction,
+        }
+    }
+}
+
+/// The contacts of one pair of movable groups by the names of their surfaces.
+pub(super) struct Known {
+    pub springs: ContactSprings,
+    /// `model/surface` of both.
+    pub surfaces: [String; 2],
+}
+
+/// Whether the stiffness or the damping of one spring on one mass asks for its longest stable step.
+pub(super) fn of_spring(spring: &Spring, coupling: Coupling, mass: f64) -> &'static str {
+    let step = |k: f64, c: f64| longest_stable_step(coupling, k, c, mass);
+    let (k, c) = (spring.stiffness, spring.damping);
+    if step(FAINT * k, c) >= step(k, FAINT * c) { "stiffness" } else { "damping" }
+}
+
+/// What asks for the surely stable step of a movable group, in words.
+pub(super) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> Option<String> {
+    let pairs = setting.group_pairs.iter().filter(|pair| [pair.first, pair.second].contains(&body));
+    let mut met = Vec::new();
+    for pair in pairs {
+        let Some(mass) = setting.effective_mass(pair) else { continue };
+        if [pair.first, pair.second].iter().all(|body| setting.masses[*body].is_some()) {
+            met.push((pair, mass, setting.known(pair, mass, plan).0));
+        }
+    }
+    let step_without = |terms: &[Term]| {
+        let (mut load, mut ratio) = (Load::default(), f64::INFINITY);
+        for (pair, mass, known) in &met {
+            load = load.plus(pair_load(setting, pair, *mass, plan, terms));
+            ratio = known.iter().map(|known| least_damped(&known.springs, terms)).fold(ratio, f64::min);
+        }
+        surely_stable_step(plan.coupling, load.stiffness_rate, load.damping_rate, ratio)
+    };
+    let whole = step_without(&[]);
+    let longer = SUSPECTS.map(|terms| (terms, step_without(terms)));
+    let longest = |suspects: &[(&'static [Term], f64)]| {
+        // Of two that are alike the first.
+        suspects.iter().rev().copied().max_by(|x, y| x.1.total_cmp(&y.1))
+    };
+    let (terms, step) =
+        longest(&longer[..4]).filter(|(_, step)| *step > ALONE * whole).or(longest(&longer))?;
+    if step <= whole {
+        return None;
+    }
+    let all = met.iter().flat_map(|(_, _, known)| known);
+    let worst = all.max_by(|x, y| {
+        size(&x.springs, terms[0], plan.coupling).total_cmp(&size(&y.springs, terms[0], plan.coupling))
+    })?;
+    let Spring { stiffness, damping } = worst.springs.spring_of(terms[0])?;
+    let named: Vec<String> = terms.iter().map(ToString::to_string).collect();
+    let [a, b] = &worst.surfaces;
+    Some(format!(
+        "its {} asks for that, most of all between `{a}` and `{b}` ({stiffness:.3e} N/m, {damping:.3e} N·s/m)",
+        named.join(" and its ")
+    ))
+}
+
+/// The least damping over stiffness of the springs whose stiffness is not taken away, s.
+fn least_damped(springs: &ContactSprings, without: &[Term]) -> f64 {
+    let left = |term: Term| if without.contains(&term) { None } else { springs.spring_of(term) };
+    let weak = springs.without(without);
+    let ratio = |term: Term| {
+        let spring = left(term).and(weak.spring_of(term)).filter(|spring| spring.stiffness > 0.0);
+        spring.map_or(f64::INFINITY, |spring| spring.damping / spring.stiffness)
+    };
+    ratio(Term::NormalStiffness).min(ratio(Term::FrictionStiffness))
+}
+
+/// How much of a term there is; where the wrench is held, of a stiffness how much there is to its damping.
+fn size(springs: &ContactSprings, term: Term, coupling: Coupling) -> f64 {
+    let Some(spring) = springs.spring_of(term) else { return -1.0 };
+    match (term, coupling) {
+        (Term::NormalStiffness | Term::FrictionStiffness, Coupling::Held { .. }) => {
+            spring.stiffness / spring.damping
+        }
+        (Term::NormalStiffness | Term::FrictionStiffness, _) => spring.stiffness,
+        _ => spring.damping,
+    }
+}

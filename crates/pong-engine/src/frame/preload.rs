@@ -1,0 +1,163 @@
+//! Friction that is there before the first frame: bristles that stand where a motion, or a load, that has lasted would have
+//! brought them (theory manual, section 4).
+//!
+//! ```text
+//! sliding:   p = (μ_k·F_n/K)·v_t/|v_t|, slipping
+//! holding F: p = −F_t/ΣK, cut to μ_s·F_n/K, sticking; F on A, F_t its part in the contact plane
+//! ```
+//!
+//! Bodies that a load displaces against each other displace all bristles between them alike, so each holds by its share of
+//! the sum of the stiffnesses.
+
+use super::Frame;
+use super::buffers::FrameContact;
+use super::forces::bristle_share;
+use super::input::PairContext;
+use crate::law::FrictionProps;
+use crate::scene::Scene;
+use crate::sealed::Sealed;
+use crate::state::{ContactMemory, Role};
+use pong_geometry::Vec3;
+
+/// What the bristles of a pair of Objects are preloaded with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FrictionPreload {
+    /// Whatever moves along what it touches has slid for long: its friction is the kinetic one, against its present motion.
+    /// What does not move keeps its bristle.
+    Sliding,
+    /// Friction holds this force on the first Object of the pair, N, along the common axes: as much of it as lies in the
+    /// contact planes and as sticks.
+    Holding(Vec3),
+}
+
+/// A bristle to be remembered.
+pub(crate) struct Preloaded {
+    /// The contact's place in the order of the frame, and so among the records of its commit.
+    place: usize,
+    bristle: Vec3,
+    sticks: bool,
+    friction_force: Vec3,
+    /// What its energy becomes more by, J.
+    stored_more: f64,
+}
+
+/// A contact that presses and has a bristle.
+struct Held<'f> {
+    place: usize,
+    contact: &'f FrameContact,
+    /// K, N/m.
+    stiffness: f64,
+    kinetic_limit: f64,
+    static_limit: f64,
+}
+
+impl Frame {
+    /// The bristles of a pair of Objects after a commit of this frame.
+    pub fn preloaded(
+        &self,
+        scene: &Scene,
+        sealed: &Sealed,
+        pair: usize,
+        preload: &FrictionPreload,
+    ) -> Vec<Preloaded> {
+        let held = self.held(scene, sealed, pair);
+        let whole: f64 = held.iter().map(|held| held.stiffness).sum();
+        let preloaded = |held: &Held<'_>| {
+            let (bristle, sticks) = match preload {
+                FrictionPreload::Sliding => held.sliding()?,
+                FrictionPreload::Holding(force) => {
+                    (held.holding(self.on_a(scene, sealed, pair, held.contact, force), whole), true)
+                }
+            };
+            let squared = bristle.norm_squared() - held.contact.bristle.norm_squared();
+            Some(Preloaded {
+                place: held.place,
+                bristle,
+                sticks,
+                friction_force: bristle * -held.stiffness,
+                stored_more: 0.5 * held.stiffness * squared,
+            })
+        };
+        held.iter().filter_map(preloaded).collect()
+    }
+
+    fn held(&self, scene: &Scene, sealed: &Sealed, pair: usize) -> Vec<Held<'_>> {
+        let contact_at = |place: usize| &self.lane.out.contacts[self.order[place].index as usize];
+        let places: Vec<usize> = (0..self.order.len()).collect();
+        let mut all = Vec::new();
+        for group in places.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
+            let key = contact_at(group[0]).found.key;
+            if sealed.group_pairs[key.group_pair as usize].pair != pair {
+                continue;
+            }
+            let context = PairContext::of_direction(scene, sealed, &self.input, key.group_pair, key.flipped);
+            for place in group {
+                let contact = contact_at(*place);
+                let props = context.props(&contact.found);
+                let FrictionProps::Bristle { stiffness, mu_kinetic, mu_static, .. } = props.friction else {
+                    continue;
+                };
+                if contact.found.role != Role::Pushes || contact.normal_force <= 0.0 {
+                    continue;
+                }
+                let share =
+                    bristle_share(&contact.found, group.iter().map(|place| &contact_at(*place).found));
+                all.push(Held {
+                    place: *place,
+                    contact,
+                    stiffness: share * stiffness,
+                    kinetic_limit: mu_kinetic * contact.normal_force,
+                    static_limit: mu_static * contact.normal_force,
+                });
+            }
+        }
+        all.retain(|held| held.stiffness > 0.0);
+        all
+    }
+
+    /// A force on the first Object of a pair, as a force on A of a contact in the frame of B.
+    fn on_a(
+        &self,
+        scene: &Scene,
+        sealed: &Sealed,
+        pair: usize,
+        contact: &FrameContact,
+        force: &Vec3,
+    ) -> Vec3 {
+        let objects = &scene.pairs[pair];
+        let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
+        // Between the groups of one Object the first is the one of the lower number.
+        let a_is_first =
+            if objects.a == objects.b { body_a < body_b } else { scene.bodies[body_a].object == objects.a };
+        let on_a = if a_is_first { *force } else { -*force };
+        self.poses[body_b].orientation.inverse() * on_a
+    }
+}
+
+impl Held<'_> {
+    /// `None` for what does not move along what it touches.
+    fn sliding(&self) -> Option<(Vec3, bool)> {
+        let velocity = &self.contact.slip_velocity;
+        let speed = velocity.norm();
+        (speed > 0.0).then(|| (velocity * (self.kinetic_limit / self.stiffness / speed), false))
+    }
+
+    fn holding(&self, on_a: Vec3, whole: f64) -> Vec3 {
+        let normal = &self.contact.found.normal;
+        let bristle = -(on_a - normal * normal.dot(&on_a)) / whole;
+        let pull = self.stiffness * bristle.norm();
+        if pull > self.static_limit { bristle * (self.static_limit / pull) } else { bristle }
+    }
+}
+
+impl ContactMemory {
+    /// Remembers bristles that were preloaded after the commit of their frame.
+    pub(crate) fn preload(&mut self, preloaded: &[Preloaded]) {
+        for one in preloaded {
+            let record = &mut self.records[one.place];
+            record.force = record.normal * record.normal.dot(&record.force) + one.friction_force;
+            (record.bristle, record.sticks) = (one.bristle, one.sticks);
+            record.stored += one.stored_more;
+        }
+    }
+}
