@@ -52,8 +52,6 @@ pub use report::{
     FrameCounts, FrameReport, MemoryReport, Passage, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
 };
 pub use scene::{Config, State, WorkerSettings};
-pub use sealed::{
-    MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory,
-};
+pub use sealed::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
 pub use state::StateError;
 pub use world::World;
