@@ -850,6 +850,11 @@ pong_status pong_load_model_text(struct pong_world *world,
                                  const char *mesh_dir,
                                  struct pong_model_id *model);
 
+/// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
+/// too. Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
+/// called for several folders.
+pong_status pong_allow_files_below(struct pong_world *world, const char *folder);
+
 /// How many warnings loading a model left: what its author should know though the model is valid.
 pong_status pong_model_warning_count(const struct pong_world *world,
                                      struct pong_model_id model,

@@ -132,6 +132,7 @@ public:
             return pong_load_model_text(get(), text.data(), text.size(), name.c_str(), mesh_dir, out);
         });
     }
+    void allow_files_below(const std::string& folder) { check(pong_allow_files_below(get(), folder.c_str())); }
     ObjectId create_object(ModelId model, const std::string& name) {
         return result<ObjectId>([&](ObjectId* out) { return pong_create_object(get(), model, name.c_str(), out); });
     }

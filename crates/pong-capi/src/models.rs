@@ -75,6 +75,23 @@ pub unsafe extern "C" fn pong_load_model_text(
     }
 }
 
+/// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
+/// too. Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
+/// called for several folders.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_allow_files_below(
+    world: *mut pong_world,
+    folder: *const c_char,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            let folder = text(folder, "folder")?;
+            Ok(inner.world.allow_files_below(folder)?)
+        })
+    }
+}
+
 impl Inner {
     fn add_model(&mut self, model: Model, source: ModelSource) -> Outcome<pong_model_id> {
         let model = Arc::new(model);

@@ -91,7 +91,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 
 /// Whether a file says that it is a scene; what cannot be read is told by the reader of models.
 fn is_scene(path: &Path) -> bool {
-    std::fs::read_to_string(path).is_ok_and(|text| text.contains("\"pong-scene\""))
+    pong_model::files::read_text(path).is_ok_and(|text| text.contains("\"pong-scene\""))
 }
 
 impl Arguments {

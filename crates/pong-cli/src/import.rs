@@ -26,6 +26,9 @@ pub(crate) struct Arguments {
     /// Puts meshes of more than this many faces into OBJ files beside the model.
     #[arg(long, value_name = "FACES", num_args = 0..=1, default_missing_value = "1000")]
     mesh_files: Option<usize>,
+    /// Makes unmarked parts that are not convex their convex hulls: hulls of CoACD, which rounding has dented.
+    #[arg(long)]
+    hull: bool,
 }
 
 /// The mesh file, the model file, and how the one becomes the other.
@@ -54,6 +57,10 @@ pub(crate) struct Mesh {
     /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
     #[arg(long, value_name = "LENGTH", value_parser = length_m)]
     pub(crate) weld: Option<f64>,
+    /// Lets files that the mesh file names (buffers of glTF) be read from this folder too; without it only from the mesh
+    /// file's own. May be given several times.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) allow_files_below: Vec<PathBuf>,
 }
 
 /// The surface of whatever the file gives none.
@@ -147,6 +154,8 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         weld_m: arguments.mesh.weld,
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
+        hull: arguments.hull,
+        allowed: arguments.mesh.allow_files_below.clone(),
     };
     let bar = spinner();
     let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {

@@ -67,6 +67,13 @@ impl World {
         &self.scene.extensions
     }
 
+    /// Lets models that are loaded with these [`extensions`](Self::extensions) read the meshes that they name from this
+    /// folder and those below it too; without it what lies outside a model's own folder, through a link, is refused.
+    pub fn allow_files_below(&mut self, folder: impl Into<std::path::PathBuf>) -> Result<(), EngineError> {
+        self.set_up("allow a folder")?.extensions.allow_files_below(folder);
+        Ok(())
+    }
+
     /// The registered force laws; more may be added until the world is sealed.
     pub fn laws_mut(&mut self) -> Result<&mut Laws, EngineError> {
         Ok(&mut self.set_up("register a law")?.laws)

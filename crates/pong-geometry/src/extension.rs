@@ -8,6 +8,7 @@ use crate::primitive::{
     TriangleSet,
 };
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A primitive as a registered tester sees it, in the frame of its own movable group.
@@ -36,7 +37,7 @@ pub type VolumeTest = Arc<dyn Fn(&Volume, &Volume, &Transform) -> bool + Send + 
 pub type ContactTest =
     Arc<dyn Fn(PrimitiveRef<'_>, PrimitiveRef<'_>, &Transform) -> Option<Interference> + Send + Sync>;
 
-/// The kinds and tests a user has registered. Built-in kinds need no entry.
+/// The kinds and tests a user has registered, and the folders that models may read from. Built-in kinds need no entry.
 #[derive(Clone, Default)]
 pub struct Extensions {
     primitives: BTreeMap<String, PrimitiveFactory>,
@@ -44,6 +45,8 @@ pub struct Extensions {
     volume_tests: BTreeMap<(String, String), VolumeTest>,
     /// By the kind of A, then of B: frames look them up by borrowed names.
     contact_tests: BTreeMap<String, BTreeMap<String, ContactTest>>,
+    /// Where files that a model names may lie beside the model's own folder.
+    folders: Vec<PathBuf>,
 }
 
 impl Extensions {
@@ -71,6 +74,17 @@ impl Extensions {
     /// [`PrimitiveKind::name`]).
     pub fn add_contact_test(&mut self, kind_a: &str, kind_b: &str, test: ContactTest) {
         self.contact_tests.entry(kind_a.to_owned()).or_default().insert(kind_b.to_owned(), test);
+    }
+
+    /// Lets models read the meshes that they name from this folder and those below it too. Without it, what lies outside
+    /// the model's own folder, through a link, is refused.
+    pub fn allow_files_below(&mut self, folder: impl Into<PathBuf>) {
+        self.folders.push(folder.into());
+    }
+
+    /// The folders that are allowed beside a model's own.
+    pub fn folders_allowed(&self) -> impl Iterator<Item = &Path> {
+        self.folders.iter().map(PathBuf::as_path)
     }
 
     /// The factory of a kind of primitive.

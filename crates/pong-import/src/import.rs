@@ -30,6 +30,10 @@ pub struct Options {
     pub faces_max: usize,
     /// Meshes of more triangles or faces go to files beside the model.
     pub inline_max: usize,
+    /// Unmarked closed parts that are not convex become their convex hulls.
+    pub hull: bool,
+    /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
+    pub allowed: Vec<PathBuf>,
 }
 
 impl Default for Options {
@@ -44,6 +48,8 @@ impl Default for Options {
             weld_m: None,
             faces_max: 1000,
             inline_max: usize::MAX,
+            hull: false,
+            allowed: Vec::new(),
         }
     }
 }
@@ -104,7 +110,12 @@ fn convert(
         return None;
     }
     progress("reading");
-    let reading = Reading { up: options.up, unit_m: options.unit_m, scene: options.scene.clone() };
+    let reading = Reading {
+        up: options.up,
+        unit_m: options.unit_m,
+        scene: options.scene.clone(),
+        allowed: options.allowed.clone(),
+    };
     let source = source::read(input, &reading, findings)?;
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let mut building = Building {
@@ -116,6 +127,7 @@ fn convert(
         surface: options.surface.clone(),
         faces_max: options.faces_max,
         inline_max: options.inline_max,
+        hull: options.hull,
         progress,
     };
     let mut built = build::build(source, &mut building, findings)?;

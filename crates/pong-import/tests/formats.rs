@@ -182,3 +182,126 @@ fn big_meshes_go_to_files_beside_the_model_and_mean_the_same() {
         imported.files.iter().map(|file| file.file_name().unwrap().to_str().unwrap()).collect();
     assert_eq!(names, ["sheet.ron", "sheet_sheet.obj"]);
 }
+
+fn write(folder: &std::path::Path, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.join(name);
+    std::fs::write(&path, bytes).unwrap();
+    path
+}
+
+/// Some editors put three bytes before UTF-8; they are no part of the first line.
+#[test]
+fn a_mark_of_utf8_costs_no_vertex() {
+    let folder = folder("mark");
+    let path = write(&folder, "cube.obj", format!("\u{feff}{}", obj(&cube())));
+    let (imported, model) = run(&path, &options()).unwrap();
+    assert_eq!(imported.vertices, 8);
+    assert_eq!(corners(&model), sorted(CUBE.to_vec()));
+}
+
+/// A few hundred bytes that promise billions of positions, all but one of them zero.
+#[test]
+fn an_accessor_that_no_buffer_holds_is_refused() {
+    let folder = folder("promise");
+    for count in [4_000_000_000_u64, 1000] {
+        let sparse = json!({"count": 1, "indices": {"bufferView": 0, "componentType": 5125}, "values": {"bufferView": 0}});
+        let file = json!({
+            "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"componentType": 5126, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 1],
+                           "count": count, "sparse": sparse}],
+            "buffers": [{"byteLength": 36, "uri": format!("data:application/octet-stream;base64,{}", "A".repeat(48))}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        });
+        let findings = run(&write(&folder, "sparse.gltf", file.to_string()), &options()).unwrap_err();
+        assert_eq!(rules(&findings), ["damaged"], "{findings}");
+        assert!(findings.to_string().contains("36 bytes of buffers"), "{findings}");
+    }
+}
+
+#[test]
+fn nothing_is_read_outside_the_folder_unless_that_is_allowed() {
+    let folder = folder("outside");
+    let (own, other) = (folder.join("own"), folder.join("other"));
+    std::fs::create_dir_all(&own).unwrap();
+    std::fs::create_dir_all(&other).unwrap();
+    let gltf = cube_file();
+    write(&other, "cube.bin", gltf.bytes());
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(other.join("cube.bin"), own.join("link.bin")).unwrap();
+    let absolute = other.join("cube.bin").display().to_string();
+    let uris = ["../other/cube.bin", if cfg!(unix) { "link.bin" } else { "../other/cube.bin" }, &absolute];
+    for uri in uris {
+        let path = write(&own, "cube.gltf", gltf.text(uri));
+        let findings = run(&path, &options()).unwrap_err();
+        assert_eq!(rules(&findings), ["buffer"], "{uri}: {findings}");
+        assert!(findings.to_string().contains("--allow-files-below"), "{uri}: {findings}");
+        let allowing = Options { allowed: vec![other.clone()], ..options() };
+        assert_eq!(run(&path, &allowing).unwrap().0.vertices, 8, "{uri}");
+    }
+}
+
+#[test]
+fn what_the_file_does_not_tell_is_noted_where_it_looks_wrong() {
+    let folder = folder("guesses");
+    let scaled = |by: [f64; 3]| -> Vec<[Place; 3]> {
+        cube().into_iter().map(|t| t.map(|p| [0, 1, 2].map(|k| p[k] * by[k]))).collect()
+    };
+    let notes = |name: &str, bytes: &[u8], options: &Options| {
+        note_rules(&run(&write(&folder, name, bytes), options).unwrap().0)
+    };
+    let millimetres = scaled([120.0, 80.0, 40.0]);
+    assert_eq!(notes("mm.stl", &binary_stl(&millimetres), &options()), ["unit-assumed"]);
+    assert_eq!(notes("mm.stl", &binary_stl(&millimetres), &Options { unit_m: 1e-3, ..options() }), [""; 0]);
+    // A pyramid with its foot at the lowest y and its tip at the highest.
+    let corner = |x: f64, y: f64, z: f64| [x, y, z];
+    let foot = [corner(0.0, 0.0, 0.0), corner(1.0, 0.0, 0.0), corner(1.0, 0.0, 1.0), corner(0.0, 0.0, 1.0)];
+    let tip = corner(0.5, 1.0, 0.5);
+    let mut pyramid = vec![[foot[0], foot[1], foot[2]], [foot[0], foot[2], foot[3]]];
+    pyramid.extend((0..4).map(|k| [foot[(k + 1) % 4], foot[k], tip]));
+    for name in ["pyramid.obj", "pyramid.stl"] {
+        let bytes = if name.ends_with("obj") { obj(&pyramid).into_bytes() } else { binary_stl(&pyramid) };
+        assert_eq!(notes(name, &bytes, &options()), ["up-assumed"], "{name}");
+        for up in [Up::Y, Up::Z] {
+            assert_eq!(notes(name, &bytes, &Options { up: Some(up), ..options() }), [""; 0], "{name}");
+        }
+    }
+}
+
+/// The corners of the second face are 6.5 mm off their plane: one is lifted by four times that.
+#[test]
+fn bent_faces_are_told_with_how_far() {
+    let folder = folder("bent");
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0.026\nf 1 2 3 4\nf 2 5 6 3\n";
+    let (imported, _) = run(&write(&folder, "sheet.obj", text), &options()).unwrap();
+    let note = imported.findings.notes.iter().find(|note| note.rule == "bent-face").expect("a note");
+    assert!(note.cause.contains("a face is bent") && note.cause.contains("6.50e-3 m"), "{note}");
+}
+
+/// Hulls whose vertices were rounded to three decimals: not convex, but their hulls are as good.
+#[test]
+fn a_dented_part_becomes_its_hull_if_asked() {
+    let folder = folder("hull");
+    let dented: Vec<[Place; 3]> = torus(1.0, 0.3, 12, 8);
+    let path = write(&folder, "ring.obj", obj(&dented));
+    let (plain, _) = run(&path, &options()).unwrap();
+    assert!(plain.primitives[0].0 == "TriangleMesh" && note_rules(&plain).contains(&"not-convex"));
+    let (hulled, model) = run(&path, &Options { hull: true, ..options() }).unwrap();
+    assert_eq!(hulled.primitives, [("Polyhedron", 1)]);
+    let note = hulled.findings.notes.iter().find(|note| note.rule == "hull").expect("a note");
+    assert!(note.cause.contains("became the convex hull"), "{note}");
+    assert_eq!(model.bodies[0].polyhedra.len(), 1);
+}
+
+/// Thousands of nodes of one name are numbered one after the other.
+#[test]
+fn nodes_of_one_name_are_numbered() {
+    let folder = folder("one_name");
+    let mut gltf = cube_file();
+    for _ in 0..3000 {
+        gltf.node(None, json!({"mesh": 0, "name": "bolt"}));
+    }
+    let path = gltf.save(&folder, "bolts.glb");
+    let (_, model) = run(&path, &options()).unwrap();
+    assert!(model.bodies[0].primitives.iter().any(|info| info.path.contains("bolt_3000")));
+}

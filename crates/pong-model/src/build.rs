@@ -6,6 +6,7 @@ use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader};
 use crate::triangle_topology::{self, Findings, Oddity};
 use crate::weld::Welder;
+use crate::weld::WordMap;
 use crate::{arrange, hash, polyhedra, tree};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -111,16 +112,11 @@ fn place(p: &Vec3) -> String {
 fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
     let mut hulls = std::mem::take(&mut draft.hulls);
     let (surface_of, lonely) = join_walls(&mut hulls);
-    let owner = |piece: u32| {
-        let is_piece = |p: &&crate::model::PrimitiveInfo| {
-            p.kind == PrimitiveKind::Polyhedron && p.elements.start == piece
-        };
-        let primitives = &draft.body.primitives;
-        primitives
-            .iter()
-            .position(|p| is_piece(&p))
-            .map(|p| (draft.primitive_at[p], primitives[p].path.clone()))
-    };
+    let primitives = draft.body.primitives.iter().zip(&draft.primitive_at);
+    let pieces = primitives.filter(|(info, _)| info.kind == PrimitiveKind::Polyhedron);
+    let owners: WordMap<u32, (u32, &str)> =
+        pieces.map(|(info, at)| (info.elements.start, (*at, &*info.path))).collect();
+    let owner = |piece: u32| owners.get(&piece).map(|(at, path)| (*at, (*path).to_owned()));
     for (piece, face) in lonely {
         let authored = hulls[piece as usize].faces[face].authored;
         if let Some((at, path)) = owner(piece) {

@@ -13,6 +13,7 @@ mod build;
 mod draft;
 mod element;
 mod error;
+pub mod files;
 pub mod grouping;
 mod hash;
 mod hull;
@@ -50,10 +51,11 @@ pub const LARGEST_SIZE: f64 = 1e30;
 /// See [`LARGEST_SIZE`].
 pub const SMALLEST_SIZE: f64 = 1e-30;
 
-/// Reads a model file; meshes are looked for beside it.
+/// Reads a model file; meshes are looked for beside it, and read if they lie there or in a folder that `ext` allows
+/// ([`Extensions::allow_files_below`]).
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
     let file = path.display().to_string();
-    match std::fs::read(path) {
+    match files::read(path) {
         Ok(bytes) => match String::from_utf8(bytes) {
             Ok(text) => parse(&text, &file, Some(path.parent().unwrap_or(Path::new(""))), ext),
             Err(error) => Err(not_text(file, &error)),

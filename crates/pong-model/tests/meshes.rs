@@ -140,6 +140,51 @@ fn an_obj_mesh_of_triangles_is_read_and_one_of_quads_is_refused() {
     assert!(errors.0.len() == 6 && errors.0.iter().all(|e| e.rule == "not-a-triangle"));
 }
 
+/// The keyword of the first line counts though a mark of UTF-8 stands before it.
+#[test]
+fn a_mark_of_utf8_costs_no_vertex() {
+    let folder = Folder::new("mark");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    folder.write("a.obj", text.as_bytes());
+    folder.write("b.obj", format!("\u{feff}{text}").as_bytes());
+    let mesh = |file: &str| {
+        let model = folder.load(&format!("TriangleMesh(name: \"m\", file: \"{file}\")")).unwrap();
+        model.bodies[0].triangles.vertices.clone()
+    };
+    assert_eq!(mesh("a.obj"), mesh("b.obj"));
+}
+
+/// Links that lead out of the model's folder are followed only into folders that the host allows.
+#[cfg(unix)]
+#[test]
+fn nothing_is_read_outside_the_folder_unless_that_is_allowed() {
+    let (own, other) = (Folder::new("own"), Folder::new("other"));
+    other.write("sub/a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    std::os::unix::fs::symlink(other.0.join("sub/a.obj"), own.0.join("link.obj")).unwrap();
+    std::os::unix::fs::symlink(other.0.join("sub"), own.0.join("linked")).unwrap();
+    for file in ["link.obj", "linked/a.obj"] {
+        let primitive = format!("TriangleMesh(name: \"m\", file: \"{file}\")");
+        assert_eq!(own.rule(&primitive), "mesh-file-outside", "{file}");
+        let mut extensions = Extensions::new();
+        extensions.allow_files_below(&other.0);
+        let model = pong_model::load(&own.0.join("model.ron"), &extensions).unwrap();
+        assert_eq!(model.bodies[0].triangles.triangles.len(), 1, "{file}");
+    }
+}
+
+/// A pipe would keep the reader waiting, a device would fill the memory.
+#[cfg(unix)]
+#[test]
+fn a_model_that_is_no_regular_file_is_refused_at_once() {
+    for path in ["/dev/zero", "/dev/stdin", "/"] {
+        let Ok(about) = fs::metadata(path) else { continue };
+        if !about.is_file() {
+            let errors = pong_model::load(path.as_ref(), &Extensions::new()).unwrap_err();
+            assert!(errors.0[0].rule == "unreadable" && errors.0[0].cause.contains("regular"), "{errors}");
+        }
+    }
+}
+
 #[test]
 fn bad_files_are_told() {
     let folder = Folder::new("bad");

@@ -164,6 +164,27 @@ fn faults_of_surfaces() {
     );
 }
 
+/// Many unknown names among many: each fault is placed, and none lists them all.
+#[test]
+fn many_faults_in_one_line_are_placed_and_short() {
+    let surfaces: String = (0..2000).map(|k| format!("\"surface {k}\": (stiffness: 1e6), ")).collect();
+    let points: String = (0..2000)
+        .map(|k| format!("Point(name: \"µ{k}\", position: (0,0,0), surface: \"zzzzzzzzzzzz\"), "))
+        .collect();
+    let text = format!(
+        "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{ {surfaces} }},\n root: (name: \"r\", primitives: [{points}]))"
+    );
+    let errors = faults(&text);
+    assert_eq!(errors.0.len(), 2000);
+    let second = text.lines().nth(1).unwrap();
+    let columns: Vec<u32> =
+        second.match_indices("\"zzz").map(|(at, _)| second[..at].chars().count() as u32 + 1).collect();
+    for (error, column) in errors.0.iter().zip(columns) {
+        assert_eq!((error.line, error.column, error.rule), (2, column, "unknown-surface"));
+        assert!(error.cure.ends_with("and 1980 more"), "{}", error.cure);
+    }
+}
+
 #[test]
 fn faults_of_pairs() {
     pair("unknown-surface", "(/*!*/surfaces: (\"a\", \"b\"))");

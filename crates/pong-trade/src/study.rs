@@ -220,7 +220,7 @@ pub fn study(
     settings: &Settings,
     watch: Watch<'_>,
 ) -> Result<Study, TradeError> {
-    let text = std::fs::read_to_string(scene).unwrap_or_default();
+    let text = pong_model::files::read_text(scene).unwrap_or_default();
     let scene = Scene::load(scene).map_err(|errors| TradeError(errors.to_string()))?;
     let built = scene.build().map_err(|errors| TradeError(errors.to_string()))?;
     let plan = Plan::new(&scene, built.simulation.bodies().len(), &settings.plan)?;

@@ -60,7 +60,7 @@ pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, TradeError
 /// when it is run.
 pub(crate) fn hash_model(hash: &mut Fnv, file: &std::path::Path) -> Result<(), TradeError> {
     let unreadable = |reason| TradeError::new(&file.display().to_string(), &format!("{reason}"));
-    hash.text(&std::fs::read_to_string(file).map_err(unreadable)?);
+    hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
     let model = pong_model::load(file, &pong_geometry::extension::Extensions::new());
     hash.word(model.map_or(0, |model| model.hash));
     Ok(())

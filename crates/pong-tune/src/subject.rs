@@ -74,7 +74,7 @@ impl Shape {
 impl Subject {
     /// Reads a model file.
     pub fn load(file: &Path, in_log: bool) -> Result<Self, TuneError> {
-        let text = std::fs::read_to_string(file).map_err(|reason| {
+        let text = pong_model::files::read_text(file).map_err(|reason| {
             TuneError::file(file, format!("{reason}; name a run whose models can be read"))
         })?;
         let model =

@@ -21,6 +21,10 @@ pub(crate) struct Arguments {
     /// Checks each model by itself, not how they would meet.
     #[arg(long)]
     alone: bool,
+    /// Lets models read the meshes that they name from this folder too, through links; without it only from the model's own
+    /// folder. May be given several times.
+    #[arg(long, value_name = "DIR")]
+    allow_files_below: Vec<PathBuf>,
 }
 
 /// A model and what it is called here.
@@ -32,8 +36,10 @@ struct Named {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut named: Vec<Named> = Vec::new();
     let mut faults = 0;
+    let mut extensions = Extensions::new();
+    arguments.allow_files_below.iter().for_each(|folder| extensions.allow_files_below(folder));
     for path in &arguments.models {
-        match pong_model::load(path, &Extensions::new()) {
+        match pong_model::load(path, &extensions) {
             Ok(model) => named.push(name(&named, model)),
             Err(errors) => {
                 tell_lines(&errors);

@@ -3,8 +3,8 @@
 use crate::text::{count, number, numbers};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Element, Exponent, FrictionLaw, Model, NormalLaw, Surface, printable};
-use std::collections::BTreeMap;
+use pong_model::{Body, Element, Exponent, FrictionLaw, Model, Node, NormalLaw, Surface, printable};
+use std::collections::{BTreeMap, HashMap};
 
 /// A group as the engine sees it.
 struct Group {
@@ -20,7 +20,15 @@ pub(super) fn description(name: &str, model: &Model) -> String {
     let mut text = format!("{name}: hash {:016x}, side of entry {memory}\n", model.hash);
     let groups: Vec<Group> = model.bodies.iter().flat_map(groups_of).collect();
     if let Some(root) = model.bodies.first() {
-        draw(&groups, &root.path, 1, &mut text);
+        let mut below: HashMap<&str, Vec<&Group>> = HashMap::new();
+        for group in &groups {
+            if let Some(path) = above(&group.path) {
+                below.entry(path).or_default().push(group);
+            }
+        }
+        if let Some(group) = groups.iter().find(|group| group.path == root.path) {
+            draw(group, &below, 1, &mut text);
+        }
     }
     for body in &model.bodies {
         text += &extent(body);
@@ -42,6 +50,8 @@ pub(super) fn description(name: &str, model: &Model) -> String {
 /// subdivisions keep the path of their leaf and are one with it.
 fn groups_of(body: &Body) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
+    let mut numbers: HashMap<&str, usize> = HashMap::new();
+    let nodes = nodes_of(body);
     let mut paths: Vec<&str> = vec![&body.path];
     for info in &body.primitives {
         let from = paths.len();
@@ -50,13 +60,15 @@ fn groups_of(body: &Body) -> Vec<Group> {
         paths[from..].reverse();
     }
     for path in paths {
-        if !groups.iter().any(|group| group.path == path) {
-            groups.push(group_at(body, path));
-        }
+        numbers.entry(path).or_insert_with(|| {
+            groups.push(group_at(body, path, nodes.get(path).map_or(&[], Vec::as_slice)));
+            groups.len() - 1
+        });
     }
     for info in &body.primitives {
         let owner = info.path.rsplit_once('/').map_or("", |(group, _)| group);
-        if let Some(group) = groups.iter_mut().find(|group| group.path == owner) {
+        if let Some(&number) = numbers.get(owner) {
+            let group = &mut groups[number];
             let (primitives, elements) = group.holds.entry(info.kind).or_default();
             *primitives += 1;
             *elements += info.elements.len();
@@ -70,19 +82,24 @@ fn above(path: &str) -> Option<&str> {
     path.rsplit_once('/').map(|(above, _)| above)
 }
 
-fn group_at(body: &Body, path: &str) -> Group {
-    let mut nodes = body.tree.nodes.iter().filter(|node| *node.group == *path).peekable();
-    let mut bound = nodes.peek().map_or("Above", |node| node.volume.kind_name()).to_owned();
-    let leaves = nodes.filter(|node| !node.items.is_empty()).count();
+/// The nodes of a body's tree by the group that they are of.
+fn nodes_of(body: &Body) -> HashMap<&str, Vec<&Node>> {
+    let mut nodes: HashMap<&str, Vec<&Node>> = HashMap::new();
+    body.tree.nodes.iter().for_each(|node| nodes.entry(&*node.group).or_default().push(node));
+    nodes
+}
+
+fn group_at(body: &Body, path: &str, nodes: &[&Node]) -> Group {
+    let mut bound = nodes.first().map_or("Above", |node| node.volume.kind_name()).to_owned();
+    let leaves = nodes.iter().filter(|node| !node.items.is_empty()).count();
     if leaves > 1 {
         bound += &format!(", {leaves} leaves");
     }
     Group { path: path.to_owned(), movable: path == body.path, bound, holds: BTreeMap::new() }
 }
 
-fn draw(groups: &[Group], path: &str, depth: usize, text: &mut String) {
-    let Some(group) = groups.iter().find(|group| group.path == path) else { return };
-    let name = path.rsplit('/').next().unwrap_or(path);
+fn draw(group: &Group, below: &HashMap<&str, Vec<&Group>>, depth: usize, text: &mut String) {
+    let name = group.path.rsplit('/').next().unwrap_or(&group.path);
     let movable = if group.movable { " movable" } else { "" };
     let holds: Vec<String> = group
         .holds
@@ -97,9 +114,8 @@ fn draw(groups: &[Group], path: &str, depth: usize, text: &mut String) {
         printable(&group.bound),
         indent = 2 * depth
     );
-    let is_child = |other: &&Group| other.path.rsplit_once('/').is_some_and(|(above, _)| above == path);
-    for child in groups.iter().filter(is_child) {
-        draw(groups, &child.path, depth + 1, text);
+    for child in below.get(&*group.path).into_iter().flatten() {
+        draw(child, below, depth + 1, text);
     }
 }
 

@@ -65,7 +65,7 @@ impl Scene {
     pub fn load(path: &Path) -> Result<Self, SceneErrors> {
         let file = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
-        match std::fs::read_to_string(path) {
+        match pong_model::files::read_text(path) {
             Ok(text) => Self::parse(&text, &file, folder),
             Err(reason) => {
                 let mut faults = Faults::new(&file);

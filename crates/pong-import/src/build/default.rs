@@ -141,8 +141,15 @@ impl Build<'_, '_> {
             return (Vec::new(), placed.mesh.clone());
         }
         let parts = mesh::parts(&placed.mesh);
-        let found: Vec<Result<Polyhedron, Flaw>> =
-            parts.iter().map(|part| mesh::polyhedron(part, self.building.faces_max)).collect();
+        let mut hulled = Hulled::default();
+        let found: Vec<Result<Polyhedron, Flaw>> = parts
+            .iter()
+            .map(|part| {
+                let found = mesh::polyhedron(part, self.building.faces_max);
+                if self.building.hull { hulled.instead(part, found) } else { found }
+            })
+            .collect();
+        hulled.tell(naming, self.findings);
         let cavities: Vec<_> = parts
             .iter()
             .zip(&found)
@@ -171,7 +178,7 @@ impl Build<'_, '_> {
     fn tell(&mut self, naming: &Naming<'_>, dented: usize, large: usize) {
         if dented > 0 {
             let cause = "closed but not convex: a surface of triangles, with nothing behind it";
-            let cure = "`pong decompose` makes it a solid of convex pieces";
+            let cure = "`pong decompose` makes it a solid of convex pieces, `--hull` its convex hull";
             self.findings.note(naming.path, "not-convex", cause, cure);
         }
         if large > 0 {
@@ -180,6 +187,39 @@ impl Build<'_, '_> {
                 self.building.faces_max
             );
             self.findings.note(naming.path, "many-faces", cause, "--faces-max allows more faces");
+        }
+    }
+}
+
+/// Parts that became their convex hulls.
+#[derive(Default)]
+struct Hulled {
+    parts: usize,
+    /// How far a vertex lies within its hull at most, m.
+    deepest_m: f64,
+}
+
+impl Hulled {
+    /// The hull of a part that bounds a volume but is not convex; of all else what was found.
+    fn instead(&mut self, part: &Mesh, found: Result<Polyhedron, Flaw>) -> Result<Polyhedron, Flaw> {
+        if !matches!(found, Err(Flaw::Dented { .. } | Flaw::Tangled | Flaw::Open { .. })) {
+            return found;
+        }
+        let Some((hull, deepest_m)) = crate::decompose::hull_of_mesh(part) else { return found };
+        self.parts += 1;
+        self.deepest_m = self.deepest_m.max(deepest_m);
+        Ok(hull)
+    }
+
+    fn tell(&self, naming: &Naming<'_>, findings: &mut Findings) {
+        if self.parts > 0 {
+            let parts = if self.parts == 1 { "a part".to_owned() } else { format!("{} parts", self.parts) };
+            let cause = format!(
+                "{parts} became the convex hull: vertices of the mesh lie up to {:.2e} m within it",
+                self.deepest_m
+            );
+            let cure = "`pong decompose` follows the mesh closer";
+            findings.note(naming.path, "hull", cause, if self.deepest_m > 0.0 { cure } else { "" });
         }
     }
 }

@@ -34,6 +34,8 @@ pub(crate) struct Building<'a> {
     pub(crate) faces_max: usize,
     /// Meshes of more triangles go to files beside the model.
     pub(crate) inline_max: usize,
+    /// Unmarked parts that are not convex become their convex hulls.
+    pub(crate) hull: bool,
     pub(crate) progress: &'a mut dyn FnMut(&str),
 }
 

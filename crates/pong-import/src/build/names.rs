@@ -1,11 +1,15 @@
 //! Names that model files take: not empty, no `/`, unique among siblings.
 
 use crate::findings::Findings;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Hands out names of the children of one group.
 #[derive(Default)]
-pub(super) struct Names(BTreeSet<String>);
+pub(super) struct Names {
+    taken: BTreeSet<String>,
+    /// For each name the number to try next: names that are all the same must not be tried from the start each time.
+    next: BTreeMap<String, u64>,
+}
 
 impl Names {
     /// The name itself, or with a number behind if it is taken already.
@@ -14,13 +18,18 @@ impl Names {
             "" => "unnamed".to_owned(),
             name => name.replace('/', "_"),
         };
-        let numbered = (2..).map(|number| format!("{clean}_{number}"));
-        let name = std::iter::once(clean.clone()).chain(numbered).find(|name| !self.0.contains(name));
-        let name = name.unwrap_or(clean);
+        let mut name = clean.clone();
+        if self.taken.contains(&name) {
+            let next = self.next.entry(clean.clone()).or_insert(2);
+            while self.taken.contains(&name) {
+                name = format!("{clean}_{next}");
+                *next += 1;
+            }
+        }
         if name != wanted {
             findings.note(path, "renamed", format!("it is called `{name}` in the model"), "");
         }
-        self.0.insert(name.clone());
+        self.taken.insert(name.clone());
         name
     }
 }

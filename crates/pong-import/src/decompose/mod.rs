@@ -80,6 +80,8 @@ pub struct DecomposeOptions {
     pub within_m: Option<f64>,
     /// Places measured on each surface and in the volume.
     pub samples: usize,
+    /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
+    pub allowed: Vec<PathBuf>,
 }
 
 impl Default for DecomposeOptions {
@@ -97,6 +99,7 @@ impl Default for DecomposeOptions {
             pieces_max: 64,
             within_m: None,
             samples: 30_000,
+            allowed: Vec::new(),
         }
     }
 }
@@ -165,7 +168,12 @@ fn attempt(
     let file = input.display().to_string();
     check_options(options, &file, findings)?;
     progress("reading");
-    let reading = Reading { up: options.up, unit_m: options.unit_m, scene: options.scene.clone() };
+    let reading = Reading {
+        up: options.up,
+        unit_m: options.unit_m,
+        scene: options.scene.clone(),
+        allowed: options.allowed.clone(),
+    };
     let source = source::read(input, &reading, findings)?;
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let building = Building {
@@ -177,6 +185,7 @@ fn attempt(
         surface: options.surface.clone(),
         faces_max: usize::MAX,
         inline_max: usize::MAX,
+        hull: false,
         progress,
     };
     let shape = solids::flatten(source, &building, findings);
@@ -200,6 +209,7 @@ fn attempt(
         deviation,
     };
     *report = Some(figures.clone());
+    tell_protrusion(&figures, options, &building.file, findings);
     within(&figures, options, &building.file, findings)?;
     (building.progress)("writing");
     let mut model = model(pieces, &building, &figures);
@@ -230,6 +240,31 @@ fn check_options(options: &DecomposeOptions, file: &str, findings: &mut Findings
         refuse(!above_zero(within_m), format!("a limit of {within_m} m"), "give metres above zero");
     }
     findings.faults.is_empty().then_some(())
+}
+
+/// Protrusions of more than this share of the size are told.
+const TOLD_SHARE: f64 = 0.01;
+
+/// A body in front of the mesh would touch what protrudes before it touches the mesh.
+fn tell_protrusion(figures: &Report, options: &DecomposeOptions, file: &str, findings: &mut Findings) {
+    let protrusion_m = figures.deviation.protrusion.max_m;
+    let share = protrusion_m / figures.size_m;
+    if share <= TOLD_SHARE {
+        return;
+    }
+    let voxel = match options.method {
+        Method::Vhacd => {
+            let voxel_m = figures.size_m / f64::from(options.resolution.unwrap_or(100));
+            format!("; walls and gaps thinner than a voxel, about {voxel_m:.1e} m, are not seen")
+        }
+        Method::Coacd(_) => String::new(),
+    };
+    let cause = format!(
+        "at its worst place a piece protrudes {protrusion_m:.2e} m, {:.1} % of the mesh's size{voxel}",
+        100.0 * share
+    );
+    let cure = "a larger --resolution and a smaller --concavity follow the mesh closer; --within refuses what protrudes more";
+    findings.note(file, "protrusion", cause, cure);
 }
 
 fn whole(solids: &[SolidMesh]) -> Mesh {
@@ -298,6 +333,18 @@ fn pieces(
     let walls = walls::mark(&mut all, options.pieces_max, size_m, &is_accepted);
     tell_walls(&walls, &all, size_m, file, findings);
     Some((all, exact))
+}
+
+/// The convex hull of a mesh and how far its deepest vertex lies within it, m; `None` if it has no thickness.
+pub(crate) fn hull_of_mesh(mesh: &Mesh) -> Option<(mesh::Polyhedron, f64)> {
+    let piece = hull(&mesh.vertices).ok()?;
+    let depth = |place: &Vector3<f64>| {
+        piece.planes.iter().map(|plane| -plane.height(place)).fold(f64::INFINITY, f64::min).max(0.0)
+    };
+    let deepest_m = mesh.vertices.iter().map(depth).fold(0.0, f64::max);
+    let look = mesh.look_of.first().copied().unwrap_or(0);
+    let look_of = vec![look; piece.faces.len()];
+    Some((mesh::Polyhedron { vertices: piece.vertices, faces: piece.faces, look_of }, deepest_m))
 }
 
 /// CoACD moves vertices by about 1e-4 of the size: back to those of the mesh, and neighbours to common places.

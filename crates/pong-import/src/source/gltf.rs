@@ -33,7 +33,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
         return None;
     }
     let document = document?;
-    let buffers = findings.ok(buffers::load(&document, blob, path))?;
+    let buffers = findings.ok(buffers::load(&document, blob, path, &reading.allowed))?;
     let (up, unit_m) = (reading.up.unwrap_or(Up::Y), reading.unit_m);
     let reader = Reader { json: &value, document, buffers, up, unit_m, file };
     reader.notes(findings);

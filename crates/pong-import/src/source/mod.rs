@@ -1,6 +1,7 @@
 //! What the readers of glTF, OBJ and STL files have in common: a tree of nodes with geometry.
 
 mod gltf;
+mod guesses;
 mod obj;
 mod stl;
 mod welder;
@@ -9,7 +10,7 @@ use crate::affine::{Affine, Up};
 use crate::findings::{Finding, Findings};
 use nalgebra::Vector3;
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub(crate) use welder::{Welder, WordMap};
 
@@ -21,6 +22,8 @@ pub(crate) struct Reading {
     pub(crate) unit_m: f64,
     /// Name of the scene to read; glTF only.
     pub(crate) scene: Option<String>,
+    /// Folders beside the file's own that files which it names may lie in.
+    pub(crate) allowed: Vec<PathBuf>,
 }
 
 /// A file as a tree of nodes; lengths in metres, axes those of models.
@@ -75,14 +78,16 @@ pub(crate) fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> O
         return None;
     }
     let bytes = findings.ok(bytes_of(path, &file))?;
-    match ending.as_str() {
+    let source = match ending.as_str() {
         "obj" => obj::read(&bytes, path, reading, findings),
         "stl" => stl::read(bytes, path, reading, findings),
-        _ => gltf::read(&bytes, path, reading, findings),
-    }
+        _ => return gltf::read(&bytes, path, reading, findings),
+    }?;
+    guesses::tell(&source, reading, &file, findings);
+    Some(source)
 }
 
-/// The bytes of a regular file; a pipe or a device could keep the reader waiting for ever.
+/// The bytes of the file that the caller named.
 fn bytes_of(path: &Path, called: &str) -> Result<Vec<u8>, Finding> {
     let unreadable = |reason: String| Finding {
         path: called.to_owned(),
@@ -90,11 +95,7 @@ fn bytes_of(path: &Path, called: &str) -> Result<Vec<u8>, Finding> {
         cause: format!("it cannot be read: {reason}"),
         cure: "name a mesh file that can be read".to_owned(),
     };
-    let about = std::fs::metadata(path).map_err(|reason| unreadable(reason.to_string()))?;
-    if !about.is_file() {
-        return Err(unreadable("it is not a regular file".to_owned()));
-    }
-    std::fs::read(path).map_err(|reason| unreadable(reason.to_string()))
+    pong_model::files::read(path).map_err(|reason| unreadable(reason.to_string()))
 }
 
 /// The file's name without folder and ending: what a model without a name is called.

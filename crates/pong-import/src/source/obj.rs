@@ -4,11 +4,17 @@ use super::{Node, Reading, Shape, Source, WordMap, stem};
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use nalgebra::Vector3;
+use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
 
+/// Faces of more corners are refused: cutting one takes up to the square of their number.
+const MOST_CORNERS: usize = 10_000;
+
 pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
     let file = path.display().to_string();
+    // The mark that some editors put before UTF-8 would hide the keyword of the first line.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let loose = match loose_elements(bytes) {
         Ok(loose) => loose,
         Err((line, rule, cause)) => {
@@ -31,14 +37,17 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
     let place =
         |x: &[f64]| reading.up.unwrap_or(Up::Z).turned(Vector3::new(x[0], x[1], x[2])) * reading.unit_m;
     let mut source = Source::default();
+    let mut numbers = HashMap::new();
+    let mut bent = Bent::default();
     for model in models {
         // One object with several materials comes in several parts of one name.
-        let node = node_called(&mut source, &model.name, path);
+        let node = node_called(&mut source, &mut numbers, &model.name, path);
         let shape = source.nodes[node].mesh.get_or_insert_with(Shape::default);
-        add_faces(shape, &model.mesh, place, &format!("{file}: {}", model.name), findings);
+        add_faces(shape, &model.mesh, place, &format!("{file}: {}", model.name), (&mut bent, findings));
     }
+    bent.note(findings);
     if let Some(loose) = loose {
-        let node = node_called(&mut source, "", path);
+        let node = node_called(&mut source, &mut numbers, "", path);
         let shape = source.nodes[node].mesh.get_or_insert_with(Shape::default);
         let first = shape.vertices.len() as u32;
         shape.vertices.extend(loose.places.iter().map(|x| place(x)));
@@ -64,12 +73,12 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
 }
 
 /// The node of that name, new if there is none; what belongs to no object is called like the file.
-fn node_called(source: &mut Source, name: &str, path: &Path) -> usize {
+fn node_called(source: &mut Source, numbers: &mut HashMap<String, usize>, name: &str, path: &Path) -> usize {
     let name = match name.trim() {
         "" | "unnamed_object" => stem(path),
         name => name.to_owned(),
     };
-    source.nodes.iter().position(|node| node.name == name).unwrap_or_else(|| {
+    *numbers.entry(name.clone()).or_insert_with(|| {
         let (path, local) = (name.clone(), Affine::identity());
         source.nodes.push(Node { name, parent: None, path, local, mark: None, mesh: None });
         source.nodes.len() - 1
@@ -81,7 +90,7 @@ fn add_faces(
     mesh: &tobj::Mesh,
     place: impl Fn(&[f64]) -> Vector3<f64>,
     path: &str,
-    findings: &mut Findings,
+    (bent, findings): (&mut Bent, &mut Findings),
 ) {
     let first = shape.vertices.len() as u32;
     shape.vertices.extend(mesh.positions.chunks_exact(3).map(place));
@@ -95,9 +104,65 @@ fn add_faces(
         let end = start + corners as usize;
         let face: Vec<u32> = mesh.indices[start..end].iter().map(|vertex| first + vertex).collect();
         start = end;
+        if face.len() > MOST_CORNERS {
+            let cause =
+                format!("a face of {corners} corners; at most {MOST_CORNERS} can be cut into triangles");
+            findings.fault(path, "face-not-cut", cause, "triangulate it where it was made");
+            continue;
+        }
+        bent.see(shape, &face, path);
         if !cut(shape, &face) {
             let cause = format!("a face of {corners} corners could not be cut into triangles");
             findings.fault(path, "face-not-cut", cause, "give it an outline that does not cross itself");
+        }
+    }
+}
+
+/// Faces whose corners lie in no plane: cut into triangles they have a fold that the file does not tell.
+#[derive(Default)]
+struct Bent {
+    faces: usize,
+    /// How far, m, and which.
+    worst: f64,
+    path: String,
+}
+
+/// Corners off their plane by less than this share of the face's size are rounding.
+const FLAT: f64 = 1e-6;
+
+impl Bent {
+    fn see(&mut self, shape: &Shape, face: &[u32], path: &str) {
+        if face.len() < 4 {
+            return;
+        }
+        let first = shape.vertices[face[0] as usize];
+        let arms: Vec<Vector3<f64>> = face.iter().map(|&v| shape.vertices[v as usize] - first).collect();
+        let size = arms.iter().map(Vector3::norm).fold(0.0, f64::max);
+        let area: Vector3<f64> = arms.windows(2).map(|pair| (pair[0] / size).cross(&(pair[1] / size))).sum();
+        let Some(normal) = area.try_normalize(0.0) else { return };
+        let heights: Vec<f64> = arms.iter().map(|arm| normal.dot(arm)).collect();
+        let middle = heights.iter().sum::<f64>() / heights.len() as f64;
+        let off = heights.iter().map(|h| (h - middle).abs()).fold(0.0, f64::max);
+        if off > FLAT * size {
+            self.faces += 1;
+            if off > self.worst {
+                (self.worst, self.path) = (off, path.to_owned());
+            }
+        }
+    }
+
+    fn note(&self, findings: &mut Findings) {
+        if self.faces > 0 {
+            let which = if self.faces == 1 {
+                "a face is bent".to_owned()
+            } else {
+                format!("{} faces are bent", self.faces)
+            };
+            let cause = format!(
+                "{which}: corners are up to {:.2e} m off the face's plane; where the triangles fold was chosen here",
+                self.worst
+            );
+            findings.note(&self.path, "bent-face", cause, "export triangles to choose it yourself");
         }
     }
 }

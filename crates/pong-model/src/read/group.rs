@@ -292,12 +292,13 @@ pub(super) fn surface_index(
     path: &str,
 ) -> Option<u32> {
     let name = reader.text(node, path)?;
-    if let Some(index) = surfaces.iter().position(|surface| surface.name == name) {
-        return Some(index as u32);
+    if let Some(index) = reader.surface_called(surfaces, &name) {
+        return Some(index);
     }
-    let names: Vec<&str> = surfaces.iter().map(|surface| surface.name.as_str()).collect();
     let cause = format!("there is no surface \"{name}\"");
-    reader.fault(node.at, path, "unknown-surface", cause, suggest::cure(&name, &names));
+    let cure =
+        suggest::cure_among(&name, surfaces.len(), surfaces.iter().map(|surface| surface.name.as_str()));
+    reader.fault(node.at, path, "unknown-surface", cause, cure);
     // Any index will do: the model is refused, and no second fault should follow from this one.
     Some(0)
 }

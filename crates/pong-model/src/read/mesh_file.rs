@@ -1,9 +1,10 @@
 //! Shapes from OBJ and STL files that lie beside the model file.
 
 use super::Reader;
+use crate::files;
 use crate::ron_tree::Node;
 use pong_geometry::Vec3;
-use std::io::Cursor;
+use std::io::{Cursor, ErrorKind};
 use std::path::{Component, Path, PathBuf};
 
 /// Vertices and faces, as written.
@@ -50,8 +51,15 @@ pub(super) fn from_file(
     };
     let name = reader.text(node, path)?;
     let file = allowed_path(reader, node, path, &name)?;
-    let bytes = match read_regular(&file) {
+    let folders = reader.mesh_dir.into_iter().chain(reader.ext.folders_allowed());
+    let bytes = match files::read_below(&file, folders) {
         Ok(bytes) => bytes,
+        Err(reason) if reason.kind() == ErrorKind::PermissionDenied && file.exists() => {
+            let cause = format!("\"{name}\" cannot be read: {reason}");
+            let cure = "put the file itself beside the model file, or have the host allow the folder that it lies in";
+            reader.fault(node.at, path, "mesh-file-outside", cause, cure);
+            return None;
+        }
         Err(reason) => {
             let cause = format!("\"{name}\" cannot be read: {reason}");
             reader.fault(node.at, path, "mesh-file-unreadable", cause, "put the file beside the model file");
@@ -81,14 +89,6 @@ pub(super) fn from_file(
             None
         }
     }
-}
-
-/// A pipe or a device could keep the reader waiting for ever.
-fn read_regular(file: &Path) -> std::io::Result<Vec<u8>> {
-    if !std::fs::metadata(file)?.is_file() {
-        return Err(std::io::Error::other("it is not a regular file"));
-    }
-    std::fs::read(file)
 }
 
 fn extension(name: &str) -> String {
@@ -125,6 +125,8 @@ fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) ->
 
 /// Faces of any number of corners; materials, normals and texture coordinates are left aside.
 fn obj(bytes: &[u8]) -> Result<Mesh, String> {
+    // The mark that some editors put before UTF-8 would hide the keyword of the first line.
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let options =
         tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
     let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);

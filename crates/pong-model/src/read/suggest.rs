@@ -1,18 +1,37 @@
 //! "Did you mean …?"
 
+/// How many candidates are compared and how many are listed: a file of very many names with a fault at each of them must not
+/// take the square of their number.
+const COMPARED: usize = 100;
+const LISTED: usize = 20;
+
 /// The candidate nearest to `name`, if it is near enough to be a slip of the keyboard.
 pub(crate) fn nearest<'c>(name: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     let limit = 1 + name.chars().count() / 4;
-    let best = candidates.into_iter().map(|c| (distance(name, c), c)).min_by_key(|(d, _)| *d)?;
+    let best =
+        candidates.into_iter().take(COMPARED).map(|c| (distance(name, c), c)).min_by_key(|(d, _)| *d)?;
     (best.0 <= limit).then_some(best.1)
 }
 
 /// Cure for a name that is not among the candidates.
 pub(crate) fn cure(name: &str, candidates: &[&str]) -> String {
-    match nearest(name, candidates.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None if candidates.is_empty() => "there is none to choose from".to_owned(),
-        None => format!("choose from: {}", candidates.join(", ")),
+    cure_among(name, candidates.len(), candidates.iter().copied())
+}
+
+/// The same for `count` candidates of which no more are looked at than are told.
+pub(crate) fn cure_among<'c>(
+    name: &str,
+    count: usize,
+    candidates: impl Iterator<Item = &'c str> + Clone,
+) -> String {
+    if let Some(near) = nearest(name, candidates.clone()) {
+        return format!("did you mean `{near}`?");
+    }
+    let listed = candidates.take(LISTED).collect::<Vec<_>>().join(", ");
+    match count {
+        0 => "there is none to choose from".to_owned(),
+        count if count > LISTED => format!("choose from: {listed} and {} more", count - LISTED),
+        _ => format!("choose from: {listed}"),
     }
 }
 

@@ -5,6 +5,7 @@ use crate::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
+use std::collections::HashSet;
 
 /// Reads the `surfaces` map, in the order of the file.
 pub(super) fn surfaces(reader: &mut Reader<'_>, node: &Node) -> Vec<Surface> {
@@ -14,13 +15,14 @@ pub(super) fn surfaces(reader: &mut Reader<'_>, node: &Node) -> Vec<Surface> {
         return Vec::new();
     };
     let mut surfaces: Vec<Surface> = Vec::new();
+    let mut names = HashSet::new();
     for (key, value) in entries {
         let Some(name) = reader.text(key, "surfaces") else { continue };
         let path = format!("surfaces/{name}");
         if name.is_empty() {
             reader.fault(key.at, &path, "empty-name", "a surface without a name", "name it");
         }
-        if surfaces.iter().any(|earlier| earlier.name == name) {
+        if !names.insert(name.clone()) {
             let cause = format!("the surface \"{name}\" is defined twice");
             reader.fault(key.at, &path, "repeated-surface", cause, "keep one of them or rename one");
         }
@@ -270,14 +272,13 @@ pub(super) fn pairs(
 ) -> Vec<PairOverride> {
     let Some(items) = reader.list(node, "pairs") else { return Vec::new() };
     let mut pairs: Vec<PairOverride> = Vec::new();
+    let mut listed = HashSet::new();
     for (index, item) in items.iter().enumerate() {
         let path = format!("pairs[{index}]");
         let Some(pair) = pair(reader, item, &path, (model, defined)) else { continue };
-        let same = |other: &PairOverride| {
-            let [a, b] = &other.surfaces;
-            pair.surfaces == [a.clone(), b.clone()] || pair.surfaces == [b.clone(), a.clone()]
-        };
-        if pairs.iter().any(same) {
+        let mut unordered = pair.surfaces.clone();
+        unordered.sort();
+        if !listed.insert(unordered) {
             let cause = format!("the pair {:?} is listed twice", pair.surfaces);
             reader.fault(item.at, &path, "repeated-pair", cause, "keep one entry");
         }

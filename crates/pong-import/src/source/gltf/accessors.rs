@@ -13,6 +13,22 @@ fn bytes_of<'b>(buffers: &'b [Vec<u8>]) -> impl Clone + Fn(::gltf::Buffer<'_>) -
     |buffer: ::gltf::Buffer<'_>| buffers.get(buffer.index()).map(Vec::as_slice)
 }
 
+/// Whether what an accessor promises could be in the buffers: without a view all its elements are zero but for the sparse
+/// ones, and a short file could ask for any amount of memory.
+fn check_count(
+    accessor: &::gltf::Accessor<'_>,
+    buffers: &[Vec<u8>],
+    what: &str,
+    path: &str,
+) -> Result<(), Finding> {
+    let bytes: usize = buffers.iter().map(Vec::len).sum();
+    if accessor.view().is_none() && accessor.count() > bytes {
+        let cause = format!("it has {} {what}, but no more than {bytes} bytes of buffers", accessor.count());
+        return Err(damaged(path, cause));
+    }
+    Ok(())
+}
+
 pub(super) fn positions(
     primitive: &Primitive<'_>,
     buffers: &[Vec<u8>],
@@ -30,6 +46,7 @@ pub(super) fn positions(
     if accessor.count() == 0 {
         return Ok(Vec::new());
     }
+    check_count(&accessor, buffers, "positions", path)?;
     let reader = primitive.reader(bytes_of(buffers));
     let places: Vec<[f32; 3]> = reader.read_positions().map(Iterator::collect).unwrap_or_default();
     match places.len() == accessor.count() {
@@ -53,6 +70,7 @@ pub(super) fn indices(
     if accessor.count() == 0 {
         return Ok(Vec::new());
     }
+    check_count(&accessor, buffers, "indices", path)?;
     let reader = primitive.reader(bytes_of(buffers));
     let order: Vec<u32> = reader.read_indices().map(|all| all.into_u32().collect()).unwrap_or_default();
     if order.len() != accessor.count() {
