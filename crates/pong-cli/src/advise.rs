@@ -7,7 +7,6 @@ use crate::terminal::{print, tell_lines};
 use crate::text::number;
 use pong_engine::advice::{Accuracy, Coupling, StepPlan, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
-use pong_executive::Simulation;
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
 use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
@@ -159,7 +158,7 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         return Err("--mass: a scene has masses of its own; leave it out".to_owned());
     }
     let by_scene = built.simulation.step_plan();
-    let speed = arguments.speed.or_else(|| closing_speed(&built.simulation));
+    let speed = arguments.speed.or(by_scene.closing_speed);
     let plan = StepPlan {
         step: arguments.step().unwrap_or(by_scene.step),
         coupling: arguments.coupling(by_scene.coupling),
@@ -193,13 +192,6 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
         }
     }
     Ok(text)
-}
-
-/// The largest speed between any two bodies at the start, m/s; none if nothing moves.
-fn closing_speed(simulation: &Simulation) -> Option<f64> {
-    let velocities: Vec<_> = simulation.bodies().map(|(_, body)| body.twist.linear).collect();
-    let apart = velocities.iter().flat_map(|a| velocities.iter().map(move |b| (a - b).norm()));
-    apart.max_by(f64::total_cmp).filter(|speed| *speed > 0.0)
 }
 
 fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {

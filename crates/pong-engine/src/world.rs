@@ -677,6 +677,21 @@ impl World {
         Ok(advice::acting(&setting, &running.sealed, &running.frame, plan))
     }
 
+    /// The single contacts of the last frame against a step, each at its depth and load: what
+    /// [`step_report`](Self::step_report) can only guess of laws that follow them. Bounces are not judged; masses as there.
+    pub fn pressed_report(
+        &self,
+        plan: &StepPlan,
+        masses: &[(InterfaceId, GroupMass)],
+    ) -> Result<StepReport, EngineError> {
+        plan.check()?;
+        let running = self.framed()?;
+        let all = self.all_masses(masses)?;
+        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
+        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
+        Ok(advice::pressed(&setting, &running.sealed, &running.frame, plan))
+    }
+
     /// The masses told before the seal, those given here in their place.
     fn all_masses(&self, masses: &[(InterfaceId, GroupMass)]) -> Result<Vec<Option<GroupMass>>, EngineError> {
         let mut all = self.scene.masses.clone();

@@ -336,6 +336,41 @@ fn what_is_not_known_is_told() {
     assert!((acting.stable_step / step - 1.0).abs() < 1e-9, "{acting:?}");
 }
 
+/// Laws that follow depth and load are judged as deep and as hard pressed as their contacts are, without a closing speed: the
+/// tangent 1.5·k·√δ of exponent 3/2, μ·N/v_ε of regularised friction, and half of both at each end of a bar.
+#[test]
+fn what_touches_is_judged_as_it_is() {
+    let masses = [GroupMass::point(2.0), GroupMass::immovable()];
+    let hertz = |text: &str, friction: &str| {
+        let law = format!("normal: HuntCrossley(dissipation: 0, exponent: 1.5), friction: {friction}");
+        text.replace("friction: None", &law)
+    };
+    let rub = "Coulomb(mu: 0.5, slip_speed: 1e-3)";
+    let bar = model("bar", r#"LineSegment(name: "s", ends: ((-1, 0, 0), (1, 0, 0)))"#, K, "None");
+    let tip = model("tip", r#"Point(name: "p", position: (0, 0, 0))"#, K, "None");
+    let rigid = floor();
+    for (mover, weight) in [(tip, 1.0), (bar, 0.5)] {
+        for (friction, depth) in [("None", 1e-3_f64), ("None", 4e-3), (rub, 1e-3)] {
+            let texts = [hertz(&mover, friction), hertz(&rigid, friction)];
+            let stiffness = weight * 1.5 * K * depth.sqrt();
+            let load = weight * K * depth * depth.sqrt();
+            // Once a step a damper alone bears γ = 2, and is the worse one here.
+            let step = match friction {
+                "None" => longest(stiffness / 2.0),
+                _ => 2.0 * 2.0 / (0.5 * load / 1e-3),
+            };
+            let mut meeting = Meeting::new(&[&texts[0], &texts[1]], &masses, &plan(step));
+            meeting.at(&[[0.0, 0.0, -depth], [0.0; 3]], &plan(step));
+            for (share, count) in [(0.99, 0), (1.01, 1)] {
+                let report = meeting.world.pressed_report(&plan(share * step), &[]).unwrap();
+                let warnings = report.warnings;
+                assert_eq!(warnings.len(), count, "{friction} {depth} {weight} {share}: {warnings:?}");
+                assert!(warnings.iter().all(|told| matches!(told, SetupWarning::StepTooLong { .. })));
+            }
+        }
+    }
+}
+
 /// A bar on a floor is carried at both ends by half its spring: together by one.
 #[test]
 fn contacts_that_share_a_spring_act_by_their_weights() {

@@ -5,8 +5,20 @@
 //! ```
 //!
 //! up to the order of the integrator. Contact terms are the engine's ledger: they are zero unless the world keeps it.
+//!
+//! The engine knows of states at commits alone, and takes the work in between by the trapezoid rule. Where contact is evaluated
+//! at stages, the executive knows better: momentum and angular momentum that the stages gave to each free body, times the mean
+//! of its velocity and spin before and after the step, is what they did to its kinetic energy,
+//!
+//! ```text
+//! W = Σ h·b_i·F_i·½(v + v') + Σ h·b_i·M_i·½(ω + ω')
+//! ```
+//!
+//! in translation to rounding, in rotation to third order of the step. Where contact begins or ends within a step, the place that the
+//! stages lead to is not that of the mean velocity; what gravity does over the difference is counted with the contact that made it.
 
 use crate::body::Motion;
+use crate::integrate::Pushed;
 use crate::simulation::Simulation;
 use crate::state::FreeState;
 use crate::system::System;
@@ -24,7 +36,7 @@ pub struct Energy {
     pub springs: f64,
     /// In contacts.
     pub contacts: f64,
-    /// Lost in contacts since the start.
+    /// Lost in contacts since the start, with what the integrator lost in them; below zero if they made energy.
     pub contact_loss: f64,
     /// Made since the start by holding contact wrenches over steps: work that the forces would not have done as they follow
     /// the motion. The balance drifts by it. Zero unless the world keeps accounts.
@@ -52,6 +64,8 @@ impl Energy {
 pub(crate) struct Powers {
     pub spring_heat: f64,
     pub work_in: f64,
+    /// Of contact on bodies that are led or fixed.
+    pub on_led: f64,
 }
 
 fn power(wrench: &Wrench, twist: &Twist) -> f64 {
@@ -76,10 +90,32 @@ impl System {
                 }
             }
         }
-        for index in (0..self.bodies.len()).filter(|index| !is_free(*index)) {
-            powers.work_in -= power(&self.contact[index], &self.motions[index].1);
-        }
+        powers.on_led = self.power_on_led();
         powers
+    }
+
+    /// Power of contact on the bodies that are not free, at the instant last placed and touched.
+    pub fn power_on_led(&self) -> f64 {
+        let led = self.bodies.iter().zip(self.contact.iter().zip(&self.motions));
+        let led = led.filter(|(body, _)| !matches!(body.motion, Motion::Free(_)));
+        led.map(|(_, (wrench, (_, twist)))| power(wrench, twist)).sum()
+    }
+
+    /// Work of contact on the bodies over a step of a length (s), in which it pushed them so.
+    pub fn contact_work(&self, before: &[FreeState], after: &[FreeState], pushed: &Pushed, h: f64) -> f64 {
+        let mut work = pushed.work_on_led;
+        let states = before.iter().zip(after).zip(&self.free);
+        for (((before, after), (_, inertia)), impulse) in states.zip(&pushed.impulses) {
+            if *impulse == Wrench::zero() {
+                continue;
+            }
+            let velocity = 0.5 * (before.velocity.value() + after.velocity.value());
+            let spin = 0.5 * (before.spin(inertia) + after.spin(inertia));
+            let displacement = after.position.plus(&-before.position.value()).value();
+            work += impulse.force.dot(&velocity) + impulse.moment.dot(&spin);
+            work += inertia.mass * self.gravity.dot(&(velocity * h - displacement));
+        }
+        work
     }
 
     /// Energies that the present instant has; losses and work are left at zero, those of contacts excepted.

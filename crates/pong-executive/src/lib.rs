@@ -48,6 +48,7 @@ mod spring;
 mod stability;
 mod state;
 mod system;
+mod watch;
 
 pub use body::{BodyId, Motion, RigidBody};
 pub use energy::Energy;
@@ -60,6 +61,7 @@ pub use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 pub use simulation::{Observer, Simulation};
 pub use spring::{Spring, SpringEnd};
 pub use stability::{coupling, group_mass, longest_stable_step};
+pub use watch::StepWatch;
 
 #[doc(no_inline)]
 pub use pong_engine::World;

@@ -6,10 +6,11 @@ mod statistics;
 mod summary;
 
 use crate::terminal::{print, tell, tell_lines};
+use crate::text::number;
 use indicatif::{ProgressBar, ProgressStyle};
 use outputs::Outputs;
-use pong_executive::ExecutiveError;
 use pong_executive::scene::{BuiltScene, Scene};
+use pong_executive::{ExecutiveError, StepWatch};
 use statistics::Statistics;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -72,15 +73,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for warning in built.warnings.iter().cloned().chain(built.seal.warnings.iter().map(ToString::to_string)) {
         tell(format!("warning: {warning}"));
     }
-    for warning in built.simulation.step_warnings() {
-        tell(format!("warning: {warning}"));
-    }
+    let told = built.simulation.step_warnings();
+    told.iter().for_each(|warning| tell(format!("warning: {warning}")));
     if !arguments.quiet {
         built.seal.notes.iter().for_each(|note| tell(format!("note: {note}")));
         built.simulation.step_notes().iter().for_each(|note| tell(format!("note: {note}")));
     }
     let mut statistics = Statistics::new(&built, arguments.acting);
-    let ended = run(arguments, &mut built, &mut statistics);
+    let ended = run(arguments, &mut built, &mut statistics, StepWatch::after(&told));
     if !arguments.quiet {
         print(&summary::summary(&built, &statistics));
     }
@@ -99,9 +99,14 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments, built: &mut BuiltScene, statistics: &mut Statistics) -> Result<(), Failure> {
+fn run(
+    arguments: &Arguments,
+    built: &mut BuiltScene,
+    statistics: &mut Statistics,
+    watch: StepWatch,
+) -> Result<(), Failure> {
     let mut outputs = Outputs::create(arguments, built).map_err(Failure::Output)?;
-    let ended = advance(arguments, built, statistics, &mut outputs);
+    let ended = advance(arguments, built, (statistics, watch), &mut outputs);
     // What was recorded before a failure is what its cause is sought in.
     let written = outputs.finish().map_err(Failure::Output);
     ended.and(written)
@@ -110,7 +115,7 @@ fn run(arguments: &Arguments, built: &mut BuiltScene, statistics: &mut Statistic
 fn advance(
     arguments: &Arguments,
     built: &mut BuiltScene,
-    statistics: &mut Statistics,
+    (statistics, mut watch): (&mut Statistics, StepWatch),
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
     let bar = progress_bar(built.steps, arguments.quiet);
@@ -123,6 +128,10 @@ fn advance(
             statistics.took(begin.elapsed());
             statistics.observe(&built.simulation);
             bar.inc(1);
+        }
+        for warning in watch.observe(&built.simulation) {
+            let time = number(built.simulation.time());
+            bar.suspend(|| tell(format!("warning: from t = {time} s on: {warning}")));
         }
         let last = done == built.steps;
         outputs.observe(&built.simulation, done, last).map_err(Failure::Output)?;

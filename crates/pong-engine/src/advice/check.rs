@@ -194,15 +194,19 @@ impl Setting<'_> {
                 met.insert((*table, surfaces), props);
             }
         }
-        let named = |(table, (a, b)): (usize, (u32, u32)), props| {
-            let table = &self.tables[table];
-            let full = |model: usize, surface: u32| {
-                let model = &self.scene.models[model];
-                format!("{}/{}", model.name, model.surfaces[surface as usize].name)
-            };
-            (props, [full(table.model_a, a), full(table.model_b, b)])
+        met.into_iter()
+            .map(|((table, surfaces), props)| (props, self.surface_names(table, surfaces)))
+            .collect()
+    }
+
+    /// `model/surface` of two surfaces of a table.
+    pub(super) fn surface_names(&self, table: usize, (a, b): (u32, u32)) -> [String; 2] {
+        let table = &self.tables[table];
+        let full = |model: usize, surface: u32| {
+            let model = &self.scene.models[model];
+            format!("{}/{}", model.name, model.surfaces[surface as usize].name)
         };
-        met.into_iter().map(|(key, props)| named(key, props)).collect()
+        [full(table.model_a, a), full(table.model_b, b)]
     }
 
     fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &PairProps> {
@@ -244,7 +248,12 @@ pub fn judge_contact(
     Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
 }
 
-fn pair_limits(groups: [String; 2], mass: f64, known: &[Known], plan: &StepPlan) -> Option<PairLimits> {
+pub(super) fn pair_limits(
+    groups: [String; 2],
+    mass: f64,
+    known: &[Known],
+    plan: &StepPlan,
+) -> Option<PairLimits> {
     let limit = |spring: Spring| {
         let (k, c) = (spring.stiffness, spring.damping);
         SpringLimit { spring, stable_step: longest_stable_step(plan.coupling, k, c, mass) }

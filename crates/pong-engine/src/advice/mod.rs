@@ -11,6 +11,7 @@
 //! | `together.rs`, `mobility.rs` | a bound of what can act on one movable group at once, levers and inertia included |
 //! | `acting.rs` | the same of what acts in a frame, exactly |
 //! | `asking.rs` | which term asks for a short step |
+//! | `pressed.rs` | single contacts of a frame, each as deep and as hard pressed as it is |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes of the seal |
 
 mod acting;
@@ -21,6 +22,7 @@ mod contact;
 mod coupling;
 mod mass;
 mod mobility;
+mod pressed;
 mod spring;
 mod together;
 mod warn;
@@ -33,4 +35,5 @@ pub use check::{BounceLimit, GroupLimits, PairLimits, SpringLimit, StepReport, j
 pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::{Coupling, longest_stable_step};
 pub use mass::{GroupMass, StepPlan};
+pub(crate) use pressed::pressed;
 pub use spring::Spring;

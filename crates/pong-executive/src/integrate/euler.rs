@@ -7,9 +7,9 @@ use crate::system::System;
 /// Advances the states over a step under the contact wrench that the system holds.
 pub(crate) fn euler(system: &mut System, states: &mut [FreeState], stages: &mut Stages, time: f64, h: f64) {
     let contact = std::mem::take(&mut system.contact);
-    system.rates(time, states, &contact, &mut stages.0[0]);
+    system.rates(time, states, &contact, &mut stages.rates[0]);
     system.contact = contact;
-    for (((_, inertia), state), rates) in system.free.iter().zip(states).zip(&stages.0[0]) {
+    for (((_, inertia), state), rates) in system.free.iter().zip(states).zip(&stages.rates[0]) {
         *state = state.semi_implicit(inertia, rates, h);
     }
 }

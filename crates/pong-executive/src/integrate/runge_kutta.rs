@@ -7,7 +7,7 @@
 //!
 //! Orientations are integrated as rotation vectors since the start of the step (`state.rs`).
 
-use super::Stages;
+use super::{Pushed, Stages};
 use crate::error::ExecutiveError;
 use crate::state::{FreeState, Rates};
 use crate::system::System;
@@ -31,18 +31,21 @@ pub(crate) fn runge_kutta(
     h: f64,
 ) -> Result<(), ExecutiveError> {
     let mut trial = states.to_vec();
-    rates(system, &trial, contact, time, &mut stages.0[0]);
+    stages.pushed.begin(states.len());
+    rates(system, &trial, contact, time, &mut stages.rates[0]);
+    stages.pushed.add(system, &trial, contact, h / 6.0);
     for (stage, share) in [(1, 0.5), (2, 0.5), (3, 1.0)] {
-        for ((trial, state), rates) in trial.iter_mut().zip(&*states).zip(&stages.0[stage - 1]) {
+        for ((trial, state), rates) in trial.iter_mut().zip(&*states).zip(&stages.rates[stage - 1]) {
             *trial = state.along(rates, share * h);
         }
         system.place(time + share * h, &trial);
         if let Contact::Fresh = contact {
             system.touch(time + share * h)?;
         }
-        rates(system, &trial, contact, time + share * h, &mut stages.0[stage]);
+        rates(system, &trial, contact, time + share * h, &mut stages.rates[stage]);
+        stages.pushed.add(system, &trial, contact, h / if stage == 3 { 6.0 } else { 3.0 });
     }
-    let [a, b, c, d] = &stages.0;
+    let [a, b, c, d] = &stages.rates;
     for (index, state) in states.iter_mut().enumerate() {
         let mean = Rates::runge_kutta_mean([&a[index], &b[index], &c[index], &d[index]]);
         *state = state.along(&mean, h).normalized();
@@ -58,5 +61,25 @@ fn rates(system: &mut System, states: &[FreeState], contact: &Contact<'_>, time:
             system.rates(time, states, &wrenches, out);
             system.contact = wrenches;
         }
+    }
+}
+
+impl Pushed {
+    fn begin(&mut self, bodies: usize) {
+        self.impulses.clear();
+        self.impulses.resize(bodies, Wrench::zero());
+        self.work_on_led = 0.0;
+    }
+
+    /// Takes in a stage of a weight (s). What is held is accounted by the engine.
+    fn add(&mut self, system: &System, states: &[FreeState], contact: &Contact<'_>, weight: f64) {
+        let Contact::Fresh = contact else { return };
+        for (((index, inertia), state), impulse) in system.free.iter().zip(states).zip(&mut self.impulses) {
+            let wrench = &system.contact[*index];
+            let arm = state.orientation * inertia.mass_center;
+            impulse.force += wrench.force * weight;
+            impulse.moment += (wrench.moment - arm.cross(&wrench.force)) * weight;
+        }
+        self.work_on_led += weight * system.power_on_led();
     }
 }

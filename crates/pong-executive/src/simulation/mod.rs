@@ -30,6 +30,8 @@ impl<F: FnMut(&Simulation)> Observer for F {
 pub struct Simulation {
     system: System,
     states: Vec<FreeState>,
+    /// Those of the step before.
+    earlier: Vec<FreeState>,
     integrator: Integrator,
     step: f64,
     /// Time is `epoch + steps·step`: no rounding piles up.
@@ -42,6 +44,8 @@ pub struct Simulation {
     powers: Powers,
     spring_loss: f64,
     work_in: f64,
+    /// Work of contact on the bodies, J, where it is evaluated at stages.
+    contact_work: Option<f64>,
 }
 
 impl Simulation {
@@ -59,6 +63,7 @@ impl Simulation {
         Ok(Self {
             system: System::new(world),
             states: Vec::new(),
+            earlier: Vec::new(),
             integrator,
             step,
             epoch: 0.0,
@@ -69,6 +74,7 @@ impl Simulation {
             powers: Powers::default(),
             spring_loss: 0.0,
             work_in: 0.0,
+            contact_work: (integrator == Integrator::RungeKutta4).then_some(0.0),
         })
     }
 
@@ -104,6 +110,7 @@ impl Simulation {
     pub fn step(&mut self) -> Result<(), ExecutiveError> {
         self.settle()?;
         let (time, h) = (self.time(), self.step);
+        self.earlier.clone_from(&self.states);
         let Self { system, states, stages, held, .. } = self;
         match self.integrator {
             Integrator::SemiImplicitEuler => euler(system, states, stages, time, h),
@@ -118,6 +125,14 @@ impl Simulation {
         self.settle()?;
         self.spring_loss += 0.5 * h * (before.spring_heat + self.powers.spring_heat);
         self.work_in += 0.5 * h * (before.work_in + self.powers.work_in);
+        match &mut self.contact_work {
+            Some(work) => {
+                let pushed = &self.stages.pushed;
+                *work += self.system.contact_work(&self.earlier, &self.states, pushed, h);
+                self.work_in -= pushed.work_on_led;
+            }
+            None => self.work_in -= 0.5 * h * (before.on_led + self.powers.on_led),
+        }
         Ok(())
     }
 

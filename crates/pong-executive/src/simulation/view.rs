@@ -28,12 +28,19 @@ impl Simulation {
     }
 
     /// Warnings about contacts that gain energy at the step, each with the longest stable one
-    /// ([`World::step_report`]). What cannot be judged is left out.
+    /// ([`World::step_report`]). What cannot be judged is left out: [`StepWatch`](crate::StepWatch) judges it when it touches.
     pub fn step_warnings(&self) -> Vec<String> {
-        let Some(report) = self.stability_report() else { return Vec::new() };
+        let report = self.stability_report().unwrap_or_default();
         let of_steps = report.warnings.iter();
         let judged = of_steps.filter(|warning| !matches!(warning, SetupWarning::StepNotJudged { .. }));
         judged.map(ToString::to_string).collect()
+    }
+
+    /// Warnings about contacts of the present instant that gain energy at the step, each as deep and as hard pressed as it is
+    /// ([`World::pressed_report`]).
+    pub fn pressed_warnings(&self) -> Vec<String> {
+        let report = self.world().pressed_report(&self.step_plan(), &self.group_masses());
+        report.unwrap_or_default().warnings.iter().map(ToString::to_string).collect()
     }
 
     /// Notes about contacts that may gain energy at the step if they act together, with the longest step that is surely
@@ -48,9 +55,18 @@ impl Simulation {
         self.step_report(&StepPlan { accuracy: None, ..self.step_plan() }).ok()
     }
 
-    /// Step and integrator as the step adviser knows them; the closing speed is not known.
+    /// Step and integrator as the step adviser knows them, and the closing speed of the scene's start. Whoever holds the step
+    /// against a scene begins with this plan, so that all of them say the same.
     pub fn step_plan(&self) -> StepPlan {
-        StepPlan::new(self.step, coupling(self.integrator))
+        let plan = StepPlan::new(self.step, coupling(self.integrator));
+        StepPlan { closing_speed: self.closing_speed(), ..plan }
+    }
+
+    /// The largest speed between any two bodies at the start, m/s; `None` if nothing moves then.
+    pub fn closing_speed(&self) -> Option<f64> {
+        let velocities: Vec<Vec3> = self.bodies().map(|(_, body)| body.twist.linear).collect();
+        let apart = velocities.iter().flat_map(|a| velocities.iter().map(move |b| (a - b).norm()));
+        apart.max_by(f64::total_cmp).filter(|speed| *speed > 0.0)
     }
 
     /// What a step can hold with the bodies at hand.
@@ -115,6 +131,9 @@ impl Simulation {
         let mut energy = self.system.energy(&self.states);
         energy.spring_loss = self.spring_loss;
         energy.work_in = self.work_in;
+        if let Some(work) = self.contact_work.filter(|_| self.world().keeps_ledger()) {
+            energy.contact_loss = -work - energy.contacts;
+        }
         energy
     }
 
