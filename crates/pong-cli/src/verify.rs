@@ -3,7 +3,7 @@
 use crate::terminal::{print, tell};
 use pong_invariance::{Order, Survey, invariances};
 use pong_verify::extremes::{self, Extreme, Length};
-use pong_verify::{Case, cases, report};
+use pong_verify::{Case, cases, orders, report};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::OnceLock;
@@ -70,7 +70,21 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     print(&report::text(&verdicts));
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     print(&format!("\n{} of {} cases pass\n", verdicts.len() - failed, verdicts.len()));
+    if let Some(reason) = write_picture(arguments) {
+        eprintln!("{reason}");
+        return ExitCode::FAILURE;
+    }
     finish(arguments, &report::markdown(&verdicts), failed)
+}
+
+/// Writes the picture that the report shows into the folder `figures` beside it; why not, if it cannot.
+fn write_picture(arguments: &Arguments) -> Option<String> {
+    let folder = arguments.output.as_ref()?.parent()?.join("figures");
+    let path = folder.join("orders.svg");
+    // A motion that cannot be run is told by its case.
+    let curves = orders::curves().ok()?;
+    let written = std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&path, orders::svg(curves)));
+    written.err().map(|reason| format!("{}: {reason}", path.display()))
 }
 
 /// Writes the report, if one is wanted.

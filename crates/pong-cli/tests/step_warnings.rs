@@ -8,7 +8,7 @@ const SCENE: &str = r#"(format: "pong-scene", version: 1, name: "drop",
     models: { "ball": "ball.ron", "ground": "ground.ron" },
     objects: [
         (name: "ball", model: "ball", bodies: [
-            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, HEIGHT), velocity: (0, 0, SPEED))]),
+            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, HEIGHT), linear_velocity: (0, 0, SPEED))]),
         (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
     pairs: [("ball", "ground")], gravity: (0, 0, -9.81),
     integrator: RungeKutta4, step: STEP, duration: 0.3)"#;
@@ -33,8 +33,8 @@ fn told(name: &str, law: &str, (stiffness, height, speed, step): (&str, &str, &s
     [run, advise]
 }
 
-const GAINS: &str = "`ball` and `ground`: a contact of";
-const RUBS: &str = "`ball` and `ground`: friction of";
+const GAINS: &str = "`ball/ball` and `ground/ground`: a contact of";
+const RUBS: &str = "`ball/ball` and `ground/ground`: friction of";
 
 /// The speed is known from the start: both say so before the first frame, in the same words.
 #[test]

@@ -16,6 +16,7 @@
 //! | `scene.rs` | model files → sealed world → simulation |
 //! | `measure.rs` | periods, roots, observed orders, random numbers |
 //! | `cases/` | the cases, one file each or a few that belong together |
+//! | `orders/` | orders of contact motions in the step, and their picture |
 //! | `report.rs` | the table as text and as Markdown |
 //! | `extremes/` | the extremes that must hold, with their margins |
 
@@ -24,6 +25,7 @@
 mod cases;
 pub mod extremes;
 mod measure;
+pub mod orders;
 pub mod report;
 mod row;
 mod scene;

@@ -9,6 +9,8 @@ pub enum Bound {
     Absolute(f64),
     /// |got| ≤ bound: the quantity should vanish.
     Below(f64),
+    /// got ≥ expected − bound: more is welcome.
+    AtLeast(f64),
 }
 
 /// One line of the report.
@@ -56,6 +58,17 @@ impl Row {
         Self::new(quantity.into(), unit, 0.0, got, Bound::Below(bound))
     }
 
+    /// A value that must be reached, but for a tolerance, and may be passed.
+    pub fn at_least(
+        quantity: impl Into<String>,
+        unit: &'static str,
+        expected: f64,
+        got: f64,
+        tolerance: f64,
+    ) -> Self {
+        Self::new(quantity.into(), unit, expected, got, Bound::AtLeast(tolerance))
+    }
+
     /// A whole number that must be met exactly.
     pub fn count(quantity: impl Into<String>, expected: usize, got: usize) -> Self {
         Self::new(quantity.into(), "", expected as f64, got as f64, Bound::Absolute(0.0))
@@ -70,16 +83,20 @@ impl Row {
         Self { order: Some(order), ..self }
     }
 
-    /// |got − expected|.
+    /// |got − expected|; of what must be reached, what is missing.
     pub fn error(&self) -> f64 {
-        (self.got - self.expected).abs()
+        match self.bound {
+            // Not `max`, which takes NaN for nothing missing.
+            Bound::AtLeast(_) if self.got > self.expected => 0.0,
+            _ => (self.got - self.expected).abs(),
+        }
     }
 
     /// The largest error allowed, in the unit of the quantity.
     pub fn allowed(&self) -> f64 {
         match self.bound {
             Bound::Relative(tolerance) => tolerance * self.expected.abs(),
-            Bound::Absolute(tolerance) | Bound::Below(tolerance) => tolerance,
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) | Bound::AtLeast(tolerance) => tolerance,
         }
     }
 
@@ -92,6 +109,7 @@ impl Row {
     pub fn expected_text(&self) -> String {
         match self.bound {
             Bound::Below(_) => "0".to_owned(),
+            Bound::AtLeast(_) => format!("≥ {}", self.expected),
             _ => self.value_text(self.expected),
         }
     }
@@ -100,6 +118,7 @@ impl Row {
     pub fn got_text(&self) -> String {
         match self.bound {
             Bound::Below(bound) => small(self.got.abs(), bound),
+            Bound::AtLeast(_) => format!("{:.1}", self.got),
             _ => self.value_text(self.got),
         }
     }
@@ -108,7 +127,9 @@ impl Row {
     pub fn error_text(&self) -> String {
         match self.bound {
             Bound::Relative(tolerance) => small(self.error() / self.expected.abs(), tolerance),
-            Bound::Absolute(tolerance) | Bound::Below(tolerance) => small(self.error(), tolerance),
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) | Bound::AtLeast(tolerance) => {
+                small(self.error(), tolerance)
+            }
         }
     }
 
@@ -117,7 +138,9 @@ impl Row {
         match self.bound {
             Bound::Relative(tolerance) => format!("{} rel.", short(tolerance)),
             Bound::Absolute(0.0) => "exact".to_owned(),
-            Bound::Absolute(tolerance) | Bound::Below(tolerance) => short(tolerance),
+            Bound::Absolute(tolerance) | Bound::Below(tolerance) | Bound::AtLeast(tolerance) => {
+                short(tolerance)
+            }
         }
     }
 
@@ -198,6 +221,14 @@ mod tests {
         assert!(!Row::relative("x", "", 1.0, f64::NAN, 1.0).passes());
         assert!(!Row::below("x", "", f64::NAN, 1.0).passes());
         assert!(!Row::count("x", 3, 2).passes());
+        assert!(!Row::at_least("x", "", 2.0, f64::NAN, 1.0).passes());
+    }
+
+    #[test]
+    fn more_than_is_asked_passes_and_less_does_not() {
+        let row = |got| Row::at_least("order", "", 2.0, got, 0.2);
+        assert!(row(1.81).passes() && row(4.0).passes() && !row(1.79).passes());
+        assert_eq!(row(4.0).expected_text(), "≥ 2");
     }
 
     #[test]

@@ -66,6 +66,19 @@ one_test_each! {
     w14_turntable => "W14",
     w15_side_of_entry => "W15",
     w16_restitution => "W16",
+    w17_orders_of_contact => "W17",
+}
+
+/// The picture beside the report.
+#[test]
+fn the_committed_picture_is_current() {
+    let fresh = pong_verify::orders::svg(pong_verify::orders::curves().unwrap());
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/figures/orders.svg");
+    let committed = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(
+        fresh == committed,
+        "docs/figures/orders.svg is out of date, run `pong verify -o docs/verification.md`"
+    );
 }
 
 /// `pong verify -o docs/verification.md` writes it anew.

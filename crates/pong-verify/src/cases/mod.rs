@@ -12,6 +12,7 @@ mod hertz;
 mod incline;
 mod integrators;
 mod ledger;
+mod orders;
 mod peg;
 mod ramp;
 mod rays;
@@ -70,6 +71,7 @@ pub fn cases() -> Vec<Case> {
         turntable::W14,
         entry::W15,
         bounce::W16,
+        orders::W17,
     ]
 }
 

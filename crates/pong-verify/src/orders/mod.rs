@@ -1,0 +1,115 @@
+//! Orders of contact motions in the step: which a host gets, motion by motion and integrator by integrator.
+//!
+//! Each motion is run from several phases of a step where contact begins in it, at a step, half of it and a quarter of it; its
+//! error is the worst over the phases against Runge-Kutta at a step far below. The expectations are what the theory manual
+//! (section 4) promises, and nothing else.
+
+mod motions;
+mod plot;
+
+use crate::scene::Run;
+use crate::{Failure, Row};
+use motions::{MOTIONS, Motion};
+use pong_executive::{Integrator, Vec3};
+use std::sync::OnceLock;
+
+pub use plot::svg;
+
+/// An integrator as the table calls it, and its longest step, s.
+const METHODS: [(&str, Integrator, f64); 3] = [
+    ("Runge-Kutta 4", Integrator::RungeKutta4, 1e-3),
+    ("semi-implicit Euler", Integrator::SemiImplicitEuler, 2e-4),
+    ("held wrench", Integrator::ZeroOrderHold { substeps: 1, delay: 0 }, 2e-4),
+];
+
+/// Steps of a curve: the longest, half and a quarter of it.
+const HALVINGS: usize = 3;
+
+/// How far an observed order may stay behind the promised one: the steps are short, not infinitely so.
+const ORDER_TOLERANCE: f64 = 0.2;
+
+/// Worst errors of a motion under an integrator.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What moves.
+    pub motion: &'static str,
+    /// The integrator's place in the table.
+    pub method: usize,
+    /// What the theory manual promises.
+    pub promised: f64,
+    /// Steps, s, and errors, m/s.
+    pub points: [(f64, f64); HALVINGS],
+}
+
+impl Curve {
+    /// The mean order between the longest and the shortest step.
+    pub fn order(&self) -> f64 {
+        let [(longest, coarse), .., (shortest, fine)] = self.points;
+        libm::log2(coarse / fine) / libm::log2(longest / shortest)
+    }
+}
+
+/// All curves, run once.
+///
+/// # Errors
+/// Why a motion could not be run.
+pub fn curves() -> Result<&'static [Curve], Failure> {
+    static CURVES: OnceLock<Result<Vec<Curve>, String>> = OnceLock::new();
+    let made = CURVES.get_or_init(|| {
+        let made: Result<Vec<_>, Failure> = MOTIONS.iter().map(of_motion).collect();
+        made.map(|curves| curves.concat()).map_err(|failure| failure.to_string())
+    });
+    made.as_deref().map_err(|failure| failure.clone().into())
+}
+
+/// One row for each motion and integrator.
+pub fn rows() -> Result<Vec<Row>, Failure> {
+    let row = |curve: &Curve| {
+        let quantity = format!("{}: {}", METHODS[curve.method].0, curve.motion);
+        Row::at_least(quantity, "", curve.promised, curve.order(), ORDER_TOLERANCE)
+    };
+    Ok(curves()?.iter().map(row).collect())
+}
+
+/// Place, velocity and spin at the end.
+struct End {
+    place: Vec3,
+    velocity: Vec3,
+    spin: Vec3,
+}
+
+impl End {
+    fn of(motion: &Motion, phase: f64, method: (Integrator, f64)) -> Result<Self, Failure> {
+        let mut run: Run = (motion.start)(phase, method)?;
+        run.sim.run_for(motion.duration)?;
+        Ok(Self { place: run.position(), velocity: run.velocity(), spin: run.spin() })
+    }
+
+    /// As a speed, m/s: the place counts over the duration, spin at the lever of the motion.
+    fn from(&self, other: &Self, motion: &Motion) -> f64 {
+        let place = (self.place - other.place).norm() / motion.duration;
+        place + (self.velocity - other.velocity).norm() + motion.lever * (self.spin - other.spin).norm()
+    }
+}
+
+fn of_motion(motion: &Motion) -> Result<Vec<Curve>, Failure> {
+    let phases = (0..motion.phases).map(|i| f64::from(i) / f64::from(motion.phases));
+    let phases: Vec<f64> = phases.collect();
+    let exact = |phase: &f64| End::of(motion, *phase, (Integrator::RungeKutta4, motion.reference_step));
+    let exact = phases.iter().map(exact).collect::<Result<Vec<_>, _>>()?;
+    let mut curves = Vec::new();
+    for (method, (_, integrator, longest)) in METHODS.iter().enumerate() {
+        let mut points = [(0.0, 0.0); HALVINGS];
+        for (halving, point) in points.iter_mut().enumerate() {
+            let step = longest / f64::from(1 << halving);
+            let mut worst = 0.0_f64;
+            for (phase, exact) in phases.iter().zip(&exact) {
+                worst = worst.max(End::of(motion, *phase, (*integrator, step))?.from(exact, motion));
+            }
+            *point = (step, worst);
+        }
+        let promised = if method == 0 { motion.promised } else { 1.0 };
+        curves.push(Curve { motion: motion.name, method, promised, points });
+    }
+    Ok(curves)
+}
