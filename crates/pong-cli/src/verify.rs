@@ -71,7 +71,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     print(&format!("\n{} of {} cases pass\n", verdicts.len() - failed, verdicts.len()));
     if let Some(reason) = write_picture(arguments) {
-        eprintln!("{reason}");
+        tell(reason);
         return ExitCode::FAILURE;
     }
     finish(arguments, &report::markdown(&verdicts), failed)
