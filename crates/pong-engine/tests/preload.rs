@@ -120,7 +120,7 @@ fn only_bristles_of_the_pair_are_preloaded() {
     let pairs = [0, 1].map(|i| world.pair(objects[i], objects[2]).unwrap());
     world.seal().unwrap();
     let sliding = moving(Vec3::new(0.0, 0.0, -DEPTH), Quat::identity(), Vec3::x(), Vec3::zeros());
-    for (object, state) in objects.into_iter().zip([sliding.clone(), sliding, State::identity()]) {
+    for (object, state) in objects.into_iter().zip([sliding, sliding, State::identity()]) {
         world.set_state(world.interface(object, "").unwrap(), &state).unwrap();
     }
     assert_eq!(world.preload_friction(pairs[1], &FrictionPreload::Sliding).unwrap(), 3);
