@@ -87,6 +87,33 @@ pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
     if worst.is_nan() { f64::INFINITY } else { worst }
 }
 
+/// How uncertain the direction of a shared push is. Two faces folded by a small angle θ divide a push by the difference of
+/// their depths; rounding moves each by ε of a size, and the place where they balance by ε/θ of it. The direction turns by that
+/// over the depth, and by no more than θ.
+fn turned_by_a_fold(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> f64 {
+    /// Steeper folds are known well enough.
+    const STEEP: f64 = 1e-4;
+    let back = twin.back.turn.inverse();
+    let far = base.scene.frames[frame]
+        .iter()
+        .flat_map(|state| state.position)
+        .fold(0.0, |m: f64, x| m.max(x.abs()));
+    let moved = 64.0 * (f64::EPSILON * (base.scene.size + far) + twin.rounding);
+    let mine = base.answers[frame].contacts.iter().map(|touch| (touch.normal, touch.depth));
+    let all: Vec<_> =
+        mine.clone().chain(answer.contacts.iter().map(|touch| (back * touch.normal, touch.depth))).collect();
+    let mut most = 0.0_f64;
+    for (normal, depth) in mine {
+        for (other, _) in &all {
+            let fold = (normal - other).norm();
+            if fold > f64::EPSILON * 8.0 && fold < STEEP {
+                most = most.max(fold.min(moved / (fold * depth)));
+            }
+        }
+    }
+    most
+}
+
 /// How far corners of the faces of solids lie out of their planes, m: in single precision a face of four corners is no plane,
 /// and which plane it is taken for may depend on their order.
 fn bent(scene: &Scene) -> f64 {
@@ -141,7 +168,8 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
             continue;
         }
         let largest = base.largest(frame).max(answer.largest / twin.back.force);
-        let allowance = Allowance::of(base, twin, largest);
+        let mut allowance = Allowance::of(base, twin, largest);
+        allowance.force += largest * turned_by_a_fold(base, twin, frame, answer);
         let read = twin.read(answer, &base.scene, frame);
         if allowance.exceeded(&first.wrenches, &read) > 1.0 {
             let difference = distance(&first.wrenches, &read, allowance.lever);

@@ -1,5 +1,12 @@
 //! Small surveys around what once disagreed: each must find nothing, and finds again what is put back (`ci/planted`).
 
+use pong_invariance::base::Base;
+use pong_invariance::invariances::{find, numbers};
+use pong_invariance::judge::Verdict;
+use pong_invariance::make;
+use pong_invariance::random::Random;
+use pong_invariance::scene::{Scene, Shape};
+use pong_invariance::text;
 use pong_invariance::{Order, Survey};
 
 /// Nothing differs in so many scenes of a family, or of those that the invariances make for themselves.
@@ -17,6 +24,53 @@ fn nothing_differs(only: &[&str], family: Option<&str>, scenes: u64) {
     let found: String = survey.found.iter().map(|found| found.text()).collect();
     assert!(survey.differ() == 0 && survey.refused == 0, "{}\n{found}", survey.text());
     assert!(survey.compared() > scenes / 40, "too little was compared:\n{}", survey.text());
+}
+
+/// Nothing differs in the scenes of a family that are asked for, of so many.
+fn nothing_differs_where(only: &[&str], family: &str, scenes: u64, is_asked: impl Fn(&Scene) -> bool) {
+    const SEED: u64 = 20;
+    let mut compared = 0;
+    for index in 0..scenes {
+        let scene = make::scene_of(&mut Random::new(SEED, 0, index), family).expect("a family of scenes");
+        if !is_asked(&scene) {
+            continue;
+        }
+        let mut base = Base::new(scene).expect("a scene that loads");
+        for name in only {
+            let invariance = find(name).expect("an invariance");
+            let verdict = invariance.judge(&mut base, &mut numbers(invariance, SEED, index));
+            compared += u64::from(!matches!(verdict, Verdict::DoesNotApply));
+            if let Verdict::Differs(found) = verdict {
+                panic!("{name}, scene {index}: {}\n{}", found.says, text::scene(&base.scene));
+            }
+        }
+    }
+    assert!(compared > scenes / 20, "only {compared} compared");
+}
+
+fn all_touch_as(kind: &str, scene: &Scene) -> bool {
+    scene.bodies[0].shapes.iter().all(|shape| shape.kind() == kind)
+}
+
+#[test]
+fn points_and_balls_in_pieces() {
+    let are = |scene: &Scene| all_touch_as("Point", scene) || all_touch_as("Sphere", scene);
+    nothing_differs_where(&["turned", "group_frame"], "pieces", 2000, are);
+}
+
+#[test]
+fn ellipsoids_in_valleys() {
+    nothing_differs_where(&["turned"], "valley", 1500, |scene| all_touch_as("Ellipsoid", scene));
+}
+
+#[test]
+fn bodies_set_down_outside() {
+    nothing_differs(&["set_down"], None, 400);
+}
+
+#[test]
+fn points_that_wind_through_hulls() {
+    nothing_differs(&["depth_steps"], None, 600);
 }
 
 #[test]
