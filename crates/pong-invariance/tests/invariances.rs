@@ -5,7 +5,7 @@ use pong_invariance::invariances::{find, numbers};
 use pong_invariance::judge::Verdict;
 use pong_invariance::make;
 use pong_invariance::random::Random;
-use pong_invariance::scene::{Scene, Shape};
+use pong_invariance::scene::Scene;
 use pong_invariance::text;
 use pong_invariance::{Order, Survey};
 
