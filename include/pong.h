@@ -853,7 +853,8 @@ pong_status pong_load_model_text(struct pong_world *world,
 /// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
 /// too. Without it a mesh that lies outside the model's own folder, through a link, is refused. Before sealing; may be
 /// called for several folders.
-pong_status pong_allow_files_below(struct pong_world *world, const char *folder);
+pong_status pong_allow_files_below(struct pong_world *world,
+                                   const char *folder);
 
 /// How many warnings loading a model left: what its author should know though the model is valid.
 pong_status pong_model_warning_count(const struct pong_world *world,
@@ -1092,11 +1093,13 @@ pong_status pong_worker_text(const struct pong_world *world, size_t lane, const 
 
 /// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
 /// made once, is large enough for ever.
-pong_status pong_contact_state_size(const struct pong_world *world, size_t *size);
+pong_status pong_contact_state_size(const struct pong_world *world,
+                                    size_t *size);
 
 /// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
 /// is mostly far below pong_contact_state_size().
-pong_status pong_contact_state_used(const struct pong_world *world, size_t *size);
+pong_status pong_contact_state_used(const struct pong_world *world,
+                                    size_t *size);
 
 /// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
 /// the first pong_contact_state_used() bytes; those behind, up to pong_contact_state_size(), become zero. The bytes hold no
