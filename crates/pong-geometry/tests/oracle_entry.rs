@@ -181,8 +181,9 @@ fn along_a_path_the_depth_never_steps_up() {
         let step = random.between(1e-4, 0.05);
         let mut p = corners.iter().sum::<Vec3>() / 8.0;
         let mut heading = random.direction();
-        let mut memory = (random.bits() % hull.faces.len() as u64) as usize;
-        let mut depth = follow(&p, &hull, memory).depth;
+        // As a commit does: the face reached is what the next frame begins from.
+        let first = follow(&p, &hull, (random.bits() % hull.faces.len() as u64) as usize);
+        let (mut memory, mut depth) = (first.face, first.depth);
         for _ in 0..200 {
             heading = (heading + random.direction() * 0.3).normalize();
             let next = p + heading * step;

@@ -36,7 +36,8 @@ fn surfaces_and_pairs_are_read() {
     let model = load(include_str!("models/everything.ron"));
     let by_name = |name: &str| model.surfaces.iter().find(|s| s.name == name).unwrap();
     assert_eq!(by_name("steel").stiffness, f64::INFINITY);
-    assert_eq!(by_name("steel").normal, NormalLaw::Linear { damping: 0.0, ramp: 0.0 });
+    // A rigid surface takes what it does not say from what it meets.
+    assert_eq!(by_name("steel").normal, NormalLaw::Inherited);
     let NormalLaw::Linear { damping, .. } = by_name("rubber").normal else { panic!() };
     // zeta 0.25528 gives e = 0.5 where the law never pulls; the textbook's formula would say 0.2155.
     assert!((damping - 2.0 * 0.25528 * (1e4_f64 * 100.0).sqrt()).abs() < 0.02, "{damping}");
