@@ -46,7 +46,7 @@ pub fn read_below<'f>(path: &Path, folders: impl IntoIterator<Item = &'f Path>) 
     Err(Error::new(std::io::ErrorKind::PermissionDenied, outside(&real)))
 }
 
-fn outside(real: &PathBuf) -> String {
+fn outside(real: &Path) -> String {
     format!("it lies at {}, outside the folder of the file that names it", real.display())
 }
 

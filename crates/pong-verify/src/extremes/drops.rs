@@ -15,8 +15,9 @@ pub const DROPS: Extreme = Extreme {
             order, no rebound above the drop height.",
     set_up: "A point mass of 1 g to 1 t falls from rest for 5 to 50 steps onto a spring with ω·dt of 0.01 to 0.3 and damping \
              ratios ζ of 0 to 1, Runge-Kutta and semi-implicit Euler, until it is up again or at rest. Allowed, over the energy \
-             of the impact: (ω·dt)² with Runge-Kutta, as the ledger is a trapezoid rule, and 2ζ·ω·dt for damping that sets \
-             in at once; with Euler (1 + 2ζ)·ω·dt. Order: Hunt-Crossley damping, which sets in with the depth.",
+             of the impact: rounding with Runge-Kutta, whose ledger takes what the stages gave; with Euler (1 + 2ζ)·ω·dt, 2ζ·ω·dt \
+             of it for damping that sets in at once. A rebound with Runge-Kutta: (ω·dt)² + 2ζ·ω·dt. Order: Hunt-Crossley damping, \
+             which sets in with the depth.",
     answer: Answer::Safe,
     limit: "damping without a ramp jumps at touch, which costs the ledger an order",
     also: "cases V3, V4, V6, W11, W12",
@@ -152,6 +153,10 @@ struct Fallen {
     warned: bool,
 }
 
+/// What rounding may do to the sum of the energies of a drop, over the energy of its impact: thousands of steps of 1e-16
+/// each, of energies up to a thousand times as large.
+const ROUNDED: f64 = 1e-9;
+
 fn drops(length: Length) -> Outcome {
     let count = length.of(400, 10_000);
     let mut rows = Vec::new();
@@ -159,7 +164,7 @@ fn drops(length: Length) -> Outcome {
     for (name, integrator, power) in methods {
         let mut random = Random(17);
         let (mut negative, mut warned) = (0, 0);
-        let (mut open, mut above) = (0.0_f64, 0.0_f64);
+        let (mut open, mut unbalanced, mut above) = (0.0_f64, 0.0_f64, 0.0_f64);
         for _ in 0..count {
             let drop = Drop::new(&mut random, 0.3);
             let fallen = drop.run(integrator)?;
@@ -168,10 +173,19 @@ fn drops(length: Length) -> Outcome {
             negative += usize::from(fallen.least_force < 0.0);
             warned += usize::from(fallen.warned);
             open = open.max(fallen.worst_balance / allowed);
+            unbalanced = unbalanced.max(fallen.worst_balance);
             above = above.max(fallen.above / allowed);
         }
         rows.push(Row::count(format!("{name}, {count} drops: negative normal forces"), 0, negative));
-        rows.push(Row::below(format!("{name}: error of the ledger over allowed, worst"), "", open, 1.0));
+        rows.push(match integrator {
+            Integrator::RungeKutta4 => Row::below(
+                format!("{name}: error of the ledger over the energy, worst"),
+                "",
+                unbalanced,
+                ROUNDED,
+            ),
+            _ => Row::below(format!("{name}: error of the ledger over allowed, worst"), "", open, 1.0),
+        });
         rows.push(Row::below(
             format!("{name}: rebound above the drop height over allowed, worst"),
             "",
@@ -179,7 +193,9 @@ fn drops(length: Length) -> Outcome {
             1.0,
         ));
         rows.push(Row::count(format!("{name}: warnings of a step that is stable"), 0, warned));
-        rows.push(observed_order(name, integrator, power)?);
+        if integrator == Integrator::SemiImplicitEuler {
+            rows.push(observed_order(name, integrator, power)?);
+        }
     }
     Ok(rows)
 }
