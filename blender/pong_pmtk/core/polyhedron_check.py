@@ -11,11 +11,10 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .polygon import area_vector, longest_edge, off_plane, unit, width
-from .polyhedron_merge import HullFace, edges, merge_coplanar
+from .polyhedron_merge import LEVELS, HullFace, edges, merge_coplanar, straighten, support
 
 PLANE_TOLERANCE = 1e-6  # of the diameter
 SLIVER = 1e-9  # of the longest edge
-LEVELS = 5  # how often the tolerance of merging is made smaller
 
 
 @dataclass
@@ -56,10 +55,15 @@ def _check(vertices: np.ndarray, faces: list[np.ndarray], inactive: set[int]) ->
     _refuse(_closed_surface(vertices, faces))
     _refuse(_volume(vertices, faces, diameter))
     _refuse(_planar(vertices, faces, diameter))
-    # Merged faces can end ragged where they lie nearly in one plane: then less and less is merged, as in the loader, and
-    # in the end nothing.
-    for tolerance in [PLANE_TOLERANCE * diameter * 0.25**level for level in range(LEVELS)] + [None]:
-        hull = merge_coplanar(vertices, faces, inactive, tolerance, diameter)
+    # The first attempt merges all that lies within the tolerance and leaves the rest as it is. Those after it straighten
+    # edges and planes that rounding has bent, and merge less and less, in the end nothing: as in the loader.
+    tolerance = PLANE_TOLERANCE * diameter
+    problems: list[Problem] = []
+    for attempt in range(LEVELS + 2):
+        hull = merge_coplanar(vertices, faces, inactive, tolerance, diameter, max(attempt - 1, 0))
+        if attempt > 0:
+            straighten(vertices, hull, tolerance)
+            support(vertices, used, hull, tolerance)
         problems = _convex(vertices, hull, used, diameter)
         if not problems:
             return
