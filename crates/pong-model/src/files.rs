@@ -3,7 +3,7 @@
 
 use std::fs::File;
 use std::io::{Error, Read, Result};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Longer files are refused: places in them are counted in 32 bits.
 const LONGEST: u64 = u32::MAX as u64;

@@ -28,13 +28,16 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
     if radius <= 0.0 {
         return Vec3::zeros();
     }
-    let way = Way::after_leaving(&input.carried, &input.slip, left_at);
     let length = input.slip.norm();
-    if way.left <= 0.0 || length <= 0.0 {
-        return way.direction * radius;
+    if length <= 0.0 {
+        return unit_or(&input.carried, Vec3::zeros()) * radius;
     }
     let along = input.slip / length;
-    let ratio = way.left * length / radius;
+    let way = Way::after_leaving(&input.carried, &along, length, left_at);
+    if way.left <= 0.0 {
+        return way.direction * radius;
+    }
+    let ratio = way.left / radius;
     let decay = libm::exp(-ratio);
     let turned = turned_towards(&way.direction, &along, decay);
     // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.
@@ -47,26 +50,36 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
 
 /// Where the circle was left on a straight way.
 struct Way {
-    /// Unit vector of the bristle there.
+    /// Unit vector of the bristle there. It points along the way or across it, never back, where any of the way is left.
     direction: Vec3,
-    /// The part of the way that was left, 0…1.
+    /// The part of the way that was left, m.
     left: f64,
 }
 
 impl Way {
-    /// From `start` by `displacement`, which ends outside of the circle of radius `circle`: where it leaves that circle for
+    /// From `start` along a unit vector to an end outside of the circle of radius `circle`: where it leaves that circle for
     /// the last time, or comes nearest to it. The load may have fallen, so that all of the way lies outside.
-    fn after_leaving(start: &Vec3, displacement: &Vec3, circle: f64) -> Self {
-        let square = displacement.norm_squared();
-        let along = start.dot(displacement);
-        let outside = start.norm_squared() - circle * circle;
-        let discriminant = (along * along - square * outside).max(0.0);
-        let passed = ((discriminant.sqrt() - along) / square).clamp(0.0, 1.0);
-        // A displacement so short that its square is none has turned nothing.
-        let passed = if square > 0.0 { passed } else { 1.0 };
-        let place = start + displacement * passed;
-        Self { direction: place / place.norm(), left: 1.0 - passed }
+    ///
+    /// The place is built from the point of the line that is nearest to the middle. Summed up from the start it would be
+    /// rounding alone where the circle is far smaller than the bristle was: under a load that has all but gone.
+    fn after_leaving(start: &Vec3, along: &Vec3, length: f64, circle: f64) -> Self {
+        let advance = start.dot(along);
+        let nearest = start - along * advance;
+        let half_chord = (circle * circle - nearest.norm_squared()).max(0.0).sqrt();
+        let passed = half_chord - advance;
+        if passed >= length {
+            let end = start + along * length;
+            return Self { direction: unit_or(&end, *along), left: 0.0 };
+        }
+        let place = if passed > 0.0 { nearest + along * half_chord } else { *start };
+        Self { direction: unit_or(&place, *along), left: length - passed.max(0.0) }
     }
+}
+
+/// The unit vector along `v`; `other` where `v` is too short to have a direction.
+fn unit_or(v: &Vec3, other: Vec3) -> Vec3 {
+    let length = v.norm();
+    if length > 0.0 { v / length } else { other }
 }
 
 /// `direction` after ψ has become 2·atan(tan(ψ/2)·decay), ψ its angle to `along`, at most 90°; all unit vectors.
@@ -190,6 +203,20 @@ mod tests {
             assert!((lag_of_turn(z, libm::exp(-z)) - closed).abs() < 1e-14, "{z}");
         }
         assert!((lag_of_turn(1e-6, libm::exp(-1e-6)) / (1e-12 / 6.0) - 1.0).abs() < 1e-6);
+    }
+
+    /// A load that has all but gone leaves a circle far smaller than the bristle, which the way crosses through its middle.
+    #[test]
+    fn a_way_through_the_middle_of_a_tiny_circle_ends_along_it() {
+        for exponent in 0..60 {
+            let circle = RADIUS * 10.0_f64.powi(-5 * exponent);
+            for part in [1.0 / 3.0, 0.5, 0.7] {
+                let heading = Vec3::new(0.6, -0.8, 0.0);
+                let (start, way) = (heading * (-part * RADIUS), heading * RADIUS);
+                let got = on_circle(&input(start, way, heading), circle, circle);
+                assert!((got - heading * circle).norm() <= 1e-9 * circle, "{circle:e}: {got:?}");
+            }
+        }
     }
 
     /// What ends outside under a fallen load, whether its way meets the circle or passes beside it, changes little with its
