@@ -48,7 +48,7 @@ pub(super) fn pushes_before(contact: &Found, other: &Found) -> bool {
 /// Whether what is touched belongs to one convex body: each place lies below the plane through the other across its
 /// normal, or in it.
 fn meet_convexly(contact: &Found, other: &Found, pieces: &[Polyhedron]) -> bool {
-    if contact.stance == Stance::Spare {
+    if contact.stance == Stance::Spare && other.stance == Stance::Spare {
         // The feet lie beside the pieces and say nothing; the faces themselves do.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }

@@ -40,6 +40,9 @@ const FOOT_SLACK: f64 = 1e-12;
 const CONE_SLACK: f64 = 1e-9;
 /// Two depths within this share count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
+/// Two faces count as meeting concavely, and not flat, only if the sine of the angle between them exceeds this: on a seam
+/// of a flat plate one face holds the foot, and the other is spare.
+const CONCAVE_SINE_MIN: f64 = 1e-9;
 /// By how large a share the depth of a second minimum may lie below what it is at least; far beyond rounding.
 const SECOND_SLACK: f64 = 1e-6;
 
@@ -201,7 +204,7 @@ impl Tester<'_> {
             return;
         }
         let foot = self.foot_on(&self.view.normal, depth);
-        let holds = holds_foot(&self.edges, &foot);
+        let holds = holds_foot(&self.edges, &foot) || self.holds_in_a_crease(&foot);
         if !holds && !self.stands_in(&foot) {
             return;
         }
@@ -244,6 +247,18 @@ impl Tester<'_> {
         difference < -rounding || (difference <= rounding && face < other_face)
     }
 
+    /// Whether the foot lies within rounding of concave edges and nowhere else outside: on the line of a valley the face
+    /// still holds it, on whichever side rounding puts it.
+    fn holds_in_a_crease(&self, foot: &Vec3) -> bool {
+        (0..3).filter(|&k| self.edges.is_beyond(k, foot)).all(|k| {
+            let is_concave = || match self.edges.class(k) {
+                EdgeClass::Silent { outward, .. } => self.view.normal.dot(&outward) < -CONCAVE_SINE_MIN,
+                EdgeClass::Free | EdgeClass::Convex { .. } => false,
+            };
+            self.edges.beyond(k, foot) <= self.foot_slack && is_concave()
+        })
+    }
+
     /// Whether the face stands in for a foot that it does not hold: beyond an edge by rounding, or where concave and flat
     /// edges have lost it and the centre says so (see the head of this file).
     fn stands_in(&self, foot: &Vec3) -> bool {
@@ -265,7 +280,7 @@ impl Tester<'_> {
         let other = TriangleView::new(self.set, neighbor);
         let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
         let from_edge = self.foot_on(&other.normal, depth) - self.view.edge_ends(k)[0];
-        depth <= 0.0 || outward.dot(&from_edge) > 0.0
+        depth <= 0.0 || outward.dot(&from_edge) > self.foot_slack
     }
 
     /// Whether the centre lies beyond edge `k`; what only rounding puts there does not.
