@@ -77,7 +77,7 @@ fn description(log: &mut Log) -> Result<String, LogError> {
     }
     for pair in 0..run.pairs.len() {
         let [a, b] = run.pair_names(pair).unwrap_or_default();
-        let _ = writeln!(text, "  pair `{}`, `{}`", printable(&a), printable(&b));
+        let _ = writeln!(text, "  pair `{}`, `{}`", printable(a), printable(b));
     }
     if !log.events().is_empty() {
         let _ = writeln!(text, "  {}", rows(log.events().len() as u64, "event"));

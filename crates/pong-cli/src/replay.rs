@@ -47,7 +47,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         print(&summary(&report, arguments.tolerance));
     }
     for difference in &report.differences {
-        tell(&difference);
+        tell(difference);
     }
     if let Some(obstacle) = &report.obstacle {
         tell(format!("not exact from frame {} on: {obstacle}", obstacle.frame()));

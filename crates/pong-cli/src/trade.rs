@@ -128,7 +128,7 @@ fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
         ));
     }
     if !study.converged {
-        tell(format!("warning: the reference has not converged; no level is named"));
+        tell("warning: the reference has not converged; no level is named");
     }
     if changed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -75,7 +75,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if faults == 0 {
         return ExitCode::SUCCESS;
     }
-    tell(format!("{}", crate::text::count(faults, "fault", "faults")));
+    tell(crate::text::count(faults, "fault", "faults").to_string());
     ExitCode::FAILURE
 }
 
