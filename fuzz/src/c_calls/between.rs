@@ -4,7 +4,8 @@ use super::frames::finite;
 use super::laws;
 use super::session::{Session, Sure, read_text};
 use pong::contact_state::{
-    pong_contact_state_size, pong_contact_state_used, pong_restore_contact_state, pong_save_contact_state,
+    pong_contact_state_size, pong_contact_state_used, pong_preload_friction, pong_restore_contact_state,
+    pong_save_contact_state,
 };
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::objects::pong_forget_object;
@@ -20,13 +21,14 @@ const SURFACES: [&str; 6] = ["rubber", "rock", "wall", "own", "foam", "nope"];
 
 impl Session<'_> {
     pub fn between_frames(&mut self) {
-        match self.input.below(8) {
+        match self.input.below(9) {
             0 => self.save(),
             1 | 2 => self.restore(),
             3 => self.forget(),
             4 => self.switch_pair(),
             5 | 6 => self.surface(),
-            _ => self.wake(),
+            7 => self.wake(),
+            _ => self.preload(),
         }
     }
 
@@ -112,6 +114,22 @@ impl Session<'_> {
         let sealed = self.host().is_some_and(|host| host.sealed);
         let sure = known.and(good).only_if(sealed);
         self.call("forget", sure, || unsafe { pong_forget_object(world, object) });
+    }
+
+    /// Which contacts there are to be preloaded, and whether their forces are numbers, is the scene's.
+    fn preload(&mut self) {
+        let (world, known) = self.world();
+        let (pair, good) = self.id(|ids| &ids.pairs, |bits| pong_pair_id { bits });
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        let force = [self.input.number(), self.input.number(), self.input.number()];
+        let force = if self.input.chance(128) { std::ptr::null() } else { force.as_ptr() };
+        let mut count = 0;
+        let sure = known.and(good).and(Sure::Unknown).only_if(sealed);
+        if self.call("preload", sure, || unsafe { pong_preload_friction(world, pair, force, &mut count) })
+            && let Some(host) = self.host()
+        {
+            host.has_frame = false;
+        }
     }
 
     fn switch_pair(&mut self) {

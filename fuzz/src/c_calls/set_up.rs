@@ -8,7 +8,7 @@ use pong::config::{pong_config, pong_default_config};
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::interfaces::pong_list_interfaces;
 use pong::laws::{pong_register_friction_law, pong_register_normal_law};
-use pong::models::{pong_load_model, pong_load_model_text};
+use pong::models::{pong_allow_files_below, pong_load_model, pong_load_model_text};
 use pong::objects::pong_create_object;
 use pong::pairs::{pong_pair_by_name, pong_pair_objects};
 use pong::seal::{pong_seal, pong_seal_note, pong_seal_report, pong_seal_warning};
@@ -286,6 +286,9 @@ impl Session<'_> {
         let (world, known) = self.world();
         let place = self.place();
         let folder = crate::files::folder().display().to_string();
+        let below = self.text(&["", "/nowhere", "missing", &folder, "."]);
+        let sure = known.and(Sure::Unknown);
+        self.call("allow files below", sure, || unsafe { pong_allow_files_below(world, below.pointer()) });
         let path = self.text(&["", "/", "missing.ron", "/dev/null", &folder, "/proc/self/mem", "."]);
         let sure = Sure::Wrong.and(known);
         self.call("load", sure, || unsafe { pong_load_model(world, path.pointer(), place.pointer) });
