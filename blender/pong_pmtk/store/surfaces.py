@@ -14,14 +14,15 @@ NORMAL_LAWS = [
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 FRICTION_LAWS = [
-    ("DEFAULT", "None", "No friction; of a rigid surface, that of what it meets", None),
+    ("DEFAULT", "None Given", "No friction; of a rigid surface, that of what it meets", None),
+    ("None", "None", "No friction, of a rigid surface neither", {}),
     ("Bristle", "Bristle", "A bristle that sticks and slips", {"mu": 0.2}),
     ("Coulomb", "Coulomb", "Regularised: creeps under any load", {"mu": 0.2, "slip_speed": 0.001}),
     ("Custom", "Custom", "A law that is registered with the engine", {"name": "", "parameters": []}),
 ]
 SERIES = [("DEFAULT", "Of both in series", "What the rule for two springs in series gives", None)]
 # In a pair "no friction" is something else than "what the two surfaces give".
-PAIR_FRICTION_LAWS = SERIES + [("None", "None", "No friction between the two", {})] + FRICTION_LAWS[1:]
+PAIR_FRICTION_LAWS = SERIES + [("None", "None", "No friction between the two", {})] + FRICTION_LAWS[2:]
 PAIR_NORMAL_LAWS = SERIES + NORMAL_LAWS[1:]
 
 
@@ -141,7 +142,7 @@ def add_surface(settings, name, fields):
     surface = settings.surfaces.add()
     surface.known_as = name
     surface.name = name
-    spec.write(surface, spec.to_plain({key: value for key, value in fields.items() if value is not None}))
+    spec.write(surface, spec.to_plain(fields))
     return surface
 
 

@@ -205,7 +205,15 @@ impl Hulled {
         if !matches!(found, Err(Flaw::Dented { .. } | Flaw::Tangled | Flaw::Open { .. })) {
             return found;
         }
-        let Some((hull, deepest_m)) = crate::decompose::hull_of_mesh(part) else { return found };
+        // What finds hulls is built only where convex decomposition is.
+        #[cfg(feature = "decompose")]
+        let hulled = crate::decompose::hull_of_mesh(part);
+        #[cfg(not(feature = "decompose"))]
+        let hulled: Option<(Polyhedron, f64)> = {
+            let _ = part;
+            None
+        };
+        let Some((hull, deepest_m)) = hulled else { return found };
         self.parts += 1;
         self.deepest_m = self.deepest_m.max(deepest_m);
         Ok(hull)
