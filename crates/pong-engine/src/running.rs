@@ -1,11 +1,11 @@
 //! What exists once a world is sealed: its memory, its workers, its frames.
 
-use crate::account::Account;
+use crate::energy::account::Account;
 use crate::error::EngineError;
 use crate::frame::{self, Crew, Frame, FrameInput, FrictionPreload, Given, Motion, ROUND};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::sealed::{GroupPair, Sealed, SurfaceTable, leave_room_for_small_things};
+use crate::seal::{GroupPair, Sealed, SurfaceTable, leave_room_for_small_things};
 use crate::state::{
     Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, needed_len, read_block,
     write_block,

@@ -1,8 +1,8 @@
 //! Everything that set-up decides, and the states that the host sets.
 
-use crate::account::WrenchUse;
 use crate::advice::{GroupMass, StepPlan};
-use crate::registry::Laws;
+use crate::energy::account::WrenchUse;
+use crate::law::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::{Body, Model};

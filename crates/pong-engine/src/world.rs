@@ -1,16 +1,16 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
-use crate::account::{Account, PairAccount, WrenchUse};
 use crate::advice::{self, ActingReport, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
+use crate::energy::account::{Account, PairAccount, WrenchUse};
 use crate::error::EngineError;
 use crate::frame::{FrictionPreload, Passed};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
-use crate::registry::Laws;
+use crate::law::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
 use crate::running::Running;
 use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
-use crate::sealed::{self, SealReport};
+use crate::seal::{self, SealReport};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_model::{LARGEST, Model, Surface};
@@ -195,7 +195,7 @@ impl World {
     /// and takes it, and starts the workers. From here on frames take no memory and give none back.
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.must_not_be_sealed("seal")?;
-        let (sealed, tables, mut report) = sealed::seal(&self.scene, &self.surfaces)?;
+        let (sealed, tables, mut report) = seal::seal(&self.scene, &self.surfaces)?;
         if let Some(plan) = &self.scene.step_plan {
             let (scene, masses) = (&*self.scene, &self.scene.masses);
             let setting =
@@ -536,10 +536,10 @@ impl World {
             let (what, name) = ("surface", surface.name.clone());
             return Err(EngineError::UnknownName { what, name, known: known(surfaces) });
         };
-        sealed::check_surface_change(&surfaces[place], surface)?;
+        seal::check_surface_change(&surfaces[place], surface)?;
         let before = std::mem::replace(&mut surfaces[place], surface.clone());
         let Some(running) = &mut self.running else { return Ok(()) };
-        let tables = sealed::surface_tables(&self.scene, &self.surfaces, &running.sealed.group_pairs);
+        let tables = seal::surface_tables(&self.scene, &self.surfaces, &running.sealed.group_pairs);
         match tables {
             Ok(tables) => running.set_tables(tables),
             Err(problems) => {

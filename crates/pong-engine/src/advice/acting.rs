@@ -14,7 +14,7 @@ use super::mass::StepPlan;
 use super::mobility::{Mobility, Vec6, largest_eigenvalue};
 use super::spring::{ContactSprings, pressed_springs};
 use crate::frame::{Frame, FrameContact};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use nalgebra::DMatrix;
 use pong_geometry::Vec3;
 use std::collections::BTreeSet;

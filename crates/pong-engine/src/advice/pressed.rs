@@ -9,7 +9,7 @@ use super::mass::StepPlan;
 use super::spring::pressed_springs;
 use super::warn::warnings;
 use crate::frame::{Frame, FrameContact};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use std::collections::BTreeMap;
 
 /// Single contacts of the last frame; of every pair of movable groups the one that bears the least step speaks. Bounces are

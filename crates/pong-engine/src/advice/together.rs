@@ -19,7 +19,7 @@ use super::check::Setting;
 use super::mass::StepPlan;
 use super::mobility::{Mat6, Mobility, largest_eigenvalue};
 use super::spring::{ContactSprings, springs};
-use crate::sealed::{GroupPair, can_be_tested};
+use crate::seal::{GroupPair, can_be_tested};
 use nalgebra::DMatrix;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -147,7 +147,7 @@ impl Direction {
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
-            |info: &&PrimitiveInfo| kinds.iter().any(|kind| crate::dispatch::has_tester(*kind, info.kind));
+            |info: &&PrimitiveInfo| kinds.iter().any(|kind| crate::pair_table::has_tester(*kind, info.kind));
         let planes =
             body_b.primitives.iter().filter(touched).filter(|info| info.kind == PrimitiveKind::Plane).count();
         let boxes = boxes(body_b, touched);

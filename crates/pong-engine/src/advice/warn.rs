@@ -5,7 +5,7 @@ use super::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
 use super::coupling::Coupling;
 use super::mass::StepPlan;
 use super::spring::Spring;
-use crate::sealed::{SetupNote, SetupWarning};
+use crate::seal::{SetupNote, SetupWarning};
 
 /// An undamped wrench that is held gains a little at any step: below this ω·dt that is left to the host.
 const HELD_UNDAMPED: f64 = 0.1;

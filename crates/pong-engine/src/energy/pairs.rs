@@ -1,6 +1,6 @@
 //! Accounts of pairs of movable groups, and wrenches on their way to the bodies.
 
-use crate::account::{Account, Verdict};
+use crate::energy::account::{Account, Verdict};
 use pong_geometry::{Vec3, Wrench};
 
 /// Accounts of one pair of movable groups.

@@ -1,18 +1,18 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
-use super::bounding::batches_of_b;
-use super::buffers::Found;
-use super::carried::Carried;
-use super::chunk::Chunk;
-use super::input::{Block, FrameInput, PairContext};
-use super::lane::Lane;
-use super::reach::{GROUP, Meetings, Reach, Way, chunks_in_reach};
-use super::testers::{Findings, Target, test_waiting};
-use super::{forces, sharing};
+use crate::frame::broad_phase::blocks::batches_of_b;
+use crate::frame::broad_phase::candidate_pairs::{GROUP, Meetings, Reach, Way, chunks_in_reach};
+use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::transformed::Carried;
+use crate::frame::buffers::Found;
+use crate::frame::input::{Block, FrameInput, PairContext};
+use crate::frame::load_sharing::solver::Sharer;
+use crate::frame::narrow_phase::testers::{Findings, Target, test_waiting};
+use crate::frame::worker_context::Lane;
+use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
-use crate::sharing::Sharer;
+use crate::seal::Sealed;
 use pong_arena::List;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
@@ -34,7 +34,7 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_str
 }
 
 /// Works off one block; what it finds goes to the lane. Where no clock was lent, there is no trace of one either.
-pub(super) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
+pub(crate) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
     lane.arena.reset();
     let block = input.blocks[block];
     match input.clock.0 {
@@ -101,7 +101,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     out.wants.at_once = out.wants.at_once.max(found.seen);
                 }
                 if !found.list.is_empty() {
-                    let shared = sharing::settle(&context, &mut found.list, &mut sharers, scratch);
+                    let shared = load_sharing::settle(&context, &mut found.list, &mut sharers, scratch);
                     out.wants.unshared |= shared.is_err();
                     laps.lap(Work::Sharing, &mut out.times);
                     forces::press_found(&context, sealed, &found.list, custom, out);

@@ -1,11 +1,11 @@
 //! What a frame writes, grouped by the stage that writes it.
 
-use super::accounts::Interval;
-use super::input::FrameInput;
-use super::lane::Lane;
-use super::passages::Passages;
+use crate::frame::energy::accounts::Interval;
+use crate::frame::input::FrameInput;
+use crate::frame::tunnelling::Passages;
+use crate::frame::worker_context::Lane;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{Books, ContactKey, ContactRecord, PairPose, Role};
 use pong_arena::Table;
 use pong_geometry::interference::{Feature, Interference};

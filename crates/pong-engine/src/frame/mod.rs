@@ -1,47 +1,38 @@
 //! One frame: the stages in order.
 
-mod accounts;
 mod block;
-mod bounding;
+mod broad_phase;
 mod buffers;
-mod carried;
-mod chunk;
-mod crew;
+mod energy;
 mod forces;
 mod input;
-mod lane;
-mod ledger;
-mod listing;
-mod nearest_side;
-mod order;
-mod passages;
-mod pieces;
-mod preload;
-mod reach;
-mod reduce;
-mod relative;
-mod sharing;
-mod side_of_entry;
-mod state_in;
-mod testers;
+pub(crate) mod load_sharing;
+mod narrow_phase;
+mod output;
+mod tunnelling;
+mod worker_context;
+mod worker_pool;
 
-pub(crate) use accounts::{Interval, contact_numbers};
 pub(crate) use block::arena_bytes;
-pub(crate) use bounding::ROUND;
+pub(crate) use broad_phase::blocks::ROUND;
 pub(crate) use buffers::{Frame, FrameContact, Place};
-pub(crate) use crew::Crew;
+pub(crate) use energy::accounts::{Interval, contact_numbers};
+pub(crate) use input::motion::Motion;
+pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, FrameInput};
-pub(crate) use passages::{Passed, least_travel_m, reach_m};
-pub use preload::FrictionPreload;
-pub(crate) use relative::Motion;
-pub(crate) use state_in::require_states;
+pub use output::preload::FrictionPreload;
+pub(crate) use tunnelling::{Passed, least_travel_m, reach_m};
+pub(crate) use worker_pool::Crew;
 
 use crate::report::{Clock, Stage, Work, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::ContactMemory;
-use lane::Lane;
+use broad_phase::blocks;
+use input::{motion, states};
+use output::{order, reduce};
 use std::sync::Arc;
+use worker_context::Lane;
 
 /// What a frame is computed from.
 pub(crate) struct Given<'a> {
@@ -57,15 +48,15 @@ pub(crate) fn evaluate(given: &Given<'_>, crew: Option<&mut Crew>, frame: &mut F
     let Given { scene, sealed, states, memory, clock } = *given;
     frame.begin(sealed);
     let mut watch = clock.start();
-    state_in::latch(sealed, states, frame);
-    relative::relate(given, frame);
+    states::latch(sealed, states, frame);
+    motion::relate(given, frame);
     watch.lap(Stage::Relative, &mut frame.times);
     find_contacts(given, crew, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(scene, sealed, frame);
-    passages::watch(given, frame);
+    tunnelling::watch(given, frame);
     watch.lap(Stage::Order, &mut frame.times);
-    ledger::balance(scene, sealed, memory, frame);
+    energy::balance(scene, sealed, memory, frame);
     watch.lap(Stage::Ledger, &mut frame.times);
     reduce::sum(sealed, frame);
     watch.lap(Stage::Reduce, &mut frame.times);
@@ -81,7 +72,7 @@ fn find_contacts(given: &Given<'_>, mut crew: Option<&mut Crew>, frame: &mut Fra
     }
     // What is between the rounds is the caller's.
     let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
-    bounding::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
+    blocks::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
         laps.lap_work(Work::Bounding, &mut layout);
         input.phase += 1;
         let shared = crew.as_mut().is_some_and(|crew| share_out(crew, input, cost_ns, lane));

@@ -1,10 +1,10 @@
 //! What one lane — the calling thread or a worker — writes while it works.
 
-use super::buffers::{FrameContact, Stance};
-use super::reach::Meetings;
-use super::testers::Waiting;
+use crate::frame::broad_phase::candidate_pairs::Meetings;
+use crate::frame::buffers::{FrameContact, Stance};
+use crate::frame::narrow_phase::testers::Waiting;
 use crate::report::{FrameCounts, WorkTimes};
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::Role;
 use pong_arena::{Arena, Table};
 
@@ -15,8 +15,8 @@ pub(crate) struct Lane {
     pub arena: Arena,
     /// For one solution among contacts of one key.
     pub scratch: Arena,
-    pub(super) meetings: Meetings,
-    pub(super) waiting: Waiting,
+    pub(crate) meetings: Meetings,
+    pub(crate) waiting: Waiting,
     pub out: Output,
 }
 

@@ -4,12 +4,12 @@
 //! the common case. A worker that does not come back from a block keeps its lane and the input it reads; the frame
 //! then goes on without the crew, alone and with the same results, until that worker has let go.
 
-use super::block;
-use super::input::FrameInput;
-use super::lane::Lane;
+use crate::frame::block;
+use crate::frame::input::FrameInput;
+use crate::frame::worker_context::Lane;
 use crate::report::WorkTimes;
 use crate::scene::Scene;
-use crate::sealed::{Sealed, SurfaceTable};
+use crate::seal::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};

@@ -10,8 +10,8 @@
 //! A rigid surface has no share: what it does not say of a law is said by the other.
 
 use super::NormalForce;
-use crate::friction::FrictionForce;
-use crate::registry::Laws;
+use crate::law::friction::FrictionForce;
+use crate::law::registry::Laws;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::borrow::Cow;
 use std::sync::Arc;

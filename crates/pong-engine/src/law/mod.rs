@@ -1,8 +1,10 @@
 //! Normal force laws (physics contract, section 3): force and stored energy from depth and depth rate.
 
 mod combine;
+pub(crate) mod friction;
 mod hunt_crossley;
 mod linear;
+pub(crate) mod registry;
 
 pub(crate) use combine::friction_name;
 pub use combine::{CombineError, FrictionProps, NormalProps, PairProps, combine};

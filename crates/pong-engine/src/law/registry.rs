@@ -1,6 +1,6 @@
 //! Force laws added by the user, by name.
 
-use crate::friction::FrictionForce;
+use crate::law::friction::FrictionForce;
 use crate::law::{CombineError, NormalForce};
 use std::collections::BTreeMap;
 use std::sync::Arc;

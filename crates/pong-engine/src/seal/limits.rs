@@ -1,9 +1,9 @@
 //! How much memory the frames of a scene get.
 
 use super::GroupPair;
+use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
-use crate::sharing::scratch_bytes;
 use crate::state::ContactRecord;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Tree;

@@ -5,7 +5,7 @@
 //! movable groups, before they are listed, and of what the frames get, once their limits are known.
 
 use super::{GroupPair, Limits, Plan};
-use crate::account::WrenchUse;
+use crate::energy::account::WrenchUse;
 use crate::error::EngineError;
 use crate::frame::{Block, Interval, Motion, ROUND};
 use crate::scene::Scene;

@@ -12,10 +12,10 @@ pub(crate) use plan::Plan;
 pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
-use crate::account::WrenchUse;
-use crate::dispatch::has_tester;
+use crate::energy::account::WrenchUse;
 use crate::error::EngineError;
 use crate::frame::contact_numbers;
+use crate::pair_table::has_tester;
 use crate::scene::{ObjectPair, Scene};
 use crate::state::{Books, ContactKey, block_len, fnv1a};
 use limits::{too_large, worst_case};

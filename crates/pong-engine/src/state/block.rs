@@ -11,8 +11,8 @@
 //! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
 //! any size between the two holds a block: behind it are zeros.
 
-use super::books::{Books, PairBook};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
+use crate::energy::pairs::{Books, PairBook};
 use pong_geometry::{Pose, Vec3};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";

@@ -1,6 +1,6 @@
 //! Contact records under their keys, and the relative poses of the last commit.
 
-use super::books::Books;
+use crate::energy::pairs::Books;
 use pong_arena::{Full, Table};
 use pong_geometry::{Pose, Vec3};
 

@@ -4,8 +4,8 @@
 //! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
 //! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
 
-use super::books::Books;
 use super::memory::{ContactMemory, ContactRecord, PairPose};
+use crate::energy::pairs::Books;
 use std::iter::Peekable;
 
 /// A record and its custom numbers.

@@ -1,15 +1,14 @@
 //! Contact state: all that the engine remembers between frames (physics contract, section 5).
 
 mod block;
-mod books;
 mod memory;
 mod merge;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use crate::energy::pairs::{Books, PairBook};
 pub use block::StateError;
 pub(crate) use block::{block_len, fnv1a, needed_len, read_block, write_block};
-pub(crate) use books::{Books, PairBook};
 pub(crate) use memory::{
     ContactKey, ContactMemory, ContactRecord, NO_FACE, PairPose, Role, SAME_WAY_COSINE_MIN,
 };

@@ -1,9 +1,9 @@
 //! Trees of bounding volumes: lays out the blocks of work, and finds the leaves of B that a leaf of A may touch.
 
-use super::input::{Block, FrameInput, PairContext};
+use crate::frame::input::{Block, FrameInput, PairContext};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::sealed::{Plan, Sealed};
+use crate::seal::{Plan, Sealed};
 use pong_arena::List;
 use pong_geometry::Transform;
 use pong_geometry::bounding::Volume;
@@ -18,7 +18,7 @@ const BLOCK_NS: u32 = 4000;
 
 /// Lays out all blocks of a frame, and calls `work` with them whenever a round is full and at the end. Every call
 /// is told what the round may cost, ns.
-pub(super) fn lay_out(
+pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
     enabled: &[bool],
@@ -120,7 +120,7 @@ fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
 }
 
 /// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch.
-pub(super) fn batches_of_b<'a>(
+pub(crate) fn batches_of_b<'a>(
     (context, plan): (&PairContext<'a>, &Plan),
     block: &Block,
     out: &mut List<'_, &'a Batch>,

@@ -1,7 +1,7 @@
 //! Which elements of B the chunks of A may touch: B's trees are asked for eight chunks at once.
 
-use super::chunk::{Chunk, LaneBoxes, WideBox};
-use super::input::{Block, PairContext};
+use crate::frame::broad_phase::chunk::{Chunk, LaneBoxes, WideBox};
+use crate::frame::input::{Block, PairContext};
 use crate::report::FrameCounts;
 use pong_arena::{List, Table};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
@@ -9,7 +9,7 @@ use pong_model::Batch;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
 
 /// Elements whose boxes are carried together: eight chunks of eight.
-pub(super) const GROUP: u32 = (LANES * LANES) as u32;
+pub(crate) const GROUP: u32 = (LANES * LANES) as u32;
 
 /// Meetings that there is room for; beyond them the chunks of a group go through the trees one by one.
 const MEETINGS_MAX: usize = 1024;
@@ -19,7 +19,7 @@ const DEPTH_MAX: usize = 80;
 
 /// A batch of B, and the boxes around eight chunks of A as its tree sees them.
 #[derive(Clone, Copy)]
-pub(super) struct Reach<'a> {
+pub(crate) struct Reach<'a> {
     pub batch: &'a Batch,
     boxes: NarrowBoxes,
     /// The chunks that reach the batch at all.
@@ -32,7 +32,7 @@ pub(super) struct Reach<'a> {
     clippy::manual_map,
     reason = "instructions of a level are used only in what is inlined: a closure may not be"
 )]
-pub(super) fn chunks_in_reach<'a, S: Simd>(
+pub(crate) fn chunks_in_reach<'a, S: Simd>(
     simd: S,
     context: &PairContext<'_>,
     block: &Block,
@@ -68,7 +68,7 @@ pub(super) fn chunks_in_reach<'a, S: Simd>(
 
 /// An element of B that chunks of A may touch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Meeting {
+pub(crate) struct Meeting {
     /// Which batch in reach it is in.
     pub reach: u32,
     /// Its place in the batch.
@@ -85,7 +85,7 @@ struct Ahead {
 /// Meetings of the chunks of a group, in the order in which they are tested: for every chunk that in which it alone
 /// would find them. Empty between blocks.
 #[derive(Debug)]
-pub(super) struct Meetings {
+pub(crate) struct Meetings {
     list: Table<Meeting>,
     /// The elements' boxes; none for the meetings of an element by itself.
     boxes: Table<WideBox>,
@@ -284,7 +284,7 @@ impl Meetings {
 }
 
 /// How far one chunk has got through the trees of B.
-pub(super) struct Way {
+pub(crate) struct Way {
     lane: usize,
     /// Whether the chunk is one element, whose own box in B's frame is much tighter than its turned one.
     alone: bool,

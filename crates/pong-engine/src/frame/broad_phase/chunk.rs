@@ -1,6 +1,6 @@
 //! Up to eight elements of one kind as A, carried into B's frame together, and the boxes around them there.
 
-use super::carried::Carried;
+use crate::frame::broad_phase::transformed::Carried;
 use pong_arena::List;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
@@ -11,7 +11,7 @@ use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, Body, ChunkBoxes, Item};
 
 /// The elements and where they are.
-pub(super) struct Chunk<'a, 'l, 'm> {
+pub(crate) struct Chunk<'a, 'l, 'm> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
     /// Points and spheres: their centres in B's frame.
@@ -27,7 +27,7 @@ pub(super) struct Chunk<'a, 'l, 'm> {
 
 /// A box of a tree in B's frame, m; infinite where it has no bound.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct WideBox {
+pub(crate) struct WideBox {
     low: [f64; 3],
     high: [f64; 3],
 }
@@ -40,7 +40,7 @@ struct LaneBalls {
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
-pub(super) struct LaneBoxes {
+pub(crate) struct LaneBoxes {
     low: [[f64; LANES]; 3],
     high: [[f64; LANES]; 3],
 }

@@ -9,13 +9,13 @@
 //! with F and M those of the commit before, or of one that is as many frames older as the wrenches come late. They are
 //! taken as held along the axes of B: held along common axes while B turns by φ_B they do ½|F||x|φ_B² more at most.
 
-use super::buffers::FrameContact;
-use super::input::FrameInput;
-use super::ledger::Displacement;
-use crate::account::{Account, WrenchUse};
+use crate::energy::account::{Account, WrenchUse};
+use crate::frame::buffers::FrameContact;
+use crate::frame::energy::Displacement;
+use crate::frame::input::FrameInput;
 use crate::law::stored_energy;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{Books, ContactMemory, ContactRecord, PairPose, Role};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
@@ -30,7 +30,7 @@ const WAITING_AT: usize = BRISTLE_AT + 1;
 const WRENCH_NUMBERS: usize = 6;
 
 /// Keeps the accounts of one frame.
-pub(super) struct Keeper<'a> {
+pub(crate) struct Keeper<'a> {
     pub scene: &'a Scene,
     pub sealed: &'a Sealed,
     pub memory: &'a ContactMemory,

@@ -9,19 +9,21 @@
 //!
 //! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
 
-use super::Frame;
-use super::accounts::Keeper;
-use super::forces::reference_point;
-use super::input::FrameInput;
-use super::lane::Lane;
-use super::relative::SinceCommit;
+pub(crate) mod accounts;
+
+use crate::frame::Frame;
+use crate::frame::forces::reference_point;
+use crate::frame::input::FrameInput;
+use crate::frame::input::motion::SinceCommit;
+use crate::frame::worker_context::Lane;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactMemory, ContactRecord, Role};
+use accounts::Keeper;
 use pong_geometry::{Transform, Vec3};
 
 /// Fills in the energies of the contacts and the totals.
-pub(super) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
+pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
     frame.work = memory.work;
     frame.dissipated = memory.dissipated;
     if !scene.config.ledger {
@@ -112,7 +114,7 @@ impl Before {
 }
 
 /// Displacement of A since the last commit, at a point carried by A.
-pub(super) struct Displacement {
+pub(crate) struct Displacement {
     before: Vec3,
     now: Vec3,
     pub turn: Vec3,

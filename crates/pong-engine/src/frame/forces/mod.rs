@@ -1,14 +1,14 @@
 //! Normal and friction force of every contact.
 
-use super::Frame;
-use super::buffers::{Found, FrameContact, Place, Stance};
-use super::input::PairContext;
-use super::lane::{Lane, Output};
-use super::relative::SinceCommit;
-use crate::friction::{FrictionInput, FrictionOutput, friction};
+use crate::frame::Frame;
+use crate::frame::buffers::{Found, FrameContact, Place, Stance};
+use crate::frame::input::PairContext;
+use crate::frame::input::motion::SinceCommit;
+use crate::frame::worker_context::{Lane, Output};
+use crate::law::friction::{FrictionInput, FrictionOutput, friction};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactKey, ContactRecord, Role};
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
@@ -21,7 +21,7 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 /// Presses what was found for a chunk of A, in the order of sums, and hands it to the lane.
 ///
 /// `custom` has room for the numbers of one contact's registered friction law.
-pub(super) fn press_found(
+pub(crate) fn press_found(
     context: &PairContext<'_>,
     sealed: &Sealed,
     found: &[Found],
@@ -39,7 +39,7 @@ pub(super) fn press_found(
 }
 
 /// Presses contacts again, after some of their keys were left out by a limit: what is left carries the bristle.
-pub(super) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+pub(crate) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     let Frame { input, lane, order, .. } = frame;
     lane.scratch.reset();
     let Lane { scratch, out, .. } = lane;
@@ -67,7 +67,7 @@ pub(super) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
-pub(super) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
+pub(crate) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
     let whole: f64 = same_key
         .filter(|other| {
             other.role == Role::Pushes && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
@@ -81,7 +81,7 @@ pub(super) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = 
 
 impl PairContext<'_> {
     /// The values of the two surfaces of a contact.
-    pub(super) fn props(&self, found: &Found) -> &PairProps {
+    pub(crate) fn props(&self, found: &Found) -> &PairProps {
         let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
         let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
         self.table.props(surface_a, surface_b)
@@ -198,7 +198,7 @@ impl PairContext<'_> {
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
 /// a segment's end, a ray's tip.
-pub(super) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
+pub(crate) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
     let element = element_a as usize;
     match body_a.primitives[key.primitive_a as usize].kind {
         PrimitiveKind::Point => body_a.points[element].position,

@@ -1,10 +1,13 @@
 //! What the stages that are spread over workers read, and nobody writes while they run.
 
-use super::relative::Motion;
+pub(crate) mod motion;
+pub(crate) mod states;
+
 use crate::report::Clock;
 use crate::scene::Scene;
-use crate::sealed::{Plan, Sealed, SurfaceTable};
+use crate::seal::{Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
+use motion::Motion;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::Body;
@@ -56,7 +59,7 @@ impl FrameInput {
 }
 
 /// One direction of a pair of movable groups, as the testers see it.
-pub(super) struct PairContext<'a> {
+pub(crate) struct PairContext<'a> {
     pub scene: &'a Scene,
     pub group_pair: u32,
     /// 0 if A is in the pair's first body, 1 if in the second.

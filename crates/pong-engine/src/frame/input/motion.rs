@@ -3,7 +3,7 @@
 //! r = x_A − x_B and v = v_A − v_B are formed before anything is rotated, so that the results do not depend on
 //! where the common origin is or how fast it moves (physics contract, section 1).
 
-use super::{Frame, Given};
+use crate::frame::{Frame, Given};
 use crate::state::PairPose;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Quat, Transform, Twist, Vec3};
@@ -62,7 +62,7 @@ impl Motion {
 
 /// Fills in the motions of the directions in which something can be found, and the relative poses that a commit would
 /// remember. Of pairs that are off only if the ledger is kept: it asks for the motion of contacts that end.
-pub(super) fn relate(given: &Given<'_>, frame: &mut Frame) {
+pub(crate) fn relate(given: &Given<'_>, frame: &mut Frame) {
     let (sealed, memory, enabled) = (given.sealed, given.memory, &given.states.enabled);
     let ledger = given.scene.config.ledger;
     for (index, pair) in sealed.group_pairs.iter().enumerate() {

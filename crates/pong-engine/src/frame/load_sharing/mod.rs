@@ -1,13 +1,16 @@
 //! Which of the interferences found for a chunk of A count, and with what weight.
 
-use super::buffers::{Found, Stance};
-use super::input::PairContext;
-use super::pieces::{drop_what_the_body_lacks, pushes_before};
-use crate::sharing::{Sharer, share_within};
+mod pieces;
+pub(crate) mod solver;
+
+use crate::frame::buffers::{Found, Stance};
+use crate::frame::input::PairContext;
 use crate::state::{NO_FACE, Role};
+use pieces::{drop_what_the_body_lacks, pushes_before};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, PolyhedronFace, PrimitiveKind, TriangleSet};
+use solver::{Sharer, share_within};
 
 /// Relative: a spare contact counts if no other is deeper by more than rounding.
 const SPARE_DEPTH_SLACK: f64 = 1e-9;
@@ -17,7 +20,7 @@ const SPARE_DEPTH_SLACK: f64 = 1e-9;
 ///
 /// # Errors
 /// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
-pub(super) fn settle(
+pub(crate) fn settle(
     context: &PairContext<'_>,
     found: &mut List<'_, Found>,
     sharers: &mut List<'_, Sharer>,

@@ -1,6 +1,6 @@
 //! Which contacts of one ellipsoid with the pieces of one body count: those that the uncut body would have.
 
-use super::buffers::{Found, Stance};
+use crate::frame::buffers::{Found, Stance};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::Polyhedron;
 
@@ -18,7 +18,7 @@ const PLACE_SLACK: f64 = 1e-9;
 /// A piece finds the least overlap among its own features. Of two pieces' features that meet convexly, only the less
 /// deep is the minimum translation; features that meet concavely, as two walls of a corner, are overcome each for itself.
 /// A contact that only stands in for a piece counts if there is none but such.
-pub(super) fn drop_what_the_body_lacks(group: &mut [Found], pieces: &[Polyhedron]) {
+pub(crate) fn drop_what_the_body_lacks(group: &mut [Found], pieces: &[Polyhedron]) {
     let stands_in = |contact: &Found| contact.stance == Stance::Spare;
     if !group.iter().all(stands_in) {
         group
@@ -39,7 +39,7 @@ pub(super) fn drop_what_the_body_lacks(group: &mut [Found], pieces: &[Polyhedron
 }
 
 /// Whether the first contact is less deep; of two equally deep ones the first in the order of sums is.
-pub(super) fn pushes_before(contact: &Found, other: &Found) -> bool {
+pub(crate) fn pushes_before(contact: &Found, other: &Found) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
     difference < -rounding || (difference <= rounding && contact.order() < other.order())

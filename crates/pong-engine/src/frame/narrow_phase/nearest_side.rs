@@ -14,10 +14,10 @@ use pong_model::{Body, Item};
 const REACH_SLACK: f64 = 1e-6;
 
 /// Relative to the lengths involved: a centre this little in front of a plane, or behind it, is in it.
-pub(super) const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// A triangle of a body, and the centre of a sphere or ellipsoid.
-pub(super) struct Nearby<'a> {
+pub(crate) struct Nearby<'a> {
     pub body: &'a Body,
     pub item: Item,
     pub center: Vec3,
@@ -25,7 +25,7 @@ pub(super) struct Nearby<'a> {
 
 /// The sides that were asked for in a block, so that each ball and surface are looked at once.
 #[derive(Default)]
-pub(super) struct KnownSides {
+pub(crate) struct KnownSides {
     of: [Option<(Item, u32, bool)>; LANES],
     next: usize,
 }
@@ -109,7 +109,7 @@ impl Nearby<'_> {
 }
 
 /// Calls `visit` with every triangle whose box meets that between two corners.
-pub(super) fn visit_triangles(body: &Body, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
+pub(crate) fn visit_triangles(body: &Body, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
     let tree = &body.tree;
     for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
         batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {

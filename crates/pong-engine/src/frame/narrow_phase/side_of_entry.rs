@@ -1,7 +1,7 @@
 //! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
 //! (docs/theory.md, 2.2 and 2.4).
 
-use super::nearest_side::{Nearby, ROUNDING, visit_triangles};
+use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
 use crate::state::{ContactKey, ContactMemory, NO_FACE, Role, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
@@ -17,13 +17,13 @@ use pong_model::{Body, Item};
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct EntryFace {
+pub(crate) struct EntryFace {
     pub reached: usize,
     pub pushes: usize,
 }
 
 /// A point (or a sphere's centre) inside a piece of B.
-pub(super) struct PolyhedronEntry<'a> {
+pub(crate) struct PolyhedronEntry<'a> {
     pub memory: &'a ContactMemory,
     pub body: &'a Body,
     pub shell: u32,
@@ -115,7 +115,7 @@ impl PolyhedronEntry<'_> {
 }
 
 /// The centre of a sphere or ellipsoid against one triangle of B.
-pub(super) struct TriangleEntry<'a> {
+pub(crate) struct TriangleEntry<'a> {
     pub memory: &'a ContactMemory,
     pub body: &'a Body,
     pub triangle: Item,

@@ -1,13 +1,13 @@
 //! Pairs of primitives: runs the tester of a pair of kinds, hands out contacts under their keys.
 
-use super::buffers::{Found, Stance};
-use super::carried::Carried;
-use super::chunk::Chunk;
-use super::input::PairContext;
-use super::nearest_side::{KnownSides, Nearby};
-use super::relative::Motion;
-use super::side_of_entry::{PolyhedronEntry, TriangleEntry};
-use crate::dispatch::has_tester;
+use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::transformed::Carried;
+use crate::frame::buffers::{Found, Stance};
+use crate::frame::input::PairContext;
+use crate::frame::input::motion::Motion;
+use crate::frame::narrow_phase::nearest_side::{KnownSides, Nearby};
+use crate::frame::narrow_phase::side_of_entry::{PolyhedronEntry, TriangleEntry};
+use crate::pair_table::has_tester;
 use crate::report::FrameCounts;
 use crate::state::ContactKey;
 use pong_arena::List;
@@ -32,7 +32,7 @@ use pong_model::box_tree::lanes;
 use pong_model::{Body, Item, PrimitiveInfo};
 
 /// What testers find for one chunk of A.
-pub(super) struct Findings<'m> {
+pub(crate) struct Findings<'m> {
     pub list: List<'m, Found>,
     /// How many there were, those without room included.
     pub seen: u64,
@@ -91,7 +91,7 @@ impl<'m> Findings<'m> {
 }
 
 /// One element of B against a chunk of A.
-pub(super) struct Target<'a> {
+pub(crate) struct Target<'a> {
     pub context: &'a PairContext<'a>,
     pub item_b: Item,
     pub kind_b: PrimitiveKind,
@@ -173,7 +173,7 @@ impl<'a> Target<'a> {
 
 /// Tests the spheres of a chunk that wait for their triangles, in the order in which they came.
 #[inline(never)]
-pub(super) fn test_waiting(
+pub(crate) fn test_waiting(
     context: &PairContext<'_>,
     chunk: &Chunk<'_, '_, '_>,
     found: &mut Findings<'_>,
@@ -407,7 +407,11 @@ impl<'a> Side<'a> {
     }
 
     /// For a point inside B's polyhedron, the face that memory reaches and the one that pushes.
-    fn entry_face(&self, local: &Vec3, p: &Vec3) -> Option<super::side_of_entry::EntryFace> {
+    fn entry_face(
+        &self,
+        local: &Vec3,
+        p: &Vec3,
+    ) -> Option<crate::frame::narrow_phase::side_of_entry::EntryFace> {
         PolyhedronEntry {
             memory: self.context.memory,
             body: self.body_b(),

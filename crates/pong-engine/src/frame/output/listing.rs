@@ -1,13 +1,13 @@
 //! The contacts of a frame as the host sees them: ids, common frame.
 
-use super::Frame;
-use super::accounts::account_of;
-use super::buffers::FrameContact;
-use crate::account::Account;
 use crate::contact::{Contact, ContactSide};
+use crate::energy::account::Account;
+use crate::frame::Frame;
+use crate::frame::buffers::FrameContact;
+use crate::frame::energy::accounts::account_of;
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::Role;
 use pong_geometry::Vec3;
 

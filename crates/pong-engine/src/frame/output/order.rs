@@ -1,15 +1,15 @@
 //! The contacts that count, in the order of every sum; where there are too many, the deepest.
 
-use super::Frame;
-use super::buffers::{Place, Stance};
-use super::forces;
-use super::lane::Lane;
+use crate::frame::Frame;
+use crate::frame::buffers::{Place, Stance};
+use crate::frame::forces;
+use crate::frame::worker_context::Lane;
 use crate::report::StatusBits;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 
 /// Puts the contacts in order, whoever found them.
-pub(super) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     list(frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);

@@ -9,13 +9,13 @@
 //! Bodies that a load displaces against each other displace all bristles between them alike, so each holds by its share of
 //! the sum of the stiffnesses.
 
-use super::Frame;
-use super::buffers::FrameContact;
-use super::forces::bristle_share;
-use super::input::PairContext;
+use crate::frame::Frame;
+use crate::frame::buffers::FrameContact;
+use crate::frame::forces::bristle_share;
+use crate::frame::input::PairContext;
 use crate::law::FrictionProps;
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::seal::Sealed;
 use crate::state::{ContactMemory, Role};
 use pong_geometry::Vec3;
 

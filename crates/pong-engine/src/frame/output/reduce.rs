@@ -1,12 +1,12 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
-use super::{Frame, FrameContact};
-use crate::sealed::Sealed;
+use crate::frame::{Frame, FrameContact};
+use crate::seal::Sealed;
 use crate::state::Role;
 use pong_geometry::Wrench;
 
 /// Adds every contact to both of its movable groups.
-pub(super) fn sum(sealed: &Sealed, frame: &mut Frame) {
+pub(crate) fn sum(sealed: &Sealed, frame: &mut Frame) {
     let Frame { lane, order, wrenches, .. } = frame;
     for place in order.iter() {
         let contact = &lane.out.contacts[place.index as usize];

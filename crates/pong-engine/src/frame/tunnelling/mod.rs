@@ -13,7 +13,7 @@
 //! shorter line may cut an edge or a corner, it goes through no wall. In all other frames only contacts that ended are
 //! looked at.
 
-mod balls;
+mod curved;
 mod ended;
 mod sheets;
 mod solids;
@@ -21,11 +21,11 @@ mod travel;
 
 pub(crate) use travel::{least_travel_m, reach_m};
 
-use super::buffers::Found;
-use super::input::PairContext;
-use super::{Frame, Given};
+use crate::frame::buffers::Found;
+use crate::frame::input::PairContext;
+use crate::frame::{Frame, Given};
 use crate::report::StatusBits;
-use crate::sealed::Plan;
+use crate::seal::Plan;
 use crate::state::{ContactKey, ContactRecord, Role};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -61,7 +61,7 @@ impl Passages {
 }
 
 /// Tells the status of what went through.
-pub(super) fn watch(given: &Given<'_>, frame: &mut Frame) {
+pub(crate) fn watch(given: &Given<'_>, frame: &mut Frame) {
     frame.lane.scratch.reset();
     frame.passages = find(given, frame);
     if frame.passages.count > 0 {
@@ -175,7 +175,7 @@ impl<'a> Seen<'a> {
             }
             _ => {
                 let shell = body.primitives[item_b.primitive as usize].shell;
-                (shell, balls::meet(&self.context, item_a, item_b, line))
+                (shell, curved::meet(&self.context, item_a, item_b, line))
             }
         };
         let (side, went) = match met {

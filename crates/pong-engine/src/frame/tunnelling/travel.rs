@@ -1,8 +1,8 @@
 //! Whether anything may have gone through: how far a body went since the last commit against what is thinnest.
 
 use super::solids::width_m;
-use crate::frame::relative::Motion;
-use crate::sealed::Plan;
+use crate::frame::input::motion::Motion;
+use crate::seal::Plan;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, Body};

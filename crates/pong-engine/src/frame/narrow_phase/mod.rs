@@ -1,0 +1,5 @@
+//! Pairs of primitives: contacts as contact testers find them.
+
+mod nearest_side;
+mod side_of_entry;
+pub(crate) mod testers;
