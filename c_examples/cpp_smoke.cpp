@@ -46,7 +46,7 @@ pong::World build() {
     world.set_mass(world.interface(world.object("ground")), mass);
     pong::StepPlan plan = pong_default_step_plan();
     plan.step = 1e-5;
-    plan.coupling = PONG_COUPLING_STEP;
+    plan.wrench_coupling = PONG_COUPLING_SEMI_IMPLICIT;
     world.plan_step(plan);
     const pong::SealReport sealed = world.seal();
     require(sealed.warning_count == 0 && sealed.note_count == 0 && sealed.surely_stable_step > 1e-3, "a stable step");
@@ -88,7 +88,7 @@ void list_and_restore(pong::World& world) {
     const pong::InterfaceId ball = world.interfaces(world.object("ball")).front();
     pong::State state;
     state.position = {1e-4, 0.0, 0.098};
-    world.forget(world.object("ball"));
+    world.clear_contact_history(world.object("ball"));
     world.set_state(ball, pong::State(pong_state(state)));
     world.step();
     const auto saved = world.save_contact_state();
@@ -111,7 +111,7 @@ void look(pong::World& world) {
         tested += tally.what == PONG_TALLY_PRIMITIVES && std::string(tally.kind_a) == "Sphere" ? tally.tested : 0;
     }
     require(tested == report.primitives_tested, "the tallies tell the kinds");
-    require(world.worker_count() == 1 && world.worker(1).lane == 1, "one worker was started");
+    require(world.worker_count() == 1 && world.worker(1).index == 1, "one worker was started");
     require(std::string(world.worker_text(1)).find("worker 1") == 0, "it tells how it started");
 }
 

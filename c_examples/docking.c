@@ -173,7 +173,7 @@ static void open_log(contact_scene *scene, const options *o, const docking_case 
     log.name = c->name;
     log.step = FRAME_S;
     log.commits_per_frame = 1;
-    log.when_full = o->fast ? PONG_LOG_WAIT : PONG_LOG_LOSE;
+    log.when_full = o->fast ? PONG_LOG_WAIT : PONG_LOG_DROP;
     CHECK(pong_start_log(scene->world, o->log, &log));
 }
 
@@ -217,7 +217,7 @@ static history run(contact_scene *scene, docking *d, const docking_case *c, cons
     }
     open_log(scene, o, c);
     /* A new run: what the engine remembers of the last one does not count. */
-    CHECK(pong_forget_object(scene->world, scene->chaser));
+    CHECK(pong_clear_contact_history(scene->world, scene->chaser));
     approach(d, c, gap + 0.002, 1);
     h = fresh_history(d, o->all_corners);
     release = now_ns();

@@ -107,7 +107,7 @@ contact_wrenches fetch_wrenches(contact_scene *scene)
     pong_wrench wrenches[PARTS];
     contact_wrenches out;
     int i;
-    CHECK(pong_get_wrenches(scene->world, scene->parts, PONG_FRAME_COMMON, wrenches, PARTS));
+    CHECK(pong_get_wrenches(scene->world, scene->parts, PONG_REFERENCE_FRAME_COMMON, wrenches, PARTS));
     out.vehicle = from_wrench(&wrenches[VEHICLE]);
     out.ring = from_wrench(&wrenches[RING]);
     for (i = 0; i < LATCHES; i++) {

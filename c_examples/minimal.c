@@ -49,7 +49,7 @@ int main(void)
     states[0].position[2] = 0.099;
     CHECK(pong_set_states(world, roots, states, 2));
     CHECK(pong_step(world));
-    CHECK(pong_get_wrenches(world, roots, PONG_FRAME_COMMON, wrenches, 2));
+    CHECK(pong_get_wrenches(world, roots, PONG_REFERENCE_FRAME_COMMON, wrenches, 2));
     printf("force on the ball: %.3f N up\n", wrenches[0].force[2]);
     CHECK(pong_destroy_world(world));
     return 0;

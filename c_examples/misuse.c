@@ -9,7 +9,7 @@ static pong_wrench good_frame(scene *s)
     memset(&wrench, 0, sizeof wrench);
     OK(pong_set_states(s->world, s->interfaces, s->states, 3));
     OK(pong_evaluate(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench));
     return wrench;
 }
 
@@ -44,13 +44,13 @@ static void configurations(void)
     config.keep_ledger = 2;
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "keep_ledger is 2");
     config = pong_default_config();
-    config.keep_accounts = 4;
-    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "keep_accounts is 4");
-    config.keep_accounts = PONG_ACCOUNTS_HELD;
-    config.wrenches_late = 17;
-    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "wrenches_late is 17; give 0 to 16");
-    config.keep_accounts = PONG_ACCOUNTS_STAGES;
-    config.wrenches_late = 1;
+    config.energy_accounts = 4;
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "energy_accounts is 4");
+    config.energy_accounts = PONG_COUPLING_ZERO_ORDER_HOLD;
+    config.delay_frames = 17;
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "delay_frames is 17; give 0 to 16");
+    config.energy_accounts = PONG_COUPLING_STAGES;
+    config.delay_frames = 1;
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "only wrenches that are held come late");
     config = pong_default_config();
     config.report_times = 7;
@@ -68,15 +68,15 @@ static void configurations(void)
 static void worker_settings(void)
 {
     static const uint32_t bad[] = { 65, 1000001, 0, 1000001, 100, 2, 2 };
-    static const char *const said[] = { "workers is 65; give 0 to 64", "spin_us is 1000001", "patience_us is 0; give 1",
-                                        "patience_us is 1000001", "fifo_priority is 100; give 0 to 99",
+    static const char *const said[] = { "workers is 65; give 0 to 64", "spin_us is 1000001", "worker_timeout_us is 0; give 1",
+                                        "worker_timeout_us is 1000001", "fifo_priority is 100; give 0 to 99",
                                         "pin_workers is 2", "oversubscribe is 2" };
     pong_config cores = pong_default_config();
     pong_world *world;
     int i;
     for (i = 0; i < 7; i += 1) {
         pong_config config = pong_default_config();
-        uint32_t *const fields[7] = { &config.workers, &config.spin_us, &config.patience_us, &config.patience_us,
+        uint32_t *const fields[7] = { &config.workers, &config.spin_us, &config.worker_timeout_us, &config.worker_timeout_us,
                                       &config.fifo_priority, &config.pin_workers, &config.oversubscribe };
         *fields[i] = bad[i];
         REFUSED(pong_create_world(&config, &world), BAD_VALUE, said[i]);
@@ -149,12 +149,12 @@ static void order_before_seal(scene *s)
     REFUSED(pong_evaluate(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_commit(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_commit_pairs(s->world, &s->pair, 1), WRONG_PHASE, "seal");
-    REFUSED(pong_forget_object(s->world, s->ball), WRONG_PHASE, "seal");
+    REFUSED(pong_clear_contact_history(s->world, s->ball), WRONG_PHASE, "seal");
     REFUSED(pong_contact_state_size(s->world, &size), WRONG_PHASE, "seal");
     REFUSED(pong_contact_state_used(s->world, &size), WRONG_PHASE, "seal");
     REFUSED(pong_save_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
     REFUSED(pong_restore_contact_state(s->world, &size, sizeof size), WRONG_PHASE, "seal");
-    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
 }
 
 static void order_after_seal(scene *s)
@@ -162,7 +162,7 @@ static void order_after_seal(scene *s)
     pong_wrench wrench;
     pong_model_id model;
     pong_object_id object;
-    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), WRONG_PHASE, "evaluate");
     REFUSED(pong_step(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_commit(s->world), UNSET_STATE, "ball/ball");
     REFUSED(pong_seal(s->world, NULL), WRONG_PHASE, "before the world is sealed");
@@ -195,7 +195,7 @@ static void bad_states(scene *s)
     REFUSED(pong_set_states(s->world, (pong_interface_id *)((char *)ids + 1), s->states, 1), BAD_VALUE, "aligned");
     OK(pong_set_states(s->world, NULL, NULL, 0));
     OK(pong_evaluate(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &after));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &after));
     TEST(memcmp(&before, &after, sizeof after) == 0);
 }
 
@@ -212,7 +212,7 @@ static void shared_memory(scene *s)
     } listed;
     size_t before;
     memcpy(both.interfaces, s->interfaces, sizeof s->interfaces);
-    REFUSED(pong_get_wrenches(s->world, both.interfaces, PONG_FRAME_COMMON, both.wrenches, 3), BAD_VALUE,
+    REFUSED(pong_get_wrenches(s->world, both.interfaces, PONG_REFERENCE_FRAME_COMMON, both.wrenches, 3), BAD_VALUE,
             "`interfaces` and `wrenches` share memory");
     TEST(memcmp(both.interfaces, s->interfaces, sizeof s->interfaces) == 0);
     listed.count = before = 77;
@@ -245,7 +245,7 @@ static void bad_results(scene *s)
     pong_wrench wrench;
     pong_contact contact;
     pong_tally tally;
-    pong_pair_account pair_account;
+    pong_pair_energy_account pair_account;
     pong_worker worker;
     const char *text;
     pong_interface_id wild = { 12345 };
@@ -255,12 +255,12 @@ static void bad_results(scene *s)
     named_twice(s);
     good_frame(s);
     REFUSED(pong_get_wrench(s->world, s->interfaces[0], 2, &wrench), BAD_VALUE, "`frame` is 2");
-    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, NULL), NULL_ARGUMENT, "`wrench`");
-    REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, &wrench, 1), UNKNOWN_ID, "interfaces[0]");
+    REFUSED(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, NULL), NULL_ARGUMENT, "`wrench`");
+    REFUSED(pong_get_wrenches(s->world, &wild, PONG_REFERENCE_FRAME_COMMON, &wrench, 1), UNKNOWN_ID, "interfaces[0]");
     shared_memory(s);
-    REFUSED(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, &wrench, 1), NULL_ARGUMENT, "`interfaces`");
-    REFUSED(pong_get_wrenches(s->world, &wild, PONG_FRAME_COMMON, NULL, 1), NULL_ARGUMENT, "`wrenches`");
-    OK(pong_get_wrenches(s->world, NULL, PONG_FRAME_COMMON, NULL, 0));
+    REFUSED(pong_get_wrenches(s->world, NULL, PONG_REFERENCE_FRAME_COMMON, &wrench, 1), NULL_ARGUMENT, "`interfaces`");
+    REFUSED(pong_get_wrenches(s->world, &wild, PONG_REFERENCE_FRAME_COMMON, NULL, 1), NULL_ARGUMENT, "`wrenches`");
+    OK(pong_get_wrenches(s->world, NULL, PONG_REFERENCE_FRAME_COMMON, NULL, 0));
     REFUSED(pong_get_contacts(s->world, NULL, 0, &count), BUFFER_TOO_SMALL, "there are 1");
     TEST(count == 1);
     REFUSED(pong_get_contacts(s->world, &contact, 1, NULL), NULL_ARGUMENT, "`count`");
@@ -276,14 +276,14 @@ static void bad_results(scene *s)
     REFUSED(pong_worker_text(s->world, 1, NULL), NULL_ARGUMENT, "`text`");
     REFUSED(pong_worker_text(s->world, 0, &text), UNKNOWN_ID, "worker 0");
     REFUSED(pong_get_ledger(s->world, NULL), NULL_ARGUMENT, "`ledger`");
-    REFUSED(pong_get_account(s->world, NULL), NULL_ARGUMENT, "`account`");
-    REFUSED(pong_pair_account_count(s->world, NULL), NULL_ARGUMENT, "`count`");
-    REFUSED(pong_get_pair_account(s->world, 0, NULL), NULL_ARGUMENT, "`account`");
-    REFUSED(pong_get_pair_account(s->world, 0, &pair_account), UNKNOWN_ID, "pair account 0");
+    REFUSED(pong_get_energy_account(s->world, NULL), NULL_ARGUMENT, "`account`");
+    REFUSED(pong_pair_energy_account_count(s->world, NULL), NULL_ARGUMENT, "`count`");
+    REFUSED(pong_get_pair_energy_account(s->world, 0, NULL), NULL_ARGUMENT, "`account`");
+    REFUSED(pong_get_pair_energy_account(s->world, 0, &pair_account), UNKNOWN_ID, "pair account 0");
     REFUSED(pong_pair_remedy(s->world, 0, NULL), NULL_ARGUMENT, "`remedy`");
     REFUSED(pong_pair_remedy(s->world, 0, &text), UNKNOWN_ID, "pair account 0");
-    REFUSED(pong_get_contact_accounts(s->world, NULL, 0, NULL), NULL_ARGUMENT, "`count`");
-    OK(pong_get_contact_accounts(s->world, NULL, 0, &count));
+    REFUSED(pong_get_contact_energy_accounts(s->world, NULL, 0, NULL), NULL_ARGUMENT, "`count`");
+    OK(pong_get_contact_energy_accounts(s->world, NULL, 0, &count));
     TEST(count == 0);
     REFUSED(pong_commit_pairs(s->world, &no_pair, 1), UNKNOWN_ID, "pair");
     REFUSED(pong_commit_pairs(s->world, NULL, 1), NULL_ARGUMENT, "`pairs`");
@@ -311,7 +311,7 @@ static void no_world(void)
     REFUSED(pong_step(NULL), NULL_ARGUMENT, "`world`");
     REFUSED(pong_evaluate(NULL), NULL_ARGUMENT, "`world`");
     REFUSED(pong_commit(NULL), NULL_ARGUMENT, "`world`");
-    REFUSED(pong_get_wrench(NULL, interface, PONG_FRAME_GROUP, &wrench), NULL_ARGUMENT, "`world`");
+    REFUSED(pong_get_wrench(NULL, interface, PONG_REFERENCE_FRAME_GROUP, &wrench), NULL_ARGUMENT, "`world`");
     REFUSED(pong_contact_count(NULL, &size), NULL_ARGUMENT, "`world`");
     REFUSED(pong_contact_state_size(NULL, &size), NULL_ARGUMENT, "`world`");
 }
@@ -325,8 +325,8 @@ static void stale_ids(scene *s)
     open_scene(&gone, &config);
     OK(pong_destroy_world(gone.world));
     REFUSED(pong_set_state(s->world, gone.interfaces[0], &s->states[0]), UNKNOWN_ID, "interface");
-    REFUSED(pong_get_wrench(s->world, gone.interfaces[0], PONG_FRAME_GROUP, &wrench), UNKNOWN_ID, "interface");
-    REFUSED(pong_forget_object(s->world, gone.ball), UNKNOWN_ID, "object");
+    REFUSED(pong_get_wrench(s->world, gone.interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench), UNKNOWN_ID, "interface");
+    REFUSED(pong_clear_contact_history(s->world, gone.ball), UNKNOWN_ID, "object");
     REFUSED(pong_set_pair_enabled(s->world, gone.pair, 0), UNKNOWN_ID, "pair");
     REFUSED(pong_set_object_user_data(s->world, gone.ball, 1), UNKNOWN_ID, "object");
 }

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /// Hash of every layout in this header; see PONG_CHECK_ABI().
-#define PONG_LAYOUT_HASH 0x7b768c7268a5711eULL
+#define PONG_LAYOUT_HASH 0x0c89e061744c828aULL
 
 /// Whether this header fits the library: call it first.
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
@@ -18,14 +18,14 @@
 /// Number of the binary interface: the N of libpong.so.N.
 #define PONG_ABI_VERSION 0
 
-/// At every stage of an integrator of higher order (the classic Runge-Kutta method is meant).
-#define PONG_COUPLING_STAGES 0
+/// The wrench is evaluated again at every stage of an integrator of higher order (the classic Runge-Kutta method).
+#define PONG_COUPLING_STAGES 1
 
-/// Once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
-#define PONG_COUPLING_STEP 1
+/// The wrench is evaluated once a step; it gives the velocities with which the bodies then move (semi-implicit Euler).
+#define PONG_COUPLING_SEMI_IMPLICIT 2
 
-/// Once a frame, and held until the next.
-#define PONG_COUPLING_HELD 2
+/// The wrench is evaluated once a frame and held from one commit to the next.
+#define PONG_COUPLING_ZERO_ORDER_HOLD 3
 
 /// `feature_kind` of a face, or of a surface as a whole.
 #define PONG_FEATURE_FACE 0
@@ -40,15 +40,15 @@
 #define PONG_FLAG_CONTACT_LIMIT 1
 
 /// More contacts of one ball with one surface than could be shared exactly: the deepest were.
-#define PONG_FLAG_SHARING_LIMIT 2
+#define PONG_FLAG_LOAD_SHARING_LIMIT 2
 
 /// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
 /// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
-/// pong_forget_object().
-#define PONG_FLAG_WENT_THROUGH 4
+/// pong_clear_contact_history().
+#define PONG_FLAG_TUNNELLED 4
 
 /// `stage_ns` of states in and relative motion.
-#define PONG_STAGE_RELATIVE 0
+#define PONG_STAGE_INPUT 0
 
 /// `stage_ns` of bounding volumes, testers, sharing and forces, on the calling thread and the workers.
 #define PONG_STAGE_CONTACTS 1
@@ -57,43 +57,34 @@
 #define PONG_STAGE_ORDER 2
 
 /// `stage_ns` of the energies, if they are kept.
-#define PONG_STAGE_LEDGER 3
+#define PONG_STAGE_ENERGY 3
 
 /// `stage_ns` of the wrenches.
-#define PONG_STAGE_REDUCE 4
+#define PONG_STAGE_OUTPUT 4
 
 /// `stage_ns` of the contact state, if the frame was committed.
 #define PONG_STAGE_COMMIT 5
 
 /// `work_ns` of laying out the work, bounding volumes and boxes.
-#define PONG_WORK_BOUNDING 0
+#define PONG_WORK_BROAD_PHASE 0
 
 /// `work_ns` of contact tests.
-#define PONG_WORK_TESTERS 1
+#define PONG_WORK_NARROW_PHASE 1
 
 /// `work_ns` of which contacts count, and their weights.
-#define PONG_WORK_SHARING 2
+#define PONG_WORK_LOAD_SHARING 2
 
 /// `work_ns` of normal and friction forces.
 #define PONG_WORK_FORCES 3
 
-/// `keep_accounts` of a host that evaluates again within every step, as Runge-Kutta methods do.
-#define PONG_ACCOUNTS_STAGES 1
+/// `verdict`: less energy came out than went in.
+#define PONG_VERDICT_DISSIPATED 0
 
-/// `keep_accounts` of a host whose wrenches give the velocities with which the bodies then move: semi-implicit Euler.
-#define PONG_ACCOUNTS_SEMI_IMPLICIT 2
-
-/// `keep_accounts` of a host that holds each wrench from one commit to the next, as one that steps the world once a frame.
-#define PONG_ACCOUNTS_HELD 3
-
-/// `verdict`: less energy was returned than taken.
-#define PONG_VERDICT_LOST 0
-
-/// `verdict`: as much was returned as taken, as far as the accounts can tell.
+/// `verdict`: as much energy came out as went in, as far as the accounts can tell.
 #define PONG_VERDICT_UNRESOLVED 1
 
-/// `verdict`: more energy was returned than taken.
-#define PONG_VERDICT_RETURNED_MORE 2
+/// `verdict`: more energy came out than went in.
+#define PONG_VERDICT_GAINED 2
 
 /// `what` of a tally of tests of the bounding volumes that models give.
 #define PONG_TALLY_VOLUMES 0
@@ -141,7 +132,7 @@
 #define PONG_FRICTION_INHERITED 4
 
 /// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
-#define PONG_LOG_LOSE 0
+#define PONG_LOG_DROP 0
 
 /// `when_full`: pong_log_frame() waits until there is room: for runs that nobody watches.
 #define PONG_LOG_WAIT 1
@@ -241,7 +232,7 @@ typedef struct pong_config {
     uint32_t spin_us;
     /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
     /// then it does that work again by itself. 1000 by default, 1 to 1000000.
-    uint32_t patience_us;
+    uint32_t worker_timeout_us;
     /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
     /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
     uint32_t pin_workers;
@@ -252,13 +243,13 @@ typedef struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     uint64_t worker_cores;
-    /// PONG_ACCOUNTS_...: keeps energy accounts of contacts and pairs, see pong_get_pair_account(), and says what the host
-    /// does with wrenches, which the work that they do depends on. Keeps the ledger as well. 0 (default) keeps none and
-    /// costs nothing.
-    uint32_t keep_accounts;
-    /// With PONG_ACCOUNTS_HELD: how many whole frames later than the first possible one the wrenches act, at most 16; 0 by
-    /// default.
-    uint32_t wrenches_late;
+    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account(). The coupling says
+    /// what the host does with wrenches, because their work depends on it. Keeps the ledger as well. 0 (default) keeps no
+    /// accounts and costs nothing.
+    uint32_t energy_accounts;
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one the wrenches act, at
+    /// most 16; 0 by default.
+    uint32_t delay_frames;
     /// Zero.
     uint64_t reserved[7];
 } pong_config;
@@ -282,8 +273,8 @@ typedef struct pong_interface_id {
     uint64_t bits;
 } pong_interface_id;
 
-/// In which frame a wrench is expressed: PONG_FRAME_GROUP or PONG_FRAME_COMMON.
-typedef int32_t pong_frame;
+/// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
+typedef int32_t pong_reference_frame;
 
 /// Wrench that the contacts put on a movable group. The moment is about the group's origin in either frame.
 typedef struct pong_wrench {
@@ -298,7 +289,7 @@ typedef struct pong_normal_input {
     /// Depth, m; positive.
     double depth;
     /// Rate of the depth, m/s, positive while closing.
-    double rate;
+    double depth_rate;
     /// Stiffness of the pair of surfaces.
     double stiffness;
     /// The law's parameters as the model gives them; valid during the call.
@@ -378,10 +369,11 @@ typedef struct pong_pair_id {
 typedef struct pong_step_plan {
     /// The step or frame, s; must be set.
     double step;
-    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_HELD by default.
-    int32_t coupling;
-    /// With PONG_COUPLING_HELD: how many whole frames the wrench comes late, at most 100; 0 by default.
-    uint32_t frames_late;
+    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
+    uint32_t wrench_coupling;
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one
+    /// the wrench acts, at most 100; 0 by default.
+    uint32_t delay_frames;
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     double closing_speed;
@@ -407,7 +399,7 @@ typedef struct pong_mass {
 } pong_mass;
 
 /// What the contacts of one frame leave of the planned step.
-typedef struct pong_acting {
+typedef struct pong_step_check {
     /// Contacts that push something that yields.
     uint64_t contacts;
     /// Contacts whose masses or laws are not known.
@@ -418,7 +410,7 @@ typedef struct pong_acting {
     double stiffness_rate;
     /// Damping over mass of the most damped way to move, 1/s.
     double damping_rate;
-} pong_acting;
+} pong_step_check;
 
 /// What sealing tells.
 typedef struct pong_seal_report {
@@ -481,7 +473,7 @@ typedef struct pong_contact {
     /// Depth, m.
     double depth;
     /// Rate of the depth, m/s, positive while closing.
-    double rate;
+    double depth_rate;
     /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
     double weight;
     /// Normal force, N, never negative.
@@ -498,7 +490,7 @@ typedef struct pong_contact {
 
 /// What the last frame did.
 typedef struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_limit_name().
+    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_flag_name().
     uint32_t flags;
     /// Contacts listed.
     uint32_t contacts;
@@ -529,7 +521,7 @@ typedef struct pong_report {
     /// pong_get_worker().
     uint64_t work_ns[4];
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
-    /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
+    /// PONG_FLAG_LOAD_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     uint64_t advised_capacity;
     /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
     /// remembered.
@@ -546,7 +538,7 @@ typedef struct pong_report {
     uint64_t scratch_capacity;
     /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
     /// in time. The results are the same; the time is not.
-    uint64_t rounds_done_alone;
+    uint64_t worker_timeouts;
     /// Zero in this version.
     uint64_t reserved[3];
 } pong_report;
@@ -561,52 +553,52 @@ typedef struct pong_ledger {
     double dissipated;
 } pong_ledger;
 
-/// Energies, J. To rounding  taken + put_in + made = returned + stored + damping_loss + friction_loss.
-typedef struct pong_account {
+/// Energies, J. To rounding  work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss.
+typedef struct pong_energy_account {
     /// What the bodies gave: work of the wrench on them, where it was negative.
-    double taken;
+    double work_in;
     /// What the bodies got back: work of the wrench on them, where it was positive.
-    double returned;
+    double work_out;
     /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
     /// began while its pair touched already: what it may have taken over from another.
-    double put_in;
+    double inserted;
     /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
-    double made;
+    double hold_error;
     /// Stored in normal springs and friction now.
     double stored;
     /// Lost in normal damping.
     double damping_loss;
     /// Lost in friction.
     double friction_loss;
-    /// What `returned - taken` may be off by, rounding apart; 0 except with PONG_ACCOUNTS_STAGES.
+    /// What `work_out - work_in` may be off by, rounding apart; 0 except with PONG_COUPLING_STAGES.
     double resolution;
     /// PONG_VERDICT_...
     uint32_t verdict;
     /// Zero.
     uint32_t reserved;
-} pong_account;
+} pong_energy_account;
 
 /// Accounts of two movable groups. A touch lasts from their first contact until nothing of them touches any more, and no
 /// late wrench is on its way.
-typedef struct pong_pair_account {
+typedef struct pong_pair_energy_account {
     /// The pair of Objects.
     struct pong_pair_id pair;
     /// The two movable groups.
     struct pong_interface_id interfaces[2];
     /// Since the world began.
-    struct pong_account total;
+    struct pong_energy_account total;
     /// Of the touch that lasts; zero if none does.
-    struct pong_account touch;
+    struct pong_energy_account episode;
     /// 1 if a touch lasts.
-    int32_t touching;
+    int32_t in_contact;
     /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
-    int32_t makes_energy;
+    int32_t gains_energy;
     /// Touches that have ended.
-    uint64_t touches;
+    uint64_t episodes;
     /// Of those, the ones that returned more than they took.
-    uint64_t returned_more;
+    uint64_t episodes_gained;
     /// Of those, the ones of which the accounts cannot tell.
-    uint64_t unresolved;
+    uint64_t episodes_unresolved;
     /// What touches returned too much, all together, J.
     double excess;
     /// What one touch returned too much at most, J.
@@ -615,7 +607,7 @@ typedef struct pong_pair_account {
     double stiffness;
     /// Damping of that contact, N s/m.
     double damping;
-} pong_pair_account;
+} pong_pair_energy_account;
 
 /// Tests of one kind against another in the last frame.
 typedef struct pong_tally {
@@ -637,7 +629,7 @@ typedef struct pong_tally {
 /// What became of a worker, and what it did last.
 typedef struct pong_worker {
     /// 0 is the calling thread, 1 the first worker.
-    uint32_t lane;
+    uint32_t index;
     /// Whether it is bound to a core: PONG_GRANT_...
     uint32_t core_grant;
     /// The core that was asked for; 0 if none was.
@@ -652,7 +644,7 @@ typedef struct pong_worker {
     /// With report_times: time in them, ns; else 0.
     uint64_t busy_ns;
     /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
-    /// rounds of the frame together; of lane 0 also what it did by itself.
+    /// rounds of the frame together; of the calling thread also what it did by itself.
     uint64_t work_ns[4];
 } pong_worker;
 
@@ -700,7 +692,7 @@ typedef struct pong_log_options {
     /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
     /// flushed.
     uint32_t flush_ms;
-    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT. A disk that takes
+    /// What happens when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that takes
     /// nothing for 30 s has failed.
     uint32_t when_full;
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
@@ -736,10 +728,10 @@ typedef struct pong_log_report {
 } pong_log_report;
 
 /// Along the axes of the movable group.
-#define PONG_FRAME_GROUP 0
+#define PONG_REFERENCE_FRAME_GROUP 0
 
 /// Along the axes of the common frame.
-#define PONG_FRAME_COMMON 1
+#define PONG_REFERENCE_FRAME_COMMON 1
 
 #ifdef __cplusplus
 extern "C" {
@@ -794,14 +786,14 @@ pong_status pong_get_state(const struct pong_world *world,
 /// memory.
 pong_status pong_get_wrenches(const struct pong_world *world,
                               const struct pong_interface_id *interfaces,
-                              pong_frame frame,
+                              pong_reference_frame frame,
                               struct pong_wrench *wrenches,
                               size_t n);
 
 /// Wrench of the last frame on one movable group.
 pong_status pong_get_wrench(const struct pong_world *world,
                             struct pong_interface_id interface,
-                            pong_frame frame,
+                            pong_reference_frame frame,
                             struct pong_wrench *wrench);
 
 /// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
@@ -880,7 +872,7 @@ pong_status pong_find_object(const struct pong_world *world, const char *name, s
 pong_status pong_object_name(const struct pong_world *world, struct pong_object_id object, const char **name);
 
 /// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
-pong_status pong_forget_object(struct pong_world *world, struct pong_object_id object);
+pong_status pong_clear_contact_history(struct pong_world *world, struct pong_object_id object);
 
 /// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each
 /// other. Before sealing. `pair` may be NULL.
@@ -965,8 +957,8 @@ pong_status pong_plan_step(struct pong_world *world,
 
 /// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
 /// the masses from before the seal, and a frame. Allocates.
-pong_status pong_get_acting(const struct pong_world *world,
-                            struct pong_acting *acting);
+pong_status pong_check_step(const struct pong_world *world,
+                            struct pong_step_check *check);
 
 /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames and
 /// takes it, and starts the workers. `report` may be NULL. After a failure the world is still in set-up, and the
@@ -1016,31 +1008,32 @@ pong_status pong_get_contacts(const struct pong_world *world,
 /// Counts, times, memory and flags of the last frame; all zero before the first.
 pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
 
-/// What a flag of the report means, in words: "contact limit", "sharing limit", "went through"; "unknown limit" for a number that is
+/// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
 /// no single flag. Lives as long as the library.
-const char *pong_limit_name(uint32_t flag);
+const char *pong_flag_name(uint32_t flag);
 
-/// Name of a stage, PONG_STAGE_...: "relative", "contacts", "order", "ledger", "reduce", "commit"; empty for a place
+/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for a place
 /// of `stage_ns` that has no stage. Lives as long as the library.
 const char *pong_stage_name(size_t stage);
 
-/// Name of a part of the contacts' work, PONG_WORK_...: "bounding", "testers", "sharing", "forces"; empty for a place of
+/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing", "forces"; empty for a place of
 /// `work_ns` that there is not. Lives as long as the library.
 const char *pong_work_name(size_t work);
 
 /// The energies; zero unless the configuration has keep_ledger.
 pong_status pong_get_ledger(const struct pong_world *world, struct pong_ledger *ledger);
 
-/// The accounts of all pairs together at the last commit; zero unless the configuration has keep_accounts.
-pong_status pong_get_account(const struct pong_world *world, struct pong_account *account);
+/// The accounts of all pairs together at the last commit; zero unless the configuration has energy_accounts.
+pong_status pong_get_energy_account(const struct pong_world *world, struct pong_energy_account *account);
 
-/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has keep_accounts.
-pong_status pong_pair_account_count(const struct pong_world *world, size_t *count);
+/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has energy_accounts.
+pong_status pong_pair_energy_account_count(const struct pong_world *world,
+                                           size_t *count);
 
 /// The accounts of a pair of movable groups at the last commit, always in the same order.
-pong_status pong_get_pair_account(const struct pong_world *world,
-                                  size_t index,
-                                  struct pong_pair_account *account);
+pong_status pong_get_pair_energy_account(const struct pong_world *world,
+                                         size_t index,
+                                         struct pong_pair_energy_account *account);
 
 /// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
 /// the next call of this function for the world.
@@ -1049,12 +1042,12 @@ pong_status pong_pair_remedy(const struct pong_world *world,
                              const char **remedy);
 
 /// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
-/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has keep_accounts.
+/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has energy_accounts.
 /// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
-pong_status pong_get_contact_accounts(const struct pong_world *world,
-                                      struct pong_account *accounts,
-                                      size_t capacity,
-                                      size_t *count);
+pong_status pong_get_contact_energy_accounts(const struct pong_world *world,
+                                             struct pong_energy_account *accounts,
+                                             size_t capacity,
+                                             size_t *count);
 
 /// Number of tallies of the last frame: pairs of kinds of which something was tested. It may differ from frame to
 /// frame; 0 before the first.
@@ -1081,15 +1074,15 @@ pong_status pong_quiesce(struct pong_world *world);
 /// PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_worker_count(const struct pong_world *world, size_t *count);
 
-/// What became of a worker and what it did last. `lane` is 1 to pong_worker_count(), or 0 for the calling thread.
+/// What became of a worker and what it did last. `index` is 1 to pong_worker_count(), or 0 for the calling thread.
 /// PONG_STATUS_WRONG_PHASE before the seal.
 pong_status pong_get_worker(const struct pong_world *world,
-                            size_t lane,
+                            size_t index,
                             struct pong_worker *worker);
 
-/// What became of a worker, in words: its core and priority, or why it has not got them. `lane` is 1 to
+/// What became of a worker, in words: its core and priority, or why it has not got them. `index` is 1 to
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
-pong_status pong_worker_text(const struct pong_world *world, size_t lane, const char **text);
+pong_status pong_worker_text(const struct pong_world *world, size_t index, const char **text);
 
 /// Size of the largest contact state that this world can save, bytes; fixed when the world is sealed. A buffer of this size,
 /// made once, is large enough for ever.
@@ -1116,7 +1109,7 @@ pong_status pong_restore_contact_state(struct pong_world *world,
                                        size_t size);
 
 /// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
-/// frame of a run, and after pong_forget_object(). `force` NULL: what moves along what it touches has slid for long and has its
+/// frame of a run, and after pong_clear_contact_history(). `force` NULL: what moves along what it touches has slid for long and has its
 /// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
 /// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
 /// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.

@@ -45,15 +45,15 @@ using Contact = pong_contact;
 using Report = pong_report;
 using SealReport = pong_seal_report;
 using Ledger = pong_ledger;
-using Account = pong_account;
-using PairAccount = pong_pair_account;
+using Account = pong_energy_account;
+using PairAccount = pong_pair_energy_account;
 using SurfaceValues = pong_surface_values;
 using Tally = pong_tally;
 using Worker = pong_worker;
 using LogOptions = pong_log_options;
 using Mass = pong_mass;
 using StepPlan = pong_step_plan;
-using Acting = pong_acting;
+using Acting = pong_step_check;
 using LogReport = pong_log_report;
 using Vec3 = std::array<double, 3>;
 
@@ -101,7 +101,7 @@ struct Wrench {
 };
 
 /// In which frame a wrench is expressed.
-enum class Frame : pong_frame { group = PONG_FRAME_GROUP, common = PONG_FRAME_COMMON };
+enum class Frame : pong_reference_frame { group = PONG_REFERENCE_FRAME_GROUP, common = PONG_REFERENCE_FRAME_COMMON };
 
 /// Owner of a world. Moves, does not copy; texts that it returns by pointer live as long as it does.
 class World {
@@ -199,12 +199,12 @@ public:
 
     Wrench wrench(InterfaceId interface, Frame frame = Frame::group) const {
         return result<pong_wrench>([&](pong_wrench* out) {
-            return pong_get_wrench(get(), interface, static_cast<pong_frame>(frame), out);
+            return pong_get_wrench(get(), interface, static_cast<pong_reference_frame>(frame), out);
         });
     }
     /// One call for all: `n` ids and room for as many wrenches of pong.h.
     void wrenches(const InterfaceId* interfaces, Frame frame, pong_wrench* out, std::size_t n) const {
-        check(pong_get_wrenches(get(), interfaces, static_cast<pong_frame>(frame), out, n));
+        check(pong_get_wrenches(get(), interfaces, static_cast<pong_reference_frame>(frame), out, n));
     }
     std::vector<Contact> contacts() const {
         return list<Contact>([&](Contact* out, std::size_t capacity, std::size_t* count) {
@@ -217,23 +217,23 @@ public:
     Ledger ledger() const {
         return result<Ledger>([&](Ledger* out) { return pong_get_ledger(get(), out); });
     }
-    /// Accounts of all contacts together; zero unless the configuration has keep_accounts.
+    /// Accounts of all contacts together; zero unless the configuration has energy_accounts.
     Account account() const {
-        return result<Account>([&](Account* out) { return pong_get_account(get(), out); });
+        return result<Account>([&](Account* out) { return pong_get_energy_account(get(), out); });
     }
     /// Accounts of all pairs of movable groups.
     std::vector<PairAccount> pair_accounts() const {
         std::vector<PairAccount> all(
-            result<std::size_t>([&](std::size_t* out) { return pong_pair_account_count(get(), out); }));
+            result<std::size_t>([&](std::size_t* out) { return pong_pair_energy_account_count(get(), out); }));
         for (std::size_t i = 0; i < all.size(); ++i) {
-            check(pong_get_pair_account(get(), i, &all[i]));
+            check(pong_get_pair_energy_account(get(), i, &all[i]));
         }
         return all;
     }
     /// Accounts of the contacts of the last frame, in the order of contacts().
     std::vector<Account> contact_accounts() const {
         return list<Account>([&](Account* out, std::size_t capacity, std::size_t* count) {
-            return pong_get_contact_accounts(get(), out, capacity, count);
+            return pong_get_contact_energy_accounts(get(), out, capacity, count);
         });
     }
     /// What to do about a pair (a place in pair_accounts()) that makes energy.
@@ -257,12 +257,12 @@ public:
     std::size_t worker_count() const {
         return result<std::size_t>([&](std::size_t* out) { return pong_worker_count(get(), out); });
     }
-    /// Lane 0 is the calling thread, 1 to worker_count() are the workers.
-    Worker worker(std::size_t lane) const {
-        return result<Worker>([&](Worker* out) { return pong_get_worker(get(), lane, out); });
+    /// Index 0 is the calling thread, 1 to worker_count() are the workers.
+    Worker worker(std::size_t index) const {
+        return result<Worker>([&](Worker* out) { return pong_get_worker(get(), index, out); });
     }
-    const char* worker_text(std::size_t lane) const {
-        return result<const char*>([&](const char** out) { return pong_worker_text(get(), lane, out); });
+    const char* worker_text(std::size_t index) const {
+        return result<const char*>([&](const char** out) { return pong_worker_text(get(), index, out); });
     }
 
     // Between frames.
@@ -284,7 +284,7 @@ public:
     std::size_t preload_holding(PairId pair, const Vec3& force) {
         return result<std::size_t>([&](std::size_t* out) { return pong_preload_friction(get(), pair, force.data(), out); });
     }
-    void forget(ObjectId object) { check(pong_forget_object(get(), object)); }
+    void clear_contact_history(ObjectId object) { check(pong_clear_contact_history(get(), object)); }
     void set_pair_enabled(PairId pair, bool enabled) { check(pong_set_pair_enabled(get(), pair, enabled ? 1 : 0)); }
     SurfaceValues surface(ModelId model, const std::string& name) const {
         return result<SurfaceValues>(

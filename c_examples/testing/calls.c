@@ -57,7 +57,7 @@ static pong_wrench slide_to(scene *s, double x)
     s->states[0].position[0] = x;
     OK(pong_set_states(s->world, s->interfaces, s->states, 3));
     OK(pong_step(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_COMMON, &wrench));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &wrench));
     return wrench;
 }
 
@@ -89,21 +89,21 @@ static void frames(scene *s)
     size_t count;
     int i;
     s->states[0].orientation[0] = s->states[0].orientation[1] = sqrt(0.5);
-    OK(pong_forget_object(s->world, s->ball)); /* it was turned, it did not roll */
+    OK(pong_clear_contact_history(s->world, s->ball)); /* it was turned, it did not roll */
     slide_to(s, 0.0);
     common = slide_to(s, 1e-4);
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &group));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &group));
     TEST(fabs(common.force[2] - 10.0) < 1e-9 && common.force[0] < -0.1);
     TEST(fabs(group.force[1] - 10.0) < 1e-9 && fabs(group.force[2]) < 1e-9 && group.force[0] == common.force[0]);
     OK(pong_get_contacts(s->world, &contact, 1, &count));
     for (i = 0; i < 3; i += 1) {
         TEST(contact.friction_force[i] + contact.normal_force * contact.normal[i] == contact.force[i]);
     }
-    TEST(contact.friction_force[0] < -0.1 && contact.slip_velocity[0] == 0.0 && contact.rate == 0.0);
+    TEST(contact.friction_force[0] < -0.1 && contact.slip_velocity[0] == 0.0 && contact.depth_rate == 0.0);
     TEST(fabs(contact.a.arm[2] + 0.0995) < 1e-9 && fabs(contact.b.arm[2] + 0.0005) < 1e-9);
     s->states[0].orientation[0] = 1.0;
     s->states[0].orientation[1] = 0.0;
-    OK(pong_forget_object(s->world, s->ball));
+    OK(pong_clear_contact_history(s->world, s->ball));
 }
 
 static void contact_state(scene *s)
@@ -138,7 +138,7 @@ static void contact_state(scene *s)
     REFUSED(pong_restore_contact_state(s->world, NULL, 0), BAD_STATE_BLOCK, "bytes");
     saved[used / 2] ^= 1;
     REFUSED(pong_restore_contact_state(s->world, saved, size), BAD_STATE_BLOCK, "damaged");
-    OK(pong_forget_object(s->world, s->ball));
+    OK(pong_clear_contact_history(s->world, s->ball));
     TEST(slide_to(s, 5e-4).force[0] == 0.0);
     free(saved);
     free(again);
@@ -150,15 +150,15 @@ static void preload(scene *s)
     size_t count = 0;
     pong_wrench wrench;
     slide_to(s, 0.0);
-    OK(pong_forget_object(s->world, s->ball));
+    OK(pong_clear_contact_history(s->world, s->ball));
     OK(pong_preload_friction(s->world, s->pair, force, &count));
     TEST(count == 1);
     OK(pong_step(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_COMMON, &wrench));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &wrench));
     TEST(fabs(wrench.force[0] + 0.25) < 1e-12 && fabs(wrench.force[1]) < 1e-12);
     OK(pong_preload_friction(s->world, s->pair, NULL, NULL));
     REFUSED(pong_preload_friction(s->world, s->pair, not_finite, &count), BAD_VALUE, "NaN");
-    OK(pong_forget_object(s->world, s->ball));
+    OK(pong_clear_contact_history(s->world, s->ball));
 }
 
 static void surfaces(scene *s)
@@ -264,12 +264,12 @@ static void possible_steps(void)
     scene s;
     pong_step_plan plan = pong_default_step_plan();
     pong_seal_report sealed;
-    pong_acting acting;
+    pong_step_check acting;
     const char *note = "";
     const double k = 7e4 / 3.0, c = 20.0;
     const double surely = 4.0 / (c + sqrt(c * c + 4.0 * k));
     plan.step = 1.01 * surely;
-    plan.coupling = PONG_COUPLING_STEP;
+    plan.wrench_coupling = PONG_COUPLING_SEMI_IMPLICIT;
     plan.depth_within = plan.rebound_within = 0.0;
     sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
     TEST(sealed.warning_count == 0 && sealed.note_count == 1);
@@ -280,10 +280,10 @@ static void possible_steps(void)
     plan.step = 0.99 * surely;
     sealed = planned(&s, &plan, 1.0, 0.4 * 0.1 * 0.1);
     TEST(sealed.warning_count == 0 && sealed.note_count == 0);
-    REFUSED(pong_get_acting(s.world, &acting), WRONG_PHASE, "frame");
+    REFUSED(pong_check_step(s.world, &acting), WRONG_PHASE, "frame");
     OK(pong_set_states(s.world, s.interfaces, s.states, 3));
     OK(pong_step(s.world));
-    OK(pong_get_acting(s.world, &acting));
+    OK(pong_check_step(s.world, &acting));
     TEST(acting.contacts == 1 && acting.not_judged == 0);
     /* 1 mm deep the lever is that much shorter than the radius, on either side. */
     TEST(fabs(acting.stable_step / surely - 1.0) < 0.02 && fabs(acting.stiffness_rate / k - 1.0) < 0.02);
@@ -291,7 +291,7 @@ static void possible_steps(void)
     s.states[0].position[2] = 1.0;
     OK(pong_set_states(s.world, s.interfaces, s.states, 3));
     OK(pong_step(s.world));
-    OK(pong_get_acting(s.world, &acting));
+    OK(pong_check_step(s.world, &acting));
     TEST(acting.contacts == 0 && isinf(acting.stable_step));
     OK(pong_destroy_world(s.world));
 }
@@ -316,17 +316,17 @@ static void refused_plans(void)
     pong_config config = pong_default_config();
     pong_step_plan plan = pong_default_step_plan();
     pong_mass mass = {-1.0, {0}, {0}};
-    pong_acting acting;
+    pong_step_check acting;
     pong_seal_report sealed;
     open_scene(&s, &config);
     REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "step");
     plan.step = 1e-3;
-    plan.coupling = 7;
+    plan.wrench_coupling = 7;
     REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "coupling is 7");
-    plan.coupling = PONG_COUPLING_STEP;
-    plan.frames_late = 1;
-    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "frames_late");
-    plan.frames_late = 0;
+    plan.wrench_coupling = PONG_COUPLING_SEMI_IMPLICIT;
+    plan.delay_frames = 1;
+    REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "delay_frames");
+    plan.delay_frames = 0;
     plan.closing_speed = NAN;
     REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "closing speed");
     plan.closing_speed = 0.0;
@@ -337,7 +337,7 @@ static void refused_plans(void)
     plan.reserved[0] = 1;
     REFUSED(pong_plan_step(s.world, &plan), BAD_VALUE, "reserved");
     REFUSED(pong_plan_step(s.world, NULL), NULL_ARGUMENT, "`plan`");
-    REFUSED(pong_get_acting(s.world, &acting), WRONG_PHASE, "no step is planned");
+    REFUSED(pong_check_step(s.world, &acting), WRONG_PHASE, "no step is planned");
     REFUSED(pong_set_mass(s.world, s.interfaces[2], &mass), BAD_VALUE, "mass of `ground/ground`");
     mass.mass = 1.0;
     mass.inertia[3] = 1.0;
@@ -370,10 +370,10 @@ static void energies_and_limits(void)
     OK(pong_get_report(s.world, &report));
     TEST(report.flags == PONG_FLAG_CONTACT_LIMIT && report.contacts == 1 && report.contacts_wanted == 2);
     TEST(report.peak_contacts_wanted == 2 && report.evaluations == 1 && report.commits == 1);
-    TEST(report.advised_capacity == 2 && strcmp(pong_limit_name(report.flags), "contact limit") == 0);
+    TEST(report.advised_capacity == 2 && strcmp(pong_flag_name(report.flags), "contact limit") == 0);
     TEST(report.contacts_peak >= 1 && report.contacts_peak <= report.contacts_capacity);
-    TEST(strcmp(pong_limit_name(PONG_FLAG_SHARING_LIMIT), "sharing limit") == 0);
-    TEST(strcmp(pong_limit_name(0), "unknown limit") == 0 && strcmp(pong_limit_name(3), "unknown limit") == 0);
+    TEST(strcmp(pong_flag_name(PONG_FLAG_LOAD_SHARING_LIMIT), "load sharing limit") == 0);
+    TEST(strcmp(pong_flag_name(0), "unknown limit") == 0 && strcmp(pong_flag_name(3), "unknown limit") == 0);
     OK(pong_get_ledger(s.world, &ledger));
     TEST(fabs(ledger.stored - 0.5 * 1e4 * 0.005 * 0.005) < 1e-9);
     OK(pong_destroy_world(s.world));
@@ -384,15 +384,15 @@ static void accounts(void)
 {
     scene s;
     pong_config config = pong_default_config();
-    pong_account all, contacts[4];
-    pong_pair_account pair;
+    pong_energy_account all, contacts[4];
+    pong_pair_energy_account pair;
     const char *remedy;
     size_t count, listed, i;
     double depth;
-    config.keep_accounts = PONG_ACCOUNTS_HELD;
+    config.energy_accounts = PONG_COUPLING_ZERO_ORDER_HOLD;
     open_scene(&s, &config);
     OK(pong_seal(s.world, NULL));
-    OK(pong_pair_account_count(s.world, &count));
+    OK(pong_pair_energy_account_count(s.world, &count));
     TEST(count == 2);
     s.states[0].position[2] = 1.0; /* the ball is out of the way */
     /* In and out again by the same way: every wrench is that of the place before, and so does more on the way out. */
@@ -402,20 +402,20 @@ static void accounts(void)
         OK(pong_set_states(s.world, s.interfaces, s.states, 3));
         OK(pong_step(s.world));
         OK(pong_contact_count(s.world, &listed));
-        OK(pong_get_contact_accounts(s.world, contacts, 4, &count));
+        OK(pong_get_contact_energy_accounts(s.world, contacts, 4, &count));
         TEST(count == listed);
     }
-    OK(pong_get_account(s.world, &all));
-    TEST(all.verdict == PONG_VERDICT_RETURNED_MORE && all.returned > all.taken && all.taken > 0.0);
-    TEST(fabs(all.made - (all.returned - all.taken) - all.damping_loss - all.friction_loss) < 1e-12);
-    TEST(all.made > 0.0 && all.stored == 0.0 && all.put_in == 0.0 && all.resolution == 0.0);
-    OK(pong_pair_account_count(s.world, &count));
+    OK(pong_get_energy_account(s.world, &all));
+    TEST(all.verdict == PONG_VERDICT_GAINED && all.work_out > all.work_in && all.work_in > 0.0);
+    TEST(fabs(all.hold_error - (all.work_out - all.work_in) - all.damping_loss - all.friction_loss) < 1e-12);
+    TEST(all.hold_error > 0.0 && all.stored == 0.0 && all.inserted == 0.0 && all.resolution == 0.0);
+    OK(pong_pair_energy_account_count(s.world, &count));
     for (i = 0, listed = 0; i < count; i += 1) {
-        OK(pong_get_pair_account(s.world, i, &pair));
-        if (pair.makes_energy) {
+        OK(pong_get_pair_energy_account(s.world, i, &pair));
+        if (pair.gains_energy) {
             listed += 1;
-            TEST(pair.touches == 1 && pair.returned_more == 1 && !pair.touching && pair.stiffness > 0.0);
-            TEST(pair.excess > 0.0 && pair.excess == pair.worst_excess && pair.total.returned == all.returned);
+            TEST(pair.episodes == 1 && pair.episodes_gained == 1 && !pair.in_contact && pair.stiffness > 0.0);
+            TEST(pair.excess > 0.0 && pair.excess == pair.worst_excess && pair.total.work_out == all.work_out);
             OK(pong_pair_remedy(s.world, i, &remedy));
             TEST(strstr(remedy, "shorten the step") != NULL && strstr(remedy, "c > k") != NULL);
         }
@@ -443,16 +443,16 @@ static unsigned tested(const crowd *c, uint32_t what, const char *a, const char 
 }
 
 /* Time in every part of the work: the sum of the calling thread's and the workers'. */
-static void work_by_lane(const crowd *c, const pong_report *report, int timed)
+static void work_by_thread(const crowd *c, const pong_report *report, int timed)
 {
-    size_t lanes, lane, part;
-    OK(pong_worker_count(c->world, &lanes));
-    lanes += 1;
+    size_t threads, thread, part;
+    OK(pong_worker_count(c->world, &threads));
+    threads += 1;
     for (part = 0; part < 4; part += 1) {
         uint64_t sum = 0;
-        for (lane = 0; lane < lanes; lane += 1) {
+        for (thread = 0; thread < threads; thread += 1) {
             pong_worker worker;
-            OK(pong_get_worker(c->world, lane, &worker));
+            OK(pong_get_worker(c->world, thread, &worker));
             sum += worker.work_ns[part];
         }
         TEST(sum == report->work_ns[part] && pong_work_name(part)[0] != '\0');
@@ -483,7 +483,7 @@ static void counts_and_times(const crowd *c, int timed)
     TEST((report.stage_ns[PONG_STAGE_CONTACTS] > 0) == timed && (sum > 0) == timed);
     TEST(report.evaluate_ns > 0 && report.commit_ns > 0);
     TEST(strcmp(pong_work_name(PONG_WORK_FORCES), "forces") == 0 && pong_work_name(4)[0] == '\0');
-    work_by_lane(c, &report, timed);
+    work_by_thread(c, &report, timed);
     TEST(strcmp(pong_stage_name(PONG_STAGE_COMMIT), "commit") == 0 && pong_stage_name(99)[0] == '\0');
 }
 
@@ -500,7 +500,7 @@ static pong_wrench crowd_frames(crowd *c)
         OK(pong_set_states(c->world, c->parts, states, CROWD_PARTS));
         OK(pong_step(c->world));
     }
-    OK(pong_get_wrench(c->world, c->parts[0], PONG_FRAME_COMMON, &wrench));
+    OK(pong_get_wrench(c->world, c->parts[0], PONG_REFERENCE_FRAME_COMMON, &wrench));
     OK(pong_quiesce(c->world));
     return wrench;
 }
@@ -532,10 +532,10 @@ static void workers(void)
     OK(pong_worker_count(crew.world, &count));
     TEST(count == 2 && crew.sealed.workers == 2);
     OK(pong_get_worker(crew.world, 0, &worker));
-    TEST(worker.lane == 0 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.blocks > 0 && worker.busy_ns > 0);
+    TEST(worker.index == 0 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.blocks > 0 && worker.busy_ns > 0);
     blocks = worker.blocks;
     OK(pong_get_worker(crew.world, 2, &worker));
-    TEST(worker.lane == 2 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.fifo_grant == PONG_GRANT_NOT_ASKED);
+    TEST(worker.index == 2 && worker.core_grant == PONG_GRANT_NOT_ASKED && worker.fifo_grant == PONG_GRANT_NOT_ASKED);
     blocks += worker.blocks;
     OK(pong_get_worker(crew.world, 1, &worker));
     TEST(blocks + worker.blocks > 1);

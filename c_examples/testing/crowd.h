@@ -65,7 +65,7 @@ static inline void write_floor(char *text, size_t size)
 static inline double press(const pong_normal_input *in, void *user)
 {
     (void)user;
-    return in->stiffness * in->depth + in->parameters[0] * in->rate;
+    return in->stiffness * in->depth + in->parameters[0] * in->depth_rate;
 }
 
 /* A spring without a limit; its state is the displacement. */

@@ -150,7 +150,7 @@ static unsigned long long run(unsigned workers)
         states[2].position[2] = 0.1002 - 1e-5 * beat;
         IN(pong_set_states(world, roots, states, 4));
         IN(pong_step(world));
-        IN(pong_get_wrenches(world, roots, PONG_FRAME_COMMON, wrenches, 4));
+        IN(pong_get_wrenches(world, roots, PONG_REFERENCE_FRAME_COMMON, wrenches, 4));
         IN(pong_contact_count(world, &count));
         contacts += count;
         hash = hash_of(wrenches, sizeof wrenches, hash);

@@ -31,7 +31,7 @@ static pong_wrench frame(scene *s, int number)
     s->states[0].position[2] = 0.0995 - 1e-6 * (number % 100);
     OK(pong_set_states(s->world, s->interfaces, s->states, 3));
     OK(pong_step(s->world));
-    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_FRAME_GROUP, &wrench));
+    OK(pong_get_wrench(s->world, s->interfaces[0], PONG_REFERENCE_FRAME_GROUP, &wrench));
     return wrench;
 }
 
@@ -252,7 +252,7 @@ static void destroyed_from_inside(void)
     OK(pong_set_states(world, roots, states, 2));
     OK(pong_step(world));
     TEST(destroyed == PONG_STATUS_BUSY);
-    OK(pong_get_wrench(world, roots[0], PONG_FRAME_COMMON, &wrench));
+    OK(pong_get_wrench(world, roots[0], PONG_REFERENCE_FRAME_COMMON, &wrench));
     TEST(wrench.force[2] > 4.9 && wrench.force[2] < 5.1);
     OK(pong_destroy_world(world));
 }
@@ -261,7 +261,7 @@ int main(void)
 {
     char command[80];
     TEST(mkdtemp(folder) != NULL);
-    forks(PONG_LOG_LOSE);
+    forks(PONG_LOG_DROP);
     forks(PONG_LOG_WAIT);
     signals();
     worker_that_does_not_run();

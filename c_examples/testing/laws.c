@@ -25,7 +25,7 @@ static double linear(const pong_normal_input *in, void *user)
     lab *l = user;
     l->calls += 1;
     TEST(in->parameter_count == 1);
-    return l->factor * (in->stiffness * in->depth + in->parameters[0] * in->rate);
+    return l->factor * (in->stiffness * in->depth + in->parameters[0] * in->depth_rate);
 }
 
 static double linear_stored(const pong_normal_input *in, void *user)
@@ -88,7 +88,7 @@ static pong_wrench wrench(lab *l)
 {
     pong_wrench w;
     memset(&w, 0, sizeof w);
-    OK(pong_get_wrench(l->world, l->ball, PONG_FRAME_COMMON, &w));
+    OK(pong_get_wrench(l->world, l->ball, PONG_REFERENCE_FRAME_COMMON, &w));
     return w;
 }
 
@@ -139,7 +139,7 @@ static void not_a_number(void)
     place(&l, 0.0, 0.097);
     REFUSED(pong_step(l.world), LAW_FAILED, "`mine`");
     REFUSED(pong_commit(l.world), LAW_FAILED, "`mine`");
-    REFUSED(pong_get_wrench(l.world, l.ball, PONG_FRAME_GROUP, &w), LAW_FAILED, "`mine`");
+    REFUSED(pong_get_wrench(l.world, l.ball, PONG_REFERENCE_FRAME_GROUP, &w), LAW_FAILED, "`mine`");
     REFUSED(pong_get_contacts(l.world, &contact, 1, &count), LAW_FAILED, "`mine`");
     place(&l, 0.0, 0.0965);
     REFUSED(pong_commit(l.world), LAW_FAILED, "`mine`");

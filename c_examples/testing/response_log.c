@@ -78,7 +78,7 @@ static void refusals(void)
 static void change(scene *s, long n)
 {
     if (n % 500 == 250) {
-        OK(pong_forget_object(s->world, s->ball));
+        OK(pong_clear_contact_history(s->world, s->ball));
     }
     if (n % 700 == 300 || n % 700 == 310) {
         OK(pong_set_pair_enabled(s->world, s->pair, n % 700 == 310));
@@ -143,7 +143,7 @@ static void frames(void)
         change(&s, n);
         place(&s, n);
         commit(&s, n);
-        OK(pong_get_wrenches(s.world, s.interfaces, PONG_FRAME_COMMON, seen[n], BODIES));
+        OK(pong_get_wrenches(s.world, s.interfaces, PONG_REFERENCE_FRAME_COMMON, seen[n], BODIES));
         OK(pong_log_frame(s.world, 0.01 * (double)n));
         OK(pong_get_log_report(s.world, &report));
         OK(pong_contact_count(s.world, &count));

@@ -35,8 +35,8 @@ static void fetch(run *r)
     const char *path;
     size_t count;
     uint64_t value;
-    OK(pong_get_wrenches(s->world, s->parts, PONG_FRAME_GROUP, wrenches, CROWD_PARTS));
-    OK(pong_get_wrench(s->world, s->parts[1], PONG_FRAME_COMMON, wrenches));
+    OK(pong_get_wrenches(s->world, s->parts, PONG_REFERENCE_FRAME_GROUP, wrenches, CROWD_PARTS));
+    OK(pong_get_wrench(s->world, s->parts[1], PONG_REFERENCE_FRAME_COMMON, wrenches));
     OK(pong_get_state(s->world, s->parts[0], &state));
     OK(pong_contact_count(s->world, &count));
     OK(pong_get_contacts(s->world, r->contacts, s->sealed.contact_capacity, &count));
@@ -56,8 +56,8 @@ static void look(run *r)
     crowd *s = &r->scene;
     pong_report report;
     pong_ledger ledger;
-    pong_account account;
-    pong_pair_account pair;
+    pong_energy_account account;
+    pong_pair_energy_account pair;
     pong_tally tally;
     pong_worker worker;
     pong_surface_values values;
@@ -65,10 +65,10 @@ static void look(run *r)
     size_t count, i;
     OK(pong_get_report(s->world, &report));
     OK(pong_get_ledger(s->world, &ledger));
-    OK(pong_get_account(s->world, &account));
-    OK(pong_pair_account_count(s->world, &count));
+    OK(pong_get_energy_account(s->world, &account));
+    OK(pong_pair_energy_account_count(s->world, &count));
     for (i = 0; i < count; i += 1) {
-        OK(pong_get_pair_account(s->world, i, &pair));
+        OK(pong_get_pair_energy_account(s->world, i, &pair));
     }
     OK(pong_tally_count(s->world, &count));
     for (i = 0; i < count; i += 1) {
@@ -124,7 +124,7 @@ static void between(run *r, long n)
         OK(pong_restore_contact_state(s->world, r->block, r->block_size));
     }
     if (n % 13 == 0) {
-        OK(pong_forget_object(s->world, n % 2 == 0 ? s->pad : s->ball));
+        OK(pong_clear_contact_history(s->world, n % 2 == 0 ? s->pad : s->ball));
     }
     if (n % 17 == 0 || n % 17 == 3) {
         OK(pong_set_pair_enabled(s->world, s->pairs[n / 17 % CROWD_PAIRS], n % 17 == 3));
@@ -185,8 +185,8 @@ static void measure(run *r, uint32_t workers, uint32_t optional)
     config.oversubscribe = 1;
     config.contact_capacity = CAPACITY;
     config.keep_ledger = optional;
-    config.keep_accounts = optional ? PONG_ACCOUNTS_HELD : 0;
-    config.wrenches_late = optional;
+    config.energy_accounts = optional ? PONG_COUPLING_ZERO_ORDER_HOLD : 0;
+    config.delay_frames = optional;
     config.report_times = optional;
     open_crowd(&r->scene, &config);
     TEST(r->scene.sealed.workers == workers && r->scene.sealed.contact_capacity == CAPACITY);

@@ -10,40 +10,33 @@ use crate::world::pong_world;
 use pong_engine::{Account, PairAccount, Verdict};
 use std::ffi::c_char;
 
-/// `keep_accounts` of a host that evaluates again within every step, as Runge-Kutta methods do.
-pub const PONG_ACCOUNTS_STAGES: u32 = 1;
-/// `keep_accounts` of a host whose wrenches give the velocities with which the bodies then move: semi-implicit Euler.
-pub const PONG_ACCOUNTS_SEMI_IMPLICIT: u32 = 2;
-/// `keep_accounts` of a host that holds each wrench from one commit to the next, as one that steps the world once a frame.
-pub const PONG_ACCOUNTS_HELD: u32 = 3;
-
-/// `verdict`: less energy was returned than taken.
-pub const PONG_VERDICT_LOST: u32 = 0;
-/// `verdict`: as much was returned as taken, as far as the accounts can tell.
+/// `verdict`: less energy came out than went in.
+pub const PONG_VERDICT_DISSIPATED: u32 = 0;
+/// `verdict`: as much energy came out as went in, as far as the accounts can tell.
 pub const PONG_VERDICT_UNRESOLVED: u32 = 1;
-/// `verdict`: more energy was returned than taken.
-pub const PONG_VERDICT_RETURNED_MORE: u32 = 2;
+/// `verdict`: more energy came out than went in.
+pub const PONG_VERDICT_GAINED: u32 = 2;
 
-/// Energies, J. To rounding  taken + put_in + made = returned + stored + damping_loss + friction_loss.
+/// Energies, J. To rounding  work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct pong_account {
+pub struct pong_energy_account {
     /// What the bodies gave: work of the wrench on them, where it was negative.
-    pub taken: f64,
+    pub work_in: f64,
     /// What the bodies got back: work of the wrench on them, where it was positive.
-    pub returned: f64,
+    pub work_out: f64,
     /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
     /// began while its pair touched already: what it may have taken over from another.
-    pub put_in: f64,
+    pub inserted: f64,
     /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
-    pub made: f64,
+    pub hold_error: f64,
     /// Stored in normal springs and friction now.
     pub stored: f64,
     /// Lost in normal damping.
     pub damping_loss: f64,
     /// Lost in friction.
     pub friction_loss: f64,
-    /// What `returned - taken` may be off by, rounding apart; 0 except with PONG_ACCOUNTS_STAGES.
+    /// What `work_out - work_in` may be off by, rounding apart; 0 except with PONG_COUPLING_STAGES.
     pub resolution: f64,
     /// PONG_VERDICT_...
     pub verdict: u32,
@@ -55,25 +48,25 @@ pub struct pong_account {
 /// late wrench is on its way.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct pong_pair_account {
+pub struct pong_pair_energy_account {
     /// The pair of Objects.
     pub pair: pong_pair_id,
     /// The two movable groups.
     pub interfaces: [pong_interface_id; 2],
     /// Since the world began.
-    pub total: pong_account,
+    pub total: pong_energy_account,
     /// Of the touch that lasts; zero if none does.
-    pub touch: pong_account,
+    pub episode: pong_energy_account,
     /// 1 if a touch lasts.
-    pub touching: i32,
+    pub in_contact: i32,
     /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
-    pub makes_energy: i32,
+    pub gains_energy: i32,
     /// Touches that have ended.
-    pub touches: u64,
+    pub episodes: u64,
     /// Of those, the ones that returned more than they took.
-    pub returned_more: u64,
+    pub episodes_gained: u64,
     /// Of those, the ones of which the accounts cannot tell.
-    pub unresolved: u64,
+    pub episodes_unresolved: u64,
     /// What touches returned too much, all together, J.
     pub excess: f64,
     /// What one touch returned too much at most, J.
@@ -84,11 +77,11 @@ pub struct pong_pair_account {
     pub damping: f64,
 }
 
-/// The accounts of all pairs together at the last commit; zero unless the configuration has keep_accounts.
+/// The accounts of all pairs together at the last commit; zero unless the configuration has energy_accounts.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_get_account(
+pub unsafe extern "C" fn pong_get_energy_account(
     world: *const pong_world,
-    account: *mut pong_account,
+    account: *mut pong_energy_account,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
@@ -99,9 +92,12 @@ pub unsafe extern "C" fn pong_get_account(
     }
 }
 
-/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has keep_accounts.
+/// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has energy_accounts.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_pair_account_count(world: *const pong_world, count: *mut usize) -> pong_status {
+pub unsafe extern "C" fn pong_pair_energy_account_count(
+    world: *const pong_world,
+    count: *mut usize,
+) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
@@ -113,10 +109,10 @@ pub unsafe extern "C" fn pong_pair_account_count(world: *const pong_world, count
 
 /// The accounts of a pair of movable groups at the last commit, always in the same order.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_get_pair_account(
+pub unsafe extern "C" fn pong_get_pair_energy_account(
     world: *const pong_world,
     index: usize,
-    account: *mut pong_pair_account,
+    account: *mut pong_pair_energy_account,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
@@ -153,12 +149,12 @@ pub unsafe extern "C" fn pong_pair_remedy(
 }
 
 /// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
-/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has keep_accounts.
+/// first `capacity` are copied, `count` gets their number, which is 0 unless the configuration has energy_accounts.
 /// PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 `accounts` may be NULL.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_get_contact_accounts(
+pub unsafe extern "C" fn pong_get_contact_energy_accounts(
     world: *const pong_world,
-    accounts: *mut pong_account,
+    accounts: *mut pong_energy_account,
     capacity: usize,
     count: *mut usize,
 ) -> pong_status {
@@ -178,40 +174,40 @@ pub unsafe extern "C" fn pong_get_contact_accounts(
     }
 }
 
-impl From<&Account> for pong_account {
+impl From<&Account> for pong_energy_account {
     fn from(account: &Account) -> Self {
         Self {
-            taken: account.taken,
-            returned: account.returned,
-            put_in: account.put_in,
-            made: account.made,
+            work_in: account.taken,
+            work_out: account.returned,
+            inserted: account.put_in,
+            hold_error: account.made,
             stored: account.stored,
             damping_loss: account.damping_loss,
             friction_loss: account.friction_loss,
             resolution: account.resolution,
             verdict: match account.verdict() {
-                Verdict::Lost => PONG_VERDICT_LOST,
+                Verdict::Lost => PONG_VERDICT_DISSIPATED,
                 Verdict::Unresolved => PONG_VERDICT_UNRESOLVED,
-                Verdict::ReturnedMore => PONG_VERDICT_RETURNED_MORE,
+                Verdict::ReturnedMore => PONG_VERDICT_GAINED,
             },
             reserved: 0,
         }
     }
 }
 
-impl From<&PairAccount> for pong_pair_account {
+impl From<&PairAccount> for pong_pair_energy_account {
     fn from(account: &PairAccount) -> Self {
         let (stiffness, damping) = account.stiffest.unwrap_or_default();
         Self {
             pair: account.pair.into(),
             interfaces: account.interfaces.map(Into::into),
             total: (&account.total).into(),
-            touch: (&account.touch).into(),
-            touching: account.touching.into(),
-            makes_energy: account.makes_energy().into(),
-            touches: account.touches,
-            returned_more: account.returned_more,
-            unresolved: account.unresolved,
+            episode: (&account.touch).into(),
+            in_contact: account.touching.into(),
+            gains_energy: account.makes_energy().into(),
+            episodes: account.touches,
+            episodes_gained: account.returned_more,
+            episodes_unresolved: account.unresolved,
             excess: account.excess,
             worst_excess: account.worst_excess,
             stiffness,

@@ -1,6 +1,6 @@
 //! Settings of a world.
 
-use crate::accounts::{PONG_ACCOUNTS_HELD, PONG_ACCOUNTS_SEMI_IMPLICIT, PONG_ACCOUNTS_STAGES};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::guard::{Failure, Outcome};
 use crate::status::pong_status;
 use crate::version::PONG_ABI_VERSION;
@@ -40,7 +40,7 @@ pub struct pong_config {
     pub spin_us: u32,
     /// How long the calling thread waits for a worker that has begun a part of the frame and does not finish it, us;
     /// then it does that work again by itself. 1000 by default, 1 to 1000000.
-    pub patience_us: u32,
+    pub worker_timeout_us: u32,
     /// 1 binds each worker to a core of its own; 0 by default. The calling thread stays as it is: bind it to the
     /// first core of its mask, which the workers leave free. What became of it: pong_get_worker().
     pub pin_workers: u32,
@@ -51,13 +51,13 @@ pub struct pong_config {
     /// outside the affinity mask, and their number is the limit of the workers. 0 (default) for the cores of the
     /// affinity mask after the first.
     pub worker_cores: u64,
-    /// PONG_ACCOUNTS_...: keeps energy accounts of contacts and pairs, see pong_get_pair_account(), and says what the host
-    /// does with wrenches, which the work that they do depends on. Keeps the ledger as well. 0 (default) keeps none and
-    /// costs nothing.
-    pub keep_accounts: u32,
-    /// With PONG_ACCOUNTS_HELD: how many whole frames later than the first possible one the wrenches act, at most 16; 0 by
-    /// default.
-    pub wrenches_late: u32,
+    /// PONG_COUPLING_...: keeps energy accounts of contacts and pairs, see pong_get_pair_energy_account(). The coupling says
+    /// what the host does with wrenches, because their work depends on it. Keeps the ledger as well. 0 (default) keeps no
+    /// accounts and costs nothing.
+    pub energy_accounts: u32,
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one the wrenches act, at
+    /// most 16; 0 by default.
+    pub delay_frames: u32,
     /// Zero.
     pub reserved: [u64; 7],
 }
@@ -75,12 +75,12 @@ pub extern "C" fn pong_default_config() -> pong_config {
         workers: 0,
         oversubscribe: 0,
         spin_us: 50,
-        patience_us: 1000,
+        worker_timeout_us: 1000,
         pin_workers: 0,
         fifo_priority: 0,
         worker_cores: 0,
-        keep_accounts: 0,
-        wrenches_late: 0,
+        energy_accounts: 0,
+        delay_frames: 0,
         reserved: [0; 7],
     }
 }
@@ -132,22 +132,18 @@ impl pong_config {
 
     fn accounts(&self) -> Outcome<Option<WrenchUse>> {
         let most = WrenchUse::LATE_MAX.into();
-        let late = within("wrenches_late", self.wrenches_late.into(), 0, most, "0 by default")? as u32;
-        let wrench_use = match self.keep_accounts {
-            0 => None,
-            PONG_ACCOUNTS_STAGES => Some(WrenchUse::Stages),
-            PONG_ACCOUNTS_SEMI_IMPLICIT => Some(WrenchUse::SemiImplicit),
-            PONG_ACCOUNTS_HELD => Some(WrenchUse::Held { late }),
-            other => {
-                let message =
-                    format!("config: keep_accounts is {other}; give PONG_ACCOUNTS_..., or 0 for none");
-                return Err(Failure::new(pong_status::BadValue, message));
-            }
-        };
-        if late > 0 && self.keep_accounts != PONG_ACCOUNTS_HELD {
+        let late = within("delay_frames", self.delay_frames.into(), 0, most, "0 by default")? as u32;
+        let wrench_use = coupling::of_accounts(self.energy_accounts, late);
+        if wrench_use.is_none() && self.energy_accounts != 0 {
+            let given = self.energy_accounts;
+            let message =
+                format!("config: energy_accounts is {given}; give PONG_COUPLING_..., or 0 for none");
+            return Err(Failure::new(pong_status::BadValue, message));
+        }
+        if late > 0 && self.energy_accounts != PONG_COUPLING_ZERO_ORDER_HOLD {
             let message = format!(
-                "config: wrenches_late is {late} but keep_accounts is {}; only wrenches that are held come late: set it to PONG_ACCOUNTS_HELD or wrenches_late to 0",
-                self.keep_accounts
+                "config: delay_frames is {late} but energy_accounts is {}; only a wrench that is held can be delayed: set energy_accounts to PONG_COUPLING_ZERO_ORDER_HOLD or delay_frames to 0",
+                self.energy_accounts
             );
             return Err(Failure::new(pong_status::BadValue, message));
         }
@@ -160,7 +156,8 @@ impl pong_config {
         let workers =
             within("workers", self.workers.into(), 0, most, "0 for the calling thread alone")? as usize;
         let spin = within("spin_us", self.spin_us.into(), 0, MOST_US, "50 by default")?;
-        let patience = within("patience_us", self.patience_us.into(), 1, MOST_US, "1000 by default")?;
+        let patience =
+            within("worker_timeout_us", self.worker_timeout_us.into(), 1, MOST_US, "1000 by default")?;
         let priority = within("fifo_priority", self.fifo_priority.into(), 0, 99, "0 for no SCHED_FIFO")?;
         let pin = switch("pin_workers", self.pin_workers)?;
         let oversubscribe = switch("oversubscribe", self.oversubscribe)?;

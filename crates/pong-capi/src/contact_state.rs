@@ -83,7 +83,7 @@ pub unsafe extern "C" fn pong_restore_contact_state(
 }
 
 /// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
-/// frame of a run, and after pong_forget_object(). `force` NULL: what moves along what it touches has slid for long and has its
+/// frame of a run, and after pong_clear_contact_history(). `force` NULL: what moves along what it touches has slid for long and has its
 /// kinetic friction, against its present motion. Otherwise friction holds `force`, N, three numbers along the common axes, on the
 /// Object that was named first in the pair: as much of it as lies in the contact planes and as sticks. `count`, which may be
 /// NULL, tells how many bristles were set; contacts without a bristle or without load have none. Allocates: not in frames.

@@ -57,7 +57,7 @@ pub struct pong_contact {
     /// Depth, m.
     pub depth: f64,
     /// Rate of the depth, m/s, positive while closing.
-    pub rate: f64,
+    pub depth_rate: f64,
     /// Weight, 0 to 1: the share of the pair's spring that this contact carries.
     pub weight: f64,
     /// Normal force, N, never negative.
@@ -125,7 +125,7 @@ impl From<&Contact> for pong_contact {
             point: contact.point.into(),
             normal: contact.normal.into(),
             depth: contact.depth,
-            rate: contact.rate,
+            depth_rate: contact.rate,
             weight: contact.weight,
             normal_force: contact.normal_force,
             friction_force: contact.friction_force.into(),

@@ -98,7 +98,7 @@ impl NormalForce for NormalCallback {
 fn c_input(input: &NormalInput<'_>) -> pong_normal_input {
     pong_normal_input {
         depth: input.depth,
-        rate: input.rate,
+        depth_rate: input.rate,
         stiffness: input.stiffness,
         parameters: input.parameters.as_ptr(),
         parameter_count: input.parameters.len(),

@@ -9,7 +9,7 @@ pub struct pong_normal_input {
     /// Depth, m; positive.
     pub depth: f64,
     /// Rate of the depth, m/s, positive while closing.
-    pub rate: f64,
+    pub depth_rate: f64,
     /// Stiffness of the pair of surfaces.
     pub stiffness: f64,
     /// The law's parameters as the model gives them; valid during the call.

@@ -1,6 +1,6 @@
 //! The layout of every struct, as data: hashed for `pong_check_abi`, compared with what C compilers make of it.
 
-use crate::accounts::{pong_account, pong_pair_account};
+use crate::accounts::{pong_energy_account, pong_pair_energy_account};
 use crate::config::pong_config;
 use crate::contacts::{pong_contact, pong_contact_side};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id, pong_pair_id};
@@ -10,7 +10,7 @@ use crate::report::{pong_ledger, pong_report};
 use crate::seal::pong_seal_report;
 use crate::states::pong_state;
 use crate::status::pong_status;
-use crate::step_plan::{pong_acting, pong_mass, pong_step_plan};
+use crate::step_plan::{pong_mass, pong_step_check, pong_step_plan};
 use crate::surfaces::pong_surface_values;
 use crate::tally::pong_tally;
 use crate::workers::pong_worker;
@@ -48,14 +48,14 @@ macro_rules! layouts {
 layouts! {
     pong_config {
         struct_size, abi_version, cookie, contact_capacity, keep_ledger, report_times, workers, oversubscribe, spin_us,
-        patience_us, pin_workers, fifo_priority, worker_cores, keep_accounts, wrenches_late,
+        worker_timeout_us, pin_workers, fifo_priority, worker_cores, energy_accounts, delay_frames,
         reserved,
     }
     pong_model_id { bits }
     pong_object_id { bits }
     pong_pair_id { bits }
     pong_interface_id { bits }
-    pong_normal_input { depth, rate, stiffness, parameters, parameter_count }
+    pong_normal_input { depth, depth_rate, stiffness, parameters, parameter_count }
     pong_friction_input {
         normal_force, normal, slip, slip_velocity, share, stiffness, parameters, parameter_count, stuck, reserved,
     }
@@ -65,22 +65,22 @@ layouts! {
         surely_stable_step, reserved,
     }
     pong_mass { mass, inertia, mass_center }
-    pong_acting { contacts, not_judged, stable_step, stiffness_rate, damping_rate }
-    pong_step_plan { step, coupling, frames_late, closing_speed, depth_within, rebound_within, reserved }
+    pong_step_check { contacts, not_judged, stable_step, stiffness_rate, damping_rate }
+    pong_step_plan { step, wrench_coupling, delay_frames, closing_speed, depth_within, rebound_within, reserved }
     pong_state { position, orientation, linear_velocity, angular_velocity }
     pong_wrench { force, moment }
     pong_contact_side { object, interface, primitive, element, arm }
     pong_contact {
-        pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, rate, weight, normal_force,
+        pair, a, b, feature_kind, feature_index, end, sticks, point, normal, depth, depth_rate, weight, normal_force,
         friction_force, force, slip_velocity, stored,
     }
     pong_report {
         flags, contacts, contacts_wanted, peak_contacts_wanted, volumes_tested, leaf_pairs, boxes_tested,
         primitives_tested, evaluations, commits, evaluate_ns, commit_ns, stage_ns, work_ns, advised_capacity, contacts_peak,
-        contacts_capacity, arena_peak, arena_capacity, scratch_peak, scratch_capacity, rounds_done_alone, reserved,
+        contacts_capacity, arena_peak, arena_capacity, scratch_peak, scratch_capacity, worker_timeouts, reserved,
     }
     pong_tally { what, tested, met, reserved, kind_a, kind_b }
-    pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns, work_ns }
+    pong_worker { index, core_grant, core, fifo_grant, fifo_priority, blocks, busy_ns, work_ns }
     pong_log_options {
         struct_size, abi_version, cookie, name, step, buffer_bytes, flush_ms, when_full, overwrite, commits_per_frame,
         reserved,
@@ -89,11 +89,11 @@ layouts! {
         frames, flushed, lost, events_lost, bytes, buffer_peak, buffer_size, failed, reserved_flags, reserved,
     }
     pong_ledger { stored, work, dissipated }
-    pong_account {
-        taken, returned, put_in, made, stored, damping_loss, friction_loss, resolution, verdict, reserved,
+    pong_energy_account {
+        work_in, work_out, inserted, hold_error, stored, damping_loss, friction_loss, resolution, verdict, reserved,
     }
-    pong_pair_account {
-        pair, interfaces, total, touch, touching, makes_energy, touches, returned_more, unresolved, excess, worst_excess,
+    pong_pair_energy_account {
+        pair, interfaces, total, episode, in_contact, gains_energy, episodes, episodes_gained, episodes_unresolved, excess, worst_excess,
         stiffness, damping,
     }
     pong_surface_values {

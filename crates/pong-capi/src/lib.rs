@@ -10,7 +10,7 @@
 //! | `config.rs`, `world.rs` | create and destroy a world |
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
-//! | `step_plan.rs` | masses and step, for the check at the seal |
+//! | `coupling.rs`, `step_plan.rs` | what the host does with wrenches; masses and step, for the check at the seal |
 //! | `seal.rs` | end of set-up |
 //! | `states.rs`, `frames.rs`, `wrenches.rs`, `contacts.rs`, `report.rs`, `accounts.rs`, `tally.rs` | frames |
 //! | `workers.rs` | workers, around frames |
@@ -35,6 +35,7 @@ mod clock;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;
+pub mod coupling;
 mod floating_point;
 pub mod frames;
 mod guard;

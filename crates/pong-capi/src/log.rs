@@ -12,7 +12,7 @@ use std::path::Path;
 use std::time::Duration;
 
 /// `when_full`: frames for which there is no room are left out of the log, whole, counted and marked.
-pub const PONG_LOG_LOSE: u32 = 0;
+pub const PONG_LOG_DROP: u32 = 0;
 /// `when_full`: pong_log_frame() waits until there is room: for runs that nobody watches.
 pub const PONG_LOG_WAIT: u32 = 1;
 
@@ -42,7 +42,7 @@ pub struct pong_log_options {
     /// How often what was written is made to count, ms; 1000 by default. A run that is cut off keeps what was
     /// flushed.
     pub flush_ms: u32,
-    /// What happens when the disk is slower than the run: PONG_LOG_LOSE (default) or PONG_LOG_WAIT. A disk that takes
+    /// What happens when the disk is slower than the run: PONG_LOG_DROP (default) or PONG_LOG_WAIT. A disk that takes
     /// nothing for 30 s has failed.
     pub when_full: u32,
     /// 1 replaces a log that lies in the folder; 0 (default) refuses to.
@@ -90,7 +90,7 @@ pub extern "C" fn pong_default_log_options() -> pong_log_options {
         step: 0.0,
         buffer_bytes: 0,
         flush_ms: 1000,
-        when_full: PONG_LOG_LOSE,
+        when_full: PONG_LOG_DROP,
         overwrite: 0,
         commits_per_frame: 0,
         reserved: [0; 8],
@@ -207,9 +207,9 @@ impl pong_log_options {
             return refused(format!("flush_ms is {}; give 1 to {MOST_MS} (1000 by default)", self.flush_ms));
         }
         let when_full = match self.when_full {
-            PONG_LOG_LOSE => WhenFull::Lose,
+            PONG_LOG_DROP => WhenFull::Lose,
             PONG_LOG_WAIT => WhenFull::Wait,
-            other => return refused(format!("when_full is {other}; give PONG_LOG_LOSE or PONG_LOG_WAIT")),
+            other => return refused(format!("when_full is {other}; give PONG_LOG_DROP or PONG_LOG_WAIT")),
         };
         if self.overwrite > 1 {
             return refused(format!("overwrite is {}; give 0 or 1", self.overwrite));

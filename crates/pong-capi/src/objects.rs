@@ -66,7 +66,10 @@ pub unsafe extern "C" fn pong_object_name(
 
 /// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_forget_object(world: *mut pong_world, object: pong_object_id) -> pong_status {
+pub unsafe extern "C" fn pong_clear_contact_history(
+    world: *mut pong_world,
+    object: pong_object_id,
+) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {

@@ -11,31 +11,31 @@ use std::ffi::{CStr, c_char};
 /// The frame had more contacts than the world's capacity: the deepest were kept.
 pub const PONG_FLAG_CONTACT_LIMIT: u32 = 1;
 /// More contacts of one ball with one surface than could be shared exactly: the deepest were.
-pub const PONG_FLAG_SHARING_LIMIT: u32 = 2;
+pub const PONG_FLAG_LOAD_SHARING_LIMIT: u32 = 2;
 /// Something went right through something else since the last commit, or came out on the far side of what pushed it back:
 /// a contact was missed. Shorter frames, a thicker wall or a stiffer surface cure it; before a jump that is meant, call
-/// pong_forget_object().
-pub const PONG_FLAG_WENT_THROUGH: u32 = 4;
+/// pong_clear_contact_history().
+pub const PONG_FLAG_TUNNELLED: u32 = 4;
 
 /// `stage_ns` of states in and relative motion.
-pub const PONG_STAGE_RELATIVE: usize = 0;
+pub const PONG_STAGE_INPUT: usize = 0;
 /// `stage_ns` of bounding volumes, testers, sharing and forces, on the calling thread and the workers.
 pub const PONG_STAGE_CONTACTS: usize = 1;
 /// `stage_ns` of putting contacts in order and keeping to the limits.
 pub const PONG_STAGE_ORDER: usize = 2;
 /// `stage_ns` of the energies, if they are kept.
-pub const PONG_STAGE_LEDGER: usize = 3;
+pub const PONG_STAGE_ENERGY: usize = 3;
 /// `stage_ns` of the wrenches.
-pub const PONG_STAGE_REDUCE: usize = 4;
+pub const PONG_STAGE_OUTPUT: usize = 4;
 /// `stage_ns` of the contact state, if the frame was committed.
 pub const PONG_STAGE_COMMIT: usize = 5;
 
 /// `work_ns` of laying out the work, bounding volumes and boxes.
-pub const PONG_WORK_BOUNDING: usize = 0;
+pub const PONG_WORK_BROAD_PHASE: usize = 0;
 /// `work_ns` of contact tests.
-pub const PONG_WORK_TESTERS: usize = 1;
+pub const PONG_WORK_NARROW_PHASE: usize = 1;
 /// `work_ns` of which contacts count, and their weights.
-pub const PONG_WORK_SHARING: usize = 2;
+pub const PONG_WORK_LOAD_SHARING: usize = 2;
 /// `work_ns` of normal and friction forces.
 pub const PONG_WORK_FORCES: usize = 3;
 
@@ -46,7 +46,7 @@ const STAGES: usize = 8;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct pong_report {
-    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_limit_name().
+    /// What the last frame had to leave out, PONG_FLAG_...; 0 if nothing. See pong_flag_name().
     pub flags: u32,
     /// Contacts listed.
     pub contacts: u32,
@@ -77,7 +77,7 @@ pub struct pong_report {
     /// pong_get_worker().
     pub work_ns: [u64; 4],
     /// The contact_capacity to ask for after a limit was hit in the last frame; 0 if none was. After
-    /// PONG_FLAG_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
+    /// PONG_FLAG_LOAD_SHARING_LIMIT alone it is twice the present one, and may have to be doubled again.
     pub advised_capacity: u64,
     /// Most contacts that a frame of this world had to hold, those included that touch nobody any more and are only
     /// remembered.
@@ -94,7 +94,7 @@ pub struct pong_report {
     pub scratch_capacity: u64,
     /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come back
     /// in time. The results are the same; the time is not.
-    pub rounds_done_alone: u64,
+    pub worker_timeouts: u64,
     /// Zero in this version.
     pub reserved: [u64; 3],
 }
@@ -135,7 +135,7 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         arena_capacity: memory.arena_capacity as u64,
         scratch_peak: memory.scratch_peak as u64,
         scratch_capacity: memory.scratch_capacity as u64,
-        rounds_done_alone: world.rounds_done_alone(),
+        worker_timeouts: world.worker_timeouts(),
         reserved: [0; 3],
     }
 }
@@ -154,48 +154,48 @@ pub(crate) fn by_work(times: &WorkTimes) -> [u64; 4] {
 }
 
 fn advised_capacity(frame: &FrameReport, capacity: u64) -> u64 {
-    let twice = if frame.status.contains(StatusBits::SHARING_LIMIT) { 2 * capacity } else { 0 };
+    let twice = if frame.status.contains(StatusBits::LOAD_SHARING_LIMIT) { 2 * capacity } else { 0 };
     let wanted = if frame.status.contains(StatusBits::CONTACT_LIMIT) { frame.contacts_wanted } else { 0 };
     twice.max(wanted.into())
 }
 
-/// What a flag of the report means, in words: "contact limit", "sharing limit", "went through"; "unknown limit" for a number that is
+/// What a flag of the report means, in words: "contact limit", "load sharing limit", "tunnelled"; "unknown limit" for a number that is
 /// no single flag. Lives as long as the library.
 #[unsafe(no_mangle)]
-pub extern "C" fn pong_limit_name(flag: u32) -> *const c_char {
+pub extern "C" fn pong_flag_name(flag: u32) -> *const c_char {
     let name: &CStr = match flag {
         PONG_FLAG_CONTACT_LIMIT => c"contact limit",
-        PONG_FLAG_SHARING_LIMIT => c"sharing limit",
-        PONG_FLAG_WENT_THROUGH => c"went through",
+        PONG_FLAG_LOAD_SHARING_LIMIT => c"load sharing limit",
+        PONG_FLAG_TUNNELLED => c"tunnelled",
         _ => c"unknown limit",
     };
     name.as_ptr()
 }
 
-/// Name of a stage, PONG_STAGE_...: "relative", "contacts", "order", "ledger", "reduce", "commit"; empty for a place
+/// Name of a stage, PONG_STAGE_...: "input", "contacts", "order", "energy", "output", "commit"; empty for a place
 /// of `stage_ns` that has no stage. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_stage_name(stage: usize) -> *const c_char {
     let name: &CStr = match stage {
-        PONG_STAGE_RELATIVE => c"relative",
+        PONG_STAGE_INPUT => c"input",
         PONG_STAGE_CONTACTS => c"contacts",
         PONG_STAGE_ORDER => c"order",
-        PONG_STAGE_LEDGER => c"ledger",
-        PONG_STAGE_REDUCE => c"reduce",
+        PONG_STAGE_ENERGY => c"energy",
+        PONG_STAGE_OUTPUT => c"output",
         PONG_STAGE_COMMIT => c"commit",
         _ => c"",
     };
     name.as_ptr()
 }
 
-/// Name of a part of the contacts' work, PONG_WORK_...: "bounding", "testers", "sharing", "forces"; empty for a place of
+/// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing", "forces"; empty for a place of
 /// `work_ns` that there is not. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_work_name(work: usize) -> *const c_char {
     let name: &CStr = match work {
-        PONG_WORK_BOUNDING => c"bounding",
-        PONG_WORK_TESTERS => c"testers",
-        PONG_WORK_SHARING => c"sharing",
+        PONG_WORK_BROAD_PHASE => c"broad phase",
+        PONG_WORK_NARROW_PHASE => c"narrow phase",
+        PONG_WORK_LOAD_SHARING => c"load sharing",
         PONG_WORK_FORCES => c"forces",
         _ => c"",
     };
@@ -238,8 +238,8 @@ mod tests {
     #[test]
     fn flags_are_the_bits_of_the_engine() {
         assert_eq!(PONG_FLAG_CONTACT_LIMIT, StatusBits::CONTACT_LIMIT.bits());
-        assert_eq!(PONG_FLAG_SHARING_LIMIT, StatusBits::SHARING_LIMIT.bits());
-        assert_eq!(PONG_FLAG_WENT_THROUGH, StatusBits::WENT_THROUGH.bits());
+        assert_eq!(PONG_FLAG_LOAD_SHARING_LIMIT, StatusBits::LOAD_SHARING_LIMIT.bits());
+        assert_eq!(PONG_FLAG_TUNNELLED, StatusBits::TUNNELLED.bits());
     }
 
     #[test]
@@ -265,6 +265,6 @@ mod tests {
         let frame = |status, contacts_wanted| FrameReport { status, contacts: 4, contacts_wanted };
         assert_eq!(advised_capacity(&frame(StatusBits::default(), 4), 4), 0);
         assert_eq!(advised_capacity(&frame(StatusBits::CONTACT_LIMIT, 9), 4), 9);
-        assert_eq!(advised_capacity(&frame(StatusBits::SHARING_LIMIT, 3), 4), 8);
+        assert_eq!(advised_capacity(&frame(StatusBits::LOAD_SHARING_LIMIT, 3), 4), 8);
     }
 }

@@ -1,5 +1,6 @@
 //! What the step adviser is told before the seal: masses, and what the host does with the wrench.
 
+use crate::coupling::{PONG_COUPLING_SEMI_IMPLICIT, PONG_COUPLING_STAGES, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::guard::{Failure, Outcome, setting_up, with_world};
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
@@ -21,23 +22,17 @@ pub struct pong_mass {
     pub mass_center: [f64; 3],
 }
 
-/// At every stage of an integrator of higher order (the classic Runge-Kutta method is meant).
-pub const PONG_COUPLING_STAGES: i32 = 0;
-/// Once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
-pub const PONG_COUPLING_STEP: i32 = 1;
-/// Once a frame, and held until the next.
-pub const PONG_COUPLING_HELD: i32 = 2;
-
 /// The host's step and what it does with the wrench. Make it with pong_default_step_plan() and change what you like.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_step_plan {
     /// The step or frame, s; must be set.
     pub step: f64,
-    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_HELD by default.
-    pub coupling: i32,
-    /// With PONG_COUPLING_HELD: how many whole frames the wrench comes late, at most 100; 0 by default.
-    pub frames_late: u32,
+    /// How the wrench is used: one of PONG_COUPLING_...; PONG_COUPLING_ZERO_ORDER_HOLD by default.
+    pub wrench_coupling: u32,
+    /// With PONG_COUPLING_ZERO_ORDER_HOLD: how many whole frames later than the first possible one
+    /// the wrench acts, at most 100; 0 by default.
+    pub delay_frames: u32,
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     pub closing_speed: f64,
@@ -53,7 +48,7 @@ pub struct pong_step_plan {
 /// What the contacts of one frame leave of the planned step.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct pong_acting {
+pub struct pong_step_check {
     /// Contacts that push something that yields.
     pub contacts: u64,
     /// Contacts whose masses or laws are not known.
@@ -72,8 +67,8 @@ pub extern "C" fn pong_default_step_plan() -> pong_step_plan {
     let Accuracy { depth, rebound } = Accuracy::default();
     pong_step_plan {
         step: 0.0,
-        coupling: PONG_COUPLING_HELD,
-        frames_late: 0,
+        wrench_coupling: PONG_COUPLING_ZERO_ORDER_HOLD,
+        delay_frames: 0,
         closing_speed: 0.0,
         depth_within: depth,
         rebound_within: rebound,
@@ -114,17 +109,20 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
 /// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
 /// the masses from before the seal, and a frame. Allocates.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn pong_get_acting(world: *const pong_world, acting: *mut pong_acting) -> pong_status {
+pub unsafe extern "C" fn pong_check_step(
+    world: *const pong_world,
+    check: *mut pong_step_check,
+) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let out = Out::new(acting, "acting")?;
+            let out = Out::new(check, "check")?;
             let Some(plan) = inner.world.step_plan() else {
                 let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
                 return Err(Failure::new(pong_status::WrongPhase, message));
             };
             let found = inner.world.acting_report(plan, &[])?;
-            out.set(pong_acting {
+            out.set(pong_step_check {
                 contacts: found.contacts as u64,
                 not_judged: found.not_judged as u64,
                 stable_step: found.stable_step,
@@ -139,16 +137,17 @@ pub unsafe extern "C" fn pong_get_acting(world: *const pong_world, acting: *mut 
 impl pong_step_plan {
     fn check(&self) -> Outcome<StepPlan> {
         let bad = |message: String| Failure::new(pong_status::BadValue, message);
-        let coupling = match (self.coupling, self.frames_late) {
+        let coupling = match (self.wrench_coupling, self.delay_frames) {
             (PONG_COUPLING_STAGES, 0) => Coupling::StageWise,
-            (PONG_COUPLING_STEP, 0) => Coupling::OncePerStep,
-            (PONG_COUPLING_HELD, late) => Coupling::Held { late },
-            (PONG_COUPLING_STAGES | PONG_COUPLING_STEP, late) => {
-                let cause = "only a wrench that is held can be late; give 0, or PONG_COUPLING_HELD";
-                return Err(bad(format!("plan: frames_late is {late}: {cause}")));
+            (PONG_COUPLING_SEMI_IMPLICIT, 0) => Coupling::OncePerStep,
+            (PONG_COUPLING_ZERO_ORDER_HOLD, late) => Coupling::Held { late },
+            (PONG_COUPLING_STAGES | PONG_COUPLING_SEMI_IMPLICIT, late) => {
+                let cause =
+                    "only a wrench that is held can be delayed; give 0, or PONG_COUPLING_ZERO_ORDER_HOLD";
+                return Err(bad(format!("plan: delay_frames is {late}: {cause}")));
             }
             (other, _) => {
-                return Err(bad(format!("plan: coupling is {other}; give one of PONG_COUPLING_...")));
+                return Err(bad(format!("plan: wrench_coupling is {other}; give one of PONG_COUPLING_...")));
             }
         };
         if self.reserved != [0; 4] {

@@ -23,7 +23,7 @@ pub const PONG_GRANT_REFUSED: u32 = 2;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct pong_worker {
     /// 0 is the calling thread, 1 the first worker.
-    pub lane: u32,
+    pub index: u32,
     /// Whether it is bound to a core: PONG_GRANT_...
     pub core_grant: u32,
     /// The core that was asked for; 0 if none was.
@@ -38,7 +38,7 @@ pub struct pong_worker {
     /// With report_times: time in them, ns; else 0.
     pub busy_ns: u64,
     /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
-    /// rounds of the frame together; of lane 0 also what it did by itself.
+    /// rounds of the frame together; of the calling thread also what it did by itself.
     pub work_ns: [u64; 4],
 }
 
@@ -91,12 +91,12 @@ pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut
     }
 }
 
-/// What became of a worker and what it did last. `lane` is 1 to pong_worker_count(), or 0 for the calling thread.
+/// What became of a worker and what it did last. `index` is 1 to pong_worker_count(), or 0 for the calling thread.
 /// PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_worker(
     world: *const pong_world,
-    lane: usize,
+    index: usize,
     worker: *mut pong_worker,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
@@ -104,28 +104,28 @@ pub unsafe extern "C" fn pong_get_worker(
         with_world(world, |inner| {
             let out = Out::new(worker, "worker")?;
             inner.started("ask for a worker")?;
-            let asked = if lane == 0 { pong_worker::default() } else { inner.worker(lane)?.asked };
-            let LaneWork { blocks, busy_ns } = inner.world.lane_work().nth(lane).unwrap_or_default();
-            let work_ns = inner.world.lane_times().nth(lane).map_or([0; 4], |times| by_work(&times));
+            let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
+            let LaneWork { blocks, busy_ns } = inner.world.lane_work().nth(index).unwrap_or_default();
+            let work_ns = inner.world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
             out.set(pong_worker { blocks, busy_ns, work_ns, ..asked });
             Ok(())
         })
     }
 }
 
-/// What became of a worker, in words: its core and priority, or why it has not got them. `lane` is 1 to
+/// What became of a worker, in words: its core and priority, or why it has not got them. `index` is 1 to
 /// pong_worker_count(). The text lives as long as the world. PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_text(
     world: *const pong_world,
-    lane: usize,
+    index: usize,
     text: *mut *const c_char,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(text, "text")?;
-            out.set(inner.worker(lane)?.text.as_ptr());
+            out.set(inner.worker(index)?.text.as_ptr());
             Ok(())
         })
     }
@@ -137,12 +137,12 @@ impl Inner {
         Ok(self.workers.as_deref().ok_or(EngineError::WrongPhase { call, cure })?)
     }
 
-    fn worker(&self, lane: usize) -> Outcome<&Started> {
+    fn worker(&self, index: usize) -> Outcome<&Started> {
         let workers = self.started("ask for a worker")?;
-        let found = lane.checked_sub(1).and_then(|index| workers.get(index));
+        let found = index.checked_sub(1).and_then(|index| workers.get(index));
         found.ok_or_else(|| {
             let message = format!(
-                "worker {lane}: there are {}, counted from 1; ask for the count first",
+                "worker {index}: there are {}, counted from 1; ask for the count first",
                 workers.len()
             );
             Failure::new(pong_status::UnknownId, message)
@@ -154,9 +154,9 @@ impl From<&WorkerStart> for Started {
     fn from(start: &WorkerStart) -> Self {
         let (core_grant, core) = grant(&start.core, |core| core as u32);
         let (fifo_grant, fifo_priority) = grant(&start.fifo_priority, u32::from);
-        let lane = start.lane as u32;
+        let index = start.lane as u32;
         let asked =
-            pong_worker { lane, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
+            pong_worker { index, core_grant, core, fifo_grant, fifo_priority, ..pong_worker::default() };
         Self { asked, text: c_text(&start.to_string()) }
     }
 }

@@ -6,13 +6,13 @@ use crate::pointers::{Out, OutArray, apart, array};
 use crate::status::pong_status;
 use crate::world::{Inner, pong_world};
 
-/// In which frame a wrench is expressed: PONG_FRAME_GROUP or PONG_FRAME_COMMON.
-pub type pong_frame = i32;
+/// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
+pub type pong_reference_frame = i32;
 
 /// Along the axes of the movable group.
-pub const PONG_FRAME_GROUP: pong_frame = 0;
+pub const PONG_REFERENCE_FRAME_GROUP: pong_reference_frame = 0;
 /// Along the axes of the common frame.
-pub const PONG_FRAME_COMMON: pong_frame = 1;
+pub const PONG_REFERENCE_FRAME_COMMON: pong_reference_frame = 1;
 
 /// Wrench that the contacts put on a movable group. The moment is about the group's origin in either frame.
 #[repr(C)]
@@ -30,7 +30,7 @@ pub struct pong_wrench {
 pub unsafe extern "C" fn pong_get_wrenches(
     world: *const pong_world,
     interfaces: *const pong_interface_id,
-    frame: pong_frame,
+    frame: pong_reference_frame,
     wrenches: *mut pong_wrench,
     n: usize,
 ) -> pong_status {
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn pong_get_wrenches(
 pub unsafe extern "C" fn pong_get_wrench(
     world: *const pong_world,
     interface: pong_interface_id,
-    frame: pong_frame,
+    frame: pong_reference_frame,
     wrench: *mut pong_wrench,
 ) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
@@ -69,18 +69,19 @@ pub unsafe extern "C" fn pong_get_wrench(
     }
 }
 
-fn check_frame(frame: pong_frame) -> Outcome {
-    if frame == PONG_FRAME_GROUP || frame == PONG_FRAME_COMMON {
+fn check_frame(frame: pong_reference_frame) -> Outcome {
+    if frame == PONG_REFERENCE_FRAME_GROUP || frame == PONG_REFERENCE_FRAME_COMMON {
         return Ok(());
     }
-    let message = format!("`frame` is {frame}; give PONG_FRAME_GROUP or PONG_FRAME_COMMON");
+    let message =
+        format!("`frame` is {frame}; give PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON");
     Err(Failure::new(pong_status::BadValue, message))
 }
 
 impl Inner {
-    fn wrench(&self, id: pong_interface_id, frame: pong_frame) -> Outcome<pong_wrench> {
+    fn wrench(&self, id: pong_interface_id, frame: pong_reference_frame) -> Outcome<pong_wrench> {
         self.law_faults.check()?;
-        let common = frame == PONG_FRAME_COMMON;
+        let common = frame == PONG_REFERENCE_FRAME_COMMON;
         let wrench = if common { self.world.wrench_common(id.id())? } else { self.world.wrench(id.id())? };
         Ok(pong_wrench { force: wrench.force.into(), moment: wrench.moment.into() })
     }

@@ -14,7 +14,7 @@ use pong::seal::pong_seal;
 use pong::states::{pong_default_state, pong_set_states};
 use pong::status::pong_status;
 use pong::world::{pong_create_world, pong_destroy_world, pong_world};
-use pong::wrenches::{PONG_FRAME_COMMON, pong_get_wrenches, pong_wrench};
+use pong::wrenches::{PONG_REFERENCE_FRAME_COMMON, pong_get_wrenches, pong_wrench};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::mem::MaybeUninit;
@@ -98,7 +98,13 @@ fn frame(scene: &Scene, number: u32) -> u64 {
         ok(pong_evaluate(*world));
         let evaluation = CALLS.get() - before;
         ok(pong_commit(*world));
-        ok(pong_get_wrenches(*world, roots.as_ptr(), PONG_FRAME_COMMON, wrenches.as_mut_ptr().cast(), 2));
+        ok(pong_get_wrenches(
+            *world,
+            roots.as_ptr(),
+            PONG_REFERENCE_FRAME_COMMON,
+            wrenches.as_mut_ptr().cast(),
+            2,
+        ));
         ok(pong_get_contacts(*world, contacts.as_mut_ptr().cast(), 4, &mut count));
         ok(pong_get_report(*world, report.as_mut_ptr()));
         assert_eq!(count, 1);

@@ -14,12 +14,12 @@ impl StatusBits {
 
     /// More contacts of one ball with one surface, with normals more than 90° apart, than could be shared exactly: the
     /// deepest were. Raise `Config::contact_capacity`.
-    pub const SHARING_LIMIT: Self = Self(2);
+    pub const LOAD_SHARING_LIMIT: Self = Self(2);
 
     /// Something went right through something else since the last commit, or came out on the far side of what pushed it
     /// back: a contact was missed. [`World::passage`](crate::World::passage) names it. Make the frames shorter, the wall
     /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::forget`](crate::World::forget) first.
-    pub const WENT_THROUGH: Self = Self(4);
+    pub const TUNNELLED: Self = Self(4);
 
     /// Whether nothing was left out or missed.
     pub fn is_complete(self) -> bool {
@@ -33,7 +33,7 @@ impl StatusBits {
 
     /// Whether a limit was hit, so that contacts were left out.
     pub fn leaves_contacts_out(self) -> bool {
-        self.contains(Self::CONTACT_LIMIT) || self.contains(Self::SHARING_LIMIT)
+        self.contains(Self::CONTACT_LIMIT) || self.contains(Self::LOAD_SHARING_LIMIT)
     }
 
     /// The bits as a number.

@@ -265,7 +265,7 @@ impl Running {
         std::iter::once(caller).chain(shared.copied())
     }
 
-    pub fn rounds_done_alone(&self) -> u64 {
+    pub fn worker_timeouts(&self) -> u64 {
         self.crew.as_ref().map_or(0, |crew| crew.done_alone)
     }
 

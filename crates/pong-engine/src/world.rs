@@ -368,7 +368,7 @@ impl World {
     }
 
     /// What went right through something else between the last commit and the last frame, if anything did
-    /// ([`StatusBits::WENT_THROUGH`](crate::StatusBits)). A point, the centre of a ball, the origin of a ray, the ends and
+    /// ([`StatusBits::TUNNELLED`](crate::StatusBits)). A point, the centre of a ball, the origin of a ray, the ends and
     /// the middle of a segment are followed along straight lines; what is shorter than half of the thinnest part of the
     /// other movable group is taken to have gone through none.
     pub fn passage(&self) -> Option<Passage> {
@@ -408,8 +408,8 @@ impl World {
 
     /// Rounds of work since the world was sealed that the calling thread did by itself because a worker did not come
     /// back in time, or had not come back from an earlier round. The results are the same; the time is not.
-    pub fn rounds_done_alone(&self) -> u64 {
-        self.running.as_ref().map_or(0, Running::rounds_done_alone)
+    pub fn worker_timeouts(&self) -> u64 {
+        self.running.as_ref().map_or(0, Running::worker_timeouts)
     }
 
     /// Memory that frames have needed against what there is.

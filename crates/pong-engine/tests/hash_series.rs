@@ -211,7 +211,7 @@ fn the_scenes_use_every_tester_and_every_limit() {
             let testers = counts.testers().filter(|(_, _, tally)| tally.met > 0);
             met.extend(testers.map(|(a, b, _)| (a as usize, b as usize)));
             limited += u32::from(report.status.contains(StatusBits::CONTACT_LIMIT));
-            unshared += u32::from(report.status.contains(StatusBits::SHARING_LIMIT));
+            unshared += u32::from(report.status.contains(StatusBits::LOAD_SHARING_LIMIT));
             two_rounds += u32::from(counts.leaf_pairs > 4096);
             most = most.max(report.contacts as usize);
         }

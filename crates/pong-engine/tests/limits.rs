@@ -316,7 +316,7 @@ fn ten_thousand_contacts_of_one_ball() {
             println!("{cells} cells, room for {capacity}: {:?}", expected.0);
             assert_eq!(step(&mut crew, frame), expected, "{cells} cells, room for {capacity}, frame {frame}");
             assert_eq!(crew.saved(), alone.saved());
-            assert!(expected.0.status.contains(StatusBits::SHARING_LIMIT), "{:?}", expected.0);
+            assert!(expected.0.status.contains(StatusBits::LOAD_SHARING_LIMIT), "{:?}", expected.0);
             assert!(expected.0.contacts > 0);
         }
         // Lifted out of the shell by its own width the balls touch little; nothing of the limit is left.

@@ -39,7 +39,7 @@ fn told_at(rig: &mut Rig, places: impl IntoIterator<Item = Vec3>) -> Vec<bool> {
     let step = |place| {
         rig.place_a(place, Quat::identity());
         let report = rig.world.step().unwrap();
-        let told = report.status.contains(StatusBits::WENT_THROUGH);
+        let told = report.status.contains(StatusBits::TUNNELLED);
         assert_eq!(told, rig.world.passage().is_some());
         assert_eq!(told, !report.status.is_complete());
         told
@@ -77,7 +77,7 @@ fn an_evaluation_tells_it_as_well_and_the_same_again() {
     for x in [-0.3, 0.2, -0.3] {
         rig.place_a(Vec3::x() * x, Quat::identity());
         let report = rig.world.evaluate().unwrap();
-        assert_eq!(report.status.contains(StatusBits::WENT_THROUGH), x < 0.0);
+        assert_eq!(report.status.contains(StatusBits::TUNNELLED), x < 0.0);
     }
 }
 
@@ -205,7 +205,7 @@ fn a_wall_that_sweeps_over_a_point_is_told() {
     let point = at(Vec3::new(0.0, 0.3, 0.0), Quat::identity());
     let status = [-0.2, 0.2, 0.3].map(|angle| {
         rig.place([point, at(Vec3::zeros(), Quat::from_scaled_axis(Vec3::z() * angle))]);
-        rig.world.step().unwrap().status.contains(StatusBits::WENT_THROUGH)
+        rig.world.step().unwrap().status.contains(StatusBits::TUNNELLED)
     });
     assert_eq!(status, [false, true, false]);
 }
@@ -225,7 +225,7 @@ fn an_arm_that_swings_through_a_plate_is_told() {
     let mut rig = rig("Point(name: \"p\", position: (0,0.6,0))", &plate());
     let status = [-0.2, 0.2, 0.3].map(|angle| {
         rig.place_a(Vec3::new(0.0, -0.4, 0.0), Quat::from_scaled_axis(Vec3::z() * angle));
-        rig.world.step().unwrap().status.contains(StatusBits::WENT_THROUGH)
+        rig.world.step().unwrap().status.contains(StatusBits::TUNNELLED)
     });
     assert_eq!(status, [false, true, false]);
 }

@@ -105,7 +105,7 @@ impl Caller {
                 spin_loop();
             }
             let waited_ns = waited.get_or_insert_with(Watch::start).elapsed_ns();
-            if waited_ns >= self.shared.patience_ns {
+            if waited_ns >= self.shared.worker_timeout_ns {
                 return (Outcome::Abandoned, panicked);
             }
             if waited_ns > YIELD_AFTER_NS {

@@ -64,12 +64,12 @@ struct Model {
 }
 
 impl Model {
-    fn start(job: Arc<dyn Job>, workers: usize, spin_ns: u64, patience_ns: u64) -> Model {
+    fn start(job: Arc<dyn Job>, workers: usize, spin_ns: u64, worker_timeout_ns: u64) -> Model {
         let shared = Arc::new(Shared {
             board: Board::new(workers),
             job,
             spin_ns,
-            patience_ns,
+            worker_timeout_ns,
             clock: None,
             origin: Watch::start(),
             panic: Mutex::new(None),

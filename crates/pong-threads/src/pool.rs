@@ -74,7 +74,7 @@ impl Pool {
             board: Board::new(cores.len()),
             job,
             spin_ns: in_ns(settings.spin),
-            patience_ns: in_ns(settings.patience),
+            worker_timeout_ns: in_ns(settings.patience),
             clock: settings.clock,
             origin: Watch::start(),
             panic: Mutex::new(None),

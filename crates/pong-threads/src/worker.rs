@@ -17,7 +17,7 @@ pub struct Shared {
     pub board: Board,
     pub job: Arc<dyn Job>,
     pub spin_ns: u64,
-    pub patience_ns: u64,
+    pub worker_timeout_ns: u64,
     /// The host's clock for busy times, in ns.
     pub clock: Option<fn() -> u64>,
     /// Times of alerts count from here.

@@ -269,7 +269,7 @@ class Page {
         this.contactList.show(this.contacts, this.selected);
         describeBody(byId("body-facts"), this.run, this.body, this.player, this.series);
         const flags = this.run.frames.flags[this.player.frame];
-        const limits = [flags & 1 && "contact limit", flags & 2 && "sharing limit", flags & 4 && "went through"];
+        const limits = [flags & 1 && "contact limit", flags & 2 && "load sharing limit", flags & 4 && "went through"];
         const left = limits.filter(Boolean).join(", ");
         byId("contact-count").textContent = count(this.contacts.length) + (left ? ` (${left})` : "");
     }

@@ -3,8 +3,8 @@
 use super::frames::finite;
 use super::session::{Session, Sure, read_text};
 use pong::accounts::{
-    pong_account, pong_get_account, pong_get_contact_accounts, pong_get_pair_account, pong_pair_account,
-    pong_pair_account_count, pong_pair_remedy,
+    pong_energy_account, pong_get_energy_account, pong_get_contact_energy_accounts, pong_get_pair_energy_account, pong_pair_energy_account,
+    pong_pair_energy_account_count, pong_pair_remedy,
 };
 use std::ffi::c_char;
 
@@ -19,9 +19,9 @@ impl Session<'_> {
 
     fn account(&mut self) {
         let (world, known) = self.world();
-        let place = self.place::<pong_account>();
+        let place = self.place::<pong_energy_account>();
         // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
-        if self.call("account", known.and(place.sure), || unsafe { pong_get_account(world, place.pointer) }) {
+        if self.call("account", known.and(place.sure), || unsafe { pong_get_energy_account(world, place.pointer) }) {
             check(&place.get());
         }
     }
@@ -30,16 +30,16 @@ impl Session<'_> {
         let (world, known) = self.world();
         let mut count = 0;
         let counted =
-            self.call("pair accounts", known, || unsafe { pong_pair_account_count(world, &mut count) });
+            self.call("pair accounts", known, || unsafe { pong_pair_energy_account_count(world, &mut count) });
         let index = self.input.one_of(&[0, 1, 2, 3, 1000, usize::MAX]);
-        let place = self.place::<pong_pair_account>();
+        let place = self.place::<pong_pair_energy_account>();
         let sure = known.and(place.sure).unless(!counted).only_if(index < count || !counted);
-        if self.call("pair account", sure, || unsafe { pong_get_pair_account(world, index, place.pointer) }) {
+        if self.call("pair account", sure, || unsafe { pong_get_pair_energy_account(world, index, place.pointer) }) {
             let pair = place.get();
             check(&pair.total);
-            check(&pair.touch);
+            check(&pair.episode);
             finite([pair.excess, pair.worst_excess, pair.stiffness, pair.damping].iter(), "pair account");
-            assert!(pair.returned_more + pair.unresolved <= pair.touches, "verdicts without a touch");
+            assert!(pair.episodes_gained + pair.episodes_unresolved <= pair.episodes, "verdicts without an episode");
         }
         let place = self.place::<*const c_char>();
         let sure = known.and(place.sure).unless(!counted).only_if(index < count || !counted);
@@ -51,11 +51,11 @@ impl Session<'_> {
     fn contact_accounts(&mut self) {
         let (world, known) = self.world();
         let capacity = self.input.one_of(&[0, 1, 16, 5000]);
-        let mut accounts = Vec::<pong_account>::with_capacity(capacity);
+        let mut accounts = Vec::<pong_energy_account>::with_capacity(capacity);
         let place = self.place::<usize>();
         let sure = known.and(place.sure).and(Sure::Unknown);
         let done = self.call("contact accounts", sure, || unsafe {
-            pong_get_contact_accounts(world, accounts.as_mut_ptr(), capacity, place.pointer)
+            pong_get_contact_energy_accounts(world, accounts.as_mut_ptr(), capacity, place.pointer)
         });
         if !done {
             return;
@@ -67,8 +67,8 @@ impl Session<'_> {
     }
 }
 
-fn check(account: &pong_account) {
-    let energies = [account.taken, account.returned, account.put_in, account.made, account.stored];
+fn check(account: &pong_energy_account) {
+    let energies = [account.work_in, account.work_out, account.inserted, account.hold_error, account.stored];
     let losses = [account.damping_loss, account.friction_loss, account.resolution];
     finite(energies.iter().chain(&losses), "account");
     assert!(account.verdict <= 2, "a verdict that there is not");

@@ -8,7 +8,7 @@ use pong::contact_state::{
     pong_save_contact_state,
 };
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
-use pong::objects::pong_forget_object;
+use pong::objects::pong_clear_contact_history;
 use pong::pairs::pong_set_pair_enabled;
 use pong::surfaces::{
     pong_get_surface, pong_set_surface, pong_surface_count, pong_surface_name, pong_surface_values,
@@ -113,7 +113,7 @@ impl Session<'_> {
         let (object, good) = self.id(|ids| &ids.objects, |bits| pong_object_id { bits });
         let sealed = self.host().is_some_and(|host| host.sealed);
         let sure = known.and(good).only_if(sealed);
-        self.call("forget", sure, || unsafe { pong_forget_object(world, object) });
+        self.call("forget", sure, || unsafe { pong_clear_contact_history(world, object) });
     }
 
     /// Which contacts there are to be preloaded, and whether their forces are numbers, is the scene's.

@@ -53,7 +53,7 @@ impl Behaviour {
 pub unsafe extern "C" fn normal(input: *const pong_normal_input, user: *mut c_void) -> f64 {
     // SAFETY: the engine hands over an input, and the `user` pointer that it was given.
     let (input, behaviour) = unsafe { (&*input, &*user.cast::<Behaviour>()) };
-    assert!(input.depth.is_finite() && input.rate.is_finite() && input.depth >= 0.0, "{input:?}");
+    assert!(input.depth.is_finite() && input.depth_rate.is_finite() && input.depth >= 0.0, "{input:?}");
     assert!(input.parameter_count <= 2, "{input:?}");
     behaviour.answer(input.stiffness * input.depth)
 }

@@ -10,7 +10,7 @@ use pong::interfaces::{
 use pong::models::{pong_model_warning, pong_model_warning_count};
 use pong::objects::{pong_find_object, pong_object_name};
 use pong::primitives::{pong_find_primitive, pong_primitive_count, pong_primitive_path};
-use pong::report::{pong_limit_name, pong_stage_name, pong_work_name};
+use pong::report::{pong_flag_name, pong_stage_name, pong_work_name};
 use pong::states::pong_state;
 use pong::status::{pong_last_message, pong_status_name};
 use pong::tally::{pong_get_tally, pong_tally, pong_tally_count};
@@ -65,7 +65,7 @@ impl Session<'_> {
         self.call("find object", sure, || unsafe { pong_find_object(world, name.pointer(), place.pointer) });
         let number = self.input.byte();
         read_text(pong_status_name(i32::from(number) - 100));
-        read_text(pong_limit_name(number.into()));
+        read_text(pong_flag_name(number.into()));
         read_text(pong_stage_name(number.into()));
         read_text(pong_work_name(number.into()));
         read_text(pong_version_string());

@@ -51,8 +51,8 @@ impl Session<'_> {
         // Small blocks of contact state, and some scenes with too many contacts.
         config.contact_capacity = [16, 4, 32, 64][usize::from(kind) % 4];
         config.keep_ledger = u32::from(kind.is_multiple_of(2));
-        config.keep_accounts = u32::from(kind) % 4;
-        config.wrenches_late = u32::from(kind == 7);
+        config.energy_accounts = u32::from(kind) % 4;
+        config.delay_frames = u32::from(kind == 7);
         self.create(&config, Sure::Right);
         let (models, pairs): (&[usize], &[(usize, usize)]) = match kind {
             1 => (&[0, 1], &[(0, 1)]),
@@ -148,8 +148,8 @@ impl Session<'_> {
             sure = sure.only_if(config.spin_us <= 1_000_000);
         }
         if self.input.chance(32) {
-            config.patience_us = self.input.one_of(&[0, 1, 1_000_000, 1_000_001, u32::MAX]);
-            sure = sure.only_if((1..=1_000_000).contains(&config.patience_us));
+            config.worker_timeout_us = self.input.one_of(&[0, 1, 1_000_000, 1_000_001, u32::MAX]);
+            sure = sure.only_if((1..=1_000_000).contains(&config.worker_timeout_us));
         }
         if self.input.chance(32) {
             config.keep_ledger = self.input.one_of(&[1, 1, 1, 2, u32::MAX]);
@@ -157,11 +157,11 @@ impl Session<'_> {
             sure = sure.only_if(config.keep_ledger == 1 && config.report_times == 1);
         }
         if self.input.chance(32) {
-            config.keep_accounts = self.input.one_of(&[1, 2, 3, 3, 4, u32::MAX]);
-            config.wrenches_late = self.input.one_of(&[0, 0, 1, 16, 17, u32::MAX]);
-            let late = config.wrenches_late;
+            config.energy_accounts = self.input.one_of(&[1, 2, 3, 3, 4, u32::MAX]);
+            config.delay_frames = self.input.one_of(&[0, 0, 1, 16, 17, u32::MAX]);
+            let late = config.delay_frames;
             sure = sure.only_if(
-                config.keep_accounts <= 3 && (late == 0 || (config.keep_accounts == 3 && late <= 16)),
+                config.energy_accounts <= 3 && (late == 0 || (config.energy_accounts == 3 && late <= 16)),
             );
         }
         if self.input.chance(16) {

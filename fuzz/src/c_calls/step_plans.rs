@@ -3,7 +3,7 @@
 use super::session::{Session, Sure};
 use pong::ids::pong_interface_id;
 use pong::step_plan::{
-    pong_acting, pong_default_step_plan, pong_get_acting, pong_mass, pong_plan_step, pong_set_mass,
+    pong_step_check, pong_default_step_plan, pong_check_step, pong_mass, pong_plan_step, pong_set_mass,
 };
 
 impl Session<'_> {
@@ -21,7 +21,7 @@ impl Session<'_> {
         }
         let mut plan = pong_default_step_plan();
         plan.step = 1e-2;
-        plan.coupling = i32::from(kind % 3);
+        plan.wrench_coupling = 1 + u32::from(kind % 3);
         self.call("plan step", Sure::Right, || unsafe { pong_plan_step(world, &plan) });
     }
 
@@ -45,14 +45,14 @@ impl Session<'_> {
 
         let mut plan = pong_default_step_plan();
         plan.step = self.input.number();
-        plan.coupling = self.input.one_of(&[0, 1, 2, 2, 3, -1]);
-        plan.frames_late = self.input.one_of(&[0, 0, 0, 1, 100, 101, u32::MAX]);
+        plan.wrench_coupling = self.input.one_of(&[0, 1, 2, 3, 3, 4, u32::MAX]);
+        plan.delay_frames = self.input.one_of(&[0, 0, 0, 1, 100, 101, u32::MAX]);
         plan.closing_speed = self.input.number();
-        let late = if plan.coupling == 2 { 100 } else { 0 };
+        let late = if plan.wrench_coupling == 3 { 100 } else { 0 };
         let fit = plan.step > 0.0
             && plan.step.is_finite()
-            && (0..3).contains(&plan.coupling)
-            && plan.frames_late <= late
+            && (1..=3).contains(&plan.wrench_coupling)
+            && plan.delay_frames <= late
             && plan.closing_speed >= 0.0
             && plan.closing_speed.is_finite();
         let mut sure = known.only_if(!sealed && fit);
@@ -64,9 +64,9 @@ impl Session<'_> {
         let pointer = if nothing { std::ptr::null() } else { std::ptr::from_ref(&plan) };
         self.call("plan step", sure.only_if(!nothing), || unsafe { pong_plan_step(world, pointer) });
 
-        let place = self.place::<pong_acting>();
+        let place = self.place::<pong_step_check>();
         let sure = known.and(place.sure).and(Sure::Unknown).only_if(sealed);
-        if self.call("get acting", sure, || unsafe { pong_get_acting(world, place.pointer) }) {
+        if self.call("get acting", sure, || unsafe { pong_check_step(world, place.pointer) }) {
             let acting = place.get();
             let numbers = [acting.stable_step, acting.stiffness_rate, acting.damping_rate];
             assert!(numbers.into_iter().all(|x| x >= 0.0), "what acts: {acting:?}");

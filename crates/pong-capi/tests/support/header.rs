@@ -5,9 +5,10 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 25] = [
+const FILES: [&str; 26] = [
     "status",
     "version",
+    "coupling",
     "config",
     "ids",
     "states",

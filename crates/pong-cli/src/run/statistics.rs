@@ -97,7 +97,7 @@ impl Statistics {
         }
         self.acting.iter_mut().for_each(|acting| acting.observe(simulation));
         let report = simulation.world().report();
-        if report.status.contains(StatusBits::WENT_THROUGH) {
+        if report.status.contains(StatusBits::TUNNELLED) {
             self.passages += 1;
             if self.passages == 1 {
                 self.first_passage = passage_in_words(simulation).unwrap_or_default();

@@ -198,7 +198,7 @@ impl Stage<'_> {
         }
         let report = self.world.report();
         // What went through something is told beside the answers: earlier versions did not tell it.
-        hash.word(u64::from(report.status.bits() & !StatusBits::WENT_THROUGH.bits()));
+        hash.word(u64::from(report.status.bits() & !StatusBits::TUNNELLED.bits()));
         hash.word(u64::from(report.contacts));
         hash.word(u64::from(report.contacts_wanted));
         let mut listed = 0;

@@ -12,7 +12,7 @@ pub const SHOTS: Extreme = Extreme {
     asked: "10,000 shots at a wall of 1 mm, 0.1 to 1,000 m/s, frames of 10 ms: each stopped or told.",
     set_up: "1 kg against 1e6 N/m, from any side within 70° of the normal, any phase, any attitude; a point, a ball, an \
              ellipsoid and a bar against a plate of 1 mm; a ball against a sheet, one-sided from the front and two-sided \
-             from both. Stopped: back on the side it came from. Told: `WENT_THROUGH`.",
+             from both. Stopped: back on the side it came from. Told: `TUNNELLED`.",
     answer: Answer::Told,
     limit: "what goes farther in a frame than half of the wall is followed along a straight line; a path that cuts an edge \
             within that, and a ball that meets the wall with its rim alone within a frame, are missed and not told",
@@ -119,7 +119,7 @@ fn fly(rig: &mut Rig, shot: &Shot, clear: f64) -> Result<(bool, Vec3), Failure> 
     let from = place.x.signum();
     for _ in 0..100_000 {
         let wrench = rig.step(place, shot.turn, velocity)?;
-        told |= rig.world.report().status.contains(StatusBits::WENT_THROUGH);
+        told |= rig.world.report().status.contains(StatusBits::TUNNELLED);
         let past = place.x * from < -clear;
         let back = velocity.x * from > 0.0 && place.x * from > clear;
         if past || back {
@@ -241,7 +241,7 @@ fn pass_by(rig: &mut Rig, shot: &Shot) -> Result<(bool, bool), Failure> {
     for frame in 0..whole {
         let place = shot.place + shot.velocity * (FRAME * frame as f64);
         rig.step(place, shot.turn, shot.velocity)?;
-        told |= rig.world.report().status.contains(StatusBits::WENT_THROUGH);
+        told |= rig.world.report().status.contains(StatusBits::TUNNELLED);
         touched |= rig.world.contact_count() > 0;
     }
     Ok((told, touched))

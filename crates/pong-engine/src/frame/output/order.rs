@@ -29,7 +29,7 @@ pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
         forces::press_again(scene, sealed, frame);
     }
     if wants.unshared {
-        frame.report.status.set(StatusBits::SHARING_LIMIT);
+        frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
     }
     frame.report.contacts = frame.pushing().count() as u32;
 }

@@ -65,7 +65,7 @@ pub(crate) fn watch(given: &Given<'_>, frame: &mut Frame) {
     frame.lane.scratch.reset();
     frame.passages = find(given, frame);
     if frame.passages.count > 0 {
-        frame.report.status.set(StatusBits::WENT_THROUGH);
+        frame.report.status.set(StatusBits::TUNNELLED);
     }
 }
 
