@@ -95,8 +95,21 @@ def dead_links():
                 yield f"{path}: link to {target} leads nowhere"
 
 
+def theory_citations():
+    """Comments cite the theory manual by section: `docs/theory.md, 2.2 and 2.4`."""
+    manual = (ROOT / "docs/theory.md").read_text()
+    sections = set(re.findall(r"^#+ ([0-9]+(?:\.[0-9]+)?) ", manual, re.M))
+    cited = re.compile(r"docs/theory\.md, ([0-9.]+(?:(?:, | and | to )[0-9.]+)*)")
+    for path in tracked("*.rs", "*.py", "*.c", "*.h", "*.hpp", "*.toml"):
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            for found in cited.findall(line):
+                for section in re.split(r", | and | to ", found):
+                    if section.rstrip(".") not in sections:
+                        yield f"{path}:{number}: docs/theory.md has no section {section}"
+
+
 def main():
-    checks = (arrows, unsafe_code, platform_mathematics, file_lengths, dead_links)
+    checks = (theory_citations, arrows, unsafe_code, platform_mathematics, file_lengths, dead_links)
     problems = [problem for check in checks for problem in check()]
     for problem in problems:
         print(problem.replace(str(ROOT) + "/", ""))

@@ -16,7 +16,7 @@ pub struct Config {
     /// 65,536. When a frame has more,
     /// the deepest are kept and a status bit is set.
     pub contact_capacity: Option<usize>,
-    /// Whether energies are kept (physics contract, section 6).
+    /// Whether energies are kept (docs/theory.md, 6).
     pub ledger: bool,
     /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
     /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).

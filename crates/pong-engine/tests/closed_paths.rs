@@ -1,4 +1,4 @@
-//! Without friction and damping a closed path does no net work (physics contract, 6): force is the gradient of a
+//! Without friction and damping a closed path does no net work (docs/theory.md, 6): force is the gradient of a
 //! stored energy. Where memory, free edges or segment ends are involved it may lose, never gain.
 
 mod common;

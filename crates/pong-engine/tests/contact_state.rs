@@ -1,4 +1,4 @@
-//! Evaluate is pure, commit is the only writer, and a saved block continues bit for bit (physics contract, 5).
+//! Evaluate is pure, commit is the only writer, and a saved block continues bit for bit (docs/theory.md, 5).
 
 mod common;
 

@@ -1,5 +1,5 @@
 //! What must not matter: where the common origin is, how the common frame turns and drifts, which Object is named
-//! first, and the unit of length (physics contract, sections 1, 2, 6 and 7).
+//! first, and the unit of length (docs/theory.md, 1, 2 and 6; docs/extremes.md).
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Single contacts with answers from the formulas of the physics contract, sections 2 to 4, worked out here by hand.
+//! Single contacts with answers from the formulas of docs/theory.md, 2 to 4, worked out here by hand.
 
 mod common;
 

@@ -1,4 +1,4 @@
-//! Seams do not exist (physics contract, 2.2): however finely a plate is cut, into triangles or into convex pieces,
+//! Seams do not exist (docs/theory.md, 2.2): however finely a plate is cut, into triangles or into convex pieces,
 //! it answers like one plane.
 
 mod common;

@@ -1,4 +1,4 @@
-//! From which side something came in (physics contract, 2.2 and 2.4).
+//! From which side something came in (docs/theory.md, 2.2 and 2.4).
 
 mod common;
 

@@ -44,7 +44,7 @@ impl Pose {
 
     /// `x_ba`, the pose of A seen from B, from the poses of both in one common frame.
     ///
-    /// The positions are subtracted before anything is rotated (physics contract, section 1), so the result
+    /// The positions are subtracted before anything is rotated (docs/theory.md, 1), so the result
     /// does not depend on where the common origin is beyond the rounding of the inputs.
     #[inline]
     pub fn relative(x_wa: &Pose, x_wb: &Pose) -> Pose {

@@ -1,4 +1,4 @@
-//! What must come out of LineSegment–Polyhedron (physics contract, 2.3, "what must come out of it").
+//! What must come out of LineSegment–Polyhedron (docs/theory.md, 2.3, "what must come out of it").
 //!
 //! Degenerate cases: bars exactly parallel to a face, along its normal, over the seam between two pieces, lying on
 //! a face's edge.

@@ -1,4 +1,4 @@
-//! Seams do not exist for spheres over plates, closed meshes and polyhedra (physics contract, 2.1 and 2.2).
+//! Seams do not exist for spheres over plates, closed meshes and polyhedra (docs/theory.md, 2.2).
 //!
 //! Degenerate cases: centres exactly above vertices and edges and up to three ulps beside them, over regular,
 //! irregular, `f32`-rounded and turned surfaces; on the planes between the regions of neighbouring features.

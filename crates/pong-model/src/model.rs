@@ -21,7 +21,7 @@ pub struct Model {
     /// Hash of everything that decides the numbers (FNV-1a over a canonical byte form); equal files give equal
     /// hashes on every machine.
     pub hash: u64,
-    /// Whether points remember the side of entry (physics contract, section 2.4).
+    /// Whether points remember the side of entry (docs/theory.md, 2.4).
     pub entry_memory: bool,
     /// All surfaces.
     pub surfaces: Vec<Surface>,

@@ -78,7 +78,7 @@ impl Surface {
     }
 }
 
-/// The normal force law of a surface (physics contract, section 3).
+/// The normal force law of a surface (docs/theory.md, 3).
 #[derive(Clone, Debug, PartialEq)]
 pub enum NormalLaw {
     /// F = max(0, k·δ + c·S(δ/ramp)·δ').
@@ -115,7 +115,7 @@ pub enum Exponent {
     ThreeHalves,
 }
 
-/// The friction law of a surface (physics contract, section 4).
+/// The friction law of a surface (docs/theory.md, 4).
 #[derive(Clone, Debug, PartialEq)]
 pub enum FrictionLaw {
     /// No friction; costs nothing.

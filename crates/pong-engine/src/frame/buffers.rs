@@ -72,7 +72,7 @@ pub(crate) struct Found {
     pub point_a: Vec3,
     /// Distance along a ray, m; infinite for everything else.
     pub ray_distance: f64,
-    /// w of the contract's section 2.2; 1 for a single contact.
+    /// The weight w of docs/theory.md, 2.2; 1 for a single contact.
     pub weight: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Two surfaces in series become one set of values for the pair (physics contract, section 3).
+//! Two surfaces in series become one set of values for the pair (docs/theory.md, 3).
 //!
 //! ```text
 //! s_A = k_B/(k_A + k_B)     k = k_A·s_A     c = c_A·s_A² + c_B·s_B²     χ = χ_A·s_A + χ_B·s_B

@@ -1,4 +1,4 @@
-//! Normal force laws (physics contract, section 3): force and stored energy from depth and depth rate.
+//! Normal force laws (docs/theory.md, 3): force and stored energy from depth and depth rate.
 
 mod combine;
 pub(crate) mod friction;

@@ -1,4 +1,4 @@
-//! Ellipsoid (A) – triangle (B), one-sided (physics contract, 2.1 and 2.2).
+//! Ellipsoid (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
 //! Each feature has the candidates of [`ellipsoid_polyhedron`](super::ellipsoid_polyhedron): a face its normal, an edge
 //! and a vertex the at most two local minima of the overlap of a line or a point with the ellipsoid. An ellipsoid has

@@ -1,4 +1,4 @@
-//! Line segment (A) – polyhedron (B) (physics contract, 2.3).
+//! Line segment (A) – polyhedron (B) (docs/theory.md, 2.3).
 //!
 //! The part of the segment inside the solid has two ends. For each active face f, each end carries half a spring:
 //!
@@ -8,11 +8,10 @@
 //!   below the line in which the planes of f and h meet, and pushes along the common normal of both lines;
 //! * where it leaves through f itself the end carries nothing.
 //!
-//! The face that stores the least energy pushes. Where f and h share an edge the crossing is that of the contract.
-//! The contract's rule asks instead where the segment leaves the *polygon* of f. On a box the two agree, but for a
-//! bar whose far tip has risen above the top: there the contract lets a side face claim it with half the force, and
-//! closed paths gain energy. Beside obtuse edges the contract's rule halves the force of a bar that lies flat; see
-//! docs/decisions/0001.
+//! The face that stores the least energy pushes. An obvious rule asks instead where
+//! the segment leaves the *polygon* of f. It was tried: on a box the two agree, except for a segment whose far endpoint
+//! has risen above the top, which a side face then claims with half the force, so that closed paths gain energy; beside
+//! obtuse edges it halves the force of a segment that lies flat (docs/decisions/0001).
 //!
 //! Degenerate cases: a segment parallel to a face crosses at its depth; two parallel planes meet nowhere and that
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.

@@ -1,4 +1,4 @@
-//! Ray (A) – plane (B), and what every ray does with the surface it hits (physics contract, 2.5).
+//! Ray (A) – plane (B), and what every ray does with the surface it hits (docs/theory.md, 2.5).
 //!
 //! Degenerate case: a ray along the surface or from behind does not hit it.
 

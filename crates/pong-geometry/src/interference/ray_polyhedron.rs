@@ -1,4 +1,4 @@
-//! Ray (A) – polyhedron (B) (physics contract, 2.5): the face through which the ray enters the solid.
+//! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): the face through which the ray enters the solid.
 //!
 //! Degenerate cases: a ray along an active face is outside; one along an inner wall belongs to the piece that the
 //! wall is closed for. One through an edge takes the lower of the two faces. Where a ray enters at the very edge of

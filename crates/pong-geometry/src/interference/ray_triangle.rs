@@ -1,4 +1,4 @@
-//! Ray (A) – triangle (B), from the front (physics contract, 2.5).
+//! Ray (A) – triangle (B), from the front (docs/theory.md, 2.5).
 //!
 //! Whether the ray passes inside is decided seen along it: every corner gets two coordinates across the ray, the
 //! same bits for every triangle that shares it, and the sense in which an edge passes the ray is the comparison of

@@ -1,5 +1,5 @@
 //! Sphere (A) – polyhedron (B): centre outside, the nearest point of the surface; centre inside, as a point plus
-//! the radius (physics contract, 2 and 2.4).
+//! the radius (docs/theory.md, 2.2 and 2.4).
 //!
 //! Degenerate cases: a centre on a face counts as outside; on an edge or vertex the lowest active face there
 //! pushes. Straight above the line where two pieces abut both may push: their springs are shared.

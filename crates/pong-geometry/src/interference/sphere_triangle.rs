@@ -1,4 +1,4 @@
-//! Sphere (A) – triangle (B), one-sided (physics contract, 2.2).
+//! Sphere (A) – triangle (B), one-sided (docs/theory.md, 2.2).
 //!
 //! Degenerate cases: centre in the plane counts as in front; centre on a convex edge or vertex pushes along the
 //! mean of the normals that meet there.

@@ -1,4 +1,4 @@
-//! What the features of a triangle surface may push: faces, edges, vertices (physics contract, 2.1 and 2.2).
+//! What the features of a triangle surface may push: faces, edges, vertices (docs/theory.md, 2.2).
 //!
 //! A triangle surface is a set of one-sided facets joined at edges. For a support point *p*:
 //!

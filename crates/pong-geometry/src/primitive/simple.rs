@@ -25,7 +25,7 @@ pub struct LineSegment {
     pub ends: [Vec3; 2],
 }
 
-/// How a ray answers to what it hits (physics contract, section 2.5).
+/// How a ray answers to what it hits (docs/theory.md, 2.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RayResponse {
     /// Depth is measured along the surface's normal and the force acts along it.

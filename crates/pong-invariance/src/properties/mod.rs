@@ -1,4 +1,4 @@
-//! What must hold of one scene by itself, from the contract's sections on sides, memory and friction.
+//! What must hold of one scene by itself, as docs/theory.md, 2.4, 4 and 5 promise it: sides, memory and friction.
 
 pub mod friction;
 pub mod memory;

@@ -1,4 +1,4 @@
-//! The extremes that must hold (physics contract, section 7), row by row, each with its margin: how many times what was
+//! The extremes that must hold (docs/extremes.md), row by row, each with its margin: how many times what was
 //! measured fits into what is allowed.
 //!
 //! Some rows are cases of the verification report, run again. `long` asks for the soaks; the code is the same.

@@ -1,4 +1,4 @@
-//! Energies between commits (physics contract, section 6), kept on request.
+//! Energies between commits (docs/theory.md, 6), kept on request.
 //!
 //! Work of a contact's force on the two bodies, by the trapezoid rule over the relative displacement since the
 //! last commit: with o the reference point of A,

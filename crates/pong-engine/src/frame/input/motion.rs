@@ -1,7 +1,7 @@
 //! Relative motion of every pair of movable groups, in both directions.
 //!
 //! r = x_A − x_B and v = v_A − v_B are formed before anything is rotated, so that the results do not depend on
-//! where the common origin is or how fast it moves (physics contract, section 1).
+//! where the common origin is or how fast it moves (docs/theory.md, 1).
 
 use crate::frame::{Frame, Given};
 use crate::state::PairPose;

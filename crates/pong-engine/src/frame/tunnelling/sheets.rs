@@ -1,4 +1,4 @@
-//! Lines through triangles. What comes from behind passes by right (physics contract, 2.2).
+//! Lines through triangles. What comes from behind passes by right (docs/theory.md, 2.2).
 
 use super::{Line, Met};
 use pong_geometry::Vec3;
