@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-FORMAT, VERSION = "pong-log", 1
+FORMAT, VERSIONS = "pong-log", (1, 2)  # What is read here has the same names in both.
 # What playback needs of each table.
 FIELDS = {
     "frames": {"frame", "time", "first_contact", "contacts"},
@@ -133,6 +133,6 @@ def _read_run(folder: Path) -> dict:
         raise LogError(f"{path}: it is damaged ({reason}); record the run again") from None
     if not isinstance(run, dict) or run.get("format") != FORMAT:
         raise LogError(f"{path}: `format` is not {FORMAT!r}: this is no response log")
-    if run.get("version") != VERSION:
-        raise LogError(f"{path}: version {run.get('version')} is not known here, only {VERSION}; get a newer pong_viz")
+    if run.get("version") not in VERSIONS:
+        raise LogError(f"{path}: version {run.get('version')} is not known here, only {VERSIONS[0]} to {VERSIONS[-1]}; get a newer pong_viz")
     return run

@@ -17,7 +17,7 @@ FRAMES = [("frame", "<u8"), ("time", "<f8"), ("first_contact", "<u8"), ("contact
           ("evaluate_ns", "<u8"), ("committed", "<u4"), ("commits_missed", "<u4")]
 CONTACTS = [("frame", "<u8"), ("pair", "<u4"), ("primitive_a", "<u4"), ("primitive_b", "<u4"), ("element_a", "<u4"),
             ("element_b", "<u4"), ("feature_kind", "<u4"), ("feature_index", "<u4"), ("end", "<u4"), ("sticks", "<u4"),
-            ("point", "<f8", 3), ("normal", "<f8", 3), ("depth", "<f8"), ("rate", "<f8"), ("weight", "<f8"),
+            ("point", "<f8", 3), ("normal", "<f8", 3), ("depth", "<f8"), ("depth_rate", "<f8"), ("weight", "<f8"),
             ("normal_force", "<f8"), ("friction_force", "<f8", 3), ("slip_velocity", "<f8", 3), ("stored", "<f8")]
 
 BALL = """(
@@ -87,7 +87,7 @@ def _contacts(t):
 
 def _run():
     return {
-        "format": "pong-log", "version": 1, "name": "slide", "writer": "a test", "engine": "0.1.0",
+        "format": "pong-log", "version": 2, "name": "slide", "writer": "a test", "engine": "0.1.0",
         "scene_hash": "0x0000000000000000", "step": 0.01, "commits_per_frame": 1, "integrator": None,
         "models": [{"name": "ball", "file": "models/ball/ball.ron", "hash": "0x0"},
                    {"name": "ground", "file": "models/ground/ground.ron", "hash": "0x0"}],

@@ -55,7 +55,7 @@ fn the_log_of_a_c_host_can_be_replayed() {
     assert!(report.agrees() && report.compared == 3000 && report.contacts > 700, "{report:?}");
     let kinds =
         |kind| log.events().iter().filter(|event| std::mem::discriminant(&event.event) == kind).count();
-    let forgotten = std::mem::discriminant(&pong_record::Event::Forget { object: 0 });
+    let forgotten = std::mem::discriminant(&pong_record::Event::ClearContactHistory { object: 0 });
     let some = std::mem::discriminant(&pong_record::Event::Commit { pairs: Vec::new() });
     assert_eq!((kinds(forgotten), kinds(some)), (6, 1200));
 }

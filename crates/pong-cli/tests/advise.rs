@@ -79,7 +79,7 @@ fn the_advised_surface_does_in_a_scene_what_was_wished() {
 #[test]
 fn what_goes_wrong_first_is_told() {
     let surface = r#""advised": (stiffness: 1e4, normal: Linear(damping: 5))"#;
-    let here = folder("first_wrong", surface, "ZeroOrderHold(substeps: 1, delay: 0)", 2e-3);
+    let here = folder("first_wrong", surface, "ZeroOrderHold(substeps: 1, delay_frames: 0)", 2e-3);
     let (_, out, _) = pong(&here, "advise scene.ron");
     let row = out.lines().find(|line| line.contains("·") && line.contains("10000")).unwrap();
     assert!(row.contains("0.001"), "{out}");

@@ -47,8 +47,9 @@ fn assert_holds(text: &str, parts: &[&str]) {
 #[test]
 fn run_tells_of_contacts_that_return_more_than_they_take() {
     let folder = folder("held");
-    let scene =
-        DROP.replace("RungeKutta4", "ZeroOrderHold(delay: 1)").replace("(0, 0, 0.1))", "(0, 0, 0.101))");
+    let scene = DROP
+        .replace("RungeKutta4", "ZeroOrderHold(delay_frames: 1)")
+        .replace("(0, 0, 0.1))", "(0, 0, 0.101))");
     std::fs::write(folder.join("held.ron"), scene.replace("1e-3", "1e-4")).unwrap();
     std::fs::write(folder.join("ball.ron"), BALL.replace("normal: Linear(damping: 632.4)", "")).unwrap();
     let (code, out, err) = pong(&folder, &["run", "held.ron"]);
@@ -194,13 +195,13 @@ fn accounts_close_and_hold_what_the_contacts_store(folder: &Path) {
     let sum = |table: &HashMap<String, String>, columns: &[&str]| -> f64 {
         columns.iter().map(|column| table[*column].parse::<f64>().unwrap()).sum()
     };
-    let went_in = sum(&account, &["taken_j", "put_in_j", "made_j"]);
-    let came_of_it = sum(&account, &["returned_j", "stored_j", "damping_loss_j", "friction_loss_j"]);
+    let went_in = sum(&account, &["work_in_j", "inserted_j", "hold_error_j"]);
+    let came_of_it = sum(&account, &["work_out_j", "stored_j", "damping_loss_j", "friction_loss_j"]);
     assert!(went_in > 0.0 && (came_of_it / went_in - 1.0).abs() < SUMS, "{account:?}");
     let [stored, in_all] = [sum(&account, &["stored_j"]), sum(&energies, &["contacts_j"])];
     assert!(stored > 0.0 && (stored / in_all - 1.0).abs() < SUMS, "{account:?} {energies:?}");
     assert_eq!([&account["a"], &account["b"]], ["ball", "ground"]);
-    assert_eq!([&account["touching"], &account["touches"], &account["returned_more"]], ["1", "0", "0"]);
+    assert_eq!([&account["in_contact"], &account["episodes"], &account["episodes_gained"]], ["1", "0", "0"]);
 }
 
 #[test]

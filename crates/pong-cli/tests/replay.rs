@@ -39,7 +39,7 @@ fn a_run_with_every_step_in_the_log_replays_to_the_bit() {
     for (integrator, name) in [
         ("RungeKutta4", "rk4"),
         ("SemiImplicitEuler", "euler"),
-        ("ZeroOrderHold(substeps: 2, delay: 1)", "hold"),
+        ("ZeroOrderHold(substeps: 2, delay_frames: 1)", "hold"),
     ] {
         std::fs::write(folder.join("slide.ron"), SLIDE.replace("RungeKutta4", integrator)).unwrap();
         let (code, _, err) = pong(&folder, &format!("run slide.ron -q --log {name} --every-step"));
@@ -54,7 +54,7 @@ fn a_run_with_every_step_in_the_log_replays_to_the_bit() {
     assert_eq!(code, 0);
     for part in [
         "slide: 1001 frames, t = 0 … 0.2 s, ",
-        "ZeroOrderHold(substeps: 2, delay: 1), 1 commit per frame",
+        "ZeroOrderHold(substeps: 2, delay_frames: 1), 1 commit per frame",
         "pair `block`, `table`",
     ] {
         assert!(out.contains(part), "no `{part}` in\n{out}");

@@ -27,7 +27,7 @@ pub enum Integrator {
         /// Runge-Kutta steps in a frame, at least 1. With no other loads than gravity one is exact in translation.
         substeps: u32,
         /// How many whole frames the wrench comes late.
-        delay: u32,
+        delay_frames: u32,
     },
 }
 
@@ -38,8 +38,8 @@ impl Integrator {
         match self {
             Self::SemiImplicitEuler => Some(WrenchUse::SemiImplicit),
             Self::RungeKutta4 => Some(WrenchUse::Stages),
-            Self::ZeroOrderHold { delay, .. } => {
-                (delay <= WrenchUse::LATE_MAX).then_some(WrenchUse::Held { late: delay })
+            Self::ZeroOrderHold { delay_frames, .. } => {
+                (delay_frames <= WrenchUse::LATE_MAX).then_some(WrenchUse::Held { late: delay_frames })
             }
         }
     }

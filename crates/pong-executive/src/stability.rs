@@ -11,7 +11,7 @@ pub fn coupling(integrator: Integrator) -> Coupling {
     match integrator {
         Integrator::SemiImplicitEuler => Coupling::OncePerStep,
         Integrator::RungeKutta4 => Coupling::StageWise,
-        Integrator::ZeroOrderHold { delay, .. } => Coupling::Held { late: delay },
+        Integrator::ZeroOrderHold { delay_frames, .. } => Coupling::Held { late: delay_frames },
     }
 }
 
@@ -47,7 +47,7 @@ mod tests {
         assert_eq!(longest_stable_step(Integrator::SemiImplicitEuler, 1e4, 0.0, 1.0), 0.02);
         let stages = longest_stable_step(Integrator::RungeKutta4, 1e4, 0.0, 1.0);
         assert!((stages - 0.02828).abs() < 1e-5);
-        let hold = |delay| Integrator::ZeroOrderHold { substeps: 1, delay };
+        let hold = |delay_frames| Integrator::ZeroOrderHold { substeps: 1, delay_frames };
         assert_eq!(longest_stable_step(hold(0), 1e4, 5.0, 1.0), 1e-3);
         assert!(longest_stable_step(hold(1), 1e4, 15.0, 1.0) < 1e-3);
     }

@@ -93,7 +93,7 @@ fn integrator(coupling: Coupling) -> Integrator {
     match coupling {
         Coupling::StageWise => Integrator::RungeKutta4,
         Coupling::OncePerStep => Integrator::SemiImplicitEuler,
-        Coupling::Held { late } => Integrator::ZeroOrderHold { substeps: 1, delay: late },
+        Coupling::Held { late } => Integrator::ZeroOrderHold { substeps: 1, delay_frames: late },
     }
 }
 

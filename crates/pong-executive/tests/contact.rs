@@ -129,18 +129,18 @@ fn the_work_of_moments_is_taken_from_the_spin() {
 }
 
 /// Rebound of an undamped ball at 1 m/s without gravity, averaged over the phase of touch.
-fn mean_rebound(omega_t: f64, delay: u32) -> f64 {
+fn mean_rebound(omega_t: f64, delay_frames: u32) -> f64 {
     let frame = omega_t / 1e5_f64.sqrt();
     let phases = 32;
     let mut sum = 0.0;
     for phase in 0..phases {
         let height = frame * (3.0 + f64::from(phase) / f64::from(phases));
-        let integrator = Integrator::ZeroOrderHold { substeps: 2, delay };
+        let integrator = Integrator::ZeroOrderHold { substeps: 2, delay_frames };
         let (mut simulation, ball) = ball_on_plane(0.0, height, integrator, frame);
         simulation.set_gravity(Vec3::zeros());
         let pose = simulation.pose(ball);
         simulation.set_motion(ball, pose, Twist { linear: -Vec3::z(), angular: Vec3::zeros() }).unwrap();
-        simulation.run_for(frame * (3.2 / omega_t + 10.0 + 2.0 * f64::from(delay)).ceil()).unwrap();
+        simulation.run_for(frame * (3.2 / omega_t + 10.0 + 2.0 * f64::from(delay_frames)).ceil()).unwrap();
         assert_eq!(simulation.world().contact_count(), 0);
         sum += simulation.twist(ball).linear.z;
     }
@@ -174,10 +174,10 @@ fn the_same_run_gives_the_same_bits() {
 #[test]
 fn a_host_that_holds_wrenches_is_told_what_that_made() {
     let step = 0.1 / 1e5_f64.sqrt();
-    for delay in [0, 1] {
-        let needed = 1e5 * step * (0.5 + f64::from(delay));
+    for delay_frames in [0, 1] {
+        let needed = 1e5 * step * (0.5 + f64::from(delay_frames));
         for (damping, warnings) in [(0.0, 1), (2.0 * needed, 0)] {
-            let integrator = Integrator::ZeroOrderHold { substeps: 1, delay };
+            let integrator = Integrator::ZeroOrderHold { substeps: 1, delay_frames };
             let (mut simulation, _) = ball_on_plane(damping, 0.02, integrator, step);
             simulation.settle().unwrap();
             let start = simulation.energy();

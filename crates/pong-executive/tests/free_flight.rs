@@ -84,7 +84,7 @@ fn semi_implicit_euler_turns_a_body_to_first_order() {
 
 #[test]
 fn a_projectile_flies_its_parabola_wherever_its_group_frame_sits() {
-    for integrator in [Integrator::RungeKutta4, Integrator::ZeroOrderHold { substeps: 1, delay: 0 }] {
+    for integrator in [Integrator::RungeKutta4, Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 }] {
         let mut simulation = Simulation::new(empty_world(), integrator, 0.01).unwrap();
         let gravity = Vec3::new(0.0, 0.0, -9.81);
         simulation.set_gravity(gravity);

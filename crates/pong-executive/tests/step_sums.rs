@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 const EULER: Integrator = Integrator::SemiImplicitEuler;
 const KUTTA: Integrator = Integrator::RungeKutta4;
-const HELD: Integrator = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+const HELD: Integrator = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
 
 fn model(name: &str, surface: &str, primitives: &str) -> String {
     format!(

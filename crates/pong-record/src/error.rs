@@ -105,7 +105,7 @@ impl std::fmt::Display for LogError {
             ),
             Self::Version { path, version } => write!(
                 f,
-                "{}: is of version {version}, this program reads version {}; use the program that wrote it, or a later one",
+                "{}: is of version {version}, this program reads versions 1 to {}; use the program that wrote it, or a later one",
                 path.display(),
                 crate::run::VERSION
             ),

@@ -29,8 +29,9 @@ pub enum Event {
         /// Whether it is tested from now on.
         enabled: bool,
     },
-    /// The contact state of an Object was dropped.
-    Forget {
+    /// The contact history of an Object was cleared (`forget` in version 1).
+    #[serde(alias = "forget")]
+    ClearContactHistory {
         /// Index of the Object.
         object: u32,
     },

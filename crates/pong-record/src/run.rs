@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
 
-/// The version of the format that is written, and the only one that is read.
-pub const VERSION: u64 = 1;
+/// The version of the format that is written. Version 1, which is read too, has other names for some fields.
+pub const VERSION: u64 = 2;
 /// Name of the format.
 pub(crate) const FORMAT: &str = "pong-log";
 /// Name of the file.
@@ -45,8 +45,8 @@ pub struct Run {
     #[serde(default)]
     pub ledger: bool,
     /// What the host did with wrenches, if the world kept accounts of them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub accounts: Option<RunAccounts>,
+    #[serde(default, alias = "accounts", skip_serializing_if = "Option::is_none")]
+    pub energy_accounts: Option<RunAccounts>,
     /// Names of the force laws that the host registered.
     #[serde(default)]
     pub laws: Vec<String>,
@@ -80,10 +80,12 @@ pub enum RunAccounts {
     Stages,
     /// Gives the velocity with which the bodies then move.
     SemiImplicit,
-    /// Holds them from one commit to the next.
-    Held {
-        /// How many whole frames they come late.
-        late: u32,
+    /// Holds them from one commit to the next (`held` in version 1).
+    #[serde(alias = "held")]
+    ZeroOrderHold {
+        /// How many whole frames later than the first possible one they act (`late` in version 1).
+        #[serde(alias = "late")]
+        delay_frames: u32,
     },
 }
 
@@ -92,7 +94,7 @@ impl From<WrenchUse> for RunAccounts {
         match wrench_use {
             WrenchUse::Stages => Self::Stages,
             WrenchUse::SemiImplicit => Self::SemiImplicit,
-            WrenchUse::Held { late } => Self::Held { late },
+            WrenchUse::Held { late } => Self::ZeroOrderHold { delay_frames: late },
         }
     }
 }
@@ -102,7 +104,7 @@ impl From<RunAccounts> for WrenchUse {
         match accounts {
             RunAccounts::Stages => Self::Stages,
             RunAccounts::SemiImplicit => Self::SemiImplicit,
-            RunAccounts::Held { late } => Self::Held { late },
+            RunAccounts::ZeroOrderHold { delay_frames } => Self::Held { late: delay_frames },
         }
     }
 }
@@ -177,7 +179,7 @@ impl Run {
         if head.format != FORMAT {
             return Err(damaged(format!("its format is {:?}, not {FORMAT:?}", head.format)));
         }
-        if head.version != VERSION {
+        if !(1..=VERSION).contains(&head.version) {
             return Err(LogError::Version { path, version: head.version });
         }
         let run: Self = serde_json::from_str(&text).map_err(|error| damaged(error.to_string()))?;

@@ -2,7 +2,7 @@
 
 mod support;
 
-use pong_record::{Log, LogError, RecordOptions};
+use pong_record::{Event, Log, LogError, RecordOptions};
 use std::path::Path;
 use support::{folder, scene};
 
@@ -62,7 +62,7 @@ fn damage_is_told_with_file_and_cause() {
         ("axes", damage(&place, "wrenches.npy", replace(", 3), }", ", 2), }")), "its axes are"),
         ("json", damage(&place, "run.json", |bytes| bytes[..bytes.len() / 2].to_vec()), "line "),
         ("format", damage(&place, "run.json", replace("pong-log", "ping-log")), "its format is"),
-        ("version", damage(&place, "run.json", replace("\"version\": 1", "\"version\": 2")), "version 2"),
+        ("version", damage(&place, "run.json", replace("\"version\": 2", "\"version\": 3")), "version 3"),
         (
             "model",
             damage(&place, "run.json", replace("\"model\": 1", "\"model\": 7")),
@@ -87,12 +87,40 @@ fn last_pair_is_99(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
+/// Version 1 had other names for some fields and events; the numbers are the same.
+#[test]
+fn a_log_of_version_1_reads_as_it_is() {
+    let folder = folder("version_1");
+    let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
+    let contacts = |place: &Path| Log::open(place).unwrap().frame(4).unwrap().contacts;
+    let written = contacts(&place);
+    let change = |file: &str, from: &[u8], to: &[u8]| {
+        let path = place.join(file);
+        let mut bytes = std::fs::read(&path).unwrap();
+        let at = bytes.windows(from.len()).position(|window| window == from).expect("what is replaced");
+        bytes.splice(at..at + from.len(), to.iter().copied());
+        if file.ends_with(".npy") {
+            // The header keeps its length: NumPy pads it with blanks in front of the line's end.
+            let end = bytes.iter().position(|byte| *byte == b'\n').expect("the end of the header");
+            bytes.splice(end..end, std::iter::repeat_n(b' ', from.len() - to.len()));
+        }
+        std::fs::write(&path, bytes).unwrap();
+    };
+    change("run.json", b"\"version\": 2", b"\"version\": 1");
+    change("contacts.npy", b"'depth_rate'", b"'rate'");
+    std::fs::write(place.join("events.jsonl"), "{\"frame\":1,\"event\":\"forget\",\"object\":0}\n").unwrap();
+    assert!(!written.is_empty());
+    assert_eq!(contacts(&place), written);
+    let cleared = Event::ClearContactHistory { object: 0 };
+    assert_eq!(Log::open(&place).unwrap().events()[0].event, cleared);
+}
+
 /// A line that was being written when the run was cut off.
 #[test]
 fn half_a_line_of_events_is_passed_over() {
     let folder = folder("half_event");
     let place = scene(&folder).record(&folder, 5, &RecordOptions::default());
-    let text = "{\"frame\":1,\"event\":\"forget\",\"object\":0}\n{\"frame\":2,\"ev";
+    let text = "{\"frame\":1,\"event\":\"clear_contact_history\",\"object\":0}\n{\"frame\":2,\"ev";
     std::fs::write(place.join("events.jsonl"), text).unwrap();
     assert_eq!(Log::open(&place).unwrap().events().len(), 1);
 }

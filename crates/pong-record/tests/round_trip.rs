@@ -16,7 +16,7 @@ fn same_contact(row: &ContactRow, contact: &Contact) -> bool {
         && bits(row.normal) == bits(contact.normal.into())
         && bits(row.friction_force) == bits(contact.friction_force.into())
         && bits(row.slip_velocity) == bits(contact.slip_velocity.into())
-        && bits([row.depth, row.rate, row.weight, row.normal_force, row.stored])
+        && bits([row.depth, row.depth_rate, row.weight, row.normal_force, row.stored])
             == bits([contact.depth, contact.rate, contact.weight, contact.normal_force, contact.stored])
         && (row.element_a, row.element_b, row.end) == (contact.a.element, contact.b.element, contact.end)
         && row.feature_kind << 30 | row.feature_index == contact.feature

@@ -161,8 +161,10 @@ fn integrator_name(integrator: Integrator) -> String {
     match integrator {
         Integrator::SemiImplicitEuler => "Euler".to_owned(),
         Integrator::RungeKutta4 => "RK4".to_owned(),
-        Integrator::ZeroOrderHold { substeps, delay: 0 } => format!("hold/{substeps}"),
-        Integrator::ZeroOrderHold { substeps, delay } => format!("hold/{substeps} late {delay}"),
+        Integrator::ZeroOrderHold { substeps, delay_frames: 0 } => format!("hold/{substeps}"),
+        Integrator::ZeroOrderHold { substeps, delay_frames } => {
+            format!("hold/{substeps} late {delay_frames}")
+        }
     }
 }
 

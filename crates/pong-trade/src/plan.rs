@@ -166,8 +166,8 @@ fn integrators(own: Integrator, all: bool) -> Vec<Integrator> {
     let others = [
         Integrator::RungeKutta4,
         Integrator::SemiImplicitEuler,
-        Integrator::ZeroOrderHold { substeps: 1, delay: 0 },
-        Integrator::ZeroOrderHold { substeps: 4, delay: 0 },
+        Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 },
+        Integrator::ZeroOrderHold { substeps: 4, delay_frames: 0 },
     ];
     for other in others.into_iter().filter(|other| all && *other != own) {
         integrators.push(other);

@@ -156,7 +156,7 @@ impl Frames {
             point: blob.f32s(all().zip(origins).flat_map(|(c, at)| local(&c.point, &at))),
             normal: blob.f32s(all().flat_map(|c| c.normal)),
             depth: blob.f32s(all().map(|c| c.depth)),
-            rate: blob.f32s(all().map(|c| c.rate)),
+            rate: blob.f32s(all().map(|c| c.depth_rate)),
             weight: blob.f32s(all().map(|c| c.weight)),
             normal_force: blob.f32s(all().map(|c| c.normal_force)),
             friction: blob.f32s(all().flat_map(|c| c.friction_force)),

@@ -115,8 +115,8 @@ fn log_options(arguments: &Arguments, built: &BuiltScene, every: u64) -> RecordO
 
 fn integrator(integrator: Integrator) -> String {
     match integrator {
-        Integrator::ZeroOrderHold { substeps, delay } => {
-            format!("ZeroOrderHold(substeps: {substeps}, delay: {delay})")
+        Integrator::ZeroOrderHold { substeps, delay_frames } => {
+            format!("ZeroOrderHold(substeps: {substeps}, delay_frames: {delay_frames})")
         }
         other => format!("{other:?}"),
     }

@@ -208,7 +208,7 @@ mod tests {
         assert!((step * 10.0 - 1.0).abs() < 1e-6, "{step}");
     }
 
-    /// The polynomial without delay is Jury's: κ/2 < γ < 2.
+    /// The polynomial without delay_frames is Jury's: κ/2 < γ < 2.
     #[test]
     fn the_recursion_agrees_with_the_closed_form_without_delay() {
         for i in 1..60 {

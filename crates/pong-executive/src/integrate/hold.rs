@@ -15,10 +15,10 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Takes in the wrenches of this frame and gives out those of `delay` frames ago; none came before the first.
-    fn exchange(&mut self, fresh: &[Wrench], delay: u32) -> Vec<Wrench> {
+    /// Takes in the wrenches of this frame and gives out those of `delay_frames` frames ago; none came before the first.
+    fn exchange(&mut self, fresh: &[Wrench], delay_frames: u32) -> Vec<Wrench> {
         self.waiting.push_back(fresh.to_vec());
-        if self.waiting.len() <= delay as usize {
+        if self.waiting.len() <= delay_frames as usize {
             return vec![Wrench::zero(); fresh.len()];
         }
         self.waiting.pop_front().unwrap_or_default()
@@ -30,11 +30,11 @@ pub(crate) fn hold(
     system: &mut System,
     states: &mut [FreeState],
     (stages, held): (&mut Stages, &mut Held),
-    (substeps, delay): (u32, u32),
+    (substeps, delay_frames): (u32, u32),
     time: f64,
     frame: f64,
 ) -> Result<(), ExecutiveError> {
-    let wrenches = held.exchange(&system.contact, delay);
+    let wrenches = held.exchange(&system.contact, delay_frames);
     let h = frame / f64::from(substeps);
     for substep in 0..substeps {
         let start = time + h * f64::from(substep);

@@ -235,8 +235,8 @@ pub(crate) enum IntegratorEntry {
     ZeroOrderHold {
         #[serde(default = "one_substep")]
         substeps: u32,
-        #[serde(default)]
-        delay: u32,
+        #[serde(default, alias = "delay")]
+        delay_frames: u32,
     },
 }
 

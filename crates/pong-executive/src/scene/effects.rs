@@ -18,7 +18,9 @@ pub(crate) fn integrator(document: &Document) -> Integrator {
     match document.integrator {
         IntegratorEntry::SemiImplicitEuler => Integrator::SemiImplicitEuler,
         IntegratorEntry::RungeKutta4 => Integrator::RungeKutta4,
-        IntegratorEntry::ZeroOrderHold { substeps, delay } => Integrator::ZeroOrderHold { substeps, delay },
+        IntegratorEntry::ZeroOrderHold { substeps, delay_frames } => {
+            Integrator::ZeroOrderHold { substeps, delay_frames }
+        }
     }
 }
 

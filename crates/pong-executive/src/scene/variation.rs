@@ -64,7 +64,9 @@ fn entry(integrator: Integrator) -> IntegratorEntry {
     match integrator {
         Integrator::SemiImplicitEuler => IntegratorEntry::SemiImplicitEuler,
         Integrator::RungeKutta4 => IntegratorEntry::RungeKutta4,
-        Integrator::ZeroOrderHold { substeps, delay } => IntegratorEntry::ZeroOrderHold { substeps, delay },
+        Integrator::ZeroOrderHold { substeps, delay_frames } => {
+            IntegratorEntry::ZeroOrderHold { substeps, delay_frames }
+        }
     }
 }
 

@@ -115,8 +115,8 @@ impl Simulation {
         match self.integrator {
             Integrator::SemiImplicitEuler => euler(system, states, stages, time, h),
             Integrator::RungeKutta4 => runge_kutta(system, states, stages, &Contact::Fresh, time, h)?,
-            Integrator::ZeroOrderHold { substeps, delay } => {
-                hold(system, states, (stages, held), (substeps, delay), time, h)?;
+            Integrator::ZeroOrderHold { substeps, delay_frames } => {
+                hold(system, states, (stages, held), (substeps, delay_frames), time, h)?;
             }
         }
         self.steps += 1;

@@ -6,8 +6,8 @@ use crate::error::LogError;
 use pong_engine::{InterfaceId, World};
 use std::path::Path;
 
-const ACCOUNTS: &str = "time_s,a,b,taken_j,returned_j,put_in_j,made_j,stored_j,damping_loss_j,friction_loss_j,\
-                        resolution_j,touching,touches,returned_more,unresolved,excess_j";
+const ACCOUNTS: &str = "time_s,a,b,work_in_j,work_out_j,inserted_j,hold_error_j,stored_j,damping_loss_j,friction_loss_j,\
+                        resolution_j,in_contact,episodes,episodes_gained,episodes_unresolved,excess_j";
 
 /// `accounts.csv`: what the contacts of each pair of movable groups took, returned, hold and lost since the world began, of
 /// every pair that has touched.

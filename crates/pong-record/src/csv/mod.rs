@@ -124,7 +124,7 @@ impl CsvTables {
         table.cell(contact.end);
         table.numbers(&contact.point);
         table.numbers(&contact.normal);
-        table.numbers(&[contact.depth, contact.rate, contact.weight, contact.normal_force]);
+        table.numbers(&[contact.depth, contact.depth_rate, contact.weight, contact.normal_force]);
         table.numbers(&contact.friction_force);
         table.numbers(&contact.slip_velocity);
         table.cell(contact.sticks);

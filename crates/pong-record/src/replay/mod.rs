@@ -236,7 +236,9 @@ impl Replay {
                 let pair = find(&self.pairs, *pair, "pair")?;
                 self.world.set_pair_enabled(pair, *enabled)?;
             }
-            Event::Forget { object } => self.world.forget(find(&self.objects, *object, "object")?)?,
+            Event::ClearContactHistory { object } => {
+                self.world.forget(find(&self.objects, *object, "object")?)?
+            }
             Event::Surface { model, name, values } => {
                 let model = find(&self.models, *model, "model")?;
                 let mut surface = values.surface(name);

@@ -27,7 +27,7 @@ pub(super) fn world(
         contact_capacity: run.contact_capacity.map(|capacity| capacity as usize),
         ledger: run.ledger,
         workers: options.workers.clone(),
-        accounts: run.accounts.map(Into::into),
+        accounts: run.energy_accounts.map(Into::into),
     };
     let mut world = World::with_extensions(config, options.extensions.clone(), options.laws.clone());
     if let Some(law) = run.laws.iter().find(|law| !world.law_names().any(|known| known == law.as_str())) {

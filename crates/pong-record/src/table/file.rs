@@ -124,6 +124,9 @@ impl<R: Row> TableFile<R> {
     }
 }
 
+/// Fields that had another name in version 1 of the format, with that name.
+const FORMER_NAMES: [(&str, &str); 1] = [("depth_rate", "rate")];
+
 /// Where each field begins in an item, and the item's size. Fields that this reader does not know are passed over.
 fn offsets(dtype: &DType, wanted: &[Field]) -> Result<(Vec<usize>, usize), String> {
     let DType::Record(fields) = dtype else { return Err("its type is not structured".to_owned()) };
@@ -134,7 +137,8 @@ fn offsets(dtype: &DType, wanted: &[Field]) -> Result<(Vec<usize>, usize), Strin
         at += field.dtype.num_bytes().ok_or_else(|| format!("field `{}` has no fixed size", field.name))?;
     }
     let find = |field: &Field| {
-        let place = places.iter().find(|(name, ..)| *name == field.name);
+        let is = |name: &str| name == field.name || FORMER_NAMES.contains(&(field.name, name));
+        let place = places.iter().find(|(name, ..)| is(name));
         let (_, dtype, at) = place.ok_or_else(|| format!("field `{}` is missing", field.name))?;
         if is_like(dtype, field) {
             Ok(*at)

@@ -166,7 +166,7 @@ row! {
         /// m.
         depth: f64,
         /// m/s, positive while closing.
-        rate: f64,
+        depth_rate: f64,
         /// Share of the pair's spring, 0 to 1.
         weight: f64,
         /// N.

@@ -107,7 +107,7 @@ impl Capture {
             point: contact.point.into(),
             normal: contact.normal.into(),
             depth: contact.depth,
-            rate: contact.rate,
+            depth_rate: contact.rate,
             weight: contact.weight,
             normal_force: contact.normal_force,
             friction_force: contact.friction_force.into(),

@@ -150,7 +150,7 @@ fn zero_order_hold() -> Outcome {
     for (phase, tolerance) in [(0.01, 0.01), (0.1, 0.02)] {
         let expected = libm::exp(core::f64::consts::FRAC_PI_4 * phase);
         let duo = || Duo::new("point", "ground")?.mover(|s| s.stiffness = STIFFNESS);
-        let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+        let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
         let got = mean(&restitutions(duo, (hold, phase / omega), 200)?);
         rows.push(Row::relative(
             format!("ωT = {phase}: e − 1, mean"),

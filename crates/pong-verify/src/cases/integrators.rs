@@ -35,7 +35,7 @@ fn error(integrator: Integrator, steps: u32) -> Result<f64, Failure> {
 }
 
 fn rows() -> Outcome {
-    let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+    let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
     let cases = [
         ("Runge-Kutta", Integrator::RungeKutta4, 330, 4.0, 0.1),
         ("semi-implicit Euler", Integrator::SemiImplicitEuler, 3162, 1.0, 0.1),

@@ -46,7 +46,7 @@ fn grows(integrator: Integrator, kappa: f64, gamma: f64) -> Result<bool, Failure
 fn rows() -> Outcome {
     let euler = Integrator::SemiImplicitEuler;
     let kutta = Integrator::RungeKutta4;
-    let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+    let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
     let square = |x: f64| x * x;
     // Name, integrator, and (κ, γ) inside and outside of the bound.
     let cases = [

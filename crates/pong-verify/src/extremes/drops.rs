@@ -217,7 +217,7 @@ fn observed_order(name: &str, integrator: Integrator, power: i32) -> Result<Row,
 }
 
 fn held(_: Length) -> Outcome {
-    let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+    let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
     let mut random = Random(18);
     let mut greatest_gain = 0.0_f64;
     let (mut higher, mut unwarned, mut pulled, mut damped_higher, mut damped_warned) = (0, 0, 0, 0, 0);
@@ -259,7 +259,7 @@ fn held(_: Length) -> Outcome {
 }
 
 fn steps(_: Length) -> Outcome {
-    let hold = Integrator::ZeroOrderHold { substeps: 1, delay: 0 };
+    let hold = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
     let methods = [
         ("semi-implicit Euler", Integrator::SemiImplicitEuler),
         ("Runge-Kutta", Integrator::RungeKutta4),

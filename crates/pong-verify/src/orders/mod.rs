@@ -19,7 +19,7 @@ pub use plot::svg;
 const METHODS: [(&str, Integrator, f64); 3] = [
     ("Runge-Kutta 4", Integrator::RungeKutta4, 1e-3),
     ("semi-implicit Euler", Integrator::SemiImplicitEuler, 2e-4),
-    ("held wrench", Integrator::ZeroOrderHold { substeps: 1, delay: 0 }, 2e-4),
+    ("held wrench", Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 }, 2e-4),
 ];
 
 /// Steps of a curve: the longest, half and a quarter of it.
