@@ -15,7 +15,7 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Takes in the wrenches of this frame and gives out those of `delay_frames` frames ago; none came before the first.
+    /// Takes in the wrenches of this frame and gives out those of `delay_frames` ago; none came before the first.
     fn exchange(&mut self, fresh: &[Wrench], delay_frames: u32) -> Vec<Wrench> {
         self.waiting.push_back(fresh.to_vec());
         if self.waiting.len() <= delay_frames as usize {
