@@ -1,9 +1,11 @@
-"""House rules that a program can check: arrows between crates, where unsafe lives, file lengths, dead links."""
+"""House rules that a program can check: arrows between crates, circles of files, where unsafe lives, file lengths, dead links."""
 
 import pathlib
 import re
 import subprocess
 import sys
+
+import circles
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -108,8 +110,12 @@ def theory_citations():
                         yield f"{path}:{number}: docs/theory.md has no section {section}"
 
 
+def circles_of_files():
+    yield from circles.check(ROOT)
+
+
 def main():
-    checks = (theory_citations, arrows, unsafe_code, platform_mathematics, file_lengths, dead_links)
+    checks = (theory_citations, arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links)
     problems = [problem for check in checks for problem in check()]
     for problem in problems:
         print(problem.replace(str(ROOT) + "/", ""))

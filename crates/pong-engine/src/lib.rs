@@ -29,6 +29,7 @@ mod report;
 mod running;
 mod scene;
 mod seal;
+mod sealed;
 mod state;
 mod world;
 

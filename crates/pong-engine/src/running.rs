@@ -2,12 +2,15 @@
 
 use crate::energy::account::Account;
 use crate::error::EngineError;
-use crate::frame::{self, Crew, Frame, FrameInput, FrictionPreload, Given, Motion, ROUND};
+use crate::frame::{
+    self, EvaluationBuffers, EvaluationInput, FrictionPreload, Motion, ROUND, WorkerInput, WorkerPool,
+};
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
-use crate::seal::{GroupPair, Sealed, SurfaceTable, leave_room_for_small_things};
+use crate::seal::leave_room_for_small_things;
+use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    Books, ContactKey, ContactMemory, PairBook, Remembered, Role, StateError, needed_len, read_block,
+    Books, ContactKey, ContactMemory, ContactRole, PairBook, Remembered, StateError, needed_len, read_block,
     write_block,
 };
 use pong_threads::{LaneWork, WorkerStart};
@@ -25,8 +28,8 @@ pub(crate) struct Running {
     spares: Vec<Arc<ContactMemory>>,
     /// A contact state without room.
     nothing: Arc<ContactMemory>,
-    pub frame: Frame,
-    crew: Option<Crew>,
+    pub frame: EvaluationBuffers,
+    pool: Option<WorkerPool>,
     /// Whether `frame` belongs to the states presently set.
     pub evaluated: bool,
     /// Whether `frame` belongs to the states, pairs and surfaces as they are set now, committed or not.
@@ -50,7 +53,7 @@ impl Running {
             Arc::new(memory.with_books(Books::new(sealed.account_pairs(), sealed.late)))
         };
         let nothing = Arc::new(ContactMemory::with_capacity(0, 0, 0));
-        let input = || FrameInput {
+        let input = || WorkerInput {
             phase: 0,
             motions: vec![[Motion::none(); 2]; pairs],
             memory: Arc::clone(&nothing),
@@ -62,8 +65,8 @@ impl Running {
         let committed = memory();
         let spares = if scene.config.workers.is_some() { 2 } else { 1 };
         let spares = (0..spares).map(|_| memory()).collect();
-        let frame = Frame::new(scene.bodies.len(), &sealed, input());
-        let crew = match &scene.config.workers {
+        let frame = EvaluationBuffers::new(scene.bodies.len(), &sealed, input());
+        let pool = match &scene.config.workers {
             None => None,
             Some(settings) => {
                 if settings.workers > pong_threads::MAX_WORKERS {
@@ -74,7 +77,7 @@ impl Running {
                 }
                 let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
                 leave_room_for_small_things();
-                let started = Crew::start(scene, &sealed, input(), &settings);
+                let started = WorkerPool::start(scene, &sealed, input(), &settings);
                 Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
             }
         };
@@ -82,7 +85,7 @@ impl Running {
             memory: committed,
             spares,
             frame,
-            crew,
+            pool,
             evaluated: false,
             current: false,
             clock,
@@ -109,8 +112,8 @@ impl Running {
         self.clock = clock;
         // Should a law of the host's panic or a sum overflow, there is no frame until the next one.
         (self.evaluated, self.current, self.frame.computed) = (false, false, false);
-        let given = Given { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
-        frame::evaluate(&given, self.crew.as_mut(), &mut self.frame);
+        let given = EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
+        frame::evaluate(&given, self.pool.as_mut(), &mut self.frame);
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());
         if let Some(body) = self.frame.overflows(&self.sealed) {
@@ -127,8 +130,8 @@ impl Running {
     /// contact state.
     fn let_go_of_memory(&mut self) {
         self.frame.input.memory = Arc::clone(&self.nothing);
-        if let Some(crew) = &mut self.crew {
-            crew.release(&self.nothing);
+        if let Some(pool) = &mut self.pool {
+            pool.release(&self.nothing);
         }
     }
 
@@ -197,7 +200,7 @@ impl Running {
             let records = &self.memory.records;
             let first = records.partition_point(|record| (record.key.group_pair as usize) < index);
             let of_pair = records[first..].iter().take_while(|r| r.key.group_pair as usize == index);
-            let pushing = of_pair.filter(|record| record.role == Role::Pushes);
+            let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
             let stored = pushing.map(|record| record.stored).sum::<f64>() + 0.0;
             let total = Account { stored, ..book.total };
             let touch = Account { stored, ..book.touch };
@@ -245,46 +248,46 @@ impl Running {
         self.tables = Arc::new(tables);
         self.frame.input.tables = Arc::clone(&self.tables);
         // Not left to the next frame, which would give the old ones back.
-        self.crew.iter().for_each(|crew| crew.set_tables(&self.tables));
+        self.pool.iter().for_each(|pool| pool.set_tables(&self.tables));
         self.changed();
     }
 
     pub fn worker_starts(&self) -> &[WorkerStart] {
-        self.crew.as_ref().map_or(&[], |crew| crew.pool().start_report())
+        self.pool.as_ref().map_or(&[], |pool| pool.pool().start_report())
     }
 
     pub fn lane_work(&self) -> impl Iterator<Item = LaneWork> + '_ {
-        self.crew.iter().flat_map(|crew| crew.pool().work())
+        self.pool.iter().flat_map(|pool| pool.pool().work())
     }
 
-    /// Lane by lane, the caller's first: what it did alone, and its part of what was shared.
+    /// WorkerContext by lane, the caller's first: what it did alone, and its part of what was shared.
     pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
-        let mut shared = self.crew.iter().flat_map(Crew::times);
-        let mut caller = self.frame.lane.out.times;
+        let mut shared = self.pool.iter().flat_map(WorkerPool::times);
+        let mut caller = self.frame.caller.out.times;
         shared.next().into_iter().for_each(|shared| caller.add(shared));
         std::iter::once(caller).chain(shared.copied())
     }
 
     pub fn worker_timeouts(&self) -> u64 {
-        self.crew.as_ref().map_or(0, |crew| crew.done_alone)
+        self.pool.as_ref().map_or(0, |pool| pool.timeouts)
     }
 
     pub fn prewake(&mut self, at_most: Duration) {
-        self.crew.iter_mut().for_each(|crew| crew.prewake(at_most));
+        self.pool.iter_mut().for_each(|pool| pool.prewake(at_most));
     }
 
     pub fn quiesce(&mut self) {
-        self.crew.iter_mut().for_each(Crew::quiesce);
+        self.pool.iter_mut().for_each(WorkerPool::quiesce);
     }
 
     /// Ends the workers; how many were left behind.
     pub fn end(&mut self) -> usize {
-        self.crew.as_mut().map_or(0, Crew::end)
+        self.pool.as_mut().map_or(0, WorkerPool::end)
     }
 
     pub fn memory_report(&self) -> MemoryReport {
-        let lane = &self.frame.lane;
-        let (arena, scratch) = self.crew.as_ref().map_or((0, 0), Crew::peaks);
+        let lane = &self.frame.caller;
+        let (arena, scratch) = self.pool.as_ref().map_or((0, 0), WorkerPool::peaks);
         MemoryReport {
             contacts_peak: self.contacts_peak,
             contacts_capacity: self.sealed.record_capacity,
@@ -309,8 +312,8 @@ fn take_turns(
 }
 
 /// What a commit would remember of the frame's contacts, in order.
-fn fresh(frame: &Frame) -> impl Iterator<Item = Remembered<'_>> + Clone {
-    let out = &frame.lane.out;
+fn fresh(frame: &EvaluationBuffers) -> impl Iterator<Item = Remembered<'_>> + Clone {
+    let out = &frame.caller.out;
     frame.order.iter().map(|place| {
         let index = place.index as usize;
         (out.contacts[index].record(), out.custom_of(index))

@@ -4,7 +4,7 @@ use crate::advice::{self, ActingReport, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::energy::account::{Account, PairAccount, WrenchUse};
 use crate::error::EngineError;
-use crate::frame::{FrictionPreload, Passed};
+use crate::frame::{FrictionPreload, TunnellingEvent};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::law::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
@@ -373,9 +373,9 @@ impl World {
     /// other movable group is taken to have gone through none.
     pub fn passage(&self) -> Option<Passage> {
         let frame = &self.running.as_ref()?.frame;
-        let Passed { body_a, primitive_a, body_b } = frame.passages.first?;
+        let TunnellingEvent { body_a, primitive_a, body_b } = frame.tunnelling.first?;
         let interface = |body| InterfaceId::new(self.stamp, body);
-        let count = frame.passages.count;
+        let count = frame.tunnelling.count;
         Some(Passage {
             interface: interface(body_a),
             primitive: primitive_a,

@@ -13,8 +13,8 @@ use super::coupling::surely_stable_step;
 use super::mass::StepPlan;
 use super::mobility::{Mobility, Vec6, largest_eigenvalue};
 use super::spring::{ContactSprings, pressed_springs};
-use crate::frame::{Frame, FrameContact};
-use crate::seal::Sealed;
+use crate::frame::{EvaluationBuffers, FrameContact};
+use crate::sealed::Sealed;
 use nalgebra::DMatrix;
 use pong_geometry::Vec3;
 use std::collections::BTreeSet;
@@ -34,7 +34,12 @@ pub struct ActingReport {
     pub stable_step: f64,
 }
 
-pub(crate) fn acting(setting: &Setting<'_>, sealed: &Sealed, frame: &Frame, plan: &StepPlan) -> ActingReport {
+pub(crate) fn acting(
+    setting: &Setting<'_>,
+    sealed: &Sealed,
+    frame: &EvaluationBuffers,
+    plan: &StepPlan,
+) -> ActingReport {
     let mut not_judged = 0;
     let mut acting = Vec::new();
     for contact in frame.pushing() {
@@ -69,7 +74,12 @@ struct Acting {
 
 impl Acting {
     /// `None` for what cannot be judged.
-    fn new(setting: &Setting<'_>, sealed: &Sealed, frame: &Frame, contact: &FrameContact) -> Option<Self> {
+    fn new(
+        setting: &Setting<'_>,
+        sealed: &Sealed,
+        frame: &EvaluationBuffers,
+        contact: &FrameContact,
+    ) -> Option<Self> {
         let found = &contact.found;
         let (a, b) = sealed.bodies_of(&found.key);
         let masses = [setting.masses[a].as_ref()?, setting.masses[b].as_ref()?];

@@ -9,7 +9,8 @@ use super::together::{Load, pair_load};
 use super::warn::{notes, warnings};
 use crate::law::PairProps;
 use crate::scene::Scene;
-use crate::seal::{GroupPair, SetupNote, SetupWarning, SurfaceTable, can_be_tested};
+use crate::seal::{SetupNote, SetupWarning, can_be_tested};
+use crate::sealed::{GroupPair, SurfaceTable};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the adviser looks at.

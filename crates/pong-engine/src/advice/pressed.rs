@@ -8,13 +8,18 @@ use super::check::{Setting, StepReport, pair_limits};
 use super::mass::StepPlan;
 use super::spring::pressed_springs;
 use super::warn::warnings;
-use crate::frame::{Frame, FrameContact};
-use crate::seal::Sealed;
+use crate::frame::{EvaluationBuffers, FrameContact};
+use crate::sealed::Sealed;
 use std::collections::BTreeMap;
 
 /// Single contacts of the last frame; of every pair of movable groups the one that bears the least step speaks. Bounces are
 /// not judged.
-pub(crate) fn pressed(setting: &Setting<'_>, sealed: &Sealed, frame: &Frame, plan: &StepPlan) -> StepReport {
+pub(crate) fn pressed(
+    setting: &Setting<'_>,
+    sealed: &Sealed,
+    frame: &EvaluationBuffers,
+    plan: &StepPlan,
+) -> StepReport {
     let plan = StepPlan { accuracy: None, ..*plan };
     let mut known: BTreeMap<u32, Vec<Known>> = BTreeMap::new();
     for contact in frame.pushing() {

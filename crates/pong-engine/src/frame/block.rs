@@ -1,25 +1,27 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
 use crate::frame::broad_phase::blocks::batches_of_b;
-use crate::frame::broad_phase::candidate_pairs::{GROUP, Meetings, Reach, Way, chunks_in_reach};
+use crate::frame::broad_phase::candidate_pairs::{
+    CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
+};
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::broad_phase::transformed::Carried;
-use crate::frame::buffers::Found;
-use crate::frame::input::{Block, FrameInput, PairContext};
-use crate::frame::load_sharing::solver::Sharer;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::input::{Block, PairContext, WorkerInput};
+use crate::frame::load_sharing::solver::SharedContact;
+use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::testers::{Findings, Target, test_waiting};
-use crate::frame::worker_context::Lane;
+use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
 use crate::scene::Scene;
-use crate::seal::Sealed;
+use crate::sealed::Sealed;
 use pong_arena::List;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
 
-/// Bytes of a lane's arena that a block asks for: against trees of so many nodes and batches, with room for so many
+/// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches, with room for so many
 /// interferences of one chunk, and laws of so many numbers per contact.
 pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_stride: usize) -> usize {
     /// The arena rounds every piece up to its grain.
@@ -27,28 +29,34 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_str
     const GRAIN: usize = 16;
     batches * (size_of::<&Batch>() + size_of::<Reach<'_>>())
         + nodes * size_of::<u32>()
-        + LANES * size_of::<Carried>()
-        + found * (size_of::<Found>() + size_of::<Sharer>())
+        + LANES * size_of::<TransformedPrimitive>()
+        + found * (size_of::<ContactCandidate>() + size_of::<SharedContact>())
         + custom_stride * size_of::<f64>()
         + PIECES * GRAIN
 }
 
-/// Works off one block; what it finds goes to the lane. Where no clock was lent, there is no trace of one either.
-pub(crate) fn work_off(scene: &Scene, sealed: &Sealed, input: &FrameInput, block: usize, lane: &mut Lane) {
-    lane.arena.reset();
+/// Runs one block; what it finds goes to the context of the thread. Where no clock was lent, there is no trace of one either.
+pub(crate) fn run_block(
+    scene: &Scene,
+    sealed: &Sealed,
+    input: &WorkerInput,
+    block: usize,
+    worker: &mut WorkerContext,
+) {
+    worker.arena.reset();
     let block = input.blocks[block];
     match input.clock.0 {
-        None => simd::run(BlockWork { scene, sealed, input, block, lane, laps: Untimed }),
-        Some(now) => simd::run(BlockWork { scene, sealed, input, block, lane, laps: Timed::start(now) }),
+        None => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Untimed }),
+        Some(now) => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Timed::start(now) }),
     }
 }
 
 struct BlockWork<'a, L> {
     scene: &'a Scene,
     sealed: &'a Sealed,
-    input: &'a FrameInput,
+    input: &'a WorkerInput,
     block: Block,
-    lane: &'a mut Lane,
+    worker: &'a mut WorkerContext,
     laps: L,
 }
 
@@ -57,11 +65,11 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { scene, sealed, input, block, lane, mut laps } = self;
+        let Self { scene, sealed, input, block, worker, mut laps } = self;
         let plan = &sealed.plans[block.plan as usize];
         let context = PairContext::new(scene, sealed, input, plan);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let Lane { arena, scratch, meetings, waiting, out } = lane;
+        let WorkerContext { arena, scratch, candidates, waiting, out } = worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -71,18 +79,18 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let mut carried = arena.list(LANES).expect(room);
         let mut found = Findings::new(arena.list(sealed.limits.found).expect(room), waiting);
         let custom = arena.slice(sealed.custom_stride, 0.0).expect(room);
-        let mut sharers = arena.list(sealed.limits.found).expect(room);
-        for group in block.first / GROUP..block.end.div_ceil(GROUP) {
+        let mut shared_contacts = arena.list(sealed.limits.found).expect(room);
+        for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
             let alone = near & lone_chunk(batch_a, group);
-            let whole = meetings.gather(simd, &reach, near & !alone, &mut out.counts);
-            let near = if whole { meetings.chunks() | alone } else { near };
+            let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
+            let near = if whole { candidates.chunks() | alone } else { near };
             laps.lap(Work::Bounding, &mut out.times);
             for lane in lanes(near) {
                 let alone = alone >> lane & 1 == 1;
-                let way = (alone || !whole).then(|| Way::new(lane, alone));
-                let first = group * GROUP + (lane * LANES) as u32;
+                let traversal = (alone || !whole).then(|| Traversal::new(lane, alone));
+                let first = group * SUPERCHUNK + (lane * LANES) as u32;
                 let of_a = ChunkOfA { context: &context, batch: batch_a, first, lane };
                 let mut watch = Watched { laps: &mut laps, times: &mut out.times };
                 let counts = &mut out.counts;
@@ -90,21 +98,26 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     simd,
                     &of_a,
                     &reach,
-                    (way, meetings),
+                    (traversal, candidates),
                     &mut carried,
                     &mut found,
                     counts,
                     &mut watch,
                 );
                 if found.overflowed {
-                    out.wants.overflowed = true;
-                    out.wants.at_once = out.wants.at_once.max(found.seen);
+                    out.demand.overflowed = true;
+                    out.demand.at_once = out.demand.at_once.max(found.seen);
                 }
                 if !found.list.is_empty() {
-                    let shared = load_sharing::settle(&context, &mut found.list, &mut sharers, scratch);
-                    out.wants.unshared |= shared.is_err();
+                    let shared = load_sharing::assign_weights(
+                        &context,
+                        &mut found.list,
+                        &mut shared_contacts,
+                        scratch,
+                    );
+                    out.demand.unshared |= shared.is_err();
                     laps.lap(Work::Sharing, &mut out.times);
-                    forces::press_found(&context, sealed, &found.list, custom, out);
+                    forces::compute_forces(&context, sealed, &found.list, custom, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }
@@ -119,7 +132,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
 #[inline(always)]
 fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
     let last = batch.items.end - batch.items.start - 1;
-    let is_one = last.is_multiple_of(LANES as u32) && last / GROUP == group;
+    let is_one = last.is_multiple_of(LANES as u32) && last / SUPERCHUNK == group;
     LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
 }
 
@@ -139,15 +152,15 @@ struct ChunkOfA<'a> {
 }
 
 /// Carries a chunk of A into B's frame and tests it against the elements of B that it may touch: those that were
-/// gathered for its group, or those on its own way through the trees.
+/// gathered for its group, or those on its own traversal through the trees.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "a loop's body, apart for reading only")]
 fn test_chunk<S: Simd, L: Laps>(
     simd: S,
     of_a: &ChunkOfA<'_>,
     reach: &[Reach<'_>],
-    (mut way, meetings): (Option<Way>, &mut Meetings),
-    carried: &mut List<'_, Carried>,
+    (mut traversal, candidates): (Option<Traversal>, &mut CandidatePairs),
+    carried: &mut List<'_, TransformedPrimitive>,
     found: &mut Findings<'_>,
     counts: &mut FrameCounts,
     watch: &mut Watched<'_, L>,
@@ -158,19 +171,19 @@ fn test_chunk<S: Simd, L: Laps>(
     let chunk = Chunk::new(simd, from, of_a.first, &context.motion.x_ba, meets_triangles, carried);
     loop {
         let mut through = true;
-        if let Some(way) = &mut way {
-            through = meetings.go_on(simd, way, reach, &chunk, counts);
+        if let Some(traversal) = &mut traversal {
+            through = candidates.go_on(simd, traversal, reach, &chunk, counts);
             watch.laps.lap(Work::Bounding, watch.times);
         }
-        for number in meetings.of(of_a.lane) {
-            let meeting = meetings.meeting(number);
-            let batch = reach[meeting.reach as usize].batch;
+        for number in candidates.of(of_a.lane) {
+            let candidate = candidates.pair(number);
+            let batch = reach[candidate.reach as usize].batch;
             let mut near = 1;
             if chunk.items.len() > 1 {
-                near = chunk.reach(simd, meetings.box_b(number));
+                near = chunk.reach(simd, candidates.box_b(number));
             }
             if near != 0 {
-                let item_b = context.body_b.tree.items[(batch.items.start + meeting.place) as usize];
+                let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
                 let target = Target { context, item_b, kind_b: batch.kind };
                 target.test_lanes(simd, &chunk, near, found, counts);
             }

@@ -1,193 +1,32 @@
-//! What one lane — the calling thread or a worker — writes while it works.
+//! What the calling thread or a worker writes while it works.
 
-use crate::frame::broad_phase::candidate_pairs::Meetings;
-use crate::frame::buffers::{FrameContact, Stance};
+use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
+use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::narrow_phase::testers::Waiting;
-use crate::report::{FrameCounts, WorkTimes};
-use crate::seal::Sealed;
-use crate::state::Role;
-use pong_arena::{Arena, Table};
+use crate::sealed::Sealed;
+use pong_arena::Arena;
 
-/// The lane's memory.
+/// The memory of the calling thread or of a worker.
 #[derive(Debug)]
-pub(crate) struct Lane {
+pub(crate) struct WorkerContext {
     /// Contact testers at work: gone with the block.
     pub arena: Arena,
     /// For one solution among contacts of one key.
     pub scratch: Arena,
-    pub(crate) meetings: Meetings,
+    pub(crate) candidates: CandidatePairs,
     pub(crate) waiting: Waiting,
-    pub out: Output,
+    pub out: ContactBuffer,
 }
 
-/// What the lane hands on.
-#[derive(Debug)]
-pub(crate) struct Output {
-    /// The phase that the contents belong to.
-    pub phase: u64,
-    /// Contacts found and pressed, in no order.
-    pub contacts: Table<FrameContact>,
-    /// Numbers of registered friction laws, as many for every contact.
-    pub custom: Table<f64>,
-    pub custom_stride: usize,
-    /// Room for ranking the contacts; none in a worker's lane.
-    ranked: Table<u32>,
-    pub wants: Wants,
-    pub counts: FrameCounts,
-    /// Where the time went; zero without a clock.
-    pub times: WorkTimes,
-}
-
-/// What a frame would need room for, found or not.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Wants {
-    /// Contacts that push.
-    pub pushing: u64,
-    /// Contacts that are only remembered.
-    pub remembered: u64,
-    /// Interferences of one chunk of A, where they found no room: the most.
-    pub at_once: u64,
-    /// Whether anything found no room.
-    pub overflowed: bool,
-    /// Whether contacts of one ball with one surface were too many to be shared exactly.
-    pub unshared: bool,
-}
-
-impl Wants {
-    /// One contact more.
-    #[inline]
-    pub fn count(&mut self, role: Role) {
-        *(if role == Role::Pushes { &mut self.pushing } else { &mut self.remembered }) += 1;
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.pushing += other.pushing;
-        self.remembered += other.remembered;
-        self.at_once = self.at_once.max(other.at_once);
-        self.overflowed |= other.overflowed;
-        self.unshared |= other.unshared;
-    }
-}
-
-/// How far a lane had got.
-pub(crate) struct Mark {
-    contacts: usize,
-    wants: Wants,
-    counts: FrameCounts,
-}
-
-impl Lane {
-    /// A lane with room for so many contacts, and to rank them if it is to keep the deepest by itself.
+impl WorkerContext {
+    /// A context with room for so many contacts, and to rank them if it is to keep the deepest by itself.
     pub fn new(sealed: &Sealed, contacts: usize, ranks: bool) -> Self {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
-            meetings: Meetings::new(),
+            candidates: CandidatePairs::new(),
             waiting: Waiting::default(),
-            out: Output::new(sealed.custom_stride, contacts, ranks),
+            out: ContactBuffer::new(sealed.custom_stride, contacts, ranks),
         }
-    }
-}
-
-impl Output {
-    fn new(custom_stride: usize, contacts: usize, ranks: bool) -> Self {
-        Self {
-            phase: 0,
-            contacts: Table::with_capacity(contacts, FrameContact::blank()),
-            custom: Table::with_capacity(contacts * custom_stride, 0.0),
-            custom_stride,
-            ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
-            wants: Wants::default(),
-            counts: FrameCounts::default(),
-            times: WorkTimes::default(),
-        }
-    }
-
-    /// Empties the lane for a phase.
-    pub fn begin(&mut self, phase: u64) {
-        self.phase = phase;
-        self.contacts.clear();
-        self.custom.clear();
-        self.wants = Wants::default();
-        self.counts = FrameCounts::default();
-        self.times = WorkTimes::default();
-    }
-
-    /// The custom numbers of a contact.
-    pub fn custom_of(&self, contact: usize) -> &[f64] {
-        &self.custom[contact * self.custom_stride..(contact + 1) * self.custom_stride]
-    }
-
-    /// How far the lane has got.
-    pub fn mark(&self) -> Mark {
-        Mark { contacts: self.contacts.len(), wants: self.wants, counts: self.counts }
-    }
-
-    /// Forgets all that came after a mark.
-    pub fn return_to(&mut self, mark: &Mark) {
-        self.contacts.truncate(mark.contacts);
-        self.custom.truncate(mark.contacts * self.custom_stride);
-        self.wants = mark.wants;
-        self.counts = mark.counts;
-    }
-
-    /// Takes over all that another lane found; whether there was room.
-    pub fn absorb(&mut self, other: &Self) -> bool {
-        let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
-            && self.custom.extend_from_slice(&other.custom).is_ok();
-        self.wants.add(&other.wants);
-        self.counts.add(&other.counts);
-        room && !other.wants.overflowed
-    }
-
-    /// Adds a contact, whose custom numbers the caller adds. Where there is no room the deepest so far stay, if this
-    /// lane can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
-    #[inline]
-    pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
-        self.wants.count(contact.found.role);
-        if self.contacts.len() == self.contacts.capacity() {
-            self.wants.overflowed = true;
-            if self.ranked.capacity() == 0 {
-                return None;
-            }
-            self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-        }
-        self.contacts.push(contact).expect("ranking makes room");
-        self.contacts.last_mut()
-    }
-
-    /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties
-    /// by the order of sums.
-    pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
-        let ranked = &mut self.ranked;
-        ranked.clear();
-        let counts = |contact: &FrameContact| contact.found.stance != Stance::Dropped;
-        for (index, _) in self.contacts.iter().enumerate().filter(|(_, contact)| counts(contact)) {
-            ranked.push(index as u32).expect("as many places as contacts");
-        }
-        let contacts = &self.contacts;
-        ranked.sort_unstable_by(|&i, &j| {
-            let (a, b) = (&contacts[i as usize].found, &contacts[j as usize].found);
-            let pushes = |role: Role| role == Role::Pushes;
-            pushes(b.role)
-                .cmp(&pushes(a.role))
-                .then(b.depth.total_cmp(&a.depth))
-                .then(a.order().cmp(&b.order()))
-        });
-        let all_pushing = ranked.partition_point(|&i| contacts[i as usize].found.role == Role::Pushes);
-        let last = ranked.len().min(all_pushing + others);
-        // The places that stay, in ascending order, so that moving forward overwrites nothing that is needed.
-        let kept_pushing = all_pushing.min(pushing);
-        ranked.as_mut_slice().copy_within(all_pushing..last, kept_pushing);
-        ranked.truncate(kept_pushing + last - all_pushing);
-        ranked.sort_unstable();
-        for (to, &from) in ranked.iter().enumerate() {
-            self.contacts[to] = self.contacts[from as usize];
-            let stride = self.custom_stride;
-            let from = from as usize * stride;
-            self.custom.as_mut_slice().copy_within(from..from + stride, to * stride);
-        }
-        self.contacts.truncate(ranked.len());
-        self.custom.truncate(ranked.len() * self.custom_stride);
     }
 }

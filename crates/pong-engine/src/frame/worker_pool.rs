@@ -1,15 +1,15 @@
 //! The calling thread and its workers on the blocks of a frame.
 //!
-//! Workers read a copy of the frame's input and write into lanes of their own, under locks that nobody waits for in
-//! the common case. A worker that does not come back from a block keeps its lane and the input it reads; the frame
-//! then goes on without the crew, alone and with the same results, until that worker has let go.
+//! Workers read a copy of the frame's input and write into contexts of their own, under locks that nobody waits for in
+//! the common case. A worker that does not come back from a block keeps its context and the input it reads; the frame
+//! then goes on without the workers, alone and with the same results, until that worker has let go.
 
 use crate::frame::block;
-use crate::frame::input::FrameInput;
-use crate::frame::worker_context::Lane;
+use crate::frame::input::WorkerInput;
+use crate::frame::worker_context::WorkerContext;
 use crate::report::WorkTimes;
 use crate::scene::Scene;
-use crate::seal::{Sealed, SurfaceTable};
+use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
@@ -19,65 +19,67 @@ use std::time::Duration;
 const WORTH_SHARING_NS: u64 = 5_000;
 
 /// Workers and what they share with the caller.
-pub(crate) struct Crew {
+pub(crate) struct WorkerPool {
     pool: Pool,
     shared: Arc<Shared>,
     /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
-    pub done_alone: u64,
+    pub timeouts: u64,
     /// Whether the workers were given a frame's input since it was last taken back.
     lent: bool,
-    /// Where the time of this frame's rounds went, lane by lane, the caller's first; zero without a clock.
+    /// Where the time of this frame's rounds went, thread by thread, the caller's first; zero without a clock.
     times: Vec<WorkTimes>,
 }
 
 struct Shared {
     scene: Arc<Scene>,
     sealed: Arc<Sealed>,
-    input: RwLock<FrameInput>,
+    input: RwLock<WorkerInput>,
     /// The caller's first, then one per worker.
-    lanes: Vec<Mutex<Lane>>,
+    contexts: Vec<Mutex<WorkerContext>>,
 }
 
 impl Job for Shared {
-    fn run(&self, block: u32, lane: usize) {
+    fn run(&self, block: u32, context: usize) {
         let input = self.input.read().unwrap_or_else(PoisonError::into_inner);
-        let mut lane = locked(&self.lanes[lane]);
-        if lane.out.phase != input.phase {
-            lane.out.begin(input.phase);
+        let mut context = locked(&self.contexts[context]);
+        if context.out.phase != input.phase {
+            context.out.begin(input.phase);
         }
-        block::work_off(&self.scene, &self.sealed, &input, block as usize, &mut lane);
+        block::run_block(&self.scene, &self.sealed, &input, block as usize, &mut context);
     }
 }
 
-/// A lane whose owner panicked is still memory: what it holds is thrown away when the next phase begins.
-fn locked(lane: &Mutex<Lane>) -> MutexGuard<'_, Lane> {
-    lane.lock().unwrap_or_else(PoisonError::into_inner)
+/// A context whose owner panicked is still memory: what it holds is thrown away when the next phase begins.
+fn locked(context: &Mutex<WorkerContext>) -> MutexGuard<'_, WorkerContext> {
+    context.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Crew {
+impl WorkerPool {
     /// Starts the workers.
     pub fn start(
         scene: &Arc<Scene>,
         sealed: &Arc<Sealed>,
-        input: FrameInput,
+        input: WorkerInput,
         settings: &Settings,
     ) -> Result<Self, StartError> {
-        let lanes = settings.workers_granted() + 1;
-        let contacts = sealed.limits.worker_contacts(lanes);
+        let contexts = settings.workers_granted() + 1;
+        let contacts = sealed.limits.worker_contacts(contexts);
         let shared = Arc::new(Shared {
             scene: Arc::clone(scene),
             sealed: Arc::clone(sealed),
             input: RwLock::new(input),
-            lanes: (0..lanes).map(|_| Mutex::new(Lane::new(sealed, contacts, false))).collect(),
+            contexts: (0..contexts)
+                .map(|_| Mutex::new(WorkerContext::new(sealed, contacts, false)))
+                .collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
-        let times = vec![WorkTimes::default(); lanes];
-        Ok(Self { pool, shared, done_alone: 0, lent: false, times })
+        let times = vec![WorkTimes::default(); contexts];
+        Ok(Self { pool, shared, timeouts: 0, lent: false, times })
     }
 
-    /// Works off the blocks of `input` with all hands and gathers in `lane` what was found; whether that is whole.
+    /// Runs the blocks of `input` with all workers and gathers in `context` what was found; whether that is whole.
     /// If not, the caller does it all again by itself.
-    pub fn work_off(&mut self, input: &FrameInput, cost_ns: u64, lane: &mut Lane) -> bool {
+    pub fn run_parallel(&mut self, input: &WorkerInput, cost_ns: u64, context: &mut WorkerContext) -> bool {
         if cost_ns < WORTH_SHARING_NS || input.blocks.len() < 2 || self.pool.workers() == 0 {
             return false;
         }
@@ -86,22 +88,22 @@ impl Crew {
             Ok(mut shared) => shared.copy_from(input),
             Err(TryLockError::Poisoned(shared)) => shared.into_inner().copy_from(input),
             Err(TryLockError::WouldBlock) => {
-                self.done_alone += 1;
+                self.timeouts += 1;
                 return false;
             }
         }
         if self.pool.run(input.blocks.len() as u32) == Outcome::Abandoned {
-            self.done_alone += 1;
+            self.timeouts += 1;
             return false;
         }
-        let took_part = |other: &Lane| other.out.phase == input.phase;
-        let whole = self.shared.lanes.iter().all(|other| {
+        let took_part = |other: &WorkerContext| other.out.phase == input.phase;
+        let whole = self.shared.contexts.iter().all(|other| {
             let other = locked(other);
-            !took_part(&other) || lane.out.absorb(&other.out)
+            !took_part(&other) || context.out.absorb(&other.out)
         });
         if whole {
-            let lanes = self.times.iter_mut().zip(&self.shared.lanes);
-            lanes
+            let contexts = self.times.iter_mut().zip(&self.shared.contexts);
+            contexts
                 .map(|(times, other)| (times, locked(other)))
                 .filter(|(_, other)| took_part(other))
                 .for_each(|(times, other)| times.add(&other.out.times));
@@ -114,7 +116,7 @@ impl Crew {
         self.times.fill(WorkTimes::default());
     }
 
-    /// Where the time of the rounds that were shared out went, lane by lane, the caller's first.
+    /// Where the time of the rounds that were shared out went, thread by thread, the caller's first.
     pub fn times(&self) -> impl Iterator<Item = &WorkTimes> {
         self.times.iter()
     }
@@ -138,9 +140,9 @@ impl Crew {
 
     /// Most that the workers' arenas and scratch memories were asked for, as far as they are not in use, bytes.
     pub fn peaks(&self) -> (usize, usize) {
-        let free = self.shared.lanes.iter().filter_map(|lane| lane.try_lock().ok());
-        free.fold((0, 0), |(arena, scratch), lane| {
-            (arena.max(lane.arena.peak()), scratch.max(lane.scratch.peak()))
+        let free = self.shared.contexts.iter().filter_map(|context| context.try_lock().ok());
+        free.fold((0, 0), |(arena, scratch), context| {
+            (arena.max(context.arena.peak()), scratch.max(context.scratch.peak()))
         })
     }
 

@@ -9,53 +9,10 @@
 //!
 //! A rigid surface has no share: what it does not say of a law is said by the other.
 
-use super::NormalForce;
-use crate::law::friction::FrictionForce;
-use crate::law::registry::Laws;
+use super::props::{CombineError, FrictionProps, NormalProps, PairProps};
+use super::registry::Laws;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::borrow::Cow;
-use std::sync::Arc;
-
-/// The values of an ordered pair of surfaces.
-#[derive(Clone, Debug)]
-pub struct PairProps {
-    /// s_A: A's share of the yield, 0…1.
-    pub share_a: f64,
-    /// k, N/m (N/m^1.5 with the exponent 3/2).
-    pub stiffness: f64,
-    /// Normal law with the pair's damping.
-    pub normal: NormalProps,
-    /// Friction law with the pair's values.
-    pub friction: FrictionProps,
-}
-
-/// Normal law of a pair.
-#[derive(Clone, Debug)]
-#[allow(missing_docs)]
-pub enum NormalProps {
-    Linear { damping: f64, ramp: f64 },
-    HuntCrossley { dissipation: f64, exponent: Exponent },
-    Custom { law: Arc<dyn NormalForce>, parameters: Vec<f64> },
-}
-
-/// Friction law of a pair.
-#[derive(Clone, Debug)]
-#[allow(missing_docs)]
-pub enum FrictionProps {
-    None,
-    Bristle { stiffness: f64, damping: f64, mu_kinetic: f64, mu_static: f64 },
-    Coulomb { mu: f64, slip_speed: f64 },
-    Custom { law: Arc<dyn FrictionForce>, stiffness: f64, parameters: Vec<f64> },
-}
-
-/// Why two surfaces cannot be combined.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CombineError {
-    /// What is wrong.
-    pub cause: String,
-    /// What would mend it.
-    pub cure: String,
-}
 
 /// Combines surface `a` (of A) with surface `b` (of B); what `table` gives for the pair goes first.
 pub fn combine(

@@ -4,34 +4,14 @@ mod combine;
 pub(crate) mod friction;
 mod hunt_crossley;
 mod linear;
+mod normal;
+mod props;
 pub(crate) mod registry;
 
+pub use combine::combine;
 pub(crate) use combine::friction_name;
-pub use combine::{CombineError, FrictionProps, NormalProps, PairProps, combine};
-
-use std::fmt::Debug;
-
-/// What a registered normal law is given.
-#[derive(Clone, Copy, Debug)]
-pub struct NormalInput<'a> {
-    /// Depth δ > 0, m.
-    pub depth: f64,
-    /// Depth rate δ', m/s, positive while closing.
-    pub rate: f64,
-    /// Stiffness k of the pair.
-    pub stiffness: f64,
-    /// The law's parameters as the model gives them.
-    pub parameters: &'a [f64],
-}
-
-/// A normal force law added by the user. It must be pure: the same input gives the same output, from any thread.
-pub trait NormalForce: Debug + Send + Sync {
-    /// Force of a whole contact (weight 1), N. Negative values are taken as 0: a contact never pulls.
-    fn force(&self, input: &NormalInput<'_>) -> f64;
-
-    /// Energy stored at this depth by a whole contact, J: the integral of the elastic part. Used by the ledger.
-    fn stored(&self, input: &NormalInput<'_>) -> f64;
-}
+pub use normal::{NormalForce, NormalInput};
+pub use props::{CombineError, FrictionProps, NormalProps, PairProps};
 
 /// Normal force of a contact of weight `w`, N, never negative.
 pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> f64 {

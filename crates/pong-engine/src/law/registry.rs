@@ -1,7 +1,8 @@
 //! Force laws added by the user, by name.
 
-use crate::law::friction::FrictionForce;
-use crate::law::{CombineError, NormalForce};
+use super::friction::FrictionForce;
+use super::normal::NormalForce;
+use super::props::CombineError;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -1,9 +1,9 @@
 //! How much memory the frames of a scene get.
 
-use super::GroupPair;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
+use crate::sealed::{GroupPair, Limits};
 use crate::state::ContactRecord;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Tree;
@@ -16,69 +16,37 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 /// more than the worst case counts for it.
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
-/// Contacts that a worker's lane can hold at least, or as many as the caller's.
-const LEAST_WORKER_CONTACTS: usize = 4096;
-
-/// How much memory the frames get.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
-    /// Contacts that the calling thread can hold: all that a frame may keep, and room to find more before it has to
-    /// choose.
-    pub lane_contacts: usize,
-    /// Interferences of one chunk of A before any is left out.
-    pub found: usize,
-    /// For the testers of a block, bytes.
-    pub arena_bytes: usize,
-    /// For solutions among contacts, the ledger and rays, bytes.
-    pub scratch_bytes: usize,
+/// How much memory the frames of a scene get.
+pub(super) fn limits(
+    scene: &Scene,
+    group_pairs: &[GroupPair],
+    record_capacity: usize,
+    custom_stride: usize,
+) -> Limits {
+    /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
+    /// settled which of them push.
+    const FOUND_MIN: usize = 1024;
+    /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
+    const SHARED: usize = 128;
+    let found = record_capacity.max(FOUND_MIN);
+    let lane_contacts = record_capacity + (record_capacity / 8).max(64);
+    let in_tree = |count: fn(&Tree) -> usize| {
+        let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
+        bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
+    };
+    let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
+    let arena_bytes = arena_bytes(nodes, batches, found, custom_stride);
+    /// Every piece is rounded up to a grain.
+    const GRAINS: usize = 64;
+    let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
+    let numbers = custom_stride * size_of::<f64>();
+    let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
+    Limits { lane_contacts, found, arena_bytes, scratch_bytes }
 }
 
-impl Limits {
-    pub(super) fn new(
-        scene: &Scene,
-        group_pairs: &[GroupPair],
-        record_capacity: usize,
-        custom_stride: usize,
-    ) -> Self {
-        /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
-        /// settled which of them push.
-        const FOUND_MIN: usize = 1024;
-        /// Contacts of one surface that are shared exactly where their normals are more than 90° apart.
-        const SHARED: usize = 128;
-        let found = record_capacity.max(FOUND_MIN);
-        let lane_contacts = record_capacity + (record_capacity / 8).max(64);
-        let in_tree = |count: fn(&Tree) -> usize| {
-            let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
-            bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
-        };
-        let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
-        let arena_bytes = arena_bytes(nodes, batches, found, custom_stride);
-        /// Every piece is rounded up to a grain.
-        const GRAINS: usize = 64;
-        let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
-        let numbers = custom_stride * size_of::<f64>();
-        let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
-        Self { lane_contacts, found, arena_bytes, scratch_bytes }
-    }
-
-    /// Contacts that one of several lanes can hold. A lane that finds more than this leaves the frame to the caller
-    /// alone: an uneven share of the work must be rare, not impossible.
-    pub fn worker_contacts(&self, lanes: usize) -> usize {
-        self.lane_contacts.min((2 * self.lane_contacts / lanes).max(LEAST_WORKER_CONTACTS))
-    }
-}
-
-impl Limits {
-    /// See [`bytes_per_contact`].
-    pub fn bytes_per_contact(&self, lanes: usize, custom_stride: usize) -> usize {
-        bytes_per_contact(lanes, custom_stride)
-    }
-
-    /// What a worker's lane takes however small the capacity is, bytes.
-    pub fn least_lane_bytes(&self, custom_stride: usize) -> usize {
-        self.lane_contacts.min(LEAST_WORKER_CONTACTS)
-            * (size_of::<FrameContact>() + custom_stride * size_of::<f64>())
-    }
+/// What a worker's lane takes however small the capacity is, bytes.
+pub(super) fn least_lane_bytes(limits: &Limits, custom_stride: usize) -> usize {
+    limits.least_worker_contacts() * (size_of::<FrameContact>() + custom_stride * size_of::<f64>())
 }
 
 /// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
@@ -100,7 +68,7 @@ pub(super) fn too_large(scene: &Scene, wanted: usize, custom_stride: usize) -> O
 }
 
 /// Memory that one contact of the capacity takes in all buffers, with so many lanes beside the caller's own, bytes.
-fn bytes_per_contact(lanes: usize, custom_stride: usize) -> usize {
+pub(super) fn bytes_per_contact(lanes: usize, custom_stride: usize) -> usize {
     /// There is room to remember as many contacts as may push.
     const RECORDS: usize = 2;
     let numbers = custom_stride * size_of::<f64>();

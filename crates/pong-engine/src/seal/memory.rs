@@ -4,11 +4,12 @@
 //! are added up first, and one block of the sum is asked for and given back. Two sums: of what grows with the pairs of
 //! movable groups, before they are listed, and of what the frames get, once their limits are known.
 
-use super::{GroupPair, Limits, Plan};
+use super::limits::{bytes_per_contact, least_lane_bytes};
 use crate::energy::account::WrenchUse;
 use crate::error::EngineError;
 use crate::frame::{Block, Interval, Motion, ROUND};
 use crate::scene::Scene;
+use crate::sealed::{GroupPair, Limits, Plan};
 use crate::state::{PairBook, PairPose};
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_threads::MAX_WORKERS;
@@ -83,8 +84,8 @@ pub(super) fn for_frames(
 ) -> usize {
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS));
     let lanes = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
-    let contacts = capacity.saturating_mul(limits.bytes_per_contact(lanes, stride));
-    let scratch = limits.arena_bytes + limits.scratch_bytes + limits.least_lane_bytes(stride);
+    let contacts = capacity.saturating_mul(bytes_per_contact(lanes, stride));
+    let scratch = limits.arena_bytes + limits.scratch_bytes + least_lane_bytes(limits, stride);
     let blocks = 2 * ROUND * size_of::<Block>();
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
     let sum = pairs

@@ -4,88 +4,28 @@ mod limits;
 mod memory;
 mod plan;
 mod surfaces;
+mod testable;
 mod warnings;
 
-pub(crate) use limits::Limits;
 pub use memory::{leave_room_for_small_things, require_memory};
-pub(crate) use plan::Plan;
-pub(crate) use surfaces::{SurfaceTable, check_surface_change, surface_tables};
+pub(crate) use surfaces::{check_surface_change, surface_tables};
+pub(crate) use testable::can_be_tested;
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
 use crate::energy::account::WrenchUse;
 use crate::error::EngineError;
 use crate::frame::contact_numbers;
-use crate::pair_table::has_tester;
 use crate::scene::{ObjectPair, Scene};
-use crate::state::{Books, ContactKey, block_len, fnv1a};
-use limits::{too_large, worst_case};
+use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::state::fnv1a;
+use limits::{limits, too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
-use pong_geometry::extension::Extensions;
-use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, PrimitiveInfo, Surface};
+use pong_model::Surface;
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
 use surfaces::{custom_stride, friction_lost};
 use warnings::warnings;
-
-/// A pair of movable groups that are tested against each other.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct GroupPair {
-    /// The pair of Objects.
-    pub pair: usize,
-    /// The lower of the two bodies, whatever the order of pairing.
-    pub first: usize,
-    /// The higher.
-    pub second: usize,
-    /// Whether the first body's Object was named first: it is A among primitives of one kind.
-    pub first_named_first: bool,
-    /// Surface tables: with A in the first body, with A in the second.
-    pub tables: [usize; 2],
-}
-
-/// What sealing makes of a scene.
-pub(crate) struct Sealed {
-    pub group_pairs: Vec<GroupPair>,
-    /// The directions of those pairs in which something can be found, in order.
-    pub plans: Vec<Plan>,
-    /// The movable groups of all pairs, each once.
-    pub paired_bodies: Vec<usize>,
-    /// Whether a ray may hit two movable groups of one Object.
-    pub rays_meet_groups: bool,
-    pub limits: Limits,
-    pub volume_tests: VolumeTests,
-    pub contact_capacity: usize,
-    /// Records: contacts, and as many that are only remembered.
-    pub record_capacity: usize,
-    /// Numbers that are remembered of a contact: those of registered friction laws, then its account.
-    pub custom_stride: usize,
-    /// Where among them the account begins.
-    pub account_at: usize,
-    /// Whether accounts are kept, and how many frames late the host's wrenches are.
-    pub keeps_accounts: bool,
-    pub late: usize,
-    pub hash: u64,
-}
-
-impl Sealed {
-    /// Pairs of movable groups of which accounts are kept: all or none.
-    pub fn account_pairs(&self) -> usize {
-        if self.keeps_accounts { self.group_pairs.len() } else { 0 }
-    }
-
-    /// Size of the largest contact state block, bytes.
-    pub fn state_size(&self) -> usize {
-        let accounts = Books::block_len(self.account_pairs(), self.late);
-        block_len(self.group_pairs.len(), self.record_capacity, self.custom_stride, accounts)
-    }
-
-    /// The bodies that hold A and B of a contact.
-    pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
-        let pair = &self.group_pairs[key.group_pair as usize];
-        if key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
-    }
-}
 
 /// What sealing tells the host.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,7 +94,7 @@ pub(crate) fn seal(
     let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, custom_stride);
-    let limits = Limits::new(scene, &group_pairs, record_capacity, custom_stride);
+    let limits = limits(scene, &group_pairs, record_capacity, custom_stride);
     let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, custom_stride);
     require_memory(
         "seal: the frames",
@@ -258,23 +198,6 @@ fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTe
         }
     }
     problems.into_iter().collect()
-}
-
-/// The name of a primitive's kind, a custom kind's own name included.
-fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
-    match info.kind {
-        PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
-        kind => kind.name(),
-    }
-}
-
-pub(crate) fn can_be_tested(
-    extensions: &Extensions,
-    a: (&Body, &PrimitiveInfo),
-    b: (&Body, &PrimitiveInfo),
-) -> bool {
-    has_tester(a.1.kind, b.1.kind)
-        || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()
 }
 
 /// Hash of everything that decides what a contact state block means.

@@ -1,67 +1,33 @@
 //! Which kinds of which movable groups are tested against which.
 
-use super::{GroupPair, can_be_tested, kind_name};
+use super::testable::{can_be_tested, kind_name};
 use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
+use crate::sealed::{GroupPair, Plan};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Body, PrimitiveInfo};
 use std::collections::BTreeSet;
 
-/// One direction of a pair of movable groups in which something can be found.
-#[derive(Clone, Debug)]
-pub(crate) struct Plan {
-    pub group_pair: u32,
-    /// 0 if A is in the pair's first body, 1 if in the second.
-    pub flipped: u32,
-    pub body_a: usize,
-    pub body_b: usize,
-    /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
-    element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
-    /// By the kind of A: a bit for every kind of B that it may touch.
-    touched: [u16; PrimitiveKind::ALL.len()],
-    /// A line of A that is shorter goes through nothing of B, m.
-    pub least_travel_m: f64,
-    /// Greatest distance of anything of A from the origin of its movable group, m.
-    pub reach_a_m: f64,
-}
-
-impl Plan {
-    /// What an element of A may cost, ns; `None` if nothing of B can touch it.
-    pub fn element_ns(&self, kind: PrimitiveKind) -> Option<u32> {
-        self.element_ns[kind as usize]
-    }
-
-    fn new(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Self {
-        let (body_a, body_b) =
-            if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
-        let (a, b) = (scene.body(body_a), scene.body(body_b));
-        let in_order = (flipped == 0) == pair.first_named_first;
-        let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
-        for info_a in representatives(a) {
-            let met = representatives(b)
-                .filter(|info_b| in_order || kind_name(a, info_a) != kind_name(b, info_b))
-                .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)));
-            for info_b in met {
-                let slot = &mut element_ns[info_a.kind as usize];
-                *slot = Some(rough_cost_ns(info_a.kind, info_b.kind)).max(*slot);
-                touched[info_a.kind as usize] |= 1 << info_b.kind as u16;
-            }
+/// What is tested in one direction of a pair.
+fn plan(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Plan {
+    let (body_a, body_b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+    let (a, b) = (scene.body(body_a), scene.body(body_b));
+    let in_order = (flipped == 0) == pair.first_named_first;
+    let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
+    for info_a in representatives(a) {
+        let met = representatives(b)
+            .filter(|info_b| in_order || kind_name(a, info_a) != kind_name(b, info_b))
+            .filter(|info_b| can_be_tested(&scene.extensions, (a, info_a), (b, info_b)));
+        for info_b in met {
+            let slot = &mut element_ns[info_a.kind as usize];
+            *slot = Some(rough_cost_ns(info_a.kind, info_b.kind)).max(*slot);
+            touched[info_a.kind as usize] |= 1 << info_b.kind as u16;
         }
-        let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
-        let (least_travel_m, reach_a_m) = (least_travel_m(a, b, tests), reach_m(a));
-        let group_pair = group_pair as u32;
-        Self { group_pair, flipped, body_a, body_b, element_ns, touched, least_travel_m, reach_a_m }
     }
-
-    /// Whether anything of these two kinds in A and B is tested: by the table of testers, of two primitives of one
-    /// kind only with A in the Object that was named first; or by a registered test.
-    pub fn tests(&self, kind_a: PrimitiveKind, kind_b: PrimitiveKind) -> bool {
-        self.touched[kind_a as usize] >> kind_b as u16 & 1 == 1
-    }
-
-    fn finds_something(&self) -> bool {
-        self.element_ns.iter().any(Option::is_some)
-    }
+    let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
+    let (least_travel_m, reach_a_m) = (least_travel_m(a, b, tests), reach_m(a));
+    let group_pair = group_pair as u32;
+    Plan { group_pair, flipped, body_a, body_b, element_ns, touched, least_travel_m, reach_a_m }
 }
 
 /// One primitive of every kind in a body.
@@ -86,6 +52,6 @@ pub(super) fn plans(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<Plan> {
     let directions = group_pairs
         .iter()
         .enumerate()
-        .flat_map(|(index, pair)| [0, 1].map(|flipped| Plan::new(scene, index, pair, flipped)));
+        .flat_map(|(index, pair)| [0, 1].map(|flipped| plan(scene, index, pair, flipped)));
     directions.filter(Plan::finds_something).collect()
 }

@@ -1,40 +1,13 @@
 //! What pairs of surfaces make together: combined once, when a scene is sealed or a surface is changed.
 
-use super::SetupNote;
-use super::{GroupPair, can_be_tested, kind_name};
+use super::testable::{can_be_tested, kind_name};
+use super::warnings::SetupNote;
 use crate::error::EngineError;
-use crate::law::{FrictionProps, NormalProps, PairProps, combine, friction_name};
+use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
-use pong_model::{
-    Body, Exponent, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface, pair_entries,
-};
+use crate::sealed::{GroupPair, SurfaceTable};
+use pong_model::{Body, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface, pair_entries};
 use std::collections::BTreeSet;
-
-/// Values of all pairs of surfaces of two models, A's model first.
-pub(crate) struct SurfaceTable {
-    pub model_a: usize,
-    pub model_b: usize,
-    columns: usize,
-    props: Vec<Option<PairProps>>,
-}
-
-impl SurfaceTable {
-    /// The values of a pair of surfaces that can meet.
-    pub fn props(&self, surface_a: u32, surface_b: u32) -> &PairProps {
-        let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
-        entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
-    }
-
-    /// Stiffness and damping of the stiffest pair of surfaces whose force is linear in the depth.
-    pub fn stiffest(&self) -> Option<(f64, f64)> {
-        let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {
-            NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
-            NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
-            NormalProps::HuntCrossley { .. } | NormalProps::Custom { .. } => None,
-        });
-        linear.max_by(|a, b| a.0.total_cmp(&b.0))
-    }
-}
 
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
 pub(crate) fn surface_tables(
@@ -59,13 +32,6 @@ pub(crate) fn surface_tables(
         }
     }
     if problems.is_empty() { Ok(tables) } else { Err(problems.into_iter().collect()) }
-}
-
-impl SurfaceTable {
-    fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
-        let columns = surfaces[model_b].len();
-        Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
-    }
 }
 
 fn fill_table(

@@ -1,6 +1,6 @@
 //! What sealing tells the author though the scene is valid.
 
-use super::{can_be_tested, kind_name};
+use super::testable::{can_be_tested, kind_name};
 use crate::scene::Scene;
 use pong_model::Body;
 use std::collections::{BTreeMap, BTreeSet};

@@ -11,7 +11,7 @@
 //! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
 //! any size between the two holds a block: behind it are zeros.
 
-use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose};
 use crate::energy::pairs::{Books, PairBook};
 use pong_geometry::{Pose, Vec3};
 
@@ -381,7 +381,7 @@ impl Reader<'_> {
             element_b: self.u32(),
             entry_face: self.u32(),
             sticks: self.u32() != 0,
-            role: Role::from_word(self.u32())?,
+            role: ContactRole::from_word(self.u32())?,
             normal: self.vec3(),
             point: self.vec3(),
             bristle: self.vec3(),

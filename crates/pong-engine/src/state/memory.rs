@@ -55,23 +55,23 @@ impl PartialOrd for ContactKey {
 
 /// Why a contact is remembered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Role {
+pub(crate) enum ContactRole {
     /// It pushes.
-    Pushes,
+    Active,
     /// Its centre came through the surface from behind: overlaps, but is not pushed to the front.
-    Barred,
+    WrongSide,
     /// Its share of the spring is zero; only its side of entry matters.
-    Silent,
+    Tracked,
 }
 
-impl Role {
+impl ContactRole {
     pub fn to_word(self) -> u32 {
         self as u32
     }
 
     /// `None` for a word that no role has.
     pub fn from_word(word: u32) -> Option<Self> {
-        [Self::Pushes, Self::Barred, Self::Silent].into_iter().find(|role| role.to_word() == word)
+        [Self::Active, Self::WrongSide, Self::Tracked].into_iter().find(|role| role.to_word() == word)
     }
 }
 
@@ -88,7 +88,7 @@ pub(crate) struct ContactRecord {
     /// Whether the bristle sticks.
     pub sticks: bool,
     /// Whether the contact pushes, or is only remembered.
-    pub role: Role,
+    pub role: ContactRole,
     /// n.
     pub normal: Vec3,
     /// c, m.
@@ -150,7 +150,7 @@ impl ContactRecord {
             element_b: 0,
             entry_face: NO_FACE,
             sticks: false,
-            role: Role::Silent,
+            role: ContactRole::Tracked,
             normal: zero,
             point: zero,
             bristle: zero,
@@ -229,7 +229,7 @@ impl ContactMemory {
 
     /// The record of the given role that a present contact with normal `n` continues: the one under its key with
     /// the largest n·n', ties by feature, if that exceeds [`SAME_WAY_COSINE_MIN`].
-    pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: Role) -> Option<usize> {
+    pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: ContactRole) -> Option<usize> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;
         for (i, record) in records.iter().enumerate().filter(|(_, record)| record.role == role) {
@@ -257,7 +257,7 @@ impl ContactMemory {
                 *pose = PairPose::unknown();
                 if !self.books.pairs.is_empty() {
                     let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
-                    let pushing = of_pair.filter(|record| record.role == Role::Pushes);
+                    let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
                     self.books.forget(index, pushing.map(|record| record.stored).sum());
                 }
             }

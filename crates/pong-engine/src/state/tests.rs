@@ -1,7 +1,7 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
 use super::block::{StateError, block_len, fnv1a, needed_len, write_block};
-use super::memory::{ContactKey, ContactMemory, ContactRecord, PairPose, Role};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose};
 use super::merge::Remembered;
 use pong_geometry::{Pose, Quat, Vec3};
 
@@ -37,9 +37,11 @@ impl Random {
     }
 
     fn record(&mut self) -> ContactRecord {
-        let role = [Role::Pushes, Role::Pushes, Role::Barred, Role::Silent][self.below(4) as usize];
+        let role = [ContactRole::Active, ContactRole::Active, ContactRole::WrongSide, ContactRole::Tracked]
+            [self.below(4) as usize];
         // Few different forces: ties.
-        let force = if role == Role::Pushes { Vec3::x() * f64::from(self.below(4)) } else { Vec3::zeros() };
+        let force =
+            if role == ContactRole::Active { Vec3::x() * f64::from(self.below(4)) } else { Vec3::zeros() };
         let key = ContactKey {
             group_pair: self.below(GROUP_PAIRS as u32),
             flipped: self.below(2),
@@ -190,28 +192,28 @@ fn records_of_one_key_are_found_together() {
 #[test]
 fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     let mut random = Random(9);
-    let model = ContactRecord { role: Role::Pushes, ..random.record() };
+    let model = ContactRecord { role: ContactRole::Active, ..random.record() };
     let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, 0);
     let oblique = Vec3::new(0.6, 0.0, 0.8);
     for (normal, feature, role) in [
-        (Vec3::x(), 1, Role::Pushes),
-        (oblique, 7, Role::Pushes),
-        (oblique, 5, Role::Pushes),
-        (Vec3::z(), 0, Role::Silent),
+        (Vec3::x(), 1, ContactRole::Active),
+        (oblique, 7, ContactRole::Active),
+        (oblique, 5, ContactRole::Active),
+        (Vec3::z(), 0, ContactRole::Tracked),
     ] {
         memory.push(&ContactRecord { normal, feature, role, ..model }, &[]).unwrap();
     }
     let found = |normal: Vec3, role| memory.matching(&model.key, &normal, role);
-    assert_eq!(found(Vec3::x(), Role::Pushes), Some(0));
+    assert_eq!(found(Vec3::x(), ContactRole::Active), Some(0));
     // Two alike: the lower feature.
-    assert_eq!(found(Vec3::z(), Role::Pushes), Some(2));
-    assert_eq!(found(Vec3::z(), Role::Silent), Some(3));
-    assert_eq!(found(Vec3::z(), Role::Barred), None);
+    assert_eq!(found(Vec3::z(), ContactRole::Active), Some(2));
+    assert_eq!(found(Vec3::z(), ContactRole::Tracked), Some(3));
+    assert_eq!(found(Vec3::z(), ContactRole::WrongSide), None);
     // The cosine must exceed one half.
-    assert_eq!(found(Vec3::new(0.0, 0.75_f64.sqrt(), 0.5), Role::Silent), None);
-    assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), Role::Silent), Some(3));
+    assert_eq!(found(Vec3::new(0.0, 0.75_f64.sqrt(), 0.5), ContactRole::Tracked), None);
+    assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
-    assert_eq!(memory.matching(&elsewhere, &Vec3::z(), Role::Silent), None);
+    assert_eq!(memory.matching(&elsewhere, &Vec3::z(), ContactRole::Tracked), None);
 }
 
 /// In a buffer that has room for the largest block.
@@ -362,5 +364,5 @@ fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_noth
     }
     // The forgery itself is sound: the same with a word that may stand there is accepted.
     read_block(&mut memory, WORLD, &forged(&block, last + 4 * ROLE_WORD, 1)).unwrap();
-    assert_eq!(memory.records[8].role, Role::Barred);
+    assert_eq!(memory.records[8].role, ContactRole::WrongSide);
 }

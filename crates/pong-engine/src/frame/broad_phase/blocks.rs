@@ -1,9 +1,9 @@
 //! Trees of bounding volumes: lays out the blocks of work, and finds the leaves of B that a leaf of A may touch.
 
-use crate::frame::input::{Block, FrameInput, PairContext};
+use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::seal::{Plan, Sealed};
+use crate::sealed::{Plan, Sealed};
 use pong_arena::List;
 use pong_geometry::Transform;
 use pong_geometry::bounding::Volume;
@@ -22,9 +22,9 @@ pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
     enabled: &[bool],
-    input: &mut FrameInput,
+    input: &mut WorkerInput,
     counts: &mut FrameCounts,
-    work: &mut dyn FnMut(&mut FrameInput, u64),
+    work: &mut dyn FnMut(&mut WorkerInput, u64),
 ) {
     let mut cost = 0;
     input.blocks.clear();
@@ -46,10 +46,10 @@ struct Layout<'a, 'w> {
     sealed: &'a Sealed,
     plan: &'a Plan,
     index: u32,
-    input: &'a mut FrameInput,
+    input: &'a mut WorkerInput,
     counts: &'a mut FrameCounts,
     cost: &'a mut u64,
-    work: &'a mut (dyn FnMut(&mut FrameInput, u64) + 'w),
+    work: &'a mut (dyn FnMut(&mut WorkerInput, u64) + 'w),
 }
 
 impl Layout<'_, '_> {

@@ -9,10 +9,10 @@ use pong_model::Batch;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
 
 /// Elements whose boxes are carried together: eight chunks of eight.
-pub(crate) const GROUP: u32 = (LANES * LANES) as u32;
+pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 
-/// Meetings that there is room for; beyond them the chunks of a group go through the trees one by one.
-const MEETINGS_MAX: usize = 1024;
+/// CandidatePairs that there is room for; beyond them the chunks of a group go through the trees one by one.
+const CANDIDATE_PAIRS_MAX: usize = 1024;
 
 /// Nodes that can wait at once: a tree of 2³¹ elements has eleven levels, each leaves at most seven waiting.
 const DEPTH_MAX: usize = 80;
@@ -42,8 +42,8 @@ pub(crate) fn chunks_in_reach<'a, S: Simd>(
     counts: &mut FrameCounts,
 ) -> LaneBits {
     let batch_a = &context.body_a.tree.batches[block.batch as usize];
-    let first_chunk = block.first.saturating_sub(group * GROUP) / LANES as u32;
-    let past_chunk = (block.end - group * GROUP).div_ceil(LANES as u32).min(LANES as u32);
+    let first_chunk = block.first.saturating_sub(group * SUPERCHUNK) / LANES as u32;
+    let past_chunk = (block.end - group * SUPERCHUNK).div_ceil(LANES as u32).min(LANES as u32);
     let in_block = (LaneBits::MAX << first_chunk) & (LaneBits::MAX >> (LANES as u32 - past_chunk));
     let carried = match batch_a.chunks.get(group as usize) {
         // An element by itself is asked when it is carried.
@@ -68,7 +68,7 @@ pub(crate) fn chunks_in_reach<'a, S: Simd>(
 
 /// An element of B that chunks of A may touch.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Meeting {
+pub(crate) struct CandidatePair {
     /// Which batch in reach it is in.
     pub reach: u32,
     /// Its place in the batch.
@@ -77,32 +77,32 @@ pub(crate) struct Meeting {
 
 /// A node of the tree in hand that waits, and the chunks that reach it.
 #[derive(Clone, Copy, Debug)]
-struct Ahead {
+struct StackEntry {
     node: u32,
     chunks: LaneBits,
 }
 
-/// Meetings of the chunks of a group, in the order in which they are tested: for every chunk that in which it alone
+/// Candidate pairs of the chunks of a superchunk, in the order in which they are tested: for every chunk that in which it alone
 /// would find them. Empty between blocks.
 #[derive(Debug)]
-pub(crate) struct Meetings {
-    list: Table<Meeting>,
-    /// The elements' boxes; none for the meetings of an element by itself.
+pub(crate) struct CandidatePairs {
+    list: Table<CandidatePair>,
+    /// The elements' boxes; none for the pairs of an element by itself.
     boxes: Table<WideBox>,
-    /// For every meeting a bit for every chunk, eight meetings to a word.
+    /// For every pair a bit for every chunk, eight pairs to a word.
     chunks: Table<[LaneBits; LANES]>,
-    waiting: Table<Ahead>,
+    waiting: Table<StackEntry>,
     any: LaneBits,
 }
 
-impl Meetings {
+impl CandidatePairs {
     /// Room for a few.
     pub fn new() -> Self {
         Self {
-            list: Table::with_capacity(MEETINGS_MAX, Meeting { reach: 0, place: 0 }),
-            boxes: Table::with_capacity(MEETINGS_MAX, WideBox::NOTHING),
-            chunks: Table::with_capacity(MEETINGS_MAX / LANES, [0; LANES]),
-            waiting: Table::with_capacity(DEPTH_MAX, Ahead { node: 0, chunks: 0 }),
+            list: Table::with_capacity(CANDIDATE_PAIRS_MAX, CandidatePair { reach: 0, place: 0 }),
+            boxes: Table::with_capacity(CANDIDATE_PAIRS_MAX, WideBox::NOTHING),
+            chunks: Table::with_capacity(CANDIDATE_PAIRS_MAX / LANES, [0; LANES]),
+            waiting: Table::with_capacity(DEPTH_MAX, StackEntry { node: 0, chunks: 0 }),
             any: 0,
         }
     }
@@ -112,10 +112,10 @@ impl Meetings {
         self.any
     }
 
-    /// Numbers of the meetings of a chunk.
+    /// Numbers of the candidate pairs of a chunk.
     #[inline(always)]
     pub fn of(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
-        /// The lowest bit of every meeting in a word.
+        /// The lowest bit of every pair in a word.
         const LOWEST: u64 = 0x0101_0101_0101_0101;
         let of_word = move |word: &[LaneBits; LANES]| u64::from_le_bytes(*word) >> chunk & LOWEST;
         self.chunks.iter().enumerate().flat_map(move |(place, word)| {
@@ -128,13 +128,13 @@ impl Meetings {
         })
     }
 
-    /// A meeting.
+    /// A pair.
     #[inline(always)]
-    pub fn meeting(&self, number: usize) -> Meeting {
+    pub fn pair(&self, number: usize) -> CandidatePair {
         self.list[number]
     }
 
-    /// The box of B's element in a meeting, unless it is one of an element by itself.
+    /// The box of B's element in a pair, unless it is one of an element by itself.
     #[inline(always)]
     pub fn box_b(&self, number: usize) -> &WideBox {
         &self.boxes[number]
@@ -148,13 +148,13 @@ impl Meetings {
     }
 
     fn has_room_for_a_node(&self) -> bool {
-        self.list.len() + LANES <= MEETINGS_MAX
+        self.list.len() + LANES <= CANDIDATE_PAIRS_MAX
     }
 
     #[inline(always)]
-    fn add(&mut self, meeting: Meeting, chunks: LaneBits) {
+    fn add(&mut self, pair: CandidatePair, chunks: LaneBits) {
         let index = self.list.len();
-        self.list.push(meeting).expect("room was asked for");
+        self.list.push(pair).expect("room was asked for");
         if index.is_multiple_of(LANES) {
             self.chunks.push([0; LANES]).expect("room for as many");
         }
@@ -162,7 +162,7 @@ impl Meetings {
         self.any |= chunks;
     }
 
-    /// Gathers the meetings of some chunks of a group; whether there was room for all.
+    /// Gathers the candidate pairs of some chunks of a group; whether there was room for all.
     #[inline(always)]
     pub fn gather<S: Simd>(
         &mut self,
@@ -179,7 +179,7 @@ impl Meetings {
             }
             let around = if chunks.is_power_of_two() { NarrowBox::NOTHING } else { boxes.around() };
             self.wait(0, chunks);
-            while let Some(Ahead { node, chunks }) = self.next_waiting() {
+            while let Some(StackEntry { node, chunks }) = self.next_waiting() {
                 let node = &batch.boxes.nodes[node as usize];
                 if !self.has_room_for_a_node() {
                     self.waiting.clear();
@@ -211,11 +211,11 @@ impl Meetings {
         true
     }
 
-    /// A child that chunks reach: an element is a meeting, a node waits. Answers whether it is an element.
+    /// A child that chunks reach: an element is a pair, a node waits. Answers whether it is an element.
     #[inline(always)]
     fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> bool {
         match child {
-            Child::Element(place) => self.add(Meeting { reach: reach as u32, place }, chunks),
+            Child::Element(place) => self.add(CandidatePair { reach: reach as u32, place }, chunks),
             Child::Node(node) => self.wait(node, chunks),
         }
         matches!(child, Child::Element(_))
@@ -223,28 +223,28 @@ impl Meetings {
 
     #[inline(always)]
     fn keep_box(&mut self, tree: &BoxTree, box_b: &NarrowBox) {
-        self.boxes.push(WideBox::new(tree, box_b)).expect("as much room as for meetings");
+        self.boxes.push(WideBox::new(tree, box_b)).expect("as much room as for candidate pairs");
     }
 
     #[inline(always)]
     fn wait(&mut self, node: u32, chunks: LaneBits) {
-        self.waiting.push(Ahead { node, chunks }).expect("room for the deepest tree");
+        self.waiting.push(StackEntry { node, chunks }).expect("room for the deepest tree");
     }
 
     #[inline(always)]
-    fn next_waiting(&mut self) -> Option<Ahead> {
+    fn next_waiting(&mut self) -> Option<StackEntry> {
         let last = self.waiting.last().copied();
         self.waiting.truncate(self.waiting.len().saturating_sub(1));
         last
     }
 
-    /// Goes on with the way of one chunk through the trees until it is through or there is no more room; whether it
+    /// Goes on with the traversal of one chunk through the trees until it is through or there is no more room; whether it
     /// is through. What was there before is gone.
     #[inline(always)]
     pub fn go_on<S: Simd>(
         &mut self,
         simd: S,
-        way: &mut Way,
+        traversal: &mut Traversal,
         reach: &[Reach<'_>],
         chunk: &Chunk<'_, '_, '_>,
         counts: &mut FrameCounts,
@@ -254,28 +254,28 @@ impl Meetings {
             if !self.has_room_for_a_node() {
                 return false;
             }
-            let Some(Ahead { node, chunks }) = self.next_waiting() else {
-                let Some(next) = reach.get(way.next) else { return true };
-                way.next += 1;
-                if next.met >> way.lane & 1 == 1 && !next.batch.boxes.nodes.is_empty() {
-                    (way.query, way.ball) = if way.alone {
+            let Some(StackEntry { node, chunks }) = self.next_waiting() else {
+                let Some(next) = reach.get(traversal.next) else { return true };
+                traversal.next += 1;
+                if next.met >> traversal.lane & 1 == 1 && !next.batch.boxes.nodes.is_empty() {
+                    (traversal.query, traversal.ball) = if traversal.alone {
                         chunk.first_narrowed(&next.batch.boxes)
                     } else {
-                        (next.boxes.lane(way.lane), None)
+                        (next.boxes.lane(traversal.lane), None)
                     };
-                    self.wait(0, 1 << way.lane);
+                    self.wait(0, 1 << traversal.lane);
                 }
                 continue;
             };
-            let tree = &reach[way.next - 1].batch.boxes;
+            let tree = &reach[traversal.next - 1].batch.boxes;
             let node: &BoxNode = &tree.nodes[node as usize];
-            let mut met = node.boxes.met_by(simd, &way.query);
-            if let Some(ball) = &way.ball {
+            let mut met = node.boxes.met_by(simd, &traversal.query);
+            if let Some(ball) = &traversal.ball {
                 met &= node.boxes.near(simd, ball);
             }
             counts.boxes_tested += 1;
             for lane_b in lanes(met) {
-                if self.note(way.next - 1, node.child(lane_b), chunks) && !way.alone {
+                if self.note(traversal.next - 1, node.child(lane_b), chunks) && !traversal.alone {
                     self.keep_box(tree, &node.boxes.lane(lane_b));
                 }
             }
@@ -284,7 +284,7 @@ impl Meetings {
 }
 
 /// How far one chunk has got through the trees of B.
-pub(crate) struct Way {
+pub(crate) struct Traversal {
     lane: usize,
     /// Whether the chunk is one element, whose own box in B's frame is much tighter than its turned one.
     alone: bool,
@@ -295,7 +295,7 @@ pub(crate) struct Way {
     ball: Option<NarrowBall>,
 }
 
-impl Way {
+impl Traversal {
     /// From the start, for the chunk of a group.
     pub fn new(lane: usize, alone: bool) -> Self {
         Self { lane, alone, next: 0, query: NarrowBox::NOTHING, ball: None }

@@ -1,6 +1,6 @@
 //! Up to eight elements of one kind as A, carried into B's frame together, and the boxes around them there.
 
-use crate::frame::broad_phase::transformed::Carried;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_arena::List;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
@@ -19,7 +19,7 @@ pub(crate) struct Chunk<'a, 'l, 'm> {
     /// Points and spheres: their radii, m.
     pub radii: &'a [f64; LANES],
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
-    carried: &'l List<'m, Carried>,
+    carried: &'l List<'m, TransformedPrimitive>,
     pub boxes: LaneBoxes,
     /// Balls around spheres and ellipsoids that may meet triangles.
     balls: Option<LaneBalls>,
@@ -55,7 +55,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         first: u32,
         x_ba: &Transform,
         meets_triangles: bool,
-        carried: &'l mut List<'m, Carried>,
+        carried: &'l mut List<'m, TransformedPrimitive>,
     ) -> Self {
         let start = batch.items.start + first;
         let end = batch.items.end.min(start + LANES as u32);
@@ -71,7 +71,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
             None => {
                 carry_each(body, items, x_ba, carried);
                 if carried.len() == items.len() {
-                    LaneBoxes::of_each(carried.iter().map(Carried::bounds))
+                    LaneBoxes::of_each(carried.iter().map(TransformedPrimitive::bounds))
                 } else {
                     let lanes = 0..items.len() as u32;
                     LaneBoxes::of_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)))
@@ -118,20 +118,20 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
     }
 
     /// One element; `None` for kinds that are never A in the table.
-    pub fn carried(&self, lane: usize) -> Option<Carried> {
+    pub fn carried(&self, lane: usize) -> Option<TransformedPrimitive> {
         let center = Vec3::new(self.centers.x[lane], self.centers.y[lane], self.centers.z[lane]);
         match self.kind {
-            PrimitiveKind::Point => Some(Carried::Point(Point { position: center })),
-            PrimitiveKind::Sphere => Some(Carried::Sphere(self.sphere(lane))),
+            PrimitiveKind::Point => Some(TransformedPrimitive::Point(Point { position: center })),
+            PrimitiveKind::Sphere => Some(TransformedPrimitive::Sphere(self.sphere(lane))),
             _ => self.carried.get(lane).copied(),
         }
     }
 }
 
-fn carry_each(body: &Body, items: &[Item], x_ba: &Transform, carried: &mut List<'_, Carried>) {
+fn carry_each(body: &Body, items: &[Item], x_ba: &Transform, carried: &mut List<'_, TransformedPrimitive>) {
     carried.clear();
     for &item in items {
-        let Some(one) = Carried::new(body, item, x_ba) else { return };
+        let Some(one) = TransformedPrimitive::new(body, item, x_ba) else { return };
         carried.push(one).expect("the list has room for all lanes");
     }
 }
@@ -258,10 +258,10 @@ impl LaneBalls {
         balls
     }
 
-    fn around(carried: &[Carried]) -> Self {
+    fn around(carried: &[TransformedPrimitive]) -> Self {
         let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
         for (lane, one) in carried.iter().enumerate() {
-            if let Carried::Ellipsoid(ellipsoid) = one {
+            if let TransformedPrimitive::Ellipsoid(ellipsoid) = one {
                 let c = &ellipsoid.center;
                 (centers.x[lane], centers.y[lane], centers.z[lane]) = (c.x, c.y, c.z);
                 radii[lane] = ellipsoid.semi_axes.max();

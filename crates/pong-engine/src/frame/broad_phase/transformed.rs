@@ -6,7 +6,7 @@ use pong_model::{Body, Item};
 
 /// The primitive.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Carried {
+pub(crate) enum TransformedPrimitive {
     Point(Point),
     Segment(LineSegment),
     Ray(Ray),
@@ -14,7 +14,7 @@ pub(crate) enum Carried {
     Ellipsoid(Ellipsoid),
 }
 
-impl Carried {
+impl TransformedPrimitive {
     /// `None` for kinds that are never A in the table.
     pub fn new(body: &Body, item: Item, x_ba: &Transform) -> Option<Self> {
         let i = item.element as usize;

@@ -9,14 +9,15 @@
 //! with F and M those of the commit before, or of one that is as many frames older as the wrenches come late. They are
 //! taken as held along the axes of B: held along common axes while B turns by φ_B they do ½|F||x|φ_B² more at most.
 
+use super::displacement::Displacement;
+use super::interval::Interval;
 use crate::energy::account::{Account, WrenchUse};
-use crate::frame::buffers::FrameContact;
-use crate::frame::energy::Displacement;
-use crate::frame::input::FrameInput;
+use crate::frame::forces::contact::FrameContact;
+use crate::frame::input::WorkerInput;
 use crate::law::stored_energy;
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::{Books, ContactMemory, ContactRecord, PairPose, Role};
+use crate::sealed::Sealed;
+use crate::state::{Books, ContactMemory, ContactRecord, ContactRole, PairPose};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
 
@@ -34,7 +35,7 @@ pub(crate) struct Keeper<'a> {
     pub scene: &'a Scene,
     pub sealed: &'a Sealed,
     pub memory: &'a ContactMemory,
-    pub input: &'a FrameInput,
+    pub input: &'a WorkerInput,
     pub wrench_use: WrenchUse,
     /// What a commit will remember of pairs.
     pub books: &'a mut Books,
@@ -42,17 +43,6 @@ pub(crate) struct Keeper<'a> {
     pub intervals: &'a mut [Interval],
     /// Numbers of the frame's contacts.
     pub custom: &'a mut [f64],
-}
-
-/// A pair of movable groups since the last commit.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Interval {
-    /// All but what was taken and returned.
-    sum: Account,
-    /// Work of the wrench as the host uses it, and as it would have followed the motion.
-    done: f64,
-    followed: f64,
-    pushes: bool,
 }
 
 /// Force of a contact on A, by what makes it, and its place.
@@ -224,7 +214,7 @@ impl Keeper<'_> {
             let earlier = &self.memory.poses[pair];
             let mut sent = Wrench::zero();
             while let Some(record) = records.next_if(|record| record.key.group_pair as usize == pair) {
-                if record.role == Role::Pushes {
+                if record.role == ContactRole::Active {
                     sent += on_first(record, &earlier.relative[0]);
                 }
             }
@@ -246,8 +236,8 @@ fn on_first(record: &ContactRecord, first_seen_from_second: &Pose) -> Wrench {
 
 fn work_on_first(wrench: &Wrench, earlier: &PairPose, now: &PairPose) -> f64 {
     let (before, after) = (&earlier.relative[0], &now.relative[0]);
-    let turn = rotation_vector(&(after.orientation * before.orientation.inverse()));
-    wrench.force.dot(&(after.position - before.position)) + wrench.moment.dot(&turn)
+    let rotation = rotation_vector(&(after.orientation * before.orientation.inverse()));
+    wrench.force.dot(&(after.position - before.position)) + wrench.moment.dot(&rotation)
 }
 
 impl Followed {
@@ -273,7 +263,7 @@ impl Displacement {
 
     /// Work of a wrench on A about its origin.
     fn origin_work(&self, wrench: &Wrench) -> f64 {
-        wrench.force.dot(&(self.origin_now - self.origin_before)) + wrench.moment.dot(&self.turn)
+        wrench.force.dot(&(self.origin_now - self.origin_before)) + wrench.moment.dot(&self.rotation)
     }
 }
 

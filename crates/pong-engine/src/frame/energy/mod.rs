@@ -10,27 +10,29 @@
 //! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
 
 pub(crate) mod accounts;
+mod displacement;
+pub(crate) mod interval;
 
-use crate::frame::Frame;
-use crate::frame::forces::reference_point;
-use crate::frame::input::FrameInput;
-use crate::frame::input::motion::SinceCommit;
-use crate::frame::worker_context::Lane;
+use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::reference_point::reference_point;
+use crate::frame::input::WorkerInput;
+use crate::frame::worker_context::WorkerContext;
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::{ContactMemory, ContactRecord, Role};
+use crate::sealed::Sealed;
+use crate::state::{ContactMemory, ContactRecord, ContactRole};
 use accounts::Keeper;
-use pong_geometry::{Transform, Vec3};
+use displacement::Displacement;
+use pong_geometry::Vec3;
 
 /// Fills in the energies of the contacts and the totals.
-pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut Frame) {
+pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut EvaluationBuffers) {
     frame.work = memory.work;
     frame.dissipated = memory.dissipated;
     if !scene.config.ledger {
         return;
     }
-    let Frame { input, lane, order, work: all_work, dissipated: all_dissipated, .. } = frame;
-    let Lane { scratch, out, .. } = lane;
+    let EvaluationBuffers { input, caller, order, work: all_work, dissipated: all_dissipated, .. } = frame;
+    let WorkerContext { scratch, out, .. } = caller;
     let input = &*input;
     let mut keeper = scene.config.accounts.map(|wrench_use| Keeper {
         scene,
@@ -48,7 +50,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
     for place in order.iter() {
         let contact = &mut out.contacts[place.index as usize];
         let found = &contact.found;
-        if found.role != Role::Pushes {
+        if found.role != ContactRole::Active {
             continue;
         }
         let motion = &input.motions[found.key.group_pair as usize][found.key.flipped as usize];
@@ -78,7 +80,8 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
             keeper.contact(place.index as usize, contact, earlier, displacement.as_ref());
         }
     }
-    let ended = memory.records.iter().enumerate().filter(|(i, r)| r.role == Role::Pushes && !continued[*i]);
+    let ended =
+        memory.records.iter().enumerate().filter(|(i, r)| r.role == ContactRole::Active && !continued[*i]);
     for (index, earlier) in ended {
         let displacement = displacement_of_ended(earlier, input);
         let (work, dissipated) = end_contact(earlier, displacement.as_ref());
@@ -113,36 +116,8 @@ impl Before {
     }
 }
 
-/// Displacement of A since the last commit, at a point carried by A.
-pub(crate) struct Displacement {
-    before: Vec3,
-    now: Vec3,
-    pub turn: Vec3,
-    /// The origin of A's frame.
-    pub origin_before: Vec3,
-    pub origin_now: Vec3,
-}
-
-impl Displacement {
-    fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
-        Self {
-            before: since.x_ba.point(reference),
-            now: x_ba.point(reference),
-            turn: since.turn(),
-            origin_before: since.x_ba.translation,
-            origin_now: x_ba.translation,
-        }
-    }
-
-    /// Half of the work that a force at `point` does over the displacement.
-    pub fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
-        let arm = point - if at_end { self.now } else { self.before };
-        0.5 * (force.dot(&(self.now - self.before)) + arm.cross(force).dot(&self.turn))
-    }
-}
-
 /// Displacement at a contact that is no more.
-fn displacement_of_ended(earlier: &ContactRecord, input: &FrameInput) -> Option<Displacement> {
+fn displacement_of_ended(earlier: &ContactRecord, input: &WorkerInput) -> Option<Displacement> {
     let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
     let since = motion.since_commit.as_ref()?;
     // Any point carried by A serves as reference; the contact's own place then is at hand.

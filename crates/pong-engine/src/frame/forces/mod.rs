@@ -1,51 +1,57 @@
 //! Normal and friction force of every contact.
 
-use crate::frame::Frame;
-use crate::frame::buffers::{Found, FrameContact, Place, Stance};
+pub(crate) mod contact;
+pub(crate) mod contact_buffer;
+pub(crate) mod reference_point;
+
+use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::buffers::Place;
+use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::SinceCommit;
-use crate::frame::worker_context::{Lane, Output};
-use crate::law::friction::{FrictionInput, FrictionOutput, friction};
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use crate::frame::worker_context::WorkerContext;
+use crate::law::friction::{FrictionInput, FrictionOutput, friction_force};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::{ContactKey, ContactRecord, Role};
+use crate::sealed::Sealed;
+use crate::state::{ContactRecord, ContactRole};
+use contact_buffer::ContactBuffer;
 use pong_geometry::pose::carry_by_smallest_rotation;
-use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
 use pong_geometry::{Vec3, Wrench};
-use pong_model::Body;
+use reference_point::reference_point;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
 const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
-/// Presses what was found for a chunk of A, in the order of sums, and hands it to the lane.
+/// Computes the forces of what was found for a chunk of A, in the order of sums, and hands it to the buffer.
 ///
 /// `custom` has room for the numbers of one contact's registered friction law.
-pub(crate) fn press_found(
+pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
-    found: &[Found],
+    found: &[ContactCandidate],
     custom: &mut [f64],
-    out: &mut Output,
+    out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
-        let counts = || group.iter().filter(|contact| contact.stance != Stance::Dropped);
+        let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             let Some(contact) = out.add(FrameContact::new(*one), sealed) else { continue };
-            context.press(contact, bristle_share(one, counts()), custom);
+            context.compute_force(contact, bristle_share(one, counts()), custom);
             out.custom.extend_from_slice(custom).expect("as much room as for contacts");
         }
     }
 }
 
-/// Presses contacts again, after some of their keys were left out by a limit: what is left carries the bristle.
-pub(crate) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
-    let Frame { input, lane, order, .. } = frame;
-    lane.scratch.reset();
-    let Lane { scratch, out, .. } = lane;
+/// Computes forces again, after some of their keys were left out by a limit: what is left carries the bristle.
+pub(crate) fn recompute_forces(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
+    let EvaluationBuffers { input, caller, order, .. } = frame;
+    caller.scratch.reset();
+    let WorkerContext { scratch, out, .. } = caller;
     let custom = scratch.slice(out.custom_stride, 0.0).expect("sealing has sized the scratch");
     let places = &*order;
-    let key_of = |out: &Output, place: &Place| out.contacts[place.index as usize].found.key;
+    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index as usize].found.key;
     let mut rest = places.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
@@ -58,7 +64,7 @@ pub(crate) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
             let mut contact = FrameContact::new(found);
-            context.press(&mut contact, share, custom);
+            context.compute_force(&mut contact, share, custom);
             out.contacts[index] = contact;
             let first = index * out.custom_stride;
             out.custom[first..first + out.custom_stride].copy_from_slice(custom);
@@ -67,10 +73,13 @@ pub(crate) fn press_again(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
-pub(crate) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = &'f Found>) -> f64 {
+pub(crate) fn bristle_share<'f>(
+    contact: &ContactCandidate,
+    same_key: impl Iterator<Item = &'f ContactCandidate>,
+) -> f64 {
     let whole: f64 = same_key
         .filter(|other| {
-            other.role == Role::Pushes && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
+            other.role == ContactRole::Active && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
         })
         .map(|other| other.weight)
         .sum();
@@ -81,14 +90,14 @@ pub(crate) fn bristle_share<'f>(contact: &Found, same_key: impl Iterator<Item = 
 
 impl PairContext<'_> {
     /// The values of the two surfaces of a contact.
-    pub(crate) fn props(&self, found: &Found) -> &PairProps {
+    pub(crate) fn props(&self, found: &ContactCandidate) -> &PairProps {
         let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
         let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
         self.table.props(surface_a, surface_b)
     }
 
     /// Fills in the forces of a contact.
-    fn press(&self, contact: &mut FrameContact, share: f64, custom: &mut [f64]) {
+    fn compute_force(&self, contact: &mut FrameContact, share: f64, custom: &mut [f64]) {
         custom.fill(0.0);
         let found = contact.found;
         let props = self.props(&found);
@@ -98,21 +107,21 @@ impl PairContext<'_> {
         contact.rate = closing;
         contact.slip_velocity = velocity + found.normal * closing;
         contact.continues =
-            self.memory.matching(&found.key, &found.normal, Role::Pushes).map(|record| record as u32);
+            self.memory.matching(&found.key, &found.normal, ContactRole::Active).map(|record| record as u32);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
-        if found.role == Role::Pushes {
+        if found.role == ContactRole::Active {
             let weight = found.full_weight();
             contact.normal_force = normal_force(props, weight, found.depth, closing);
             contact.stored = stored_energy(props, weight, found.depth);
             if contact.normal_force > 0.0 {
-                output = self.rub(contact, props, share, custom);
+                output = self.friction_force(contact, props, share, custom);
             }
         }
         contact.friction_force = output.force;
         contact.bristle = output.bristle;
         contact.sticks = output.sticks;
         contact.stored += output.stored;
-        if found.role == Role::Pushes {
+        if found.role == ContactRole::Active {
             contact.wrenches = self.wrenches(contact);
         }
     }
@@ -126,7 +135,7 @@ impl PairContext<'_> {
         [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, &contact.point)]
     }
 
-    fn rub(
+    fn friction_force(
         &self,
         contact: &FrameContact,
         props: &PairProps,
@@ -160,15 +169,15 @@ impl PairContext<'_> {
         if !matches!(props.friction, FrictionProps::Coulomb { .. }) {
             input.slip = self.slip(contact, record);
         }
-        friction(&props.friction, &input, custom)
+        friction_force(&props.friction, &input, custom)
     }
 
     /// φ, worked out once for all contacts of the pair.
-    fn turn(&self, since: &SinceCommit) -> Vec3 {
-        self.turn.get().unwrap_or_else(|| {
-            let turn = since.turn();
-            self.turn.set(Some(turn));
-            turn
+    fn rotation(&self, since: &SinceCommit) -> Vec3 {
+        self.rotation.get().unwrap_or_else(|| {
+            let rotation = since.rotation();
+            self.rotation.set(Some(rotation));
+            rotation
         })
     }
 
@@ -188,33 +197,10 @@ impl PairContext<'_> {
         let now = self.motion.x_ba.point(&reference);
         let present = contact.point - now;
         let lever = earlier.map_or(present, |earlier| ((earlier.point - before) + present) * 0.5);
-        let displacement = now - before + self.turn(since).cross(&lever);
+        let displacement = now - before + self.rotation(since).cross(&lever);
         let approach = -contact.found.normal.dot(&displacement);
         let across = displacement + contact.found.normal * approach;
         let depth = contact.found.depth;
         if earlier.is_none() && approach > depth { across * (depth / approach) } else { across }
     }
-}
-
-/// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
-/// a segment's end, a ray's tip.
-pub(crate) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
-    let element = element_a as usize;
-    match body_a.primitives[key.primitive_a as usize].kind {
-        PrimitiveKind::Point => body_a.points[element].position,
-        PrimitiveKind::LineSegment => body_a.segments[element].ends[key.end as usize],
-        PrimitiveKind::Ray => body_a.rays[element].tip(),
-        PrimitiveKind::Sphere => body_a.spheres[element].center,
-        PrimitiveKind::Ellipsoid => body_a.ellipsoids[element].center,
-        PrimitiveKind::Custom => middle(&*body_a.customs[element]),
-        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => Vec3::zeros(),
-    }
-}
-
-/// Centre of the box around a custom primitive; the frame's origin where the box is unbounded.
-fn middle(primitive: &dyn CustomPrimitive) -> Vec3 {
-    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
-    let coordinates = axes.map(|axis| 0.5 * (primitive.support(&axis) - primitive.support(&-axis)));
-    let middle = Vec3::from(coordinates);
-    if middle.iter().all(|x| x.is_finite()) { middle } else { Vec3::zeros() }
 }

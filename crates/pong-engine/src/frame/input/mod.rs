@@ -1,11 +1,12 @@
 //! What the stages that are spread over workers read, and nobody writes while they run.
 
 pub(crate) mod motion;
+pub(crate) mod relative;
 pub(crate) mod states;
 
 use crate::report::Clock;
-use crate::scene::Scene;
-use crate::seal::{Plan, Sealed, SurfaceTable};
+use crate::scene::{Scene, States};
+use crate::sealed::{Plan, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use motion::Motion;
 use pong_geometry::Vec3;
@@ -14,10 +15,19 @@ use pong_model::Body;
 use std::cell::Cell;
 use std::sync::Arc;
 
+/// What a frame is computed from.
+pub(crate) struct EvaluationInput<'a> {
+    pub scene: &'a Scene,
+    pub sealed: &'a Sealed,
+    pub states: &'a States,
+    pub memory: &'a Arc<ContactMemory>,
+    pub clock: Clock,
+}
+
 /// One frame's input.
 #[derive(Clone)]
-pub(crate) struct FrameInput {
-    /// Number of the phase: what a lane holds of another one is stale.
+pub(crate) struct WorkerInput {
+    /// Number of the phase: what a context holds of another one is stale.
     pub phase: u64,
     /// Two directions per pair of movable groups.
     pub motions: Vec<[Motion; 2]>,
@@ -45,7 +55,7 @@ pub(crate) struct Block {
     pub end: u32,
 }
 
-impl FrameInput {
+impl WorkerInput {
     /// Takes over another frame's input without asking for memory.
     pub fn copy_from(&mut self, other: &Self) {
         self.phase = other.phase;
@@ -76,18 +86,18 @@ pub(crate) struct PairContext<'a> {
     /// Whether B's model remembers the side of entry.
     pub remembers_entry: bool,
     /// φ of the motion since the last commit, once a contact has asked for it, rad.
-    pub turn: Cell<Option<Vec3>>,
+    pub rotation: Cell<Option<Vec3>>,
 }
 
 impl<'a> PairContext<'a> {
-    pub fn new(scene: &'a Scene, sealed: &'a Sealed, input: &'a FrameInput, plan: &Plan) -> Self {
+    pub fn new(scene: &'a Scene, sealed: &'a Sealed, input: &'a WorkerInput, plan: &Plan) -> Self {
         Self::of_direction(scene, sealed, input, plan.group_pair, plan.flipped)
     }
 
     pub fn of_direction(
         scene: &'a Scene,
         sealed: &'a Sealed,
-        input: &'a FrameInput,
+        input: &'a WorkerInput,
         group_pair: u32,
         flipped: u32,
     ) -> Self {
@@ -105,7 +115,7 @@ impl<'a> PairContext<'a> {
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
-            turn: Cell::new(None),
+            rotation: Cell::new(None),
         }
     }
 }

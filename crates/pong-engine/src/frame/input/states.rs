@@ -1,9 +1,9 @@
 //! States of movable groups, latched where a frame begins. They were checked when they were set.
 
 use crate::error::EngineError;
-use crate::frame::Frame;
+use crate::frame::buffers::EvaluationBuffers;
 use crate::scene::{Scene, States};
-use crate::seal::Sealed;
+use crate::sealed::Sealed;
 
 /// Refuses a frame while a movable group of an enabled pair has no state.
 pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
@@ -18,7 +18,7 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
 }
 
 /// Takes the states over into the frame.
-pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut Frame) {
+pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
     for &body in &sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
             frame.poses[body] = state.pose();

@@ -3,60 +3,63 @@
 mod pieces;
 pub(crate) mod solver;
 
-use crate::frame::buffers::{Found, Stance};
 use crate::frame::input::PairContext;
-use crate::state::{NO_FACE, Role};
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use crate::state::{ContactRole, NO_FACE};
 use pieces::{drop_what_the_body_lacks, pushes_before};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, PolyhedronFace, PrimitiveKind, TriangleSet};
-use solver::{Sharer, share_within};
+use solver::{SharedContact, share_within};
 
-/// Relative: a spare contact counts if no other is deeper by more than rounding.
-const SPARE_DEPTH_SLACK: f64 = 1e-9;
+/// Relative: a fallback contact counts if no other is deeper by more than rounding.
+const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 
-/// Sorts the contacts into the order of every sum and settles their weights. Those that do not count are marked as
+/// Sorts the contacts into the order of every sum and assigns their weights. Those that do not count are marked as
 /// dropped. All contacts of a key are among those of one chunk.
 ///
 /// # Errors
 /// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
-pub(crate) fn settle(
+pub(crate) fn assign_weights(
     context: &PairContext<'_>,
-    found: &mut List<'_, Found>,
-    sharers: &mut List<'_, Sharer>,
+    found: &mut List<'_, ContactCandidate>,
+    shared_contacts: &mut List<'_, SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     if let [alone] = &mut found[..] {
         // It has nothing to share with and keeps the weight 1; nor is there a piece behind the wall.
-        if alone.stance == Stance::BeyondWall {
-            alone.stance = Stance::Dropped;
+        if alone.status == CandidateStatus::BeyondWall {
+            alone.status = CandidateStatus::Culled;
         }
         return Ok(());
     }
     let mut outcome = Ok(());
-    found.sort_unstable_by_key(Found::order);
+    found.sort_unstable_by_key(ContactCandidate::order);
     keep_first_ray_hits(found);
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
-        if group.iter().any(|contact| matches!(contact.stance, Stance::AtWall | Stance::BeyondWall)) {
-            settle_at_walls(group, context);
+        if group
+            .iter()
+            .any(|contact| matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall))
+        {
+            choose_piece_at_walls(group, context);
         }
         if group[0].half && group.len() > 1 {
-            keep_first_of_tips_at_walls(group, context);
+            keep_first_of_endpoints_at_walls(group, context);
         }
         if group[0].shares && group.len() > 1 {
             let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
             if (kind_a, group[0].kind_b) == (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) {
                 drop_what_the_body_lacks(group, &context.body_b.polyhedra);
             }
-            outcome = outcome.and(settle_surface(group, &context.body_b.triangles, sharers, scratch));
+            outcome = outcome.and(share_surface(group, &context.body_b.triangles, shared_contacts, scratch));
         }
     }
     outcome
 }
 
 /// One contact per ray: the least distance, ties in key order. Rays that also hit other movable groups of the same
-/// Object are settled when all are known.
-fn keep_first_ray_hits(found: &mut [Found]) {
+/// Object are judged when all are known.
+fn keep_first_ray_hits(found: &mut [ContactCandidate]) {
     for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
         let mut first: Option<usize> = None;
         for other in 0..hits.len() {
@@ -69,7 +72,7 @@ fn keep_first_ray_hits(found: &mut [Found]) {
                 continue;
             };
             let nearer = hits[other].ray_distance < hits[before].ray_distance;
-            hits[if nearer { before } else { other }].stance = Stance::Dropped;
+            hits[if nearer { before } else { other }].status = CandidateStatus::Culled;
             first = Some(if nearer { other } else { before });
         }
     }
@@ -81,41 +84,46 @@ fn keep_first_ray_hits(found: &mut [Found]) {
 /// Of the pieces that it is in, the first counts. If it is in none, it is where rounding opens a gap: the first piece
 /// counts that has all its neighbours there. Without the neighbours it is not a gap but the outside, beside a convex edge
 /// in which a wall ends.
-fn settle_at_walls(group: &mut [Found], context: &PairContext<'_>) {
-    let in_piece = |contact: &Found| contact.entry_face != NO_FACE && contact.stance != Stance::BeyondWall;
+fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
+    let in_piece = |contact: &ContactCandidate| {
+        contact.entry_face != NO_FACE && contact.status != CandidateStatus::BeyondWall
+    };
     let first = match group.iter().position(in_piece) {
         Some(first) => Some(first),
         None => (0..group.len()).find(|&index| has_neighbors_at_walls(group, index, context)),
     };
     for (index, contact) in group.iter_mut().enumerate() {
-        let is_at_wall = matches!(contact.stance, Stance::AtWall | Stance::BeyondWall);
+        let is_at_wall = matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall);
         if is_at_wall && first != Some(index) {
-            contact.stance = Stance::Dropped;
+            contact.status = CandidateStatus::Culled;
         }
     }
 }
 
-/// The tip of a segment at inner walls of a body is in one of its pieces as well: of those that have it, the first counts.
-fn keep_first_of_tips_at_walls(group: &mut [Found], context: &PairContext<'_>) {
+/// The endpoint of a segment at inner walls of a body is in one of its pieces as well: of those that have it, the first counts.
+fn keep_first_of_endpoints_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
     let polyhedra = &context.body_b.polyhedra;
     for index in 1..group.len() {
-        let (before, tip) = (&group[..index], &group[index]);
-        // Where a segment leaves differs from piece to piece; its tip is the same to the bit.
-        let is_same_tip = |other: &Found| other.point_a == tip.point_a && other.stance != Stance::Dropped;
-        let is_at_wall = || match polyhedra[tip.element_b as usize].containment(&tip.point_a) {
+        let (before, endpoint) = (&group[..index], &group[index]);
+        // Where a segment leaves differs from piece to piece; its endpoint is the same to the bit.
+        let is_same_endpoint = |other: &ContactCandidate| {
+            other.point_a == endpoint.point_a && other.status != CandidateStatus::Culled
+        };
+        let is_at_wall = || match polyhedra[endpoint.element_b as usize].containment(&endpoint.point_a) {
             Containment::AtWall | Containment::BeyondWall => true,
             Containment::Inside | Containment::Outside => false,
         };
-        if tip.kind_b == PrimitiveKind::Polyhedron && before.iter().any(is_same_tip) && is_at_wall() {
-            group[index].stance = Stance::Dropped;
+        if endpoint.kind_b == PrimitiveKind::Polyhedron && before.iter().any(is_same_endpoint) && is_at_wall()
+        {
+            group[index].status = CandidateStatus::Culled;
         }
     }
 }
 
 /// Whether at each wall of a piece at which the point is there is one of the other pieces that it is in or at.
-fn has_neighbors_at_walls(group: &[Found], index: usize, context: &PairContext<'_>) -> bool {
+fn has_neighbors_at_walls(group: &[ContactCandidate], index: usize, context: &PairContext<'_>) -> bool {
     let found = &group[index];
-    if found.stance != Stance::BeyondWall {
+    if found.status != CandidateStatus::BeyondWall {
         return false;
     }
     let (body_a, element) = (context.body_a, found.element_a as usize);
@@ -128,67 +136,69 @@ fn has_neighbors_at_walls(group: &[Found], index: usize, context: &PairContext<'
     // Twins have the same plane to the bit.
     let has_twin = |wall: &PolyhedronFace| {
         let is_twin = |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
-        let pieces = group.iter().filter(|other| other.stance == Stance::BeyondWall);
+        let pieces = group.iter().filter(|other| other.status == CandidateStatus::BeyondWall);
         pieces.into_iter().any(|other| polyhedra[other.element_b as usize].faces.iter().any(is_twin))
     };
     polyhedra[found.element_b as usize].walls_at(&point).all(has_twin)
 }
 
 /// Contacts of one sphere or ellipsoid with one surface.
-fn settle_surface(
-    group: &mut [Found],
+fn share_surface(
+    group: &mut [ContactCandidate],
     triangles: &TriangleSet,
-    sharers: &mut List<'_, Sharer>,
+    shared_contacts: &mut List<'_, SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     drop_deeper_of_convex_faces(group, triangles);
-    drop_idle_spares(group);
-    let counts = |contact: &Found| contact.stance != Stance::Dropped && contact.role == Role::Pushes;
-    sharers.clear();
+    cull_idle_fallbacks(group);
+    let counts = |contact: &ContactCandidate| {
+        contact.status != CandidateStatus::Culled && contact.role == ContactRole::Active
+    };
+    shared_contacts.clear();
     for contact in group.iter().filter(|contact| counts(contact)) {
-        let sharer = Sharer::new(contact.normal, contact.depth);
-        sharers.push(sharer).expect("as much room as for what was found");
+        let shared_contact = SharedContact::new(contact.normal, contact.depth);
+        shared_contacts.push(shared_contact).expect("as much room as for what was found");
     }
-    let outcome = share_within(sharers, scratch);
-    for (contact, sharer) in group.iter_mut().filter(|c| counts(c)).zip(sharers.iter()) {
-        contact.weight = sharer.lambda / sharer.depth;
+    let outcome = share_within(shared_contacts, scratch);
+    for (contact, shared_contact) in group.iter_mut().filter(|c| counts(c)).zip(shared_contacts.iter()) {
+        contact.weight = shared_contact.lambda / shared_contact.depth;
         if contact.weight > 0.0 {
             continue;
         }
-        if contact.entry_face != NO_FACE || contact.stance == Stance::Behind {
-            contact.role = Role::Silent;
+        if contact.entry_face != NO_FACE || contact.status == CandidateStatus::BackFace {
+            contact.role = ContactRole::Tracked;
         } else {
-            contact.stance = Stance::Dropped;
+            contact.status = CandidateStatus::Culled;
         }
     }
     outcome
 }
 
 /// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
-fn drop_deeper_of_convex_faces(group: &mut [Found], triangles: &TriangleSet) {
+fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     for i in 0..group.len() {
         let contact = &group[i];
-        if contact.stance != Stance::Behind {
+        if contact.status != CandidateStatus::BackFace {
             continue;
         }
         let is_covered = group.iter().any(|other| {
-            let counts = other.role == Role::Pushes && is_triangles_face(other);
+            let counts = other.role == ContactRole::Active && is_triangles_face(other);
             counts
                 && pushes_before(other, contact)
                 && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other))
         });
         if is_covered {
-            group[i].role = Role::Silent;
+            group[i].role = ContactRole::Tracked;
         }
     }
 }
 
-fn is_triangles_face(contact: &Found) -> bool {
+fn is_triangles_face(contact: &ContactCandidate) -> bool {
     contact.kind_b == PrimitiveKind::Triangle && contact.feature.is_face()
 }
 
 /// Whether the triangles of two contacts meet convexly in an edge.
-fn meet_in_an_edge(contact: &Found, other: &Found, triangles: &TriangleSet) -> bool {
+fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let neighbors = &triangles.triangles[contact.element_b as usize].neighbors;
     let edge = neighbors.iter().position(|neighbor| *neighbor == other.element_b);
     edge.is_some_and(|k| {
@@ -199,24 +209,24 @@ fn meet_in_an_edge(contact: &Found, other: &Found, triangles: &TriangleSet) -> b
 
 /// Whether two faces meet convexly, however many triangles lie between the two that push: the centre is behind both, and
 /// where each is touched lies below the plane of the other. Beside a concave edge it lies above.
-fn meet_below(contact: &Found, other: &Found) -> bool {
-    let touched = |of: &Found| of.point_a + of.normal * of.depth;
+fn meet_below(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
+    let touched = |of: &ContactCandidate| of.point_a + of.normal * of.depth;
     let apart = touched(other) - touched(contact);
-    let are_faces = other.stance == Stance::Behind && is_triangles_face(contact);
+    let are_faces = other.status == CandidateStatus::BackFace && is_triangles_face(contact);
     are_faces && contact.normal.dot(&apart) < 0.0 && other.normal.dot(&apart) > 0.0
 }
 
-/// A spare contact counts only where rounding has left nothing else that is as deep.
-fn drop_idle_spares(group: &mut [Found]) {
+/// A fallback contact counts only where rounding has left nothing else that is as deep.
+fn cull_idle_fallbacks(group: &mut [ContactCandidate]) {
     let deepest = group
         .iter()
-        .filter(|contact| !matches!(contact.stance, Stance::Spare | Stance::Dropped))
-        .filter(|contact| contact.role == Role::Pushes)
+        .filter(|contact| !matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::Culled))
+        .filter(|contact| contact.role == ContactRole::Active)
         .map(|contact| contact.depth)
         .fold(0.0, f64::max);
-    for contact in group.iter_mut().filter(|contact| contact.stance == Stance::Spare) {
-        if deepest >= contact.depth * (1.0 - SPARE_DEPTH_SLACK) {
-            contact.stance = Stance::Dropped;
+    for contact in group.iter_mut().filter(|contact| contact.status == CandidateStatus::Fallback) {
+        if deepest >= contact.depth * (1.0 - FALLBACK_DEPTH_SLACK) {
+            contact.status = CandidateStatus::Culled;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Which contacts of one ellipsoid with the pieces of one body count: those that the uncut body would have.
 
-use crate::frame::buffers::{Found, Stance};
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::Polyhedron;
 
@@ -18,28 +18,28 @@ const PLACE_SLACK: f64 = 1e-9;
 /// A piece finds the least overlap among its own features. Of two pieces' features that meet convexly, only the less
 /// deep is the minimum translation; features that meet concavely, as two walls of a corner, are overcome each for itself.
 /// A contact that only stands in for a piece counts if there is none but such.
-pub(crate) fn drop_what_the_body_lacks(group: &mut [Found], pieces: &[Polyhedron]) {
-    let stands_in = |contact: &Found| contact.stance == Stance::Spare;
+pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &[Polyhedron]) {
+    let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::Fallback;
     if !group.iter().all(stands_in) {
         group
             .iter_mut()
             .filter(|contact| stands_in(contact))
-            .for_each(|spare| spare.stance = Stance::Dropped);
+            .for_each(|spare| spare.status = CandidateStatus::Culled);
     }
     for i in 0..group.len() {
         let contact = &group[i];
         let is_covered = group.iter().any(|other| {
-            let counts = other.stance != Stance::Dropped;
+            let counts = other.status != CandidateStatus::Culled;
             counts && pushes_before(other, contact) && meet_convexly(contact, other, pieces)
         });
-        if contact.stance != Stance::Dropped && is_covered {
-            group[i].stance = Stance::Dropped;
+        if contact.status != CandidateStatus::Culled && is_covered {
+            group[i].status = CandidateStatus::Culled;
         }
     }
 }
 
 /// Whether the first contact is less deep; of two equally deep ones the first in the order of sums is.
-pub(crate) fn pushes_before(contact: &Found, other: &Found) -> bool {
+pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let rounding = DEPTH_SLACK * other.depth;
     let difference = contact.depth - other.depth;
     difference < -rounding || (difference <= rounding && contact.order() < other.order())
@@ -47,8 +47,8 @@ pub(crate) fn pushes_before(contact: &Found, other: &Found) -> bool {
 
 /// Whether what is touched belongs to one convex body: each place lies below the plane through the other across its
 /// normal, or in it.
-fn meet_convexly(contact: &Found, other: &Found, pieces: &[Polyhedron]) -> bool {
-    if contact.stance == Stance::Spare && other.stance == Stance::Spare {
+fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
+    if contact.status == CandidateStatus::Fallback && other.status == CandidateStatus::Fallback {
         // The feet lie beside the pieces and say nothing; the faces themselves do.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
@@ -63,12 +63,12 @@ fn meet_convexly(contact: &Found, other: &Found, pieces: &[Polyhedron]) -> bool 
 }
 
 /// Where A's deepest point comes to lie once it is pushed out.
-fn touched(contact: &Found) -> Vec3 {
+fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.point_a + contact.normal * contact.depth
 }
 
 /// Whether the face of one contact lies below the plane of another, or in it.
-fn lies_below(of: &Found, other: &Found, pieces: &[Polyhedron]) -> bool {
+fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     let piece = &pieces[of.element_b as usize];
     let plane = &pieces[other.element_b as usize].faces[other.feature.index()];
     let corners = piece.rim(of.feature.index()).iter().map(|rim| piece.vertices[rim.start as usize].position);

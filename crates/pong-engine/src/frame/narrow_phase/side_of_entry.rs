@@ -2,7 +2,7 @@
 //! (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
-use crate::state::{ContactKey, ContactMemory, NO_FACE, Role, SAME_WAY_COSINE_MIN};
+use crate::state::{ContactKey, ContactMemory, ContactRole, NO_FACE, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
@@ -127,22 +127,22 @@ pub(crate) struct TriangleEntry<'a> {
 
 impl TriangleEntry<'_> {
     /// Whether a contact pushes or is barred; `None` if it does not count at all.
-    pub fn role(&self, key: &ContactKey, contact: &TriangleContact) -> Option<Role> {
+    pub fn role(&self, key: &ContactKey, contact: &TriangleContact) -> Option<ContactRole> {
         let nearby = self.nearby();
         let may_be_behind = contact.standing != Standing::Front || nearby.is_mirror();
         if may_be_behind && nearby.is_behind(contact) {
-            return self.pushes_from_behind(key, contact).then_some(Role::Pushes);
+            return self.pushes_from_behind(key, contact).then_some(ContactRole::Active);
         }
         let continues = |role| self.memory.matching(key, &contact.interference.normal, role).is_some();
-        if continues(Role::Pushes) || continues(Role::Silent) {
-            return Some(Role::Pushes);
+        if continues(ContactRole::Active) || continues(ContactRole::Tracked) {
+            return Some(ContactRole::Active);
         }
-        if continues(Role::Barred) {
-            return Some(Role::Barred);
+        if continues(ContactRole::WrongSide) {
+            return Some(ContactRole::WrongSide);
         }
-        let Some(earlier) = self.earlier else { return Some(Role::Pushes) };
+        let Some(earlier) = self.earlier else { return Some(ContactRole::Active) };
         let barred = !self.was_in_front(&earlier) && self.came_from_behind(&earlier, key.shell_b);
-        Some(if barred { Role::Barred } else { Role::Pushes })
+        Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
     }
 
     /// Whether a feature that the centre is behind pushes it back to the front: the centre came from there.
@@ -156,7 +156,7 @@ impl TriangleEntry<'_> {
         if self.was_held_behind(key, normal, &earlier) {
             return true;
         }
-        if self.memory.matching(key, normal, Role::Barred).is_some() {
+        if self.memory.matching(key, normal, ContactRole::WrongSide).is_some() {
             return false;
         }
         let set = &self.body.triangles;
@@ -198,7 +198,7 @@ impl TriangleEntry<'_> {
                 let arm = earlier - place;
                 record.normal.dot(&arm) <= ROUNDING * (arm.norm() + earlier.amax())
             };
-            record.role != Role::Barred
+            record.role != ContactRole::WrongSide
                 && record.normal.dot(normal) > SAME_WAY_COSINE_MIN
                 && place().is_some_and(is_behind)
         })

@@ -1,10 +1,10 @@
 //! Pairs of primitives: runs the tester of a pair of kinds, hands out contacts under their keys.
 
 use crate::frame::broad_phase::chunk::Chunk;
-use crate::frame::broad_phase::transformed::Carried;
-use crate::frame::buffers::{Found, Stance};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::Motion;
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::frame::narrow_phase::nearest_side::{KnownSides, Nearby};
 use crate::frame::narrow_phase::side_of_entry::{PolyhedronEntry, TriangleEntry};
 use crate::pair_table::has_tester;
@@ -33,7 +33,7 @@ use pong_model::{Body, Item, PrimitiveInfo};
 
 /// What testers find for one chunk of A.
 pub(crate) struct Findings<'m> {
-    pub list: List<'m, Found>,
+    pub list: List<'m, ContactCandidate>,
     /// How many there were, those without room included.
     pub seen: u64,
     /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
@@ -59,7 +59,7 @@ impl Default for Waiting {
 }
 
 impl<'m> Findings<'m> {
-    pub fn new(list: List<'m, Found>, waiting: &'m mut Waiting) -> Self {
+    pub fn new(list: List<'m, ContactCandidate>, waiting: &'m mut Waiting) -> Self {
         // A panic may have left some.
         waiting.pairs.clear();
         Self { list, seen: 0, overflowed: false, waiting, sides: KnownSides::default() }
@@ -76,13 +76,14 @@ impl<'m> Findings<'m> {
         self.waiting.pairs.count() > 0
     }
 
-    fn add(&mut self, found: Found) {
+    fn add(&mut self, found: ContactCandidate) {
         self.seen += 1;
         if self.list.len() == self.list.capacity() {
             self.overflowed = true;
             let half = self.list.capacity() / 2;
-            let deeper_first =
-                |a: &Found, b: &Found| b.depth.total_cmp(&a.depth).then(a.order().cmp(&b.order()));
+            let deeper_first = |a: &ContactCandidate, b: &ContactCandidate| {
+                b.depth.total_cmp(&a.depth).then(a.order().cmp(&b.order()))
+            };
             self.list.select_nth_unstable_by(half, deeper_first);
             self.list.truncate(half);
         }
@@ -197,11 +198,11 @@ fn thickness_for(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> 
 }
 
 /// How a point in a piece of a body stands among those of the same surface.
-fn stance_of(containment: Containment) -> Stance {
+fn status_of(containment: Containment) -> CandidateStatus {
     match containment {
-        Containment::AtWall => Stance::AtWall,
-        Containment::BeyondWall => Stance::BeyondWall,
-        Containment::Inside | Containment::Outside => Stance::Plain,
+        Containment::AtWall => CandidateStatus::AtWall,
+        Containment::BeyondWall => CandidateStatus::BeyondWall,
+        Containment::Inside | Containment::Outside => CandidateStatus::Front,
     }
 }
 
@@ -230,14 +231,14 @@ impl<'a> Side<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    fn test(&self, a: &Carried, found: &mut Findings<'_>) {
+    fn test(&self, a: &TransformedPrimitive, found: &mut Findings<'_>) {
         let kind_b = self.kind_b;
         match a {
-            Carried::Point(point) => self.test_point(point, kind_b, found),
-            Carried::Segment(segment) => self.test_segment(segment, kind_b, found),
-            Carried::Ray(ray) => self.test_ray(ray, kind_b, found),
-            Carried::Sphere(sphere) => self.test_sphere(sphere, kind_b, found),
-            Carried::Ellipsoid(ellipsoid) => self.test_ellipsoid(ellipsoid, kind_b, found),
+            TransformedPrimitive::Point(point) => self.test_point(point, kind_b, found),
+            TransformedPrimitive::Segment(segment) => self.test_segment(segment, kind_b, found),
+            TransformedPrimitive::Ray(ray) => self.test_ray(ray, kind_b, found),
+            TransformedPrimitive::Sphere(sphere) => self.test_sphere(sphere, kind_b, found),
+            TransformedPrimitive::Ellipsoid(ellipsoid) => self.test_ellipsoid(ellipsoid, kind_b, found),
         }
     }
 
@@ -252,9 +253,9 @@ impl<'a> Side<'a> {
             _ => {
                 // Only points inside, or at an inner wall, get here.
                 let polyhedron = &body.polyhedra[b];
-                let stance = match polyhedron.planes().all_active {
-                    true => Stance::Plain,
-                    false => stance_of(polyhedron.containment(&point.position)),
+                let status = match polyhedron.planes().all_active {
+                    true => CandidateStatus::Front,
+                    false => status_of(polyhedron.containment(&point.position)),
                 };
                 let local = self.body_a().points[self.item_a.element as usize].position;
                 let Some(face) = self.entry_face(&local, &point.position) else { return };
@@ -262,7 +263,7 @@ impl<'a> Side<'a> {
                 if let Some(contact) = contact {
                     self.emit(&contact, found, |out| {
                         out.entry_face = face.reached as u32;
-                        out.stance = stance;
+                        out.status = status;
                     });
                 }
             }
@@ -336,7 +337,7 @@ impl<'a> Side<'a> {
         let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
         self.emit(&contact, found, |out| {
             out.shares = true;
-            out.stance = stance_of(containment);
+            out.status = status_of(containment);
             out.entry_face = face.reached as u32;
         });
     }
@@ -349,7 +350,8 @@ impl<'a> Side<'a> {
                 let Some(contact) = ellipsoid_piece(ellipsoid, &body.polyhedra[b]) else { return };
                 self.emit(&contact.interference, found, |out| {
                     out.shares = true;
-                    out.stance = if contact.stands_in { Stance::Spare } else { Stance::Plain };
+                    out.status =
+                        if contact.stands_in { CandidateStatus::Fallback } else { CandidateStatus::Front };
                 });
             }
             _ => {
@@ -391,10 +393,10 @@ impl<'a> Side<'a> {
         self.emit(&contact.interference, found, |out| {
             out.shares = true;
             out.role = role;
-            out.stance = match contact.standing {
-                Standing::Front => Stance::Plain,
-                Standing::Behind => Stance::Behind,
-                Standing::Spare => Stance::Spare,
+            out.status = match contact.standing {
+                Standing::Front => CandidateStatus::Front,
+                Standing::Behind => CandidateStatus::BackFace,
+                Standing::Spare => CandidateStatus::Fallback,
             };
         });
     }
@@ -451,8 +453,13 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn emit(&self, contact: &Interference, found: &mut Findings<'_>, adjust: impl FnOnce(&mut Found)) {
-        let mut out = Found::new(self.key(), contact);
+    fn emit(
+        &self,
+        contact: &Interference,
+        found: &mut Findings<'_>,
+        adjust: impl FnOnce(&mut ContactCandidate),
+    ) {
+        let mut out = ContactCandidate::new(self.key(), contact);
         out.primitive_b = self.item_b.primitive;
         out.element_a = self.item_a.element;
         out.element_b = self.item_b.element;

@@ -2,16 +2,16 @@
 
 use crate::contact::{Contact, ContactSide};
 use crate::energy::account::Account;
-use crate::frame::Frame;
-use crate::frame::buffers::FrameContact;
+use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::energy::accounts::account_of;
+use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::Role;
+use crate::sealed::Sealed;
+use crate::state::ContactRole;
 use pong_geometry::Vec3;
 
-impl Frame {
+impl EvaluationBuffers {
     /// Every contact that pushes, in key order.
     pub fn list_contacts<'a>(
         &'a self,
@@ -24,9 +24,9 @@ impl Frame {
 
     /// Accounts of the contacts that push, in key order.
     pub fn list_accounts<'a>(&'a self, sealed: &'a Sealed) -> impl Iterator<Item = Account> + 'a {
-        let out = &self.lane.out;
+        let out = &self.caller.out;
         let pushing = self.order.iter().map(|place| place.index as usize);
-        let pushing = pushing.filter(|&index| out.contacts[index].found.role == Role::Pushes);
+        let pushing = pushing.filter(|&index| out.contacts[index].found.role == ContactRole::Active);
         pushing
             .map(|index| account_of(&out.custom_of(index)[sealed.account_at..], out.contacts[index].stored))
     }

@@ -1,15 +1,16 @@
 //! The contacts that count, in the order of every sum; where there are too many, the deepest.
 
-use crate::frame::Frame;
-use crate::frame::buffers::{Place, Stance};
+use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::buffers::Place;
 use crate::frame::forces;
-use crate::frame::worker_context::Lane;
+use crate::frame::narrow_phase::candidate::CandidateStatus;
+use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
-use crate::seal::Sealed;
+use crate::sealed::Sealed;
 
 /// Puts the contacts in order, whoever found them.
-pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
+pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
     list(frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
@@ -17,18 +18,18 @@ pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     let pushing = frame.pushing().count();
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
     let found = (pushing as u64, (frame.order.len() - pushing) as u64);
-    let wants = frame.lane.out.wants;
-    let (pushing, remembered) = if wants.overflowed { (wants.pushing, wants.remembered) } else { found };
+    let demand = frame.caller.out.demand;
+    let (pushing, remembered) = if demand.overflowed { (demand.pushing, demand.remembered) } else { found };
     frame.report.contacts_wanted = saturated(pushing);
-    if wants.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
+    if demand.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
-        frame.report.contacts_wanted = saturated(pushing.max(remembered).max(wants.at_once));
-        frame.lane.out.keep_deepest(capacity, spare);
+        frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
+        frame.caller.out.keep_deepest(capacity, spare);
         list(frame);
-        forces::press_again(scene, sealed, frame);
+        forces::recompute_forces(scene, sealed, frame);
     }
-    if wants.unshared {
+    if demand.unshared {
         frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
     }
     frame.report.contacts = frame.pushing().count() as u32;
@@ -38,23 +39,23 @@ fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
-fn list(frame: &mut Frame) {
+fn list(frame: &mut EvaluationBuffers) {
     frame.order.clear();
-    for (index, contact) in frame.lane.out.contacts.iter().enumerate() {
+    for (index, contact) in frame.caller.out.contacts.iter().enumerate() {
         let place = Place { head: contact.found.key.head(), index: index as u32 };
         frame.order.push(place).expect("as many places as contacts");
     }
     frame.order.sort_unstable_by_key(|place| place.head);
-    let contacts = &frame.lane.out.contacts;
+    let contacts = &frame.caller.out.contacts;
     for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
     }
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
-fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
-    let Frame { lane, order, .. } = frame;
-    let Lane { scratch, out, .. } = lane;
+fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
+    let EvaluationBuffers { caller, order, .. } = frame;
+    let WorkerContext { scratch, out, .. } = caller;
     scratch.reset();
     // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
@@ -74,8 +75,8 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut Frame) {
     for later in hits.windows(2) {
         let [(first, _), (second, _)] = [later[0], later[1]];
         if (first.0, first.1, first.2) == (second.0, second.1, second.2) {
-            out.contacts[order[second.3].index as usize].found.stance = Stance::Dropped;
+            out.contacts[order[second.3].index as usize].found.status = CandidateStatus::Culled;
         }
     }
-    order.retain(|place| out.contacts[place.index as usize].found.stance != Stance::Dropped);
+    order.retain(|place| out.contacts[place.index as usize].found.status != CandidateStatus::Culled);
 }

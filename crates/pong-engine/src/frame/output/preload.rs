@@ -9,14 +9,14 @@
 //! Bodies that a load displaces against each other displace all bristles between them alike, so each holds by its share of
 //! the sum of the stiffnesses.
 
-use crate::frame::Frame;
-use crate::frame::buffers::FrameContact;
+use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::bristle_share;
+use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::PairContext;
 use crate::law::FrictionProps;
 use crate::scene::Scene;
-use crate::seal::Sealed;
-use crate::state::{ContactMemory, Role};
+use crate::sealed::Sealed;
+use crate::state::{ContactMemory, ContactRole};
 use pong_geometry::Vec3;
 
 /// What the bristles of a pair of Objects are preloaded with.
@@ -51,7 +51,7 @@ struct Held<'f> {
     static_limit: f64,
 }
 
-impl Frame {
+impl EvaluationBuffers {
     /// The bristles of a pair of Objects after a commit of this frame.
     pub fn preloaded(
         &self,
@@ -82,7 +82,7 @@ impl Frame {
     }
 
     fn held(&self, scene: &Scene, sealed: &Sealed, pair: usize) -> Vec<Held<'_>> {
-        let contact_at = |place: usize| &self.lane.out.contacts[self.order[place].index as usize];
+        let contact_at = |place: usize| &self.caller.out.contacts[self.order[place].index as usize];
         let places: Vec<usize> = (0..self.order.len()).collect();
         let mut all = Vec::new();
         for group in places.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {
@@ -97,7 +97,7 @@ impl Frame {
                 let FrictionProps::Bristle { stiffness, mu_kinetic, mu_static, .. } = props.friction else {
                     continue;
                 };
-                if contact.found.role != Role::Pushes || contact.normal_force <= 0.0 {
+                if contact.found.role != ContactRole::Active || contact.normal_force <= 0.0 {
                     continue;
                 }
                 let share =

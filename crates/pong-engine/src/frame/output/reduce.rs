@@ -1,16 +1,17 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
-use crate::frame::{Frame, FrameContact};
-use crate::seal::Sealed;
-use crate::state::Role;
+use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::contact::FrameContact;
+use crate::sealed::Sealed;
+use crate::state::ContactRole;
 use pong_geometry::Wrench;
 
 /// Adds every contact to both of its movable groups.
-pub(crate) fn sum(sealed: &Sealed, frame: &mut Frame) {
-    let Frame { lane, order, wrenches, .. } = frame;
+pub(crate) fn sum(sealed: &Sealed, frame: &mut EvaluationBuffers) {
+    let EvaluationBuffers { caller, order, wrenches, .. } = frame;
     for place in order.iter() {
-        let contact = &lane.out.contacts[place.index as usize];
-        if contact.found.role == Role::Pushes {
+        let contact = &caller.out.contacts[place.index as usize];
+        if contact.found.role == ContactRole::Active {
             let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
             wrenches[body_a] += contact.wrenches[0];
             wrenches[body_b] += contact.wrenches[1];
@@ -21,7 +22,7 @@ pub(crate) fn sum(sealed: &Sealed, frame: &mut Frame) {
 /// What the turn to the axes of another frame must not carry out of the range of numbers.
 const LARGEST: f64 = f64::MAX / 16.0;
 
-impl Frame {
+impl EvaluationBuffers {
     /// A movable group whose numbers have left the range of numbers, if any: a product or sum of finite ones can.
     pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
         // False for what is not a number, too.
@@ -35,7 +36,7 @@ impl Frame {
             let of_contact = |contact: &FrameContact| {
                 contact.normal_force + contact.friction_force.abs().sum() + contact.stored.abs()
             };
-            let mut contacts = self.order.iter().map(|place| &self.lane.out.contacts[place.index as usize]);
+            let mut contacts = self.order.iter().map(|place| &self.caller.out.contacts[place.index as usize]);
             let bad = contacts.find(|contact| !holds(of_contact(contact)));
             let ledger = !holds(self.work.abs() + self.dissipated.abs());
             // Energies are nobody's: the first group stands for all.

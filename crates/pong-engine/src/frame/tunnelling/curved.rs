@@ -1,6 +1,6 @@
 //! Lines through spheres and ellipsoids: of two balls, through the larger, whichever it is.
 
-use super::{Line, Met};
+use super::line::{Line, Met};
 use crate::frame::input::PairContext;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Mat3, Vec3};

@@ -1,12 +1,15 @@
 //! Contacts that ended: did what they pushed to one side come out on the other? So does what is pressed slowly through
 //! something too soft, which no length of a line tells.
 
+use super::events::TunnellingEvents;
+use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
+use super::line::Line;
 use super::sheets::along;
-use super::{Line, Passages, SAME_SIDE_COSINE_MIN, Seen, pushing, solids};
-use crate::frame::Given;
-use crate::frame::buffers::Frame;
-use crate::frame::forces::reference_point;
-use crate::state::{ContactRecord, Role};
+use super::solids;
+use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::reference_point::reference_point;
+use crate::frame::input::EvaluationInput;
+use crate::state::{ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::TriangleView;
@@ -19,14 +22,20 @@ use pong_model::box_tree::{Child, lanes};
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 
 /// Looks at every committed contact that no present one continues.
-pub(super) fn look_at_ended(given: &Given<'_>, frame: &Frame, passages: &mut Passages) {
+pub(super) fn look_at_ended(
+    given: &EvaluationInput<'_>,
+    frame: &EvaluationBuffers,
+    events: &mut TunnellingEvents,
+) {
     let records = &given.memory.records;
-    let continued = frame.lane.scratch.slice(records.len(), false).expect("sealing has sized the scratch");
+    let continued = frame.caller.scratch.slice(records.len(), false).expect("sealing has sized the scratch");
     for record in frame.in_order().filter_map(|contact| contact.continues) {
         continued[record as usize] = true;
     }
-    let ended =
-        records.iter().zip(&*continued).filter(|(record, go_on)| record.role == Role::Pushes && !**go_on);
+    let ended = records
+        .iter()
+        .zip(&*continued)
+        .filter(|(record, go_on)| record.role == ContactRole::Active && !**go_on);
     for (record, _) in ended {
         let pair = &given.sealed.group_pairs[record.key.group_pair as usize];
         if !given.states.enabled[pair.pair] {
@@ -39,7 +48,7 @@ pub(super) fn look_at_ended(given: &Given<'_>, frame: &Frame, passages: &mut Pas
         let direction = (record.key.group_pair, record.key.flipped);
         let seen = Seen::of_direction(given, direction, given.sealed.bodies_of(&record.key), frame);
         if seen.came_out_behind(record) {
-            passages.note(seen.passed(record.key.primitive_a));
+            events.note(seen.passed(record.key.primitive_a));
         }
     }
 }

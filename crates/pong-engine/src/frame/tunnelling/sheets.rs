@@ -1,6 +1,6 @@
 //! Lines through triangles. What comes from behind passes by right (docs/theory.md, 2.2).
 
-use super::{Line, Met};
+use super::line::{Line, Met};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::primitive::{Ray, RayResponse, TriangleSet};

@@ -1,6 +1,6 @@
 //! Lines through polyhedra. The pieces of a shell, joined by inner walls, are one solid.
 
-use super::{Line, Met};
+use super::line::{Line, Met};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::entry_of_line;
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind};

@@ -2,7 +2,7 @@
 
 use super::solids::width_m;
 use crate::frame::input::motion::Motion;
-use crate::seal::Plan;
+use crate::sealed::Plan;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Batch, Body};

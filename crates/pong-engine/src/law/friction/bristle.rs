@@ -18,8 +18,8 @@
 //!
 //! Products with K stand for the lengths p_s and p_k, so that K = 0 needs no case of its own.
 
+use super::force::{FrictionInput, FrictionOutput};
 use super::slip_path::on_circle;
-use super::{FrictionInput, FrictionOutput};
 use pong_geometry::Vec3;
 
 /// What rounding may do to a force that stands on its limit, as a part of the limit: a carried bristle and the product

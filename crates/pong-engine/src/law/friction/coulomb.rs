@@ -2,7 +2,7 @@
 //!
 //! It has no memory and creeps under any load: below v_ε it is a damper.
 
-use super::{FrictionInput, FrictionOutput};
+use super::force::{FrictionInput, FrictionOutput};
 
 pub(super) fn evaluate(mu: f64, slip_speed: f64, input: &FrictionInput<'_>) -> FrictionOutput {
     let speed = input.slip_velocity.norm();

@@ -16,7 +16,7 @@
 //!
 //! (own; theory manual, section 4). A radial return p_k·p*/|p*| lags behind by one order of the step.
 
-use super::FrictionInput;
+use super::force::FrictionInput;
 use pong_geometry::Vec3;
 
 /// Below this z the lag is summed as a series: its closed form cancels, and loses 2·10⁻¹⁶/z of a radian.
@@ -33,7 +33,7 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
         return unit_or(&input.carried, Vec3::zeros()) * radius;
     }
     let along = input.slip / length;
-    let way = Way::after_leaving(&input.carried, &along, length, left_at);
+    let way = Traversal::after_leaving(&input.carried, &along, length, left_at);
     if way.left <= 0.0 {
         return way.direction * radius;
     }
@@ -49,14 +49,14 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
 }
 
 /// Where the circle was left on a straight way.
-struct Way {
+struct Traversal {
     /// Unit vector of the bristle there. It points along the way or across it, never back, where any of the way is left.
     direction: Vec3,
     /// The part of the way that was left, m.
     left: f64,
 }
 
-impl Way {
+impl Traversal {
     /// From `start` along a unit vector to an end outside of the circle of radius `circle`: where it leaves that circle for
     /// the last time, or comes nearest to it. The load may have fallen, so that all of the way lies outside.
     ///

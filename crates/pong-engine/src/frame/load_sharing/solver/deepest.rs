@@ -1,11 +1,13 @@
 //! Where the scratch memory is too small for all contacts: as many of the deepest as it can hold are shared exactly,
 //! the others get nothing. The same contacts and the same size of memory always give the same shares.
 
-use super::{Sharer, deepest_of, solve, uncoupled};
+use super::shared_contact::{SharedContact, deepest_of};
+use super::solve::solve;
+use super::uncoupled;
 use pong_arena::{Arena, Full};
 
 /// Fills in the λ of every contact; those that are left out get 0.
-pub(super) fn share(contacts: &mut [Sharer], scratch: &mut Arena) {
+pub(super) fn share(contacts: &mut [SharedContact], scratch: &mut Arena) {
     scratch.reset();
     contacts.iter_mut().for_each(|contact| contact.lambda = 0.0);
     let count = (0..contacts.len()).take_while(|&n| bytes(n + 1) <= scratch.capacity()).count();
@@ -17,11 +19,11 @@ pub(super) fn share(contacts: &mut [Sharer], scratch: &mut Arena) {
 
 /// Scratch memory for the choice and the shares of so many contacts, bytes.
 fn bytes(count: usize) -> usize {
-    uncoupled::tableau(count).and::<u32>(count).and::<Sharer>(count).bytes()
+    uncoupled::tableau(count).and::<u32>(count).and::<SharedContact>(count).bytes()
 }
 
 /// Shares the `count` deepest, in the order that they have among all.
-fn share_some(contacts: &mut [Sharer], count: usize, scratch: &Arena) -> Result<(), Full> {
+fn share_some(contacts: &mut [SharedContact], count: usize, scratch: &Arena) -> Result<(), Full> {
     let mut chosen = scratch.list::<u32>(count)?;
     let mut last = None;
     for _ in 0..count {
@@ -29,19 +31,19 @@ fn share_some(contacts: &mut [Sharer], count: usize, scratch: &Arena) -> Result<
         last.map_or(Ok(()), |index| chosen.push(index as u32))?;
     }
     chosen.sort_unstable();
-    let mut sharers = scratch.list(count)?;
+    let mut shared_contacts = scratch.list(count)?;
     for &index in &*chosen {
-        sharers.push(contacts[index as usize])?;
+        shared_contacts.push(contacts[index as usize])?;
     }
-    solve(&mut sharers, scratch)?;
-    for (&index, sharer) in chosen.iter().zip(&*sharers) {
-        contacts[index as usize].lambda = sharer.lambda;
+    solve(&mut shared_contacts, scratch)?;
+    for (&index, shared_contact) in chosen.iter().zip(&*shared_contacts) {
+        contacts[index as usize].lambda = shared_contact.lambda;
     }
     Ok(())
 }
 
 /// The deepest of the contacts that come after `last`, by depth and then in their order.
-fn next_deepest(contacts: &[Sharer], last: Option<usize>) -> Option<usize> {
+fn next_deepest(contacts: &[SharedContact], last: Option<usize>) -> Option<usize> {
     let comes_after = |i: usize, j: usize| {
         contacts[i].depth < contacts[j].depth || (contacts[i].depth == contacts[j].depth && i > j)
     };

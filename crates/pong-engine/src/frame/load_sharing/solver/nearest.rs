@@ -12,7 +12,7 @@
 //! Everything is seen from the deepest contact and measured in its depth: of nearly parallel normals the differences are
 //! exact where products of the normals are not.
 
-use super::{Coupling, Sharer, deepest_of};
+use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use pong_geometry::Vec3;
 
 /// Relative to the largest depth: how far a contact may be violated. The depths themselves are not rounded better.
@@ -37,7 +37,7 @@ pub(super) struct Shortest {
 
 impl Shortest {
     /// Of contacts which all couple; there is at least one.
-    pub fn new(contacts: &[Sharer]) -> Self {
+    pub fn new(contacts: &[SharedContact]) -> Self {
         let deepest = deepest_of(contacts);
         let mut best = Self::at(contacts, deepest, HullPoint::of_one(Place::new(contacts, deepest, deepest)));
         let allowed = VIOLATION_MAX * contacts[deepest].depth;
@@ -54,7 +54,7 @@ impl Shortest {
         best
     }
 
-    fn at(contacts: &[Sharer], deepest: usize, hull_point: HullPoint) -> Self {
+    fn at(contacts: &[SharedContact], deepest: usize, hull_point: HullPoint) -> Self {
         let base = &contacts[deepest];
         let scale = base.depth / (1.0 + hull_point.gain());
         let lambda = |k: usize| {
@@ -72,7 +72,7 @@ impl Shortest {
     }
 
     /// By how much a contact is cleared more than it must be: n·t − δ, m; negative if it is violated.
-    pub fn slack(&self, contacts: &[Sharer], contact: usize) -> f64 {
+    pub fn slack(&self, contacts: &[SharedContact], contact: usize) -> f64 {
         let (base, contact) = (&contacts[self.deepest], &contacts[contact]);
         let coupling = Coupling::new(base, contact);
         if !coupling.is_near {
@@ -85,7 +85,7 @@ impl Shortest {
         (base.depth - contact.depth) + scale * (turned - (rise + offset.norm_squared()))
     }
 
-    fn most_violated(&self, contacts: &[Sharer], allowed: f64) -> Option<usize> {
+    fn most_violated(&self, contacts: &[SharedContact], allowed: f64) -> Option<usize> {
         let (mut worst, mut least) = (None, -allowed);
         for contact in 0..contacts.len() {
             let slack = self.slack(contacts, contact);
@@ -98,7 +98,7 @@ impl Shortest {
 
     /// The solution for the members and one more contact: of all subsets with that contact the first that clears them,
     /// or the one that misses by least.
-    fn exchange(&self, contacts: &[Sharer], entering: usize, allowed: f64) -> Option<Self> {
+    fn exchange(&self, contacts: &[SharedContact], entering: usize, allowed: f64) -> Option<Self> {
         let entering = Place::new(contacts, self.deepest, entering);
         let mut best: Option<(f64, Self)> = None;
         // Bit k of the subset stands for member k.
@@ -140,7 +140,7 @@ struct Place {
 }
 
 impl Place {
-    fn new(contacts: &[Sharer], deepest: usize, contact: usize) -> Self {
+    fn new(contacts: &[SharedContact], deepest: usize, contact: usize) -> Self {
         let (base, own) = (&contacts[deepest], &contacts[contact]);
         let turned = (own.normal - base.normal) * base.depth + base.normal * (base.depth - own.depth);
         let rise = -Coupling::new(base, own).beyond(own.depth, base.depth) / own.depth;

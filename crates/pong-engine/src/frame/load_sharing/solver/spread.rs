@@ -4,8 +4,8 @@
 //! contacts that carry until these no longer change. The condition holds in any stretched space as well, and with it the λ
 //! are the same: stretched across t, normals that differ by rounding of single precision lie as far apart as any others.
 
-use super::Sharer;
 use super::nearest::Shortest;
+use super::shared_contact::SharedContact;
 use pong_geometry::{Mat3, Vec3};
 
 /// Relative to |t|: contacts this close to t carry it together.
@@ -19,7 +19,7 @@ const CHOICES_MAX: usize = 50;
 
 /// Fills in every λ. Answers whether it could: not where no more contacts touch t than decide it, nor where rounding keeps
 /// the λ from adding up to t.
-pub(super) fn share(contacts: &mut [Sharer], shortest: &Shortest) -> bool {
+pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool {
     let length = shortest.t.norm();
     let along = shortest.t / length;
     let (mut count, mut widest) = (0, 0.0_f64);
@@ -52,7 +52,7 @@ fn across(normal: &Vec3, along: &Vec3) -> Vec3 {
 }
 
 /// The μ of the tight contacts.
-fn least(contacts: &[Sharer], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3) -> Vec3 {
+fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3) -> Vec3 {
     let mut mu = *t;
     for _ in 0..CHOICES_MAX {
         let mut gram = Mat3::zeros();

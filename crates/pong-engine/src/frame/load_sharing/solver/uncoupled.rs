@@ -11,8 +11,8 @@
 //! It has n·(n + 2) of them for n contacts, the columns of the variables that are zero: those of the others are unit vectors.
 //! They come from an arena that was sized beforehand.
 
+use super::shared_contact::{Coupling, SharedContact, deepest_of};
 use super::twofold::Twofold;
-use super::{Coupling, Sharer, deepest_of};
 use pong_arena::{Arena, Demand, Full};
 
 /// What the tableau of so many contacts takes.
@@ -26,7 +26,7 @@ pub(super) fn tableau(contacts: usize) -> Demand {
 ///
 /// # Errors
 /// [`Full`] if the tableau does not fit into the scratch memory: nothing is filled in.
-pub(super) fn share(contacts: &mut [Sharer], scratch: &Arena) -> Result<(), Full> {
+pub(super) fn share(contacts: &mut [SharedContact], scratch: &Arena) -> Result<(), Full> {
     // In units of the largest depth no product leaves the range of numbers.
     let unit = contacts[deepest_of(contacts)].depth;
     let mut tableau = Tableau::new(contacts, unit, scratch)?;
@@ -50,7 +50,7 @@ struct Tableau<'a> {
 }
 
 impl<'a> Tableau<'a> {
-    fn new(contacts: &[Sharer], unit: f64, scratch: &'a Arena) -> Result<Self, Full> {
+    fn new(contacts: &[SharedContact], unit: f64, scratch: &'a Arena) -> Result<Self, Full> {
         let n = contacts.len();
         // All are asked for before any may be refused: the arena's peak then tells the whole need.
         let (basis, zero) = (scratch.slice(n, 0), scratch.slice(n + 1, 0));
@@ -157,7 +157,7 @@ impl<'a> Tableau<'a> {
 }
 
 /// How much two contacts couple, in twice the digits: 1 less what it lacks to 1.
-fn cosine(a: &Sharer, b: &Sharer) -> Twofold {
+fn cosine(a: &SharedContact, b: &SharedContact) -> Twofold {
     let coupling = Coupling::new(a, b);
     if coupling.is_near { Twofold::sum(1.0, -coupling.gap) } else { Twofold::from(coupling.cosine) }
 }

@@ -1,6 +1,6 @@
 //! The shortest vector in exact arithmetic: every set of at most three contacts is tried, in whole numbers of any length.
 
-use super::super::Sharer;
+use super::super::SharedContact;
 use pong_geometry::Vec3;
 use std::cmp::Ordering;
 
@@ -134,7 +134,7 @@ fn determinant(rows: &[Vec<Whole>]) -> Whole {
 }
 
 /// The shortest t with n·t ≥ δ for all contacts, rounded at the end; which contacts decide it, and Σ λ/δ of these.
-pub(super) fn shortest(contacts: &[Sharer]) -> (Vec3, usize, f64) {
+pub(super) fn shortest(contacts: &[SharedContact]) -> (Vec3, usize, f64) {
     let normals: Vec<[Whole; 3]> =
         contacts.iter().map(|c| std::array::from_fn(|axis| Whole::new(c.normal[axis]))).collect();
     let depths: Vec<Whole> = contacts.iter().map(|c| Whole::new(c.depth)).collect();

@@ -2,19 +2,22 @@
 
 mod exact;
 
+use super::shared_contact::{Coupling, all_couple};
 use super::*;
+use pong_geometry::Vec3;
 
 /// With as much scratch memory as it takes.
-fn share(contacts: &mut [Sharer]) {
+fn share(contacts: &mut [SharedContact]) {
     let mut scratch = Arena::with_capacity(scratch_bytes(contacts.len()));
     share_within(contacts, &mut scratch).unwrap();
 }
 
 fn solved(contacts: &[(Vec3, f64)]) -> (Vec<f64>, Vec3) {
-    let mut sharers: Vec<Sharer> = contacts.iter().map(|(n, d)| Sharer::new(n.normalize(), *d)).collect();
-    share(&mut sharers);
-    let t = sharers.iter().map(|s| s.normal * s.lambda).sum();
-    (sharers.iter().map(|s| s.lambda).collect(), t)
+    let mut shared_contacts: Vec<SharedContact> =
+        contacts.iter().map(|(n, d)| SharedContact::new(n.normalize(), *d)).collect();
+    share(&mut shared_contacts);
+    let t = shared_contacts.iter().map(|s| s.normal * s.lambda).sum();
+    (shared_contacts.iter().map(|s| s.lambda).collect(), t)
 }
 
 #[test]
@@ -94,7 +97,7 @@ fn random_sets_agree_with_slow_descent() {
 
 /// Normals that differ by an angle in a random pose, depths that differ as little as it takes to share; on request with
 /// walls across.
-fn folded_set(seed: &mut u64, count: usize, fold: f64, walls: usize) -> Vec<Sharer> {
+fn folded_set(seed: &mut u64, count: usize, fold: f64, walls: usize) -> Vec<SharedContact> {
     let direction = |seed: &mut u64| Vec3::from_fn(|_, _| scatter(seed) - 0.5).normalize();
     let base = direction(seed);
     let depth = libm::exp10(-4.0 * scatter(seed));
@@ -108,7 +111,7 @@ fn folded_set(seed: &mut u64, count: usize, fold: f64, walls: usize) -> Vec<Shar
             let lean = across(direction(seed)) * fold;
             (base + lean, depth * (1.0 + fold * fold * (scatter(seed) - 0.5)))
         };
-        set.push(Sharer::new(normal.normalize().map(exact::rounded), exact::rounded(depth)));
+        set.push(SharedContact::new(normal.normalize().map(exact::rounded), exact::rounded(depth)));
     }
     set
 }
@@ -178,23 +181,24 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
         let turn =
             pong_geometry::Quat::from_scaled_axis(Vec3::from_fn(|_, _| 6.0 * (scatter(&mut seed) - 0.5)));
         let plates = [(Vec3::new(1.0, 0.0, 0.5), 1e-3), (Vec3::new(-1.0, 0.0, 0.5), 7e-4), (Vec3::z(), 5e-4)];
-        let whole: Vec<Sharer> = plates.iter().map(|(n, d)| Sharer::new(turn * n.normalize(), *d)).collect();
+        let whole: Vec<SharedContact> =
+            plates.iter().map(|(n, d)| SharedContact::new(turn * n.normalize(), *d)).collect();
         let mut in_pieces = Vec::new();
-        for sharer in &whole {
+        for shared_contact in &whole {
             for _ in 0..1 + (scatter(&mut seed) * 3.0) as usize {
                 let lean = Vec3::from_fn(|_, _| scatter(&mut seed) - 0.5) * fold;
-                let depth = sharer.depth
+                let depth = shared_contact.depth
                     * (1.0 + 0.1 * fold * fold * scatter(&mut seed) + 2e-16 * scatter(&mut seed));
-                in_pieces.push(Sharer::new((sharer.normal + lean).normalize(), depth));
+                in_pieces.push(SharedContact::new((shared_contact.normal + lean).normalize(), depth));
             }
         }
         let mut alone = whole.clone();
         share(&mut alone);
         share(&mut in_pieces);
-        for sharer in &alone {
-            let near = in_pieces.iter().filter(|piece| piece.normal.dot(&sharer.normal) > 0.99);
+        for shared_contact in &alone {
+            let near = in_pieces.iter().filter(|piece| piece.normal.dot(&shared_contact.normal) > 0.99);
             let together: f64 = near.map(|piece| piece.lambda).sum();
-            let error = (together - sharer.lambda).abs() / 1e-3;
+            let error = (together - shared_contact.lambda).abs() / 1e-3;
             assert!(error < 1e-14 + 2.0 * fold, "{round} fold {fold:e}: {error:e} {in_pieces:?}");
         }
     }
@@ -205,27 +209,29 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
 fn opposed_normals_satisfy_the_definition() {
     let mut seed = 21;
     for _ in 0..200 {
-        let mut sharers: Vec<Sharer> = (0..5)
+        let mut shared_contacts: Vec<SharedContact> = (0..5)
             .map(|_| {
                 let n = Vec3::from_fn(|_, _| scatter(&mut seed) - 0.5).normalize();
-                Sharer::new(n, 0.5 + 0.5 * scatter(&mut seed))
+                SharedContact::new(n, 0.5 + 0.5 * scatter(&mut seed))
             })
             .collect();
-        share(&mut sharers);
-        for i in 0..sharers.len() {
-            let others: f64 = (0..sharers.len())
+        share(&mut shared_contacts);
+        for i in 0..shared_contacts.len() {
+            let others: f64 = (0..shared_contacts.len())
                 .filter(|&j| j != i)
-                .map(|j| Coupling::new(&sharers[i], &sharers[j]).cosine * sharers[j].lambda)
+                .map(|j| {
+                    Coupling::new(&shared_contacts[i], &shared_contacts[j]).cosine * shared_contacts[j].lambda
+                })
                 .sum();
-            let expected = (sharers[i].depth - others).max(0.0);
-            assert!((sharers[i].lambda - expected).abs() < 1e-12, "{sharers:?}");
+            let expected = (shared_contacts[i].depth - others).max(0.0);
+            assert!((shared_contacts[i].lambda - expected).abs() < 1e-12, "{shared_contacts:?}");
         }
     }
 }
 
 /// Sets as they come from awkward places: normals all around, some opposed or equal, some depths equal.
-fn awkward_set(seed: &mut u64, count: usize) -> Vec<Sharer> {
-    let mut set: Vec<Sharer> = Vec::new();
+fn awkward_set(seed: &mut u64, count: usize) -> Vec<SharedContact> {
+    let mut set: Vec<SharedContact> = Vec::new();
     for i in 0..count {
         let fresh = Vec3::from_fn(|_, _| scatter(seed) - 0.5).normalize();
         let earlier = set.get(i / 2).map_or(fresh, |earlier| earlier.normal);
@@ -235,29 +241,29 @@ fn awkward_set(seed: &mut u64, count: usize) -> Vec<Sharer> {
             _ => fresh,
         };
         let depth = if scatter(seed) < 0.2 { 0.75 } else { 0.5 + 0.5 * scatter(seed) };
-        set.push(Sharer::new(normal, depth));
+        set.push(SharedContact::new(normal, depth));
     }
     set
 }
 
 /// Sets full of ties: normals along few directions, few different depths.
-fn set_full_of_ties(seed: &mut u64, count: usize) -> Vec<Sharer> {
+fn set_full_of_ties(seed: &mut u64, count: usize) -> Vec<SharedContact> {
     let directions = [Vec3::x(), Vec3::y(), -Vec3::x(), Vec3::new(0.6, 0.8, 0.0), Vec3::new(-0.6, 0.8, 0.0)];
-    let sharer = |_| {
+    let shared_contact = |_| {
         let normal = directions[(scatter(seed) * 5.0) as usize];
-        Sharer::new(normal, [0.5, 0.75, 1.0][(scatter(seed) * 3.0) as usize])
+        SharedContact::new(normal, [0.5, 0.75, 1.0][(scatter(seed) * 3.0) as usize])
     };
-    (0..count).map(sharer).collect()
+    (0..count).map(shared_contact).collect()
 }
 
-fn lambda_bits(sharers: &[Sharer]) -> impl Iterator<Item = u64> {
-    sharers.iter().map(|sharer| sharer.lambda.to_bits())
+fn lambda_bits(shared_contacts: &[SharedContact]) -> impl Iterator<Item = u64> {
+    shared_contacts.iter().map(|shared_contact| shared_contact.lambda.to_bits())
 }
 
 /// Recorded when the tableau came to be kept in twice the digits.
 #[test]
 fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
-    let recorded = |set: fn(&mut u64, usize) -> Vec<Sharer>| {
+    let recorded = |set: fn(&mut u64, usize) -> Vec<SharedContact>| {
         let mut scratch = Arena::with_capacity(scratch_bytes(40));
         let mut seed = 99;
         let mut hash = 0_u64;
@@ -275,7 +281,7 @@ fn the_pivots_are_the_recorded_ones_to_the_last_bit() {
 }
 
 /// As many of the deepest as fit, ties in their order.
-fn deepest_first(set: &[Sharer], count: usize) -> Vec<usize> {
+fn deepest_first(set: &[SharedContact], count: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..set.len()).collect();
     order.sort_by(|&i, &j| set[j].depth.total_cmp(&set[i].depth));
     order.truncate(count);
@@ -292,18 +298,18 @@ fn with_too_little_memory_the_deepest_are_shared_exactly_and_the_rest_get_nothin
         let set = kind(&mut seed, 4 + round % 30);
         let mut scratch = Arena::with_capacity((scatter(&mut seed) * scratch_bytes(20) as f64) as usize);
         let mut shared = set.clone();
-        shared.iter_mut().for_each(|sharer| sharer.lambda = f64::NAN);
+        shared.iter_mut().for_each(|shared_contact| shared_contact.lambda = f64::NAN);
         if share_within(&mut shared, &mut scratch).is_ok() {
             continue;
         }
         // Which ones were shared follows from how many fitted; one of the counts must explain every λ.
         let explained = (1..set.len()).find(|&count| {
             let chosen = deepest_first(&set, count);
-            let mut alone: Vec<Sharer> = chosen.iter().map(|&i| set[i]).collect();
+            let mut alone: Vec<SharedContact> = chosen.iter().map(|&i| set[i]).collect();
             share(&mut alone);
             let mut expected = vec![0.0; set.len()];
-            chosen.iter().zip(&alone).for_each(|(&i, sharer)| expected[i] = sharer.lambda);
-            shared.iter().zip(&expected).all(|(sharer, lambda)| sharer.lambda == *lambda)
+            chosen.iter().zip(&alone).for_each(|(&i, shared_contact)| expected[i] = shared_contact.lambda);
+            shared.iter().zip(&expected).all(|(shared_contact, lambda)| shared_contact.lambda == *lambda)
         });
         assert!(explained.is_some(), "{shared:?}");
         left_out += 1;
@@ -319,7 +325,10 @@ fn the_fallback_fills_the_memory_that_there_is() {
         let mut shared = set.clone();
         let mut scratch = Arena::with_capacity(bytes);
         assert!(share_within(&mut shared, &mut scratch).is_err());
-        (shared.iter().filter(|sharer| sharer.lambda > 0.0).count(), scratch.used() as f64 / bytes as f64)
+        (
+            shared.iter().filter(|shared_contact| shared_contact.lambda > 0.0).count(),
+            scratch.used() as f64 / bytes as f64,
+        )
     };
     let (few, _) = sharing_at(1000);
     let (many, filled) = sharing_at(scratch_bytes(30) - 16);
@@ -341,7 +350,7 @@ fn the_peak_of_the_scratch_memory_is_the_size_to_give() {
         assert!(full.asked > full.free);
         assert_eq!(scratch.peak(), scratch_bytes(25));
         // What is left of a refusal does not show in the next set.
-        let mut two = [Sharer::new(Vec3::x(), 1.0), Sharer::new(-Vec3::x(), 2.0)];
+        let mut two = [SharedContact::new(Vec3::x(), 1.0), SharedContact::new(-Vec3::x(), 2.0)];
         assert!(share_within(&mut two, &mut scratch).is_ok());
         let mut enough = Arena::with_capacity(scratch.peak());
         assert!(share_within(&mut set, &mut enough).is_ok());

@@ -1,0 +1,33 @@
+//! How far A went between two commits, and the work of a force along that way.
+
+use crate::frame::input::motion::SinceCommit;
+use pong_geometry::{Transform, Vec3};
+
+/// Displacement of A since the last commit, at a point carried by A.
+pub(crate) struct Displacement {
+    before: Vec3,
+    now: Vec3,
+    pub rotation: Vec3,
+    /// The origin of A's frame.
+    pub origin_before: Vec3,
+    pub origin_now: Vec3,
+}
+
+impl Displacement {
+    /// Of a point of A, given in its frame.
+    pub fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
+        Self {
+            before: since.x_ba.point(reference),
+            now: x_ba.point(reference),
+            rotation: since.rotation(),
+            origin_before: since.x_ba.translation,
+            origin_now: x_ba.translation,
+        }
+    }
+
+    /// Half of the work that a force at `point` does over the displacement.
+    pub fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
+        let arm = point - if at_end { self.now } else { self.before };
+        0.5 * (force.dot(&(self.now - self.before)) + arm.cross(force).dot(&self.rotation))
+    }
+}

@@ -1,0 +1,87 @@
+//! A contact with its forces.
+
+use crate::frame::narrow_phase::candidate::ContactCandidate;
+use crate::state::{ContactKey, ContactRecord};
+use pong_geometry::interference::{Feature, Interference};
+use pong_geometry::{Vec3, Wrench};
+
+/// A contact that counts, with its forces.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameContact {
+    // testers, sharing
+    pub found: ContactCandidate,
+    // forces
+    pub point: Vec3,
+    pub rate: f64,
+    pub normal_force: f64,
+    pub friction_force: Vec3,
+    pub slip_velocity: Vec3,
+    pub bristle: Vec3,
+    /// On A about and along A's frame, on B about and along B's.
+    pub wrenches: [Wrench; 2],
+    pub stored: f64,
+    pub sticks: bool,
+    /// The committed record that this contact continues.
+    pub continues: Option<u32>,
+    // ledger
+    pub work: f64,
+    pub dissipated: f64,
+}
+
+impl FrameContact {
+    /// A contact whose forces are not known yet.
+    pub fn new(found: ContactCandidate) -> Self {
+        Self {
+            found,
+            point: found.point_a,
+            rate: 0.0,
+            normal_force: 0.0,
+            friction_force: Vec3::zeros(),
+            slip_velocity: Vec3::zeros(),
+            bristle: Vec3::zeros(),
+            wrenches: [Wrench::zero(); 2],
+            stored: 0.0,
+            sticks: true,
+            continues: None,
+            work: 0.0,
+            dissipated: 0.0,
+        }
+    }
+
+    /// Something to fill memory with.
+    pub fn blank() -> Self {
+        let nothing = Interference {
+            depth: 0.0,
+            normal: Vec3::zeros(),
+            point_a: Vec3::zeros(),
+            feature: Feature::WHOLE,
+        };
+        let key = ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 };
+        Self::new(ContactCandidate::new(key, &nothing))
+    }
+
+    /// Force on A, N.
+    pub fn force(&self) -> Vec3 {
+        self.found.normal * self.normal_force + self.friction_force
+    }
+
+    /// What a commit remembers of the contact.
+    pub fn record(&self) -> ContactRecord {
+        let found = &self.found;
+        ContactRecord {
+            key: found.key,
+            feature: found.feature.0,
+            element_b: found.element_b,
+            entry_face: found.entry_face,
+            sticks: self.sticks,
+            role: found.role,
+            normal: found.normal,
+            point: self.point,
+            bristle: self.bristle,
+            force: self.force(),
+            stored: self.stored,
+            work: self.work,
+            dissipated: self.dissipated,
+        }
+    }
+}

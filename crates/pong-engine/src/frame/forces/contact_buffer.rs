@@ -1,0 +1,168 @@
+//! Contacts as they are found, in no order, with room for so many and the demand for more.
+
+use crate::frame::forces::contact::FrameContact;
+use crate::frame::narrow_phase::candidate::CandidateStatus;
+use crate::report::{FrameCounts, WorkTimes};
+use crate::sealed::Sealed;
+use crate::state::ContactRole;
+use pong_arena::Table;
+
+/// Contacts with their forces, and what was counted and timed while they were found.
+#[derive(Debug)]
+pub(crate) struct ContactBuffer {
+    /// The phase that the contents belong to.
+    pub phase: u64,
+    /// Contacts found and pressed, in no order.
+    pub contacts: Table<FrameContact>,
+    /// Numbers of registered friction laws, as many for every contact.
+    pub custom: Table<f64>,
+    pub custom_stride: usize,
+    /// Room for ranking the contacts; none in a worker's buffer.
+    ranked: Table<u32>,
+    pub demand: CapacityDemand,
+    pub counts: FrameCounts,
+    /// Where the time went; zero without a clock.
+    pub times: WorkTimes,
+}
+
+/// What a frame would need room for, found or not.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CapacityDemand {
+    /// Contacts that push.
+    pub pushing: u64,
+    /// Contacts that are only remembered.
+    pub remembered: u64,
+    /// Interferences of one chunk of A, where they found no room: the most.
+    pub at_once: u64,
+    /// Whether anything found no room.
+    pub overflowed: bool,
+    /// Whether contacts of one ball with one surface were too many to be shared exactly.
+    pub unshared: bool,
+}
+
+impl CapacityDemand {
+    /// One contact more.
+    #[inline]
+    pub fn count(&mut self, role: ContactRole) {
+        *(if role == ContactRole::Active { &mut self.pushing } else { &mut self.remembered }) += 1;
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.pushing += other.pushing;
+        self.remembered += other.remembered;
+        self.at_once = self.at_once.max(other.at_once);
+        self.overflowed |= other.overflowed;
+        self.unshared |= other.unshared;
+    }
+}
+
+/// How far a buffer had got.
+pub(crate) struct Checkpoint {
+    contacts: usize,
+    demand: CapacityDemand,
+    counts: FrameCounts,
+}
+
+impl ContactBuffer {
+    /// Room for so many contacts, and to rank them if the deepest are to be kept.
+    pub fn new(custom_stride: usize, contacts: usize, ranks: bool) -> Self {
+        Self {
+            phase: 0,
+            contacts: Table::with_capacity(contacts, FrameContact::blank()),
+            custom: Table::with_capacity(contacts * custom_stride, 0.0),
+            custom_stride,
+            ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
+            demand: CapacityDemand::default(),
+            counts: FrameCounts::default(),
+            times: WorkTimes::default(),
+        }
+    }
+
+    /// Empties the buffer for a phase.
+    pub fn begin(&mut self, phase: u64) {
+        self.phase = phase;
+        self.contacts.clear();
+        self.custom.clear();
+        self.demand = CapacityDemand::default();
+        self.counts = FrameCounts::default();
+        self.times = WorkTimes::default();
+    }
+
+    /// The custom numbers of a contact.
+    pub fn custom_of(&self, contact: usize) -> &[f64] {
+        &self.custom[contact * self.custom_stride..(contact + 1) * self.custom_stride]
+    }
+
+    /// How far the buffer has got.
+    pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint { contacts: self.contacts.len(), demand: self.demand, counts: self.counts }
+    }
+
+    /// Forgets all that came after a checkpoint.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) {
+        self.contacts.truncate(checkpoint.contacts);
+        self.custom.truncate(checkpoint.contacts * self.custom_stride);
+        self.demand = checkpoint.demand;
+        self.counts = checkpoint.counts;
+    }
+
+    /// Takes over all that another buffer found; whether there was room.
+    pub fn absorb(&mut self, other: &Self) -> bool {
+        let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
+            && self.custom.extend_from_slice(&other.custom).is_ok();
+        self.demand.add(&other.demand);
+        self.counts.add(&other.counts);
+        room && !other.demand.overflowed
+    }
+
+    /// Adds a contact, whose custom numbers the caller adds. Where there is no room the deepest so far stay, if this
+    /// buffer can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
+    #[inline]
+    pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
+        self.demand.count(contact.found.role);
+        if self.contacts.len() == self.contacts.capacity() {
+            self.demand.overflowed = true;
+            if self.ranked.capacity() == 0 {
+                return None;
+            }
+            self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
+        }
+        self.contacts.push(contact).expect("ranking makes room");
+        self.contacts.last_mut()
+    }
+
+    /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties
+    /// by the order of sums.
+    pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
+        let ranked = &mut self.ranked;
+        ranked.clear();
+        let counts = |contact: &FrameContact| contact.found.status != CandidateStatus::Culled;
+        for (index, _) in self.contacts.iter().enumerate().filter(|(_, contact)| counts(contact)) {
+            ranked.push(index as u32).expect("as many places as contacts");
+        }
+        let contacts = &self.contacts;
+        ranked.sort_unstable_by(|&i, &j| {
+            let (a, b) = (&contacts[i as usize].found, &contacts[j as usize].found);
+            let pushes = |role: ContactRole| role == ContactRole::Active;
+            pushes(b.role)
+                .cmp(&pushes(a.role))
+                .then(b.depth.total_cmp(&a.depth))
+                .then(a.order().cmp(&b.order()))
+        });
+        let all_pushing = ranked.partition_point(|&i| contacts[i as usize].found.role == ContactRole::Active);
+        let last = ranked.len().min(all_pushing + others);
+        // The places that stay, in ascending order, so that moving forward overwrites nothing that is needed.
+        let kept_pushing = all_pushing.min(pushing);
+        ranked.as_mut_slice().copy_within(all_pushing..last, kept_pushing);
+        ranked.truncate(kept_pushing + last - all_pushing);
+        ranked.sort_unstable();
+        for (to, &from) in ranked.iter().enumerate() {
+            self.contacts[to] = self.contacts[from as usize];
+            let stride = self.custom_stride;
+            let from = from as usize * stride;
+            self.custom.as_mut_slice().copy_within(from..from + stride, to * stride);
+        }
+        self.contacts.truncate(ranked.len());
+        self.custom.truncate(ranked.len() * self.custom_stride);
+    }
+}

@@ -1,0 +1,29 @@
+//! Which point of A the motion of a contact is reckoned from.
+
+use crate::state::ContactKey;
+use pong_geometry::Vec3;
+use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
+use pong_model::Body;
+
+/// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
+/// a segment's end, a ray's tip.
+pub(crate) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
+    let element = element_a as usize;
+    match body_a.primitives[key.primitive_a as usize].kind {
+        PrimitiveKind::Point => body_a.points[element].position,
+        PrimitiveKind::LineSegment => body_a.segments[element].ends[key.end as usize],
+        PrimitiveKind::Ray => body_a.rays[element].tip(),
+        PrimitiveKind::Sphere => body_a.spheres[element].center,
+        PrimitiveKind::Ellipsoid => body_a.ellipsoids[element].center,
+        PrimitiveKind::Custom => middle(&*body_a.customs[element]),
+        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => Vec3::zeros(),
+    }
+}
+
+/// Centre of the box around a custom primitive; the frame's origin where the box is unbounded.
+fn middle(primitive: &dyn CustomPrimitive) -> Vec3 {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let coordinates = axes.map(|axis| 0.5 * (primitive.support(&axis) - primitive.support(&-axis)));
+    let middle = Vec3::from(coordinates);
+    if middle.iter().all(|x| x.is_finite()) { middle } else { Vec3::zeros() }
+}

@@ -1,0 +1,86 @@
+//! A contact as a contact tester finds it, before anything is decided about it.
+
+use crate::state::{ContactKey, ContactRole};
+use pong_geometry::Vec3;
+use pong_geometry::interference::{Feature, Interference};
+use pong_geometry::primitive::PrimitiveKind;
+
+/// The order of every sum: by key, then by what of B pushes.
+pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
+
+/// A contact as a tester finds it. Vectors are in the frame of B's movable group.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactCandidate {
+    pub key: ContactKey,
+    pub primitive_b: u32,
+    pub element_a: u32,
+    pub element_b: u32,
+    pub feature: Feature,
+    /// Face that memory has reached in the polyhedron of B.
+    pub entry_face: u32,
+    pub kind_b: PrimitiveKind,
+    /// Half a spring (the end of a segment) or a whole one.
+    pub half: bool,
+    /// Whether contacts under the same key share one spring.
+    pub shares: bool,
+    pub status: CandidateStatus,
+    pub role: ContactRole,
+    pub depth: f64,
+    pub normal: Vec3,
+    pub point_a: Vec3,
+    /// Distance along a ray, m; infinite for everything else.
+    pub ray_distance: f64,
+    /// The weight w of docs/theory.md, 2.2; 1 for a single contact.
+    pub weight: f64,
+}
+
+/// How a contact stands among those of the same surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CandidateStatus {
+    /// Nothing special.
+    Front,
+    /// The centre is behind the face.
+    BackFace,
+    /// Counts only where nothing else is as deep.
+    Fallback,
+    /// A point in a piece, at an inner wall: counts unless the point is in a piece of lower index as well.
+    AtWall,
+    /// A point at an inner wall of a piece, but beyond: counts only where rounding leaves the point in no piece at all.
+    BeyondWall,
+    /// Turned out not to count.
+    Culled,
+}
+
+impl ContactCandidate {
+    /// A whole contact, as most are.
+    pub fn new(key: ContactKey, interference: &Interference) -> Self {
+        Self {
+            key,
+            primitive_b: 0,
+            element_a: 0,
+            element_b: 0,
+            feature: interference.feature,
+            entry_face: crate::state::NO_FACE,
+            kind_b: PrimitiveKind::Plane,
+            half: false,
+            shares: false,
+            status: CandidateStatus::Front,
+            role: ContactRole::Active,
+            depth: interference.depth,
+            normal: interference.normal,
+            point_a: interference.point_a,
+            ray_distance: f64::INFINITY,
+            weight: 1.0,
+        }
+    }
+
+    /// Where the contact stands in every sum.
+    pub fn order(&self) -> ContactOrder {
+        (self.key, self.primitive_b, self.element_b, self.feature)
+    }
+
+    /// Weight with the half spring of a segment's end taken in.
+    pub fn full_weight(&self) -> f64 {
+        if self.half { 0.5 * self.weight } else { self.weight }
+    }
+}

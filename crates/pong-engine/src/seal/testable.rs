@@ -1,0 +1,24 @@
+//! Which primitives can be tested against which: by the table of pairs, or by a test that the host registered.
+
+use crate::pair_table::has_tester;
+use pong_geometry::extension::Extensions;
+use pong_geometry::primitive::PrimitiveKind;
+use pong_model::{Body, PrimitiveInfo};
+
+/// The name of a primitive's kind, a custom kind's own name included.
+pub(crate) fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
+    match info.kind {
+        PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
+        kind => kind.name(),
+    }
+}
+
+/// Whether a primitive can be tested as A against another as B.
+pub(crate) fn can_be_tested(
+    extensions: &Extensions,
+    a: (&Body, &PrimitiveInfo),
+    b: (&Body, &PrimitiveInfo),
+) -> bool {
+    has_tester(a.1.kind, b.1.kind)
+        || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()
+}

@@ -1,0 +1,70 @@
+//! What sealing makes of a scene: all that frames read and nothing changes.
+
+mod limits;
+mod plan;
+mod surface_table;
+
+pub(crate) use limits::Limits;
+pub(crate) use plan::Plan;
+pub(crate) use surface_table::SurfaceTable;
+
+use crate::state::{Books, ContactKey, block_len};
+use pong_geometry::bounding::VolumeTests;
+
+/// A pair of movable groups that are tested against each other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupPair {
+    /// The pair of Objects.
+    pub pair: usize,
+    /// The lower of the two bodies, whatever the order of pairing.
+    pub first: usize,
+    /// The higher.
+    pub second: usize,
+    /// Whether the first body's Object was named first: it is A among primitives of one kind.
+    pub first_named_first: bool,
+    /// Surface tables: with A in the first body, with A in the second.
+    pub tables: [usize; 2],
+}
+
+/// What sealing makes of a scene.
+pub(crate) struct Sealed {
+    pub group_pairs: Vec<GroupPair>,
+    /// The directions of those pairs in which something can be found, in order.
+    pub plans: Vec<Plan>,
+    /// The movable groups of all pairs, each once.
+    pub paired_bodies: Vec<usize>,
+    /// Whether a ray may hit two movable groups of one Object.
+    pub rays_meet_groups: bool,
+    pub limits: Limits,
+    pub volume_tests: VolumeTests,
+    pub contact_capacity: usize,
+    /// Records: contacts, and as many that are only remembered.
+    pub record_capacity: usize,
+    /// Numbers that are remembered of a contact: those of registered friction laws, then its account.
+    pub custom_stride: usize,
+    /// Where among them the account begins.
+    pub account_at: usize,
+    /// Whether accounts are kept, and how many frames late the host's wrenches are.
+    pub keeps_accounts: bool,
+    pub late: usize,
+    pub hash: u64,
+}
+
+impl Sealed {
+    /// Pairs of movable groups of which accounts are kept: all or none.
+    pub fn account_pairs(&self) -> usize {
+        if self.keeps_accounts { self.group_pairs.len() } else { 0 }
+    }
+
+    /// Size of the largest contact state block, bytes.
+    pub fn state_size(&self) -> usize {
+        let accounts = Books::block_len(self.account_pairs(), self.late);
+        block_len(self.group_pairs.len(), self.record_capacity, self.custom_stride, accounts)
+    }
+
+    /// The bodies that hold A and B of a contact.
+    pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
+        let pair = &self.group_pairs[key.group_pair as usize];
+        if key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
+    }
+}

@@ -1,0 +1,38 @@
+//! What the surfaces of two models make together.
+
+use crate::law::{NormalProps, PairProps};
+use pong_model::{Exponent, Surface};
+
+/// Values of all pairs of surfaces of two models, A's model first.
+pub(crate) struct SurfaceTable {
+    pub model_a: usize,
+    pub model_b: usize,
+    /// Surfaces of B's model.
+    pub columns: usize,
+    /// Row after row, a row for every surface of A's model.
+    pub props: Vec<Option<PairProps>>,
+}
+
+impl SurfaceTable {
+    /// A table of no values yet, for models of so many surfaces.
+    pub fn empty(model_a: usize, model_b: usize, surfaces: &[Vec<Surface>]) -> Self {
+        let columns = surfaces[model_b].len();
+        Self { model_a, model_b, columns, props: vec![None; surfaces[model_a].len() * columns] }
+    }
+
+    /// The values of a pair of surfaces that can meet.
+    pub fn props(&self, surface_a: u32, surface_b: u32) -> &PairProps {
+        let entry = &self.props[surface_a as usize * self.columns + surface_b as usize];
+        entry.as_ref().expect("sealing combined every pair of surfaces that can meet")
+    }
+
+    /// Stiffness and damping of the stiffest pair of surfaces whose force is linear in the depth.
+    pub fn stiffest(&self) -> Option<(f64, f64)> {
+        let linear = self.props.iter().flatten().filter_map(|props| match &props.normal {
+            NormalProps::Linear { damping, .. } => Some((props.stiffness, *damping)),
+            NormalProps::HuntCrossley { exponent: Exponent::One, .. } => Some((props.stiffness, 0.0)),
+            NormalProps::HuntCrossley { .. } | NormalProps::Custom { .. } => None,
+        });
+        linear.max_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
