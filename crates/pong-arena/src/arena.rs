@@ -46,6 +46,8 @@ impl Arena {
     /// # Errors
     /// [`Full`] if it does not fit.
     // `&mut` from `&self`: every call hands out memory that no other call has.
+    /// # Errors
+    /// [`Full`] if the arena has not that much room left; nothing was taken then.
     #[allow(clippy::mut_from_ref)]
     pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
         self.claim::<T>(len)?;

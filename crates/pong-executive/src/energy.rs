@@ -28,22 +28,22 @@ use pong_geometry::{Twist, Wrench};
 /// Energies, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
-    /// Of the free bodies.
+    /// Kinetic energy of the free bodies, J.
     pub kinetic: f64,
-    /// Of the free bodies in uniform gravity; zero at the common origin.
+    /// Potential energy of the free bodies in uniform gravity, J; zero at the common origin.
     pub potential: f64,
-    /// In springs, less what their preloads did.
+    /// Energy in springs, less the work of their preloads, J.
     pub springs: f64,
-    /// In contacts.
+    /// Energy stored in contacts, J.
     pub contacts: f64,
-    /// Lost in contacts since the start, with what the integrator lost in them; below zero if they made energy.
+    /// Energy lost in contacts since the start, with what the integrator lost in them, J; negative if they gained energy.
     pub contact_loss: f64,
-    /// Made since the start by holding contact wrenches over steps: work that the forces would not have done as they follow
-    /// the motion. The balance drifts by it. Zero unless the world keeps accounts.
+    /// Energy gained since the start by holding contact wrenches over steps, J: work that the forces would not have done
+    /// as they follow the motion. The balance drifts by it. Zero unless the world keeps energy accounts.
     pub contact_made: f64,
-    /// Lost in dampers of springs since the start.
+    /// Energy lost in dampers of springs since the start, J.
     pub spring_loss: f64,
-    /// Work since the start of loads on free bodies, and of prescribed bodies on what they push.
+    /// Work since the start of loads on free bodies, and of prescribed bodies on what they push, J.
     pub work_in: f64,
 }
 

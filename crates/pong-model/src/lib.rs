@@ -53,6 +53,9 @@ pub const SMALLEST_SIZE: f64 = 1e-30;
 
 /// Reads a model file; meshes are looked for beside it, and read if they lie there or in a folder that `ext` allows
 /// ([`Extensions::allow_files_below`]).
+///
+/// # Errors
+/// A file that cannot be read or is no UTF-8; every fault of the model, with line, column and tree path.
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
     let file = path.display().to_string();
     match files::read(path) {
@@ -68,6 +71,9 @@ pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
 ///
 /// `file_name` is what errors call it; meshes are looked for in `mesh_dir`. Reports every fault of the text,
 /// except that nothing behind a fault of notation is read.
+///
+/// # Errors
+/// Every fault of the model, with line, column and tree path.
 pub fn parse(
     text: &str,
     file_name: &str,

@@ -68,6 +68,10 @@ impl std::error::Error for StartError {
 impl Pool {
     /// Starts the workers, and sleeps until each has taken its place, [`LONGEST_START`] at most. (It must not spin: a new
     /// thread has the core and the priority of this one, and under SCHED_FIFO would never get to run.)
+    ///
+    /// # Errors
+    /// [`StartError`] if the system starts no thread, or does not run one within [`LONGEST_START`]; the workers started so far
+    /// have ended then.
     pub fn start(job: Arc<dyn Job>, settings: &Settings) -> Result<Pool, StartError> {
         let cores = cores_of_workers(settings);
         let shared = Arc::new(Shared {

@@ -10,7 +10,7 @@ pub struct Settings {
     pub workers: usize,
     /// More workers than cores are given all the same.
     pub oversubscribe: bool,
-    /// How long a worker looks for the next phase before it parks; 50 µs by default. A parked worker is woken by
+    /// How long a worker looks for the next phase before it parks, a duration; 50 µs by default. A parked worker is woken by
     /// the next phase in tens of microseconds, and the caller pays a system call.
     pub spin: Duration,
     /// How long the caller waits for blocks that workers have claimed, once it has none to run itself; 1 ms by

@@ -67,6 +67,9 @@ impl<'a> Faults<'a> {
     }
 
     /// The value if nothing was at fault.
+    ///
+    /// # Errors
+    /// Everything that was found wrong, if anything was.
     pub fn unless_any<T>(self, value: Option<T>) -> Result<T, SceneErrors> {
         match value {
             Some(value) if self.list.is_empty() => Ok(value),

@@ -62,6 +62,9 @@ pub struct SceneObject {
 
 impl Scene {
     /// Reads a scene file; models are looked for beside it.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and every fault of its text, with line and column.
     pub fn load(path: &Path) -> Result<Self, SceneErrors> {
         let file = path.display().to_string();
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -76,6 +79,9 @@ impl Scene {
     }
 
     /// Reads a scene from text. `file` is what errors call it; models are looked for in `folder`.
+    ///
+    /// # Errors
+    /// Every fault of the text, with line and column.
     pub fn parse(text: &str, file: &str, folder: &Path) -> Result<Self, SceneErrors> {
         let options =
             ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
@@ -92,11 +98,17 @@ impl Scene {
     }
 
     /// Loads the models and sets everything up, or tells everything that is wrong.
+    ///
+    /// # Errors
+    /// Models that cannot be loaded, names that lead nowhere, and values out of range: all of them at once.
     pub fn build(&self) -> Result<BuiltScene, SceneErrors> {
         self.build_varied(&Variation::default())
     }
 
     /// As [`build`](Self::build), with something else than the file says.
+    ///
+    /// # Errors
+    /// As [`build`](Self::build); also a variation that names what the scene does not have.
     pub fn build_varied(&self, variation: &Variation<'_>) -> Result<BuiltScene, SceneErrors> {
         let mut faults = Faults::new(&self.file);
         let document = &variation.document(&self.document, &mut faults);

@@ -50,6 +50,9 @@ pub struct Simulation {
 
 impl Simulation {
     /// A simulation without bodies, from t = 0 with a step (s).
+    ///
+    /// # Errors
+    /// A step that is not positive and finite; a zero-order hold without substeps.
     pub fn new(world: World, integrator: Integrator, step: f64) -> Result<Self, ExecutiveError> {
         check_step(step)?;
         if let Integrator::ZeroOrderHold { substeps: 0, .. } = integrator {
@@ -80,6 +83,9 @@ impl Simulation {
 
     /// Evaluates and commits the present states if that has not been done: after set-up, so that contacts and
     /// wrenches can be read before the first step. [`step`](Self::step) does it by itself.
+    ///
+    /// # Errors
+    /// A state that the world refuses; a frame whose forces leave the range of numbers.
     pub fn settle(&mut self) -> Result<(), ExecutiveError> {
         if !self.settled {
             self.system.place(self.time(), &self.states);
@@ -91,6 +97,9 @@ impl Simulation {
     }
 
     /// Preloads friction between two paired Objects as they are placed now ([`World::preload_friction`]): before the first step.
+    ///
+    /// # Errors
+    /// A pair of another world; states or forces that the world refuses.
     pub fn preload_friction(
         &mut self,
         pair: PairId,
@@ -137,6 +146,9 @@ impl Simulation {
     }
 
     /// Advances by the whole number of steps nearest to a duration (s).
+    ///
+    /// # Errors
+    /// As a step: see [`settle`](Self::settle).
     pub fn run_for(&mut self, duration: f64) -> Result<(), ExecutiveError> {
         let steps = libm::round(duration / self.step).max(0.0) as u64;
         for _ in 0..steps {
@@ -146,6 +158,9 @@ impl Simulation {
     }
 
     /// Advances by a number of steps; the observer sees the first instant and every `every`-th after it.
+    ///
+    /// # Errors
+    /// As a step: see [`settle`](Self::settle); also what the observer refuses.
     pub fn observe(
         &mut self,
         steps: u64,

@@ -10,6 +10,9 @@ use pong_geometry::{Pose, Twist, Vec3};
 
 impl Simulation {
     /// Adds a body. All bodies with an Interface must be there before the first step.
+    ///
+    /// # Errors
+    /// An Interface of another world, or one that already has a body; mass properties that no body can have.
     pub fn add_body(&mut self, mut body: RigidBody) -> Result<BodyId, ExecutiveError> {
         let what = format!("body `{}`", body.name);
         if let Some(interface) = body.interface {
@@ -37,6 +40,9 @@ impl Simulation {
     }
 
     /// Adds a load.
+    ///
+    /// # Errors
+    /// A body that is not there; a value that is not finite.
     pub fn add_load(&mut self, load: Load) -> Result<(), ExecutiveError> {
         self.check_body("load", load.body)?;
         if let Some(cause) = load.history.fault() {
@@ -48,6 +54,9 @@ impl Simulation {
     }
 
     /// Adds a spring.
+    ///
+    /// # Errors
+    /// A body that is not there; stiffness or damping below zero or not finite.
     pub fn add_spring(&mut self, spring: Spring) -> Result<(), ExecutiveError> {
         for body in [spring.first.body, spring.second.body].into_iter().flatten() {
             self.check_body("spring", body)?;
@@ -78,6 +87,9 @@ impl Simulation {
     }
 
     /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::forget`](pong_engine::World::forget) if it should not.
+    ///
+    /// # Errors
+    /// A body that is not there or is on a prescribed path; a pose or twist that is not finite.
     pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
         self.check_body("set_motion", body)?;
         let index = body.index();
@@ -104,6 +116,9 @@ impl Simulation {
     }
 
     /// Changes the step, s.
+    ///
+    /// # Errors
+    /// A step that is not positive and finite.
     pub fn set_step(&mut self, step: f64) -> Result<(), ExecutiveError> {
         check_step(step)?;
         (self.epoch, self.steps) = (self.time(), 0);

@@ -70,12 +70,18 @@ impl Simulation {
     }
 
     /// What a step can hold with the bodies at hand.
+    ///
+    /// # Errors
+    /// A world that cannot be sealed; a plan out of range.
     pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport, ExecutiveError> {
         Ok(self.world().step_report(plan, &self.group_masses())?)
     }
 
     /// What the contacts of the present instant leave of a step ([`World::acting_report`]); springs and other loads of the
     /// scene are left out.
+    ///
+    /// # Errors
+    /// A world without a frame; a plan out of range.
     pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport, ExecutiveError> {
         Ok(self.world().acting_report(plan, &self.group_masses())?)
     }

@@ -21,6 +21,9 @@ pub const RELATIVE_MARGIN: f64 = 1e-12;
 /// Anything of infinite extent among them makes the volume [`Volume::Unbounded`], whatever the kind. Refused are
 /// an empty list, things whose extent is not a number, and custom kinds that are not registered or whose fitter
 /// returns a volume of another name.
+///
+/// # Errors
+/// The reason in words: what is refused above, or a volume that would not be finite.
 pub fn fit(kind: &BoundKind, things: &[&dyn Bounded], ext: &Extensions) -> Result<Volume, String> {
     let Some((min, max)) = bounds(things)? else { return Ok(Volume::Unbounded) };
     let volume = match kind {

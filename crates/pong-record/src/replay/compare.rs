@@ -47,6 +47,9 @@ impl Comparison {
     }
 
     /// The first difference of wrenches and the first of contacts.
+    ///
+    /// # Errors
+    /// A frame that the world does not have.
     pub fn differences(&self, run: &Run, world: &World, frame: &Frame) -> Result<Vec<Difference>, LogError> {
         let report = world.report();
         let tell = |of: String, (quantity, logged, replayed): Values| Difference {

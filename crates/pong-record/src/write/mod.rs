@@ -52,7 +52,7 @@ pub struct RecordOptions {
     pub when_full: WhenFull,
     /// Bytes that may wait for the files; raised to what the largest frame takes. `None` for 16 MiB.
     pub buffer_bytes: Option<usize>,
-    /// How often what was written is made to count. A run that is cut off keeps what was flushed.
+    /// How often what was written is flushed, by default 1 s. A run that is cut off keeps what was flushed.
     pub flush_every: Duration,
     /// How long anyone waits for files that take nothing at all: a frame that waits for room is then lost, and so are all
     /// that follow; a log that is closed then ends where it was flushed. 30 s unless the host says otherwise.
