@@ -57,7 +57,7 @@ class Drawing:
         )
 
 
-def sharing():
+def load_sharing():
     d = Drawing(660, 230)
     for left, angle, title in [(20, 0, "one plate: one spring"), (240, 30, "in between"), (460, 90, "square corner: two springs")]:
         t = math.radians(angle)
@@ -65,7 +65,7 @@ def sharing():
         far = (corner[0] + 90 * math.cos(t), corner[1] + 90 * math.sin(t))
         d.line((left, 60), corner, INK, 3)
         d.line(corner, far, INK, 3)
-        # A ball that sinks δ into both walls.
+        # A sphere whose depth is δ at both walls.
         radius, depth = 48, 10
         normal = (-math.sin(t), math.cos(t))
         height = radius - depth
@@ -79,10 +79,10 @@ def sharing():
         d.text((left, 20), title)
         share = 1 / (1 + math.cos(t))
         d.text((left, 205), f"w = {share:.2f} each" if angle else "w₁ + w₂ = 1")
-    d.save("sharing.svg")
+    d.save("load_sharing.svg")
 
 
-def bar():
+def line_segment():
     d = Drawing(660, 220)
     d.polygon([(180, 20), (480, 20), (480, 110), (180, 110)])
     a, b = (30, 118), (600, 60)
@@ -98,9 +98,9 @@ def bar():
     d.circle(a, 4, fill=BLUE, stroke=BLUE)
     d.circle(b, 4, fill=BLUE, stroke=BLUE)
     d.line((20, 110), (640, 110), SOFT, 1, "4 4")
-    d.text((20, 190), "Both crossings carry half a spring under the top face. The left tip is above the plane of the top,")
-    d.text((20, 172), "yet the right side face must not claim the bar: it leaves the solid through the left side.")
-    d.save("bar.svg")
+    d.text((20, 190), "Each end inside the solid carries half a spring under the top face. The left endpoint lies above the")
+    d.text((20, 172), "plane of the top, but the segment leaves through the left side: the right side must not push.")
+    d.save("line_segment.svg")
 
 
 def bristle():
@@ -141,7 +141,7 @@ def entry():
     for p in places:
         d.circle(p, 3, fill=INK)
     d.arrow(places[2], (places[2][0] - 65, places[2][1]))
-    d.text((20, 200), "remembered side: pushed back to the left")
+    d.text((20, 200), "remembered face: pushed back to the left")
     n = 16
     rim = [(400 + 80 * math.cos(2 * math.pi * (i + 0.5) / n), 100 + 80 * math.sin(2 * math.pi * (i + 0.5) / n)) for i in range(n)]
     d.polygon(rim)
@@ -151,9 +151,9 @@ def entry():
         d.circle(p, 3, fill=INK)
         if k in (4, 0):
             d.arrow(p, (p[0] + 40 * math.cos(angle), p[1] + 40 * math.sin(angle)))
-    d.text((310, 200), "memory follows a faceted curve")
+    d.text((310, 200), "the remembered face follows the curve")
     d.save("entry.svg")
 
 
-for figure in (sharing, bar, bristle, entry):
+for figure in (load_sharing, line_segment, bristle, entry):
     figure()
