@@ -12,6 +12,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -56,10 +57,15 @@ def rows(lines):
 def found(name):
     """What stands on the page of one scene: the reference, the verdict, the levels of the front."""
     page = (KEPT / name / "trade.md").read_text(encoding="utf-8")
-    told = [line for line in section(page, "The reference") if line]
+    told = [part for line in section(page, "The reference") for part in wrapped(line)]
     levels = rows(section(page, "Levels"))
     wanted = [line for line in levels[2:] if "front" in line or "as written" in line]
     return "\n".join(["", *blank_around_tables(told), "", *levels[:2], *wanted, ""])
+
+
+def wrapped(line):
+    """Lines of the page's width; a row of a table stays whole."""
+    return [line] if line.startswith("|") else textwrap.wrap(line, 118, break_long_words=False, break_on_hyphens=False)
 
 
 def blank_around_tables(lines):
@@ -133,8 +139,8 @@ def summary(names):
         ("semi-implicit Euler", lambda name: cell(tables[name].get(("integrator", "Euler")))),
         ("wrench held over the step", lambda name: cell(tables[name].get(("integrator", "hold/1")))),
         ("no friction", lambda name: cell(tables[name].get(("friction", "no friction")))),
-        ("ellipsoid for 54 balls", lambda name: cell(tables[name].get(("alternatives", "`ellipsoid`")))),
-        ("sphere for 54 balls", lambda name: cell(tables[name].get(("alternatives", "`sphere`")))),
+        ("ellipsoid for 54 spheres", lambda name: cell(tables[name].get(("alternatives", "`ellipsoid`")))),
+        ("sphere for 54 spheres", lambda name: cell(tables[name].get(("alternatives", "`sphere`")))),
         ("best kind of bounds, same bits", lambda name: fastest(tables[name], "bounds")),
         ("best size of leaves, same bits", lambda name: fastest(tables[name], "leaves")),
         ("one worker, same bits", lambda name: cell(tables[name].get(("workers", "1 worker")))),
