@@ -9,11 +9,12 @@ use pong_executive::{Quat, Vec3};
 pub const CROWD: Extreme = Extreme {
     id: "E13",
     asked: "10,000 contacts at once.",
-    set_up: "100 × 100 balls of one body, 10 mm apart, 0.1 mm deep in a plane, 1e5 N/m; level, and tilted so that the depth \
-             differs from ball to ball. With room for all, alone and with two workers; with room for 4,000.",
+    set_up: "100 × 100 spheres of one body, 10 mm apart, 0.1 mm deep in a plane, 1e5 N/m; level, and tilted so that \
+             the depth differs from sphere to sphere. With room for all, on one thread and with two workers; with \
+             room for 4,000.",
     answer: Answer::Told,
-    limit: "room is set at seal: by default the scene's worst case up to 65,536; beyond it the deepest stay, `CONTACT_LIMIT` \
-            is set and the report says how many there were",
+    limit: "room is set at the seal: by default the scene's worst case up to 65,536; beyond it the deepest contacts \
+            are kept, `CONTACT_LIMIT` is set and the report says how many there were",
     also: "`crates/pong-engine/tests/limits.rs`, `workers.rs`",
     rows,
 };
@@ -71,7 +72,7 @@ fn rows(_: Length) -> Outcome {
         Row::count("the same bits with two workers", 1, usize::from(same)),
         Row::count("room for 4,000: contacts kept", 4000, limited.contacts as usize),
         Row::count(
-            "room for 4,000: told",
+            "room for 4,000: reported",
             1,
             usize::from(limited.status.contains(StatusBits::CONTACT_LIMIT)),
         ),

@@ -13,20 +13,21 @@ pub const DROPS: Extreme = Extreme {
     id: "E17",
     asked: "10,000 drops at steps of 1e-5 to 1e-2 s: normal force never negative, the ledger closes at the integrator's \
             order, no rebound above the drop height.",
-    set_up: "A point mass of 1 g to 1 t falls from rest for 5 to 50 steps onto a spring with ω·dt of 0.01 to 0.3 and damping \
-             ratios ζ of 0 to 1, Runge-Kutta and semi-implicit Euler, until it is up again or at rest. Allowed, over the energy \
-             of the impact: rounding with Runge-Kutta, whose ledger takes what the stages gave; with Euler (1 + 2ζ)·ω·dt, 2ζ·ω·dt \
-             of it for damping that sets in at once. A rebound with Runge-Kutta: (ω·dt)² + 2ζ·ω·dt. Order: Hunt-Crossley damping, \
-             which sets in with the depth.",
+    set_up: "A point mass of 1 g to 1 t falls from rest for 5 to 50 steps onto a spring with ω·dt of 0.01 to 0.3 and \
+             damping ratios ζ of 0 to 1, Runge-Kutta and semi-implicit Euler, until it is up again or at rest. \
+             Allowed error, relative to the energy of the impact: rounding with Runge-Kutta, whose ledger takes the \
+             wrenches of the stages; (1 + 2ζ)·ω·dt with Euler, of which 2ζ·ω·dt is for damping that begins at once. \
+             Allowed rebound with Runge-Kutta: (ω·dt)² + 2ζ·ω·dt. The order is that of Hunt-Crossley damping, which \
+             begins with the depth.",
     answer: Answer::Safe,
-    limit: "damping without a ramp jumps at touch, which costs the ledger an order",
+    limit: "damping without a ramp jumps when contact begins, which costs the ledger an order",
     also: "cases V3, V4, V6, W11, W12",
     rows: drops,
 };
 
 pub const HELD: Extreme = Extreme {
     id: "E18",
-    asked: "A wrench that is held over a frame makes energy: never without a warning before the first frame.",
+    asked: "A wrench that is held over a frame adds energy: never without a warning before the first frame.",
     set_up: "1,000 undamped drops as in E17 with the wrench held over the step, and 1,000 with a damping that makes the step \
              stable.",
     answer: Answer::Told,
@@ -41,7 +42,8 @@ pub const STEP: Extreme = Extreme {
     set_up: "1,000 random masses, stiffnesses and damping ratios with each of three integrators, at 0.99 and 1.01 times the \
              longest stable step.",
     answer: Answer::Told,
-    limit: "linear; several contacts at once, and levers, need shorter steps: a note tells the step that is surely stable",
+    limit: "linear; several contacts at once, and lever arms, need shorter steps: a note gives the step that is \
+            surely stable",
     also: "case W13, `crates/pong-executive/tests/step_sums.rs`",
     rows: steps,
 };
@@ -246,12 +248,7 @@ fn held(_: Length) -> Outcome {
             0,
             unwarned,
         ),
-        Row::below(
-            "undamped, ω·dt < 0.1: greatest gain of height without a warning",
-            "",
-            greatest_gain,
-            0.25,
-        ),
+        Row::below("undamped, ω·dt < 0.1: largest gain of height without a warning", "", greatest_gain, 0.25),
         Row::count("undamped: negative normal forces", 0, pulled),
         Row::count("damped, stable: above the drop height by more than ω·dt", 0, damped_higher),
         Row::count("damped, stable: warned", 0, damped_warned),

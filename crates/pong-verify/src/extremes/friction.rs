@@ -11,7 +11,7 @@ pub const FACETS: Extreme = Extreme {
     asked: "Friction over facets: a bristle survives the crossing from facet to facet.",
     set_up: "Case W7: rolling and sliding over tiles, a mesh and a ridge, against one plane.",
     answer: Answer::Safe,
-    limit: "a sharp ridge is a new wall: beyond 60° between facets the bristle starts fresh",
+    limit: "a sharp ridge is a new wall: beyond 60° between facets the bristle starts at zero",
     also: "`crates/pong-engine/tests/seams.rs`",
     rows: facets,
 };
@@ -51,7 +51,7 @@ fn loads(_: Length) -> Outcome {
         most = most.max(force.xy().norm() / (mu * force.z));
     }
     rows.push(Row::count("frames with a normal force that pulls", 0, pulled));
-    rows.push(Row::below("most friction over μ × load, less 1", "", (most - 1.0).max(0.0), 1e-12));
-    rows.push(Row::below("frames that stick, over all", "", 1.0 - slid as f64 / 1e5, 0.9));
+    rows.push(Row::below("largest friction over μ × load, less 1", "", (most - 1.0).max(0.0), 1e-12));
+    rows.push(Row::below("frames that stick, over all frames", "", 1.0 - slid as f64 / 1e5, 0.9));
     Ok(rows)
 }

@@ -8,9 +8,9 @@ use pong_executive::{Quat, Vec3, Wrench};
 pub const TOUCH: Extreme = Extreme {
     id: "E6",
     asked: "Grazing contact: finite, the same every time, continuous.",
-    set_up: "Every kind of A is lowered onto every kind of B that it is tested with, from 1e-3 m above touch to 1e-3 m below, \
-             by steps that shrink to one unit in the last place at touch. Allowed change of force: twice the stiffness \
-             times the step, and rounding of the places.",
+    set_up: "Every kind of A is lowered onto every kind of B that it is tested with, from 1e-3 m above contact to \
+             1e-3 m below, by steps that shrink to one unit in the last place where contact begins. Allowed change \
+             of force: twice the stiffness times the step, and rounding of the positions.",
     answer: Answer::Safe,
     limit: "none",
     also: "`crates/pong-geometry/tests/segment_grazing.rs`, `crates/pong-engine/tests/seams.rs`",
@@ -22,7 +22,7 @@ pub const COINCIDENT: Extreme = Extreme {
     asked: "Coincident points, parallel edges, a point at a centre, exact symmetry: finite and the same every time.",
     set_up: "Features placed exactly on features, in 24 exact quarter turns each, evaluated twice and in a second world.",
     answer: Answer::Safe,
-    limit: "where a normal is not unique it is chosen, always alike; there is no force at depth 0",
+    limit: "where a normal is not unique the engine chooses one, always the same; there is no force at depth 0",
     also: "`crates/pong-geometry/tests/oracle_*.rs`",
     rows: coincident,
 };
@@ -92,7 +92,7 @@ fn touch(_: Length) -> Outcome {
     }
     Ok(vec![
         // Point: all but the sheet. Segment: plane, polyhedron. Ball: all but the ellipsoid. Ellipsoid and ray: three.
-        Row::count("pairs of kinds that touch", 4 + 2 + 4 + 3 + 3, sweeps),
+        Row::count("pairs of kinds with contact", 4 + 2 + 4 + 3 + 3, sweeps),
         Row::count("wrenches that are not finite", 0, bad),
         Row::count("wrenches that differ in a second world", 0, unlike),
         Row::below("steepest change of force over stiffness × step", "", steepest, 2.0),
@@ -174,7 +174,7 @@ fn coincident(_: Length) -> Outcome {
     Ok(vec![
         Row::count("frames", 21 * 24, frames),
         Row::count("wrenches that are not finite", 0, bad),
-        Row::count("frames with a normal that is no unit vector", 0, blind),
+        Row::count("frames with a normal that is not a unit vector", 0, blind),
         Row::count("wrenches that differ in a second world", 0, unlike),
     ])
 }

@@ -8,9 +8,10 @@ use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Ve
 
 pub const DEEP: Extreme = Extreme {
     id: "E10",
-    asked: "Deep starting overlap: pushed out by the nearest way, with no more energy than the springs held.",
-    set_up: "A ball of 0.1 m and 1 kg starts at rest with 1 % to 190 % of its radius in a plane, a block, a sheet and another \
-             ball (1e5 N/m, undamped) and is let go, Runge-Kutta at ω·dt = 0.01.",
+    asked: "Deep overlap at the start: the body is pushed out by the shortest way, with no more energy than the \
+            springs held.",
+    set_up: "A sphere of 0.1 m and 1 kg starts at rest with 1 % to 190 % of its radius in a plane, a block, a sheet \
+             and another sphere (1e5 N/m, undamped), and is released. Runge-Kutta at ω·dt = 0.01.",
     answer: Answer::Safe,
     limit: "without an earlier pose the nearest face pushes; a sheet pushes up to its thickness; energy in the overlap \
             becomes speed: √(k/m)·δ",
@@ -28,7 +29,7 @@ fn grounds() -> Vec<(&'static str, String, f64)> {
         ("plane", "Plane(name: \"y\", normal: (0,0,1), offset: 0.0)".to_owned(), 1.9),
         ("block", block("y", Vec3::new(0.0, 0.0, -0.25), half, |p| p), 1.9),
         ("sheet", sheet("y", "", 4, |x, y| Vec3::new(x, y, 0.0)), 1.9),
-        ("ball", "Sphere(name: \"y\", center: (0,0,-0.3), radius: 0.3)".to_owned(), 1.9),
+        ("sphere", "Sphere(name: \"y\", center: (0,0,-0.3), radius: 0.3)".to_owned(), 1.9),
     ]
 }
 
@@ -63,8 +64,8 @@ fn rows(_: Length) -> Outcome {
             aside = aside.max(across);
         }
         rows.push(Row::below(format!("{name}: speed over √(k/m)·δ, less 1, worst"), "", speed, 1e-4));
-        if name != "ball" {
-            rows.push(Row::below(format!("{name}: part of it along the ground"), "", aside, 1e-9));
+        if name != "sphere" {
+            rows.push(Row::below(format!("{name}: part of the speed along the ground"), "", aside, 1e-9));
         }
     }
     Ok(rows)

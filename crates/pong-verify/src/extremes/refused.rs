@@ -13,31 +13,32 @@ pub const SHAPES: Extreme = Extreme {
     asked: "Slivers, zero lengths, areas and radii, bad polyhedra: refused at load, each with its path and the reason.",
     set_up: "One model per fault; the refusal must name the primitive's path and the rule.",
     answer: Answer::Refused,
-    limit: "triangles lower than 1e-9 of their longest edge, polyhedra thinner than 1e-6 of their diameter, vertices more \
-            than 1e-6 of it before a face",
+    limit: "triangles lower than 1e-9 of their longest edge, polyhedra thinner than 1e-6 of their diameter, vertices \
+            more than 1e-6 of the diameter in front of a face",
     also: "`crates/pong-model/tests/rejects.rs`",
     rows: shapes,
 };
 
 pub const ROUNDED: Extreme = Extreme {
     id: "E5",
-    asked: "What single precision makes of a good shape is accepted.",
-    set_up: "200 boxes of all proportions up to 1 : 1000, from 1e-4 m to 1e4 m, turned and moved by their own size, their \
-             vertices rounded to single precision.",
+    asked: "A good shape that was rounded to single precision is accepted.",
+    set_up: "200 boxes of all proportions up to 1 : 1000, from 1e-4 m to 1e4 m, turned and moved by their own size, \
+             with their vertices rounded to single precision.",
     answer: Answer::Safe,
-    limit: "far from its origin a shape is lost to rounding: from some ten times its size on single precision is refused, by \
-            name",
+    limit: "far from its origin a shape is lost to rounding: from about ten times its size on, single precision is \
+            refused, by name",
     also: "`crates/pong-model/tests/topology.rs`",
     rows: rounded,
 };
 
 pub const RUN_TIME: Extreme = Extreme {
     id: "E8",
-    asked: "NaN, infinity, an unset state at run time: refused by name; the next good frame is as if it never came.",
-    set_up: "A rolling ball, 1000 frames; before every one a state is set that holds a NaN, an infinity, a number that \
-             cannot be squared, or no unit quaternion.",
+    asked: "At run time, NaN, infinity, or a state that was not set: refused by name; the next good frame is as if the \
+            bad state had not been set.",
+    set_up: "A rolling sphere, 1000 frames. Before every frame a state is set that contains NaN, infinity, a number \
+             that cannot be squared, or a quaternion that is not a unit quaternion.",
     answer: Answer::Refused,
-    limit: "numbers above 1e100 and quaternions off by more than 1e-3 are refused",
+    limit: "numbers above 1e100 and quaternions whose norm is off by more than 1e-3 are refused",
     also: "`crates/pong-engine/tests/scene.rs`, the fuzz targets",
     rows: run_time,
 };
@@ -54,12 +55,12 @@ fn faults() -> Vec<(&'static str, &'static str, String)> {
         ("sliver", "sliver-triangle", triangle("(0,0,0)", "(1,0,0)", "(0.5,1e-10,0)")),
         ("corners in a line", "sliver-triangle", triangle("(0,0,0)", "(1,0,0)", "(0.5,0,0)")),
         (
-            "segment of no length",
+            "line segment of no length",
             "zero-length",
             "LineSegment(name: \"x\", ends: ((1,2,3),(1,2,3)))".to_owned(),
         ),
-        ("ball of no radius", "", "Sphere(name: \"x\", center: (0,0,0), radius: 0.0)".to_owned()),
-        ("ball of a negative radius", "", "Sphere(name: \"x\", center: (0,0,0), radius: -1.0)".to_owned()),
+        ("sphere of no radius", "", "Sphere(name: \"x\", center: (0,0,0), radius: 0.0)".to_owned()),
+        ("sphere of a negative radius", "", "Sphere(name: \"x\", center: (0,0,0), radius: -1.0)".to_owned()),
         (
             "ellipsoid with an axis of zero",
             "",
@@ -75,7 +76,7 @@ fn faults() -> Vec<(&'static str, &'static str, String)> {
             "zero-direction",
             "Plane(name: \"x\", normal: (0,0,0), offset: 0.0)".to_owned(),
         ),
-        ("a number that is none", "", "Point(name: \"x\", position: (NaN,0,0))".to_owned()),
+        ("NaN as a number", "", "Point(name: \"x\", position: (NaN,0,0))".to_owned()),
         (
             "open polyhedron",
             "open-polyhedron",

@@ -9,7 +9,7 @@ impl Answer {
         match self {
             Self::Safe => "safe",
             Self::Refused => "refused",
-            Self::Told => "told",
+            Self::Told => "reported",
         }
     }
 }
@@ -79,7 +79,8 @@ pub fn markdown(findings: &[Finding]) -> String {
 }
 
 fn section(out: &mut String, Finding { extreme, rows }: &Finding) {
-    let _ = writeln!(out, "\n## {}\n\n**{}** {}", extreme.id, extreme.asked, extreme.set_up);
+    let text = wrapped(&format!("**{}** {}", extreme.asked, extreme.set_up));
+    let _ = writeln!(out, "\n## {}\n\n{text}", extreme.id);
     if !extreme.also.is_empty() {
         let _ = writeln!(out, "\nSee also: {}.", extreme.also);
     }
@@ -101,13 +102,40 @@ fn section(out: &mut String, Finding { extreme, rows }: &Finding) {
     }
 }
 
+/// The words of a text in lines of the page's width.
+fn wrapped(text: &str) -> String {
+    const WIDTH: usize = 118;
+    let (mut out, mut width) = (String::new(), 0);
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        if out.is_empty() {
+            width = length;
+        } else if width + 1 + length <= WIDTH {
+            out.push(' ');
+            width += 1 + length;
+        } else {
+            out.push('\n');
+            width = length;
+        }
+        out.push_str(word);
+    }
+    out
+}
+
 const HEADER: &str = "\
 # Extremes
 
-What holds at the ends of the range, measured. `pong verify --extremes -o docs/extremes.md` writes this file and
-`bash ci/extremes` checks it; `--long` runs the soaks with the same code. It holds no dates and nothing about a machine.
+This page is for engineers who want to know the range in which the engine is reliable. For each extreme it gives what
+the engine does there, what was measured, and the limit. `pong verify --extremes -o docs/extremes.md` writes this file
+and `bash ci/extremes` checks it; `--long` runs the soaks with the same code. The file has no dates and nothing about a
+machine.
 
-*Engine*: **safe**, it computes as anywhere else; **refused**, it says what is wrong, where and what to do, and nothing
-changes; **told**, it computes what it can and says that this is not the whole. *Margin*: what is allowed over the error
-measured; *exact* where nothing is allowed. Formulas and allowances are in `crates/pong-verify/src/extremes`.
+| column | meaning |
+|---|---|
+| engine: **safe** | it computes as anywhere else |
+| engine: **refused** | it says what is wrong, where and what to do, and nothing changes |
+| engine: **reported** | it computes what it can and reports that the result is not complete |
+| margin | the allowed error divided by the measured error; *exact* where no error is allowed |
+
+The formulas and the allowed errors are in `crates/pong-verify/src/extremes`.
 ";

@@ -7,9 +7,10 @@ use pong_executive::{Quat, Vec3};
 
 pub const REST: Extreme = Extreme {
     id: "E14",
-    asked: "Rest of 1e8 frames without drift.",
-    set_up: "1 kg on one contact (1e5 N/m, 200 N·s/m, μ = 0.5), pulled along the ground with 40 % of what breaks it away, \
-             semi-implicit Euler at 1 ms. After 10,000 frames to settle, 1e5 frames; 1e8 with `--long`.",
+    asked: "1e8 frames of rest without drift.",
+    set_up: "1 kg on one contact (1e5 N/m, 200 N·s/m, μ = 0.5), pulled along the ground with 40 % of the force that \
+             breaks it away, semi-implicit Euler at 1 ms. After 10,000 frames to come to rest, 1e5 frames; 1e8 with \
+             `--long`.",
     answer: Answer::Safe,
     limit: "none found: the state becomes one that a frame maps onto itself",
     also: "cases V1, V17, W4",
@@ -61,8 +62,13 @@ fn rows(length: Length) -> Outcome {
         fastest = fastest.max(block.velocity.amax());
     }
     Ok(vec![
-        Row::below(format!("{frames:e} frames: farthest from where it settled"), "m", farthest, 1e-12),
-        Row::below("greatest speed", "m/s", fastest, 1e-12),
+        Row::below(
+            format!("{frames:e} frames: largest distance from the place of rest"),
+            "m",
+            farthest,
+            1e-12,
+        ),
+        Row::below("largest speed", "m/s", fastest, 1e-12),
         Row::relative("depth", "m", GRAVITY / 1e5, -block.place.z, 1e-9),
         Row::relative("stretch of the bristle", "m", 0.2 * GRAVITY / 6e4, block.place.x, 1e-2),
     ])

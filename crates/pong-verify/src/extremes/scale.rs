@@ -10,8 +10,9 @@ use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Twist, V
 pub const SIZES: Extreme = Extreme {
     id: "E2",
     asked: "Sizes 1e-4 m to 1e4 m, stiffness 1 to 1e12 N/m: scaling the scene scales the result to 1e-10.",
-    set_up: "Point, segment, ball and ellipsoid on a box, a wavy sheet and a plane, with damping and friction, 40 steps of \
-             rough motion, in five sizes and three stiffnesses each, against the same at 1 m and 1e5 N/m.",
+    set_up: "A point, a line segment, a sphere and an ellipsoid on a box, a wavy sheet and a plane, with damping and \
+             friction; 40 steps of rough motion, in five sizes and three stiffnesses each, compared with the same at \
+             1 m and 1e5 N/m.",
     answer: Answer::Safe,
     limit: "none in this range: no tolerance of the engine is absolute",
     also: "`crates/pong-engine/tests/invariance.rs`, `crates/pong-geometry/tests/features_scaling.rs`",
@@ -21,10 +22,10 @@ pub const SIZES: Extreme = Extreme {
 pub const MASSES: Extreme = Extreme {
     id: "E3",
     asked: "Mass ratios of 1e6: no special case.",
-    set_up: "An undamped collision of two balls at 2 m/s, 1 kg and 1e6 kg, 1 mg and 1 kg, Runge-Kutta at ω·dt = 0.01, \
-             against momentum and energy balance.",
+    set_up: "An undamped collision of two spheres at 2 m/s, 1 kg and 1e6 kg, 1 mg and 1 kg, Runge-Kutta at ω·dt = \
+             0.01, compared with momentum and energy balance.",
     answer: Answer::Safe,
-    limit: "masses are the host's; its step has to suit the lighter body",
+    limit: "masses belong to the host; its step has to suit the lighter body",
     also: "cases V7 and W8",
     rows: masses,
 };

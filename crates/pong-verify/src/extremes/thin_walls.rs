@@ -9,13 +9,15 @@ use pong_executive::{Quat, Vec3};
 
 pub const SHOTS: Extreme = Extreme {
     id: "E11",
-    asked: "10,000 shots at a wall of 1 mm, 0.1 to 1,000 m/s, frames of 10 ms: each stopped or told.",
-    set_up: "1 kg against 1e6 N/m, from any side within 70° of the normal, any phase, any attitude; a point, a ball, an \
-             ellipsoid and a bar against a plate of 1 mm; a ball against a sheet, one-sided from the front and two-sided \
-             from both. Stopped: back on the side it came from. Told: `TUNNELLED`.",
+    asked: "10,000 shots at a wall of 1 mm, 0.1 to 1,000 m/s, frames of 10 ms: each one is stopped or reported.",
+    set_up: "1 kg against 1e6 N/m, from any side within 70° of the normal, any phase, any attitude; a point, a \
+             sphere, an ellipsoid and a line segment against a plate of 1 mm; a sphere against a sheet, one-sided \
+             from the front and two-sided from both sides. Stopped: back on the side from which it came. Reported: \
+             the flag `TUNNELLED`.",
     answer: Answer::Told,
-    limit: "what goes farther in a frame than half of the wall is followed along a straight line; a path that cuts an edge \
-            within that, and a ball that meets the wall with its rim alone within a frame, are missed and not told",
+    limit: "if something moves farther in a frame than half of the wall's thickness, the engine follows it along a \
+            straight line; it misses, and does not report, a path that cuts an edge within that distance, and a \
+            sphere that meets the wall only with its rim within a frame",
     also: "`crates/pong-engine/tests/passages.rs`, `side_of_entry.rs`",
     rows: shots,
 };
@@ -23,8 +25,8 @@ pub const SHOTS: Extreme = Extreme {
 pub const MISSES: Extreme = Extreme {
     id: "E12",
     asked: "No false alarm in 10,000 near misses.",
-    set_up: "As E11, but past the edge of the wall by 1e-9 m to 0.1 m, along its face at such a distance, turning back before \
-             it, or through a one-sided sheet from behind.",
+    set_up: "As E11, but past the edge of the wall by 1e-9 m to 0.1 m, along its face at such a distance, turning \
+             back before it, or through a one-sided sheet from behind.",
     answer: Answer::Safe,
     limit: "none found",
     also: "",
@@ -38,13 +40,13 @@ const STIFFNESS: f64 = 1e6;
 /// What is shot, and how far it reaches from its origin.
 const BULLETS: [(&str, &str, f64); 4] = [
     ("point", "Point(name: \"x\", position: (0,0,0))", 0.0),
-    ("ball of 5 mm", "Sphere(name: \"x\", center: (0,0,0), radius: 0.005)", 0.005),
+    ("sphere of 5 mm", "Sphere(name: \"x\", center: (0,0,0), radius: 0.005)", 0.005),
     (
         "ellipsoid of 6 × 4 × 3 mm",
         "Ellipsoid(name: \"x\", center: (0,0,0), semi_axes: (0.006,0.004,0.003))",
         0.006,
     ),
-    ("bar of 40 mm", "LineSegment(name: \"x\", ends: ((-0.02,0,0),(0.02,0,0)))", 0.02),
+    ("line segment of 40 mm", "LineSegment(name: \"x\", ends: ((-0.02,0,0),(0.02,0,0)))", 0.02),
 ];
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,8 +149,8 @@ fn shots(_: Length) -> Outcome {
     let plates = BULLETS.map(|(name, text, reach)| (format!("{name} at a plate"), text, reach, Wall::Plate));
     let (_, ball, reach) = BULLETS[1];
     let sheets = [
-        ("ball at a one-sided sheet".to_owned(), ball, reach, Wall::OneSided),
-        ("ball at a two-sided sheet".to_owned(), ball, reach, Wall::TwoSided),
+        ("sphere at a one-sided sheet".to_owned(), ball, reach, Wall::OneSided),
+        ("sphere at a two-sided sheet".to_owned(), ball, reach, Wall::TwoSided),
     ];
     let mut rows = Vec::new();
     for (name, text, reach, wall) in plates.into_iter().chain(sheets) {
@@ -162,11 +164,11 @@ fn shots(_: Length) -> Outcome {
         }
         let [stopped, told, through, false_alarms] = ends;
         rows.push(Row::count(
-            format!("{name}: {stopped} of {COUNT} stopped, {told} told; neither"),
+            format!("{name}: {stopped} of {COUNT} stopped, {told} reported; neither"),
             0,
             through,
         ));
-        rows.push(Row::count(format!("{name}: told though stopped"), 0, false_alarms));
+        rows.push(Row::count(format!("{name}: reported though stopped"), 0, false_alarms));
     }
     Ok(rows)
 }
@@ -213,7 +215,7 @@ fn misses(_: Length) -> Outcome {
             touched += usize::from(contact);
         }
         rows.push(Row::count(format!("{name} past a {wall:?}: false alarms of {COUNT}"), 0, alarms));
-        rows.push(Row::count(format!("{name} past a {wall:?}: touched"), 0, touched));
+        rows.push(Row::count(format!("{name} past a {wall:?}: in contact"), 0, touched));
     }
     let mut random = Random(13);
     let mut rig = set_up(BULLETS[1].1, Wall::OneSided)?;
@@ -223,7 +225,7 @@ fn misses(_: Length) -> Outcome {
         alarms += usize::from(fly(&mut rig, &shot, 0.01)?.0);
     }
     rows.push(Row::count(
-        format!("ball through a one-sided sheet from behind: false alarms of {COUNT}"),
+        format!("sphere through a one-sided sheet from behind: false alarms of {COUNT}"),
         0,
         alarms,
     ));
