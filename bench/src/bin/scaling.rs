@@ -137,7 +137,7 @@ fn points(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
         out.push(ring_entry("Pong, 48 wedges".to_owned(), count as f64, &ring, 1)?);
         let others: [(&str, Box<dyn Peer>); 2] = [
             ("parry, own loop, detection", Box::new(Loop::ring(&ring, Tip::Point))),
-            ("floor by hand, detection", Box::new(ByHand::new(&ring, Tip::Point))),
+            ("floor, detection", Box::new(ByHand::new(&ring, Tip::Point))),
         ];
         for (line, peer) in others {
             out.push(Entry { line: line.to_owned(), at: count as f64, peer, states: ring_states() });

@@ -46,17 +46,17 @@ fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(30)?;
     let mut tables = Tables {
         frames: Table::new(&[
-            "P, N, tips",
+            "P, N, shape",
             "contacts",
             "volume tests",
             "pair tests",
             "allocations",
             "wrenches",
         ]),
-        times: Table::new(&["P, N, tips", "Pong", "floor", PEERS[0], PEERS[1], PEERS[2], PEERS[3]]),
-        ratios: Table::new(&["P, N, tips", "floor", "wanted", PEERS[0], PEERS[1], PEERS[2], PEERS[3]]),
+        times: Table::new(&["P, N, shape", "Pong", "floor", PEERS[0], PEERS[1], PEERS[2], PEERS[3]]),
+        ratios: Table::new(&["P, N, shape", "floor", "wanted", PEERS[0], PEERS[1], PEERS[2], PEERS[3]]),
         threads: Table::new(&[
-            "P, N, tips",
+            "P, N, shape",
             "one thread",
             "two threads",
             "one over two",
