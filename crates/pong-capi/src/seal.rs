@@ -5,6 +5,7 @@ use crate::names::{c_text, no_such};
 use crate::pointers::Out;
 use crate::status::pong_status;
 use crate::world::pong_world;
+use pong_advise::StepReport;
 use pong_model::printable;
 use std::ffi::c_char;
 
@@ -43,10 +44,14 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
         setting_up(world, |inner| {
             let out = Out::optional(report, "report")?;
             let sealed = inner.world.seal()?;
-            inner.seal_warnings =
-                sealed.warnings.iter().map(|warning| c_text(&printable(&warning.to_string()))).collect();
-            inner.seal_notes =
-                sealed.notes.iter().map(|note| c_text(&printable(&note.to_string()))).collect();
+            // Plan and masses were checked when they were told: nothing is refused any more.
+            let step = inner.advice.report(&inner.world)?;
+            let of_step = step.iter().flat_map(|step| step.warnings.iter().map(ToString::to_string));
+            let warnings = sealed.warnings.iter().map(ToString::to_string).chain(of_step);
+            inner.seal_warnings = warnings.map(|warning| c_text(&printable(&warning))).collect();
+            let of_step = step.iter().flat_map(|step| step.notes.iter().map(ToString::to_string));
+            let notes = sealed.notes.iter().map(ToString::to_string).chain(of_step);
+            inner.seal_notes = notes.map(|note| c_text(&printable(&note))).collect();
             inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
             inner.counters.contact_capacity = sealed.contact_capacity as u64;
             inner.states.reserve(inner.names.interface_count());
@@ -56,11 +61,11 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
                     group_pairs: sealed.group_pairs as u64,
                     contact_capacity: sealed.contact_capacity as u64,
                     contact_state_size: sealed.state_size as u64,
-                    warning_count: sealed.warnings.len() as u64,
+                    warning_count: inner.seal_warnings.len() as u64,
                     workers: sealed.workers.len() as u64,
-                    note_count: sealed.notes.len() as u64,
-                    stable_step: sealed.stable_step.unwrap_or(0.0),
-                    surely_stable_step: sealed.surely_stable_step.unwrap_or(0.0),
+                    note_count: inner.seal_notes.len() as u64,
+                    stable_step: step.as_ref().map_or(0.0, StepReport::stable_step),
+                    surely_stable_step: step.as_ref().map_or(0.0, StepReport::surely_stable_step),
                     reserved: [0; 4],
                 });
             }

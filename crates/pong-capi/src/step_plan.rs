@@ -6,7 +6,9 @@ use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
 use crate::world::pong_world;
-use pong_engine::advice::{Accuracy, Coupling, GroupMass, StepPlan};
+use pong_advise::{Accuracy, Coupling, GroupMass, StepPlan, StepReport};
+use pong_engine::{EngineError, InterfaceId, World};
+use std::collections::BTreeMap;
 
 /// Mass properties of a movable group, for the step adviser alone: no frame reads them.
 #[repr(C)]
@@ -87,7 +89,9 @@ pub unsafe extern "C" fn pong_set_mass(
     unsafe {
         setting_up(world, |inner| {
             let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
-            Ok(inner.world.set_mass(interface.id(), &GroupMass { mass, inertia, mass_center })?)
+            inner.must_not_be_sealed("set a mass")?;
+            let mass = GroupMass { mass, inertia, mass_center };
+            Ok(inner.advice.set_mass(&inner.world, interface.id(), mass)?)
         })
     }
 }
@@ -101,7 +105,11 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
     unsafe {
         setting_up(world, |inner| {
             let plan = one(plan, "plan")?.check()?;
-            Ok(inner.world.plan_step(&plan)?)
+            inner.must_not_be_sealed("plan the step")?;
+            plan.check()?;
+            inner.world.leave_room_per_pair(pong_advise::BYTES_PER_PAIR)?;
+            inner.advice.plan = Some(plan);
+            Ok(())
         })
     }
 }
@@ -117,11 +125,11 @@ pub unsafe extern "C" fn pong_check_step(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(check, "check")?;
-            let Some(plan) = inner.world.step_plan() else {
+            let Some(plan) = &inner.advice.plan else {
                 let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
                 return Err(Failure::new(pong_status::WrongPhase, message));
             };
-            let found = inner.world.acting_report(plan, &[])?;
+            let found = pong_advise::acting_report(&inner.world, plan, &inner.advice.masses())?;
             out.set(pong_step_check {
                 contacts: found.contacts as u64,
                 not_judged: found.not_judged as u64,
@@ -131,6 +139,35 @@ pub unsafe extern "C" fn pong_check_step(
             });
             Ok(())
         })
+    }
+}
+
+/// What the adviser was told before the seal.
+#[derive(Default)]
+pub(crate) struct Advice {
+    masses: BTreeMap<InterfaceId, GroupMass>,
+    pub plan: Option<StepPlan>,
+}
+
+impl Advice {
+    fn set_mass(
+        &mut self,
+        world: &World,
+        interface: InterfaceId,
+        mass: GroupMass,
+    ) -> Result<(), EngineError> {
+        mass.check(&world.interface_name(interface)?)?;
+        self.masses.insert(interface, mass);
+        Ok(())
+    }
+
+    fn masses(&self) -> Vec<(InterfaceId, GroupMass)> {
+        self.masses.iter().map(|(interface, mass)| (*interface, *mass)).collect()
+    }
+
+    /// What the planned step can hold in the sealed world; nothing without a plan.
+    pub fn report(&self, world: &World) -> Result<Option<StepReport>, EngineError> {
+        self.plan.as_ref().map(|plan| pong_advise::step_report(world, plan, &self.masses())).transpose()
     }
 }
 

@@ -9,9 +9,10 @@ use crate::memory;
 use crate::names::Names;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
+use crate::step_plan::Advice;
 use crate::user_data::UserData;
 use crate::workers::Started;
-use pong_engine::{InterfaceId, PairId, State, World};
+use pong_engine::{EngineError, InterfaceId, PairId, State, World};
 use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError, TryLockError};
@@ -29,6 +30,7 @@ pub(crate) struct Inner {
     pub world: World,
     pub names: Names,
     pub user_data: UserData,
+    pub advice: Advice,
     pub seal_warnings: Vec<CString>,
     pub seal_notes: Vec<CString>,
     /// What `pong_pair_remedy` gave out last.
@@ -48,6 +50,16 @@ pub(crate) struct Inner {
     /// Where each model came from.
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,
+}
+
+impl Inner {
+    /// For what the engine does not hear of and yet belongs before the seal.
+    pub fn must_not_be_sealed(&self, call: &'static str) -> Result<(), EngineError> {
+        match self.workers {
+            None => Ok(()),
+            Some(_) => Err(EngineError::WrongPhase { call, cure: "do it before the world is sealed" }),
+        }
+    }
 }
 
 /// Creates a world. It is the caller's: destroy it with pong_destroy_world(). On failure `world` gets NULL.
@@ -72,6 +84,7 @@ pub unsafe extern "C" fn pong_create_world(
             world,
             names: Names::default(),
             user_data: UserData::default(),
+            advice: Advice::default(),
             seal_warnings: Vec::new(),
             seal_notes: Vec::new(),
             remedy: CString::default(),

@@ -5,7 +5,7 @@ mod limits;
 
 use crate::terminal::{print, tell_lines};
 use crate::text::number;
-use pong_engine::advice::{Accuracy, Coupling, StepPlan, judge_contact};
+use pong_advise::{Accuracy, Coupling, StepPlan, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
@@ -220,7 +220,7 @@ fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
 
 /// Every surface of a model against a rigid partner.
 fn surfaces(model: &Model, mass: f64, plan: &StepPlan, friction_share: f64) -> String {
-    let mut report = pong_engine::advice::StepReport::default();
+    let mut report = pong_advise::StepReport::default();
     for surface in &model.surfaces {
         let judged = combine_surfaces(surface, &rigid(), None, &Laws::default())
             .map_err(|error| error.cause)

@@ -17,12 +17,12 @@
 
 #![forbid(unsafe_code)]
 
-pub mod advice;
 mod contact;
 mod energy;
 mod error;
 mod frame;
 mod ids;
+pub mod inspect;
 mod law;
 mod pair_table;
 mod report;

@@ -1,6 +1,5 @@
 //! Everything that set-up decides, and the states that the host sets.
 
-use crate::advice::{GroupMass, StepPlan};
 use crate::energy::account::WrenchUse;
 use crate::law::registry::Laws;
 use pong_geometry::extension::Extensions;
@@ -68,10 +67,8 @@ pub(crate) struct Scene {
     pub objects: Vec<Object>,
     pub bodies: Vec<BodyInstance>,
     pub pairs: Vec<ObjectPair>,
-    /// Of every movable group, where the host told it: for the step adviser alone.
-    pub masses: Vec<Option<GroupMass>>,
-    /// What the step adviser checks at the seal.
-    pub step_plan: Option<StepPlan>,
+    /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
+    pub room_per_pair: usize,
 }
 
 impl Scene {

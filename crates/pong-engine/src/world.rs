@@ -1,11 +1,11 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
-use crate::advice::{self, ActingReport, GroupMass, StepPlan, StepReport};
 use crate::contact::{Contact, Ledger};
 use crate::energy::account::{Account, PairAccount, WrenchUse};
 use crate::error::EngineError;
 use crate::frame::{FrictionPreload, TunnellingEvent};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
+use crate::inspect::Inspection;
 use crate::law::registry::Laws;
 use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
 use crate::running::Running;
@@ -49,8 +49,7 @@ impl World {
             objects: Vec::new(),
             bodies: Vec::new(),
             pairs: Vec::new(),
-            masses: Vec::new(),
-            step_plan: None,
+            room_per_pair: 0,
         };
         Self {
             stamp: WorldStamp::fresh(),
@@ -104,7 +103,6 @@ impl World {
         scene.objects.push(Object { name: name.to_owned(), model, first_body });
         let bodies = scene.models[model].bodies.len();
         scene.bodies.extend((0..bodies).map(|body| BodyInstance { object, body }));
-        scene.masses.resize(first_body + bodies, None);
         self.states.bodies.resize(first_body + bodies, None);
         Ok(ObjectId::new(self.stamp, object))
     }
@@ -168,27 +166,14 @@ impl World {
         Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
     }
 
-    /// Tells the mass properties of a movable group. They serve the step adviser alone ([`plan_step`](Self::plan_step),
-    /// [`step_report`](Self::step_report)); no frame reads them.
-    pub fn set_mass(&mut self, interface: InterfaceId, mass: &GroupMass) -> Result<(), EngineError> {
-        self.must_not_be_sealed("set a mass")?;
-        let index = self.interface_index(interface)?;
-        mass.check(&self.scene.body_name(index))?;
-        self.set_up("set a mass")?.masses[index] = Some(*mass);
+    /// Has the seal make sure that so much memory (bytes) is left for each pair of movable groups that it lists: for a host
+    /// that asks about every pair right after it, as with `pong_advise::step_report`.
+    ///
+    /// # Errors
+    /// [`EngineError::WrongPhase`] once the world is sealed.
+    pub fn leave_room_per_pair(&mut self, bytes: usize) -> Result<(), EngineError> {
+        self.set_up("leave room")?.room_per_pair = bytes;
         Ok(())
-    }
-
-    /// Tells the host's step and how it uses the wrench: sealing then warns of contacts that the step is too long for.
-    pub fn plan_step(&mut self, plan: &StepPlan) -> Result<(), EngineError> {
-        self.must_not_be_sealed("plan the step")?;
-        plan.check()?;
-        self.set_up("plan the step")?.step_plan = Some(*plan);
-        Ok(())
-    }
-
-    /// The step told by [`plan_step`](Self::plan_step).
-    pub fn step_plan(&self) -> Option<&StepPlan> {
-        self.scene.step_plan.as_ref()
     }
 
     /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
@@ -196,16 +181,6 @@ impl World {
     pub fn seal(&mut self) -> Result<SealReport, EngineError> {
         self.must_not_be_sealed("seal")?;
         let (sealed, tables, mut report) = seal::seal(&self.scene, &self.surfaces)?;
-        if let Some(plan) = &self.scene.step_plan {
-            let (scene, masses) = (&*self.scene, &self.scene.masses);
-            let setting =
-                advice::Setting { scene, group_pairs: &sealed.group_pairs, tables: &tables, masses };
-            let step = setting.report(plan);
-            report.stable_step = Some(step.stable_step());
-            report.surely_stable_step = Some(step.surely_stable_step());
-            report.warnings.extend(step.warnings);
-            report.notes.extend(step.notes);
-        }
         let running = Running::start(&self.scene, sealed, tables, self.clock)?;
         report.workers = running.worker_starts().to_vec();
         self.running = Some(running);
@@ -617,6 +592,14 @@ impl World {
         Ok(&self.scene.objects[self.object_index(object)?].name)
     }
 
+    /// `object/path` of a movable group, as messages name it.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this world did not give out.
+    pub fn interface_name(&self, interface: InterfaceId) -> Result<String, EngineError> {
+        Ok(self.scene.body_name(self.interface_index(interface)?))
+    }
+
     /// Path of an Interface's movable group in its model.
     pub fn interface_path(&self, interface: InterfaceId) -> Result<&str, EngineError> {
         Ok(&self.scene.body(self.interface_index(interface)?).path)
@@ -647,60 +630,12 @@ impl World {
         Ok(self.states.bodies[self.interface_index(interface)?].as_ref())
     }
 
-    /// What a step can hold in this scene, by the masses given before the seal and those given here (which go first).
-    pub fn step_report(
-        &self,
-        plan: &StepPlan,
-        masses: &[(InterfaceId, GroupMass)],
-    ) -> Result<StepReport, EngineError> {
-        let running = self.running("ask what a step can hold")?;
-        plan.check()?;
-        let all = self.all_masses(masses)?;
-        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
-        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
-        Ok(setting.report(plan))
-    }
-
-    /// What the contacts of the last frame, all that push in it, leave of a step: exact levers and normals instead of the
-    /// bound that [`step_report`](Self::step_report) has before anything touches. Computed when it is asked for; masses as
-    /// there.
-    pub fn acting_report(
-        &self,
-        plan: &StepPlan,
-        masses: &[(InterfaceId, GroupMass)],
-    ) -> Result<ActingReport, EngineError> {
-        plan.check()?;
-        let running = self.framed()?;
-        let all = self.all_masses(masses)?;
-        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
-        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
-        Ok(advice::acting(&setting, &running.sealed, &running.frame, plan))
-    }
-
-    /// The single contacts of the last frame against a step, each at its depth and load: what
-    /// [`step_report`](Self::step_report) can only guess of laws that follow them. Bounces are not judged; masses as there.
-    pub fn pressed_report(
-        &self,
-        plan: &StepPlan,
-        masses: &[(InterfaceId, GroupMass)],
-    ) -> Result<StepReport, EngineError> {
-        plan.check()?;
-        let running = self.framed()?;
-        let all = self.all_masses(masses)?;
-        let (group_pairs, tables) = (&running.sealed.group_pairs, &running.tables);
-        let setting = advice::Setting { scene: &self.scene, group_pairs, tables, masses: &all };
-        Ok(advice::pressed(&setting, &running.sealed, &running.frame, plan))
-    }
-
-    /// The masses told before the seal, those given here in their place.
-    fn all_masses(&self, masses: &[(InterfaceId, GroupMass)]) -> Result<Vec<Option<GroupMass>>, EngineError> {
-        let mut all = self.scene.masses.clone();
-        for (interface, mass) in masses {
-            let index = self.interface_index(*interface)?;
-            mass.check(&self.scene.body_name(index))?;
-            all[index] = Some(*mass);
-        }
-        Ok(all)
+    /// What a tool beside the engine reads of the sealed world.
+    ///
+    /// # Errors
+    /// [`EngineError::WrongPhase`] before the seal.
+    pub fn inspect(&self) -> Result<Inspection<'_>, EngineError> {
+        Ok(Inspection::new(&self.scene, self.running("inspect the scene")?))
     }
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.

@@ -1,10 +1,10 @@
-//! The step adviser, asked for the bodies and the integrator at hand. The mathematics is the engine's
-//! ([`pong_engine::advice`]).
+//! The step adviser, asked for the bodies and the integrator at hand. The mathematics is that of
+//! [`pong_advise`].
 
 use crate::body::{Motion, RigidBody};
 use crate::integrate::Integrator;
 use crate::mass::MassProperties;
-use pong_engine::advice::{self, Coupling, GroupMass};
+use pong_advise::{Coupling, GroupMass};
 
 /// How an integrator uses the contact wrench.
 pub fn coupling(integrator: Integrator) -> Coupling {
@@ -18,7 +18,7 @@ pub fn coupling(integrator: Integrator) -> Coupling {
 /// The longest step (s) at which one contact of stiffness `k` (N/m) and damping `c` (N·s/m) on an effective mass `m`
 /// (kg) is stable; 0 if no step is.
 pub fn longest_stable_step(integrator: Integrator, k: f64, c: f64, m: f64) -> f64 {
-    advice::longest_stable_step(coupling(integrator), k, c, m)
+    pong_advise::longest_stable_step(coupling(integrator), k, c, m)
 }
 
 /// What the adviser must know of a body.

@@ -1,9 +1,10 @@
 //! The step adviser's promises, kept by the engine and the executive: a hundred random contacts, every coupling.
 
-use pong_engine::advice::{
-    Accuracy, ContactAdvice, ContactWish, Coupling, GroupMass, StepPlan, advise_contact,
+use pong_advise::{
+    Accuracy, ContactAdvice, ContactWish, Coupling, GroupMass, StepPlan, StepWarning, advise_contact,
+    step_report,
 };
-use pong_engine::{Config, SetupWarning, World};
+use pong_engine::{Config, World};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
@@ -97,8 +98,8 @@ fn integrator(coupling: Coupling) -> Integrator {
     }
 }
 
-/// A world with the advised surface, and what sealing it with mass and step told.
-fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<SetupWarning>) {
+/// A world with the advised surface, and what the adviser tells of it at mass and step.
+fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<StepWarning>) {
     let ContactAdvice { stiffness, damping, friction_stiffness, friction_damping, .. } = advice;
     let point = format!(
         r#"(format: "pong-model", version: 1, name: "point",
@@ -107,20 +108,17 @@ fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<S
             root: (name: "point", surface: "soft", primitives: [Point(name: "tip", position: (0.0, 0.0, 0.0))]))"#
     );
     let mut world = World::new(Config::default());
-    let mut objects = Vec::new();
-    for (name, text) in [("point", point.as_str()), ("ground", GROUND)] {
+    let objects = [("point", point.as_str()), ("ground", GROUND)].map(|(name, text)| {
         let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
         let model = world.add_model(Arc::new(model)).unwrap();
-        objects.push(world.create_object(model, name).unwrap());
-    }
+        world.create_object(model, name).unwrap()
+    });
     world.pair(objects[0], objects[1]).unwrap();
     let masses = [GroupMass::point(wish.mass), GroupMass::immovable()];
-    for (object, mass) in objects.iter().zip(masses) {
-        let interface = world.interface(*object, "").unwrap();
-        world.set_mass(interface, &mass).unwrap();
-    }
-    world.plan_step(&StepPlan::new(step, wish.coupling)).unwrap();
-    let warnings = world.seal().unwrap().warnings;
+    let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+    let masses: Vec<_> = interfaces.into_iter().zip(masses).collect();
+    assert_eq!(world.seal().unwrap().warnings, []);
+    let warnings = step_report(&world, &StepPlan::new(step, wish.coupling), &masses).unwrap().warnings;
     (world, warnings)
 }
 

@@ -2,7 +2,7 @@
 
 use super::Arguments;
 use crate::text::number;
-use pong_engine::advice::{ContactAdvice, ContactWish, Coupling, advise_contact};
+use pong_advise::{ContactAdvice, ContactWish, Coupling, advise_contact};
 
 /// The advice for the depth and restitution that were asked for.
 pub(super) fn advice(

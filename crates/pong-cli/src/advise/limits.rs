@@ -1,7 +1,7 @@
 //! What a step can hold: a table of contacts, and what goes wrong first.
 
 use crate::text::{count, number, table};
-use pong_engine::advice::{
+use pong_advise::{
     GroupLimits, PairLimits, SpringLimit, StepPlan, StepReport, critical_damping, longest_stable_step,
 };
 use pong_model::printable;

@@ -1,7 +1,7 @@
 //! The contacts that really acted together, against the step.
 
 use crate::text::{count, number};
-use pong_engine::advice::{ActingReport, StepPlan};
+use pong_advise::{ActingReport, StepPlan};
 use pong_executive::Simulation;
 
 /// The worst of a run so far.

@@ -47,17 +47,16 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
     const GROWING: usize = 3;
     /// Sorting borrows half a list.
     const SORTING: usize = 2;
-    /// What the step adviser and sets of bodies keep of a pair.
+    /// What sets of bodies keep of a pair.
     const JUDGING: usize = 64;
     let listed = SORTING * size_of::<GroupPair>() + 2 * GROWING * size_of::<Plan>() + JUDGING;
-    let advised = if scene.step_plan.is_some() { 1024 } else { 0 };
     let tables = scene.pairs.iter().map(|pair| {
         let surfaces = |object: usize| scene.models[scene.objects[object].model].surfaces.len();
         2 * surfaces(pair.a) * surfaces(pair.b) * size_of::<Option<crate::law::PairProps>>()
     });
     let names = scene.objects.iter().map(|object| 4 * object.name.len() + 256).sum::<usize>();
     let bodies = scene.bodies.len() * 256;
-    let each = listed + advised + per_pair(scene);
+    let each = listed + scene.room_per_pair + per_pair(scene);
     pairs.saturating_mul(each).saturating_add(tables.sum::<usize>() + names + bodies + SLACK)
 }
 

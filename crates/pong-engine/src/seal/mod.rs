@@ -40,16 +40,10 @@ pub struct SealReport {
     pub memory: usize,
     /// How every worker started: its core and priority, or why it has none.
     pub workers: Vec<WorkerStart>,
-    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend. What the planned step is
-    /// too long for ([`World::plan_step`](crate::World::plan_step)).
+    /// Pairs of kinds that meet but have no tester: they are ignored, as the author may intend.
     pub warnings: Vec<SetupWarning>,
-    /// Friction that one surface has and the other has not; what the planned step may be too long for.
+    /// Friction that one surface has and the other has not.
     pub notes: Vec<SetupNote>,
-    /// The longest step at which no contact by itself gains energy, s; `None` if no step is planned, infinite if nothing
-    /// that yields can be touched.
-    pub stable_step: Option<f64>,
-    /// The step up to which the scene is surely stable, whatever touches at once, s; `None` if no step is planned.
-    pub surely_stable_step: Option<f64>,
 }
 
 pub(crate) fn seal(
@@ -124,8 +118,6 @@ pub(crate) fn seal(
         workers: Vec::new(),
         warnings: warnings(scene),
         notes: friction_lost(scene, surfaces, &tables).into_iter().collect(),
-        stable_step: None,
-        surely_stable_step: None,
     };
     Ok((sealed, tables, report))
 }

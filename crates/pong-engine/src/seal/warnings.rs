@@ -24,21 +24,6 @@ pub enum SetupWarning {
         /// The pairs of Objects.
         met: MetIn,
     },
-    /// A contact gains energy at the planned step ([`World::plan_step`](crate::World::plan_step)).
-    StepTooLong {
-        /// The movable groups, the contact and the longest stable step.
-        told: String,
-    },
-    /// A bounce is not followed as exactly as was asked.
-    StepTooCoarse {
-        /// The movable groups, the error and the longest step without it.
-        told: String,
-    },
-    /// Something that the planned step could not be held against.
-    StepNotJudged {
-        /// What and why.
-        told: String,
-    },
 }
 
 impl std::fmt::Display for SetupWarning {
@@ -56,8 +41,6 @@ impl std::fmt::Display for SetupWarning {
                     "models `{a}` and `{b}` are paired but nothing of one can touch anything of the other ({met})"
                 )
             }
-            Self::StepTooLong { told } | Self::StepTooCoarse { told } => f.write_str(told),
-            Self::StepNotJudged { told } => write!(f, "step not judged: {told}"),
         }
     }
 }
@@ -90,12 +73,6 @@ impl std::fmt::Display for MetIn {
 /// What may go wrong, and nothing proves that it will: no reason to change a scene that runs well.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetupNote {
-    /// If all contacts that can act on one movable group act at once, the planned step may gain energy; one contact
-    /// alone does not ([`SetupWarning::StepTooLong`]).
-    StepMayBeTooLong {
-        /// The movable group, how many contacts, and the longest step that is surely stable.
-        told: String,
-    },
     /// One of two surfaces that can meet has friction and the other none, so between them there is none, and no entry of
     /// `pairs` says so.
     NoFriction {
@@ -111,7 +88,6 @@ pub enum SetupNote {
 impl std::fmt::Display for SetupNote {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::StepMayBeTooLong { told } => f.write_str(told),
             Self::NoFriction { rough, law, smooth } => write!(
                 f,
                 "surfaces `{rough}` and `{smooth}`: no friction between them, for `{smooth}` has none though `{rough}` has \

@@ -13,8 +13,8 @@ use pong_geometry::bounding::VolumeTests;
 
 /// A pair of movable groups that are tested against each other.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct GroupPair {
-    /// The pair of Objects.
+pub struct GroupPair {
+    /// The pair of Objects: index of its [`PairId`](crate::PairId).
     pub pair: usize,
     /// The lower of the two bodies, whatever the order of pairing.
     pub first: usize,
@@ -22,7 +22,7 @@ pub(crate) struct GroupPair {
     pub second: usize,
     /// Whether the first body's Object was named first: it is A among primitives of one kind.
     pub first_named_first: bool,
-    /// Surface tables: with A in the first body, with A in the second.
+    /// Numbers of the tables of combined surface values: with A in the first body, with A in the second.
     pub tables: [usize; 2],
 }
 

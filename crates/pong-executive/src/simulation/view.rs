@@ -7,8 +7,8 @@ use crate::error::ExecutiveError;
 use crate::integrate::Integrator;
 use crate::stability::{coupling, group_mass};
 use crate::state::FreeState;
-use pong_engine::advice::{ActingReport, GroupMass, StepPlan, StepReport};
-use pong_engine::{InterfaceId, SetupWarning, World};
+use pong_advise::{ActingReport, GroupMass, StepPlan, StepReport, StepWarning};
+use pong_engine::{InterfaceId, World};
 use pong_geometry::{Pose, Twist, Vec3, Wrench};
 
 impl Simulation {
@@ -28,23 +28,23 @@ impl Simulation {
     }
 
     /// Warnings about contacts that gain energy at the step, each with the longest stable one
-    /// ([`World::step_report`]). What cannot be judged is left out: [`StepWatch`](crate::StepWatch) judges it when it touches.
+    /// ([`pong_advise::step_report`]). What cannot be judged is left out: [`StepWatch`](crate::StepWatch) judges it when it touches.
     pub fn step_warnings(&self) -> Vec<String> {
         let report = self.stability_report().unwrap_or_default();
         let of_steps = report.warnings.iter();
-        let judged = of_steps.filter(|warning| !matches!(warning, SetupWarning::StepNotJudged { .. }));
+        let judged = of_steps.filter(|warning| !matches!(warning, StepWarning::NotJudged { .. }));
         judged.map(ToString::to_string).collect()
     }
 
     /// Warnings about contacts of the present instant that gain energy at the step, each as deep and as hard pressed as it is
-    /// ([`World::pressed_report`]).
+    /// ([`pong_advise::pressed_report`]).
     pub fn pressed_warnings(&self) -> Vec<String> {
-        let report = self.world().pressed_report(&self.step_plan(), &self.group_masses());
+        let report = pong_advise::pressed_report(self.world(), &self.step_plan(), &self.group_masses());
         report.unwrap_or_default().warnings.iter().map(ToString::to_string).collect()
     }
 
     /// Notes about contacts that may gain energy at the step if they act together, with the longest step that is surely
-    /// stable ([`World::step_report`]).
+    /// stable ([`pong_advise::step_report`]).
     pub fn step_notes(&self) -> Vec<String> {
         let report = self.stability_report().unwrap_or_default();
         report.notes.iter().map(ToString::to_string).collect()
@@ -74,7 +74,7 @@ impl Simulation {
     /// # Errors
     /// A world that cannot be sealed; a plan out of range.
     pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport, ExecutiveError> {
-        Ok(self.world().step_report(plan, &self.group_masses())?)
+        Ok(pong_advise::step_report(self.world(), plan, &self.group_masses())?)
     }
 
     /// What the contacts of the present instant leave of a step ([`World::acting_report`]); springs and other loads of the
@@ -83,7 +83,7 @@ impl Simulation {
     /// # Errors
     /// A world without a frame; a plan out of range.
     pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport, ExecutiveError> {
-        Ok(self.world().acting_report(plan, &self.group_masses())?)
+        Ok(pong_advise::acting_report(self.world(), plan, &self.group_masses())?)
     }
 
     fn group_masses(&self) -> Vec<(InterfaceId, GroupMass)> {

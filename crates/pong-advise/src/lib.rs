@@ -1,6 +1,8 @@
 //! The step adviser: what a fixed step can hold, and which stiffness and damping give a wanted depth and rebound.
 //!
-//! No frame reads anything from here: masses and steps are the host's, and they serve advice alone (docs/advise.md).
+//! Masses and steps are the host's and serve advice alone (docs/advise.md); the engine knows of neither. Of a sealed world the
+//! adviser reads what [`pong_engine::World::inspect`] shows: [`step_report`] before anything touches, [`acting_report`] and
+//! [`pressed_report`] of a frame. [`advise_contact`] needs no world.
 //!
 //! | file | tells |
 //! |---|---|
@@ -12,7 +14,9 @@
 //! | `acting.rs` | the same of what acts in a frame, exactly |
 //! | `asking.rs` | which term asks for a short step |
 //! | `pressed.rs` | single contacts of a frame, each as deep and as hard pressed as it is |
-//! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes of the seal |
+//! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes |
+
+#![forbid(unsafe_code)]
 
 mod acting;
 mod asking;
@@ -27,13 +31,16 @@ mod spring;
 mod together;
 mod warn;
 
-pub use acting::ActingReport;
-pub(crate) use acting::acting;
+/// What a [`step_report`] keeps of a pair of movable groups at most, bytes: whoever must not run out of memory after the seal
+/// has it leave so much ([`pong_engine::World::leave_room_per_pair`]).
+pub const BYTES_PER_PAIR: usize = 1024;
+
+pub use acting::{ActingReport, acting_report};
 pub use bounce::{Accuracy, BounceError, bounce_error, depth_factor, resolved_step};
-pub(crate) use check::Setting;
-pub use check::{BounceLimit, GroupLimits, PairLimits, SpringLimit, StepReport, judge_contact};
+pub use check::{BounceLimit, GroupLimits, PairLimits, SpringLimit, StepReport, judge_contact, step_report};
 pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::{Coupling, longest_stable_step};
 pub use mass::{GroupMass, StepPlan};
-pub(crate) use pressed::pressed;
+pub use pressed::pressed_report;
 pub use spring::Spring;
+pub use warn::{StepNote, StepWarning};

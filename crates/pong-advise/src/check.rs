@@ -1,25 +1,21 @@
 //! Every pair of movable groups against the host's step: single contacts, and all that can act on one group at once.
 
-use super::asking::{Known, of_group};
-use super::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
-use super::coupling::{Coupling, longest_stable_step, surely_stable_step};
-use super::mass::{GroupMass, StepPlan};
-use super::spring::{Spring, springs};
-use super::together::{Load, pair_load};
-use super::warn::{notes, warnings};
-use crate::law::PairProps;
-use crate::scene::Scene;
-use crate::seal::{SetupNote, SetupWarning, can_be_tested};
-use crate::sealed::{GroupPair, SurfaceTable};
+use crate::asking::{Known, of_group};
+use crate::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
+use crate::coupling::{Coupling, longest_stable_step, surely_stable_step};
+use crate::mass::{GroupMass, StepPlan};
+use crate::spring::{ContactSprings, Spring, pressed_springs, springs};
+use crate::together::{Load, pair_load};
+use crate::warn::{StepNote, StepWarning, notes, warnings};
+use pong_engine::inspect::{GroupPair, Inspection, PushingContact};
+use pong_engine::{EngineError, InterfaceId, PairProps, World};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the adviser looks at.
-pub(crate) struct Setting<'s> {
-    pub scene: &'s Scene,
-    pub group_pairs: &'s [GroupPair],
-    pub tables: &'s [SurfaceTable],
+pub(crate) struct Setting<'w> {
+    pub scene: Inspection<'w>,
     /// Of every movable group, where it is known.
-    pub masses: &'s [Option<GroupMass>],
+    pub masses: Vec<Option<GroupMass>>,
 }
 
 /// One spring on one mass.
@@ -86,9 +82,9 @@ pub struct StepReport {
     /// What could not be judged, and why.
     pub not_judged: Vec<String>,
     /// What goes wrong at the step, those of instability first.
-    pub warnings: Vec<SetupWarning>,
+    pub warnings: Vec<StepWarning>,
     /// What may go wrong at the step, and need not.
-    pub notes: Vec<SetupNote>,
+    pub notes: Vec<StepNote>,
 }
 
 impl StepReport {
@@ -105,13 +101,37 @@ impl StepReport {
     }
 }
 
-impl Setting<'_> {
-    pub fn report(&self, plan: &StepPlan) -> StepReport {
+/// What a step can hold in a sealed world, by the masses that are known. Of a movable group that is named twice the later mass
+/// counts.
+///
+/// # Errors
+/// A world that is not sealed, or values that no plan or group can have.
+pub fn step_report(
+    world: &World,
+    plan: &StepPlan,
+    masses: &[(InterfaceId, GroupMass)],
+) -> Result<StepReport, EngineError> {
+    plan.check()?;
+    Ok(Setting::new(world, masses)?.report(plan))
+}
+
+impl<'w> Setting<'w> {
+    pub fn new(world: &'w World, masses: &[(InterfaceId, GroupMass)]) -> Result<Self, EngineError> {
+        let scene = world.inspect()?;
+        let mut all = vec![None; scene.group_count()];
+        for (interface, mass) in masses {
+            mass.check(&world.interface_name(*interface)?)?;
+            all[interface.index()] = Some(*mass);
+        }
+        Ok(Self { scene, masses: all })
+    }
+
+    fn report(&self, plan: &StepPlan) -> StepReport {
         let mut report = StepReport::default();
         let mut untold = BTreeSet::new();
         let mut loads: BTreeMap<usize, (Load, f64)> = BTreeMap::new();
-        for pair in self.group_pairs {
-            let names = [pair.first, pair.second].map(|body| self.scene.body_name(body));
+        for pair in self.scene.pairs() {
+            let names = [pair.first, pair.second].map(|body| self.scene.group_name(body));
             if self.met(pair).is_empty() {
                 continue;
             }
@@ -141,7 +161,7 @@ impl Setting<'_> {
         report.not_judged.extend(untold.iter().map(|name| format!("`{name}`: no mass is given")));
         report.warnings = warnings(&report, plan);
         let asks = |group: &str| {
-            let body = loads.keys().find(|body| self.scene.body_name(**body) == group)?;
+            let body = loads.keys().find(|body| self.scene.group_name(**body) == group)?;
             of_group(self, *body, plan)
         };
         report.notes = notes(&report, plan, asks).into_iter().collect();
@@ -149,7 +169,7 @@ impl Setting<'_> {
     }
 
     /// The contacts that a pair of movable groups can make, and why some are not known.
-    pub(super) fn known(
+    pub(crate) fn known(
         &self,
         pair: &GroupPair,
         mass: f64,
@@ -165,12 +185,19 @@ impl Setting<'_> {
         (known, causes)
     }
 
+    /// The springs of a contact that pushes, as deep and as hard pressed as it is; `None` for laws of the host's.
+    pub(crate) fn pressed_springs(&self, contact: &PushingContact<'_>) -> Option<ContactSprings> {
+        let table = self.scene.pairs()[contact.pair].tables[contact.flipped];
+        let props = self.scene.surface_values(table, contact.surfaces(&self.scene));
+        pressed_springs(props, contact.depth, contact.normal_force).ok()
+    }
+
     /// `None` for what does not yield or cannot be touched.
     fn group_limits(&self, body: usize, load: &Load, ratio: f64, plan: &StepPlan) -> Option<GroupLimits> {
         let mass = self.masses[body].map(|known| known.mass).filter(|mass| mass.is_finite())?;
         let (stiffness, damping) = (load.stiffness_rate, load.damping_rate);
         (load.contacts > 0).then(|| GroupLimits {
-            group: self.scene.body_name(body),
+            group: self.scene.group_name(body),
             mass,
             contacts: load.contacts,
             spring: Spring { stiffness: stiffness * mass, damping: damping * mass },
@@ -187,7 +214,7 @@ impl Setting<'_> {
     }
 
     /// Values and names of all pairs of surfaces that can meet between two movable groups, each once.
-    fn met(&self, pair: &GroupPair) -> Vec<(&PairProps, [String; 2])> {
+    fn met(&self, pair: &GroupPair) -> Vec<(&'w PairProps, [String; 2])> {
         let mut met = BTreeMap::new();
         for (table, (a, b)) in pair.tables.iter().zip([(pair.first, pair.second), (pair.second, pair.first)])
         {
@@ -196,21 +223,11 @@ impl Setting<'_> {
             }
         }
         met.into_iter()
-            .map(|((table, surfaces), props)| (props, self.surface_names(table, surfaces)))
+            .map(|((table, surfaces), props)| (props, self.scene.surface_names(table, surfaces)))
             .collect()
     }
 
-    /// `model/surface` of two surfaces of a table.
-    pub(super) fn surface_names(&self, table: usize, (a, b): (u32, u32)) -> [String; 2] {
-        let table = &self.tables[table];
-        let full = |model: usize, surface: u32| {
-            let model = &self.scene.models[model];
-            format!("{}/{}", model.name, model.surfaces[surface as usize].name)
-        };
-        [full(table.model_a, a), full(table.model_b, b)]
-    }
-
-    fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &PairProps> {
+    fn met_in_direction(&self, table: usize, a: usize, b: usize) -> BTreeMap<(u32, u32), &'w PairProps> {
         let (body_a, body_b) = (self.scene.body(a), self.scene.body(b));
         let mut met = BTreeMap::new();
         let [in_a, in_b] = [body_a, body_b].map(|body| {
@@ -224,9 +241,9 @@ impl Setting<'_> {
         });
         for info_a in in_a {
             for info_b in &in_b {
-                if can_be_tested(&self.scene.extensions, (body_a, info_a), (body_b, info_b)) {
+                if self.scene.can_be_tested((a, info_a), (b, info_b)) {
                     let surfaces = (info_a.surface, info_b.surface);
-                    met.insert(surfaces, self.tables[table].props(surfaces.0, surfaces.1));
+                    met.insert(surfaces, self.scene.surface_values(table, surfaces));
                 }
             }
         }
@@ -249,7 +266,7 @@ pub fn judge_contact(
     Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
 }
 
-pub(super) fn pair_limits(
+pub(crate) fn pair_limits(
     groups: [String; 2],
     mass: f64,
     known: &[Known],

@@ -9,9 +9,9 @@
 //! A wrench that is held acts half a frame late, and n frames more if it comes late. To first order that is a damping of
 //! −k·T(½ + n), so as much is added; friction is damped critically so that a contact that sticks does not ring.
 
-use super::bounce::{Accuracy, depth_factor, resolved_step};
-use super::coupling::{Coupling, longest_stable_step};
-use crate::error::EngineError;
+use crate::bounce::{Accuracy, depth_factor, resolved_step};
+use crate::coupling::{Coupling, longest_stable_step};
+use pong_engine::EngineError;
 use pong_model::restitution::{restitution_of_zeta, zeta_for_restitution};
 
 /// What a contact is to do.

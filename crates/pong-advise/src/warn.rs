@@ -1,35 +1,77 @@
 //! What the step check tells before the first frame.
 
-use super::asking::of_spring;
-use super::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
-use super::coupling::Coupling;
-use super::mass::StepPlan;
-use super::spring::Spring;
-use crate::seal::{SetupNote, SetupWarning};
+use crate::asking::of_spring;
+use crate::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
+use crate::coupling::Coupling;
+use crate::mass::StepPlan;
+use crate::spring::Spring;
+
+/// Something that goes wrong at a step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StepWarning {
+    /// A contact gains energy.
+    TooLong {
+        /// The movable groups, the contact and the longest stable step.
+        told: String,
+    },
+    /// A bounce is not followed as exactly as was asked.
+    TooCoarse {
+        /// The movable groups, the error and the longest step without it.
+        told: String,
+    },
+    /// Something that the step could not be held against.
+    NotJudged {
+        /// What and why.
+        told: String,
+    },
+}
+
+impl std::fmt::Display for StepWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::TooLong { told } | Self::TooCoarse { told } => f.write_str(told),
+            Self::NotJudged { told } => write!(f, "step not judged: {told}"),
+        }
+    }
+}
+
+/// What may go wrong at a step, and need not: if all contacts that can act on one movable group act at once, it may gain
+/// energy; one contact alone does not ([`StepWarning::TooLong`]).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StepNote {
+    /// The movable group, how many contacts, and the longest step that is surely stable.
+    pub told: String,
+}
+
+impl std::fmt::Display for StepNote {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.told)
+    }
+}
 
 /// An undamped wrench that is held gains a little at any step: below this ω·dt that is left to the host.
 const HELD_UNDAMPED: f64 = 0.1;
 
 /// All warnings of a report, those of instability first.
-pub(super) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<SetupWarning> {
+pub(crate) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<StepWarning> {
     let mut told = Vec::new();
     for pair in &report.pairs {
-        told.extend(unstable(pair, plan).map(|told| SetupWarning::StepTooLong { told }));
+        told.extend(unstable(pair, plan).map(|told| StepWarning::TooLong { told }));
     }
     for pair in report.pairs.iter().filter(|pair| unstable(pair, plan).is_none()) {
-        told.extend(coarse(pair, plan).map(|told| SetupWarning::StepTooCoarse { told }));
+        told.extend(coarse(pair, plan).map(|told| StepWarning::TooCoarse { told }));
     }
-    told.extend(report.not_judged.iter().map(|cause| SetupWarning::StepNotJudged { told: cause.clone() }));
+    told.extend(report.not_judged.iter().map(|cause| StepWarning::NotJudged { told: cause.clone() }));
     told
 }
 
 /// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same. `asks` tells of a
 /// group which term of its contacts asks for its step.
-pub(super) fn notes(
+pub(crate) fn notes(
     report: &StepReport,
     plan: &StepPlan,
     asks: impl Fn(&str) -> Option<String>,
-) -> Option<SetupNote> {
+) -> Option<StepNote> {
     let warned = |group: &GroupLimits| {
         report.pairs.iter().any(|pair| pair.groups.contains(&group.group) && unstable(pair, plan).is_some())
     };
@@ -37,7 +79,7 @@ pub(super) fn notes(
     let together: Vec<&GroupLimits> = together.collect();
     let worst = together.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step))?;
     let asks = asks(&worst.group).map_or_else(String::new, |term| format!("; {term}"));
-    Some(SetupNote::StepMayBeTooLong { told: may(worst, together.len() - 1, plan) + &asks })
+    Some(StepNote { told: may(worst, together.len() - 1, plan) + &asks })
 }
 
 fn unstable(pair: &PairLimits, plan: &StepPlan) -> Option<String> {

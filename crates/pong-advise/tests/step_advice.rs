@@ -1,7 +1,10 @@
-//! The step check, at the seal and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
+//! The step check, before anything touches and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
 
-use pong_engine::advice::{ActingReport, Coupling, GroupMass, StepPlan, StepReport};
-use pong_engine::{Config, InterfaceId, SealReport, SetupNote, SetupWarning, State, World};
+use pong_advise::{
+    ActingReport, Coupling, GroupMass, StepNote, StepPlan, StepReport, StepWarning, acting_report,
+    pressed_report, step_report,
+};
+use pong_engine::{Config, InterfaceId, State, World};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Vec3};
 use std::sync::Arc;
@@ -20,11 +23,11 @@ fn model(name: &str, primitives: &str, stiffness: f64, friction: &str) -> String
 struct Meeting {
     world: World,
     interfaces: Vec<InterfaceId>,
-    seal: SealReport,
+    masses: Vec<(InterfaceId, GroupMass)>,
 }
 
 impl Meeting {
-    fn new(texts: &[&str], masses: &[GroupMass], plan: &StepPlan) -> Self {
+    fn new(texts: &[&str], masses: &[GroupMass]) -> Self {
         let mut world = World::new(Config::default());
         let mut objects = Vec::new();
         for (i, text) in texts.iter().enumerate() {
@@ -37,12 +40,9 @@ impl Meeting {
             world.pair(objects[0], *other).unwrap();
         }
         let interfaces: Vec<_> = objects.iter().map(|object| world.interface(*object, "").unwrap()).collect();
-        for (interface, mass) in interfaces.iter().zip(masses) {
-            world.set_mass(*interface, mass).unwrap();
-        }
-        world.plan_step(plan).unwrap();
-        let seal = world.seal().unwrap();
-        Self { world, interfaces, seal }
+        let masses = interfaces.iter().copied().zip(masses.iter().copied()).collect();
+        assert_eq!(world.seal().unwrap().warnings, []);
+        Self { world, interfaces, masses }
     }
 
     /// Evaluates with the origins of the groups at these places.
@@ -51,18 +51,21 @@ impl Meeting {
             self.world.set_state(*interface, &State { position: *position, ..State::identity() }).unwrap();
         }
         self.world.evaluate().unwrap();
-        self.world.acting_report(plan, &[]).unwrap()
+        self.acting(plan)
+    }
+
+    fn acting(&self, plan: &StepPlan) -> ActingReport {
+        acting_report(&self.world, plan, &self.masses).unwrap()
+    }
+
+    fn report(&self, plan: &StepPlan) -> StepReport {
+        step_report(&self.world, plan, &self.masses).unwrap()
     }
 }
 
-/// What a step of a plan can hold when these two meet; the seal tells the same.
+/// What a step of a plan can hold when these two meet.
 fn meet(texts: [&str; 2], masses: [GroupMass; 2], plan: &StepPlan) -> StepReport {
-    let Meeting { world, seal, .. } = Meeting::new(&texts, &masses, plan);
-    let report = world.step_report(plan, &[]).unwrap();
-    assert_eq!((&seal.warnings, &seal.notes), (&report.warnings, &report.notes));
-    assert_eq!(seal.stable_step, Some(report.stable_step()));
-    assert_eq!(seal.surely_stable_step, Some(report.surely_stable_step()));
-    report
+    Meeting::new(&texts, &masses).report(plan)
 }
 
 fn close(got: f64, expected: f64) -> bool {
@@ -106,7 +109,7 @@ fn equal_springs_on_one_body_add() {
         assert!(close(report.stable_step(), longest(K / 3.0)));
         assert!(report.warnings.is_empty() && report.notes.is_empty(), "{:?}", report.notes);
         let report = meet([&points(&feet), &floor()], masses, &plan(1.001 * step));
-        let [SetupNote::StepMayBeTooLong { told }] = &report.notes[..] else { panic!("{:?}", report.notes) };
+        let [StepNote { told }] = &report.notes[..] else { panic!("{:?}", report.notes) };
         assert!(told.contains(&format!("up to {step:.3e} s is surely stable")), "{told}");
         assert!(report.warnings.is_empty(), "{:?}", report.warnings);
     }
@@ -139,9 +142,7 @@ fn a_note_tells_which_term_asks_for_the_step() {
             let plan = |step| StepPlan { accuracy: None, ..StepPlan::new(step, coupling) };
             let sure = meet([&feet, &ground], masses, &plan(1e-9)).surely_stable_step();
             let report = meet([&feet, &ground], masses, &plan(1.01 * sure));
-            let [SetupNote::StepMayBeTooLong { told }] = &report.notes[..] else {
-                panic!("{:?}", report.notes)
-            };
+            let [StepNote { told }] = &report.notes[..] else { panic!("{:?}", report.notes) };
             let asked = format!("its {term} asks for that, most of all between `feet/s` and `floor/s`");
             assert!(told.contains(&asked), "{coupling:?}: {told}");
         }
@@ -179,8 +180,8 @@ fn partners_add_and_friction_counts() {
     let wall = |k: f64| floor().replace("stiffness: inf", &format!("stiffness: {k:?}"));
     let masses = [GroupMass::point(2.0), GroupMass::immovable(), GroupMass::immovable()];
     let step = longest(4.0 * K / 2.0);
-    let mut between = Meeting::new(&[&ball, &wall(K), &wall(3.0 * K)], &masses, &plan(step));
-    let report = between.world.step_report(&plan(step), &[]).unwrap();
+    let mut between = Meeting::new(&[&ball, &wall(K), &wall(3.0 * K)], &masses);
+    let report = between.report(&plan(step));
     assert!(close(report.surely_stable_step(), step) && report.groups[0].contacts == 2, "{report:?}");
     assert!(close(report.stable_step(), longest(1.5 * K)));
     // Between the two, and at one alone.
@@ -193,8 +194,8 @@ fn partners_add_and_friction_counts() {
     let foot = points(&[[0.0; 3], [1.0, 0.0, 0.0]]).replace("friction: None", &format!("friction: {rough}"));
     let floor = floor().replace("friction: None", "friction: Bristle(mu: 0.5, stiffness: 12e6)");
     let step = longest(2.0 * 3.0 * K / 2.0);
-    let mut rubbing = Meeting::new(&[&foot, &floor], &masses[..2], &plan(step));
-    let report = rubbing.world.step_report(&plan(step), &[]).unwrap();
+    let mut rubbing = Meeting::new(&[&foot, &floor], &masses[..2]);
+    let report = rubbing.report(&plan(step));
     assert!(close(report.surely_stable_step(), step), "{report:?}");
     assert!(close(report.stable_step(), longest(3.0 * K / 2.0)), "{report:?}");
     let acting = rubbing.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan(step));
@@ -224,8 +225,9 @@ fn the_feet_of_a_tripod_add_and_rock() {
         assert!(told <= step * (1.0 + 1e-9) && told > 0.6 * step, "{told} {step}");
         assert!(close(report.stable_step(), longest(K / 3.0)) && report.warnings.is_empty());
         let plan = plan(1.001 * step);
-        let mut stands = Meeting::new(&[&points(&feet), &floor()], &masses, &plan);
-        assert!(stands.seal.warnings.is_empty() && stands.seal.notes.len() == 1, "{:?}", stands.seal);
+        let mut stands = Meeting::new(&[&points(&feet), &floor()], &masses);
+        let before = stands.report(&plan);
+        assert!(before.warnings.is_empty() && before.notes.len() == 1, "{before:?}");
         // What acts is exact: on all feet, and in the air.
         let acting = stands.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan);
         assert!(acting.contacts == 3 && (acting.stiffness_rate / squared - 1.0).abs() < 1e-9, "{acting:?}");
@@ -243,7 +245,7 @@ fn one_contact_is_its_own_sum() {
     assert!(close(report.groups[0].stable_step, step));
     assert!(report.warnings.is_empty() && report.notes.is_empty());
     let report = meet([&points(&[[0.0; 3]]), &floor()], masses, &plan(1.001 * step));
-    assert!(matches!(report.warnings[..], [SetupWarning::StepTooLong { .. }]), "{:?}", report.warnings);
+    assert!(matches!(report.warnings[..], [StepWarning::TooLong { .. }]), "{:?}", report.warnings);
     // What is certain is not told again as possible.
     assert!(report.notes.is_empty(), "{:?}", report.notes);
 }
@@ -254,8 +256,8 @@ fn two_bodies_share_one_spring() {
     let ball = |name| model(name, r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, 2.0 * K, "None");
     let masses = [GroupMass::point(2.0), GroupMass::point(8.0)];
     let step = longest(K * (1.0 / 2.0 + 1.0 / 8.0));
-    let mut two = Meeting::new(&[&ball("x"), &ball("y")], &masses, &plan(step));
-    let report = two.world.step_report(&plan(step), &[]).unwrap();
+    let mut two = Meeting::new(&[&ball("x"), &ball("y")], &masses);
+    let report = two.report(&plan(step));
     assert_eq!(report.groups.len(), 2);
     for group in &report.groups {
         assert_eq!(group.contacts, 1);
@@ -274,10 +276,10 @@ fn a_chain_of_bodies_has_the_mode_known_by_hand() {
     let ball = model("ball", r#"Sphere(name: "s", center: (0, 0, 0), radius: 0.1)"#, K, "None");
     let masses = [GroupMass::point(5.0), GroupMass::point(2.0), GroupMass::point(2.0)];
     let step = longest(K * (1.0 / 2.0 + 2.0 / 5.0));
-    let mut chain = Meeting::new(&[&bar, &ball, &ball], &masses, &plan(step));
+    let mut chain = Meeting::new(&[&bar, &ball, &ball], &masses);
     let acting = chain.at(&[[0.0; 3], [-1.09, 0.0, 0.0], [1.09, 0.0, 0.0]], &plan(step));
     assert!(acting.contacts == 2 && close(acting.stable_step, step), "{acting:?}");
-    let surely = chain.world.step_report(&plan(step), &[]).unwrap().surely_stable_step();
+    let surely = chain.report(&plan(step)).surely_stable_step();
     assert!(surely <= step, "a bound above what can happen: {surely} {step}");
 }
 
@@ -320,9 +322,7 @@ fn what_is_not_known_is_told() {
         .replace("stiffness: inf,", "stiffness: inf, normal: HuntCrossley(dissipation: 0, exponent: 1.5),");
     let masses = [GroupMass::point(2.0), GroupMass::immovable()];
     let warnings = meet([&hertz, &floor], masses, &plan(1e-4)).warnings;
-    assert!(
-        matches!(&warnings[..], [SetupWarning::StepNotJudged { told }] if told.contains("closing speed"))
-    );
+    assert!(matches!(&warnings[..], [StepWarning::NotJudged { told }] if told.contains("closing speed")));
     // With a speed: ½mv² = ⅖kδ^(5/2), ω² = 1.5k√δ/m.
     let depth = (1.25 * 2.0 * 0.25 / 1e8_f64).powf(0.4);
     let step = longest(1.5e8 * depth.sqrt() / 2.0);
@@ -331,7 +331,7 @@ fn what_is_not_known_is_told() {
         assert_eq!(meet([&hertz, &floor], masses, &fast).warnings.len(), count);
     }
     // What acts is judged at the depth that it has.
-    let mut deep = Meeting::new(&[&hertz, &floor], &masses, &plan(step));
+    let mut deep = Meeting::new(&[&hertz, &floor], &masses);
     let acting = deep.at(&[[0.0, 0.0, -depth], [0.0; 3]], &plan(step));
     assert!((acting.stable_step / step - 1.0).abs() < 1e-9, "{acting:?}");
 }
@@ -359,13 +359,13 @@ fn what_touches_is_judged_as_it_is() {
                 "None" => longest(stiffness / 2.0),
                 _ => 2.0 * 2.0 / (0.5 * load / 1e-3),
             };
-            let mut meeting = Meeting::new(&[&texts[0], &texts[1]], &masses, &plan(step));
+            let mut meeting = Meeting::new(&[&texts[0], &texts[1]], &masses);
             meeting.at(&[[0.0, 0.0, -depth], [0.0; 3]], &plan(step));
             for (share, count) in [(0.99, 0), (1.01, 1)] {
-                let report = meeting.world.pressed_report(&plan(share * step), &[]).unwrap();
+                let report = pressed_report(&meeting.world, &plan(share * step), &meeting.masses).unwrap();
                 let warnings = report.warnings;
                 assert_eq!(warnings.len(), count, "{friction} {depth} {weight} {share}: {warnings:?}");
-                assert!(warnings.iter().all(|told| matches!(told, SetupWarning::StepTooLong { .. })));
+                assert!(warnings.iter().all(|told| matches!(told, StepWarning::TooLong { .. })));
             }
         }
     }
@@ -377,7 +377,7 @@ fn contacts_that_share_a_spring_act_by_their_weights() {
     let bar = model("bar", r#"LineSegment(name: "s", ends: ((-1, 0, 0), (1, 0, 0)))"#, K, "None");
     let masses = [GroupMass::point(2.0), GroupMass::immovable()];
     let step = longest(K / 2.0);
-    let mut lies = Meeting::new(&[&bar, &floor()], &masses, &plan(step));
+    let mut lies = Meeting::new(&[&bar, &floor()], &masses);
     let acting = lies.at(&[[0.0, 0.0, -1e-3], [0.0; 3]], &plan(step));
     assert!(acting.contacts == 2 && close(acting.stable_step, step), "{acting:?}");
 }
@@ -390,7 +390,7 @@ fn what_acts_is_the_same_from_any_side() {
     let plan = plan(1e-4);
     // About x, and about the diagonal of all axes by a third of a turn.
     for turn in [[0.6, 0.8, 0.0, 0.0], [0.5, 0.5, 0.5, 0.5], [0.8, 0.0, 0.6, 0.0]] {
-        let mut leans = Meeting::new(&[&tip, &floor()], &[rod, GroupMass::immovable()], &plan);
+        let mut leans = Meeting::new(&[&tip, &floor()], &[rod, GroupMass::immovable()]);
         // The rod along the wall's plane, 1 mm deep, both turned.
         let quaternion = Pose::new(Vec3::zeros(), turn).orientation;
         let depth = quaternion * Vec3::new(0.3, -0.2, -1e-3);
@@ -400,7 +400,7 @@ fn what_acts_is_the_same_from_any_side() {
             leans.world.set_state(*interface, &state).unwrap();
         }
         leans.world.evaluate().unwrap();
-        let acting = leans.world.acting_report(&plan, &[]).unwrap();
+        let acting = leans.acting(&plan);
         assert!(acting.contacts == 1 && (acting.stiffness_rate * 0.75 / K - 1.0).abs() < 1e-9, "{acting:?}");
         // Only the wall turned: the rod meets it at an angle, its lever is shorter.
         let state = State { position: [0.0; 3], ..State::identity() };
@@ -410,7 +410,7 @@ fn what_acts_is_the_same_from_any_side() {
         let state = State { position, orientation: turn, ..State::identity() };
         leans.world.set_state(leans.interfaces[0], &state).unwrap();
         leans.world.evaluate().unwrap();
-        let acting = leans.world.acting_report(&plan, &[]).unwrap();
+        let acting = leans.acting(&plan);
         let arm = tip.x * tip.x + tip.y * tip.y;
         let expected = K * (1.0 / 3.0 + 0.25 * arm);
         // About the rod's own axis there is no lever.

@@ -10,7 +10,7 @@
 //! Any step leaves these forms: touch falls between two evaluations, so the force begins up to a step late. How far is
 //! found by bouncing the mass at that step from several phases of touch. All is in units of ω and v.
 
-use super::coupling::Coupling;
+use crate::coupling::Coupling;
 use pong_model::restitution::restitution_of_zeta;
 use std::collections::VecDeque;
 
@@ -63,7 +63,7 @@ pub fn depth_factor(zeta: f64) -> f64 {
 const PHASES: u32 = 24;
 
 /// Of a bounce at a step of ω·dt. The damping is that of ζ and what the lag of the coupling takes from it (see
-/// [`super::advise_contact`]).
+/// [`crate::advise_contact`]).
 pub fn bounce_error(coupling: Coupling, zeta: f64, omega_step: f64) -> BounceError {
     let expected = (depth_factor(zeta), restitution_of_zeta(zeta));
     let gamma = (2.0 * zeta + omega_step * coupling.lag()) * omega_step;

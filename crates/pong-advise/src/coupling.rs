@@ -72,7 +72,7 @@ pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
 /// over its mass (1/s², 1/s), nor less damping than `ratio` times its stiffness (s); 0 if there is none.
 ///
 /// A mode x of M·q'' + C·q' + K·q = 0 obeys the scalar equation with its own x*Kx and x*Cx, so a bound of both suffices.
-pub(super) fn surely_stable_step(coupling: Coupling, k: f64, c: f64, ratio: f64) -> f64 {
+pub(crate) fn surely_stable_step(coupling: Coupling, k: f64, c: f64, ratio: f64) -> f64 {
     let most = longest_stable_step(coupling, k, c, 1.0);
     let least = || longest_stable_step(coupling, k, k * ratio.min(c / k), 1.0);
     match coupling {

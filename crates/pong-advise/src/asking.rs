@@ -4,11 +4,11 @@
 //! Asked is what would lengthen the step most if it were not there. Where no term alone does, because another as large is
 //! left, both are named.
 
-use super::check::Setting;
-use super::coupling::{Coupling, longest_stable_step, surely_stable_step};
-use super::mass::StepPlan;
-use super::spring::{ContactSprings, Spring};
-use super::together::{Load, pair_load};
+use crate::check::Setting;
+use crate::coupling::{Coupling, longest_stable_step, surely_stable_step};
+use crate::mass::StepPlan;
+use crate::spring::{ContactSprings, Spring};
+use crate::together::{Load, pair_load};
 
 /// A part of a contact that can limit a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,22 +77,22 @@ impl ContactSprings {
 }
 
 /// The contacts of one pair of movable groups by the names of their surfaces.
-pub(super) struct Known {
+pub(crate) struct Known {
     pub springs: ContactSprings,
     /// `model/surface` of both.
     pub surfaces: [String; 2],
 }
 
 /// Whether the stiffness or the damping of one spring on one mass asks for its longest stable step.
-pub(super) fn of_spring(spring: &Spring, coupling: Coupling, mass: f64) -> &'static str {
+pub(crate) fn of_spring(spring: &Spring, coupling: Coupling, mass: f64) -> &'static str {
     let step = |k: f64, c: f64| longest_stable_step(coupling, k, c, mass);
     let (k, c) = (spring.stiffness, spring.damping);
     if step(FAINT * k, c) >= step(k, FAINT * c) { "stiffness" } else { "damping" }
 }
 
 /// What asks for the surely stable step of a movable group, in words.
-pub(super) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> Option<String> {
-    let pairs = setting.group_pairs.iter().filter(|pair| [pair.first, pair.second].contains(&body));
+pub(crate) fn of_group(setting: &Setting<'_>, body: usize, plan: &StepPlan) -> Option<String> {
+    let pairs = setting.scene.pairs().iter().filter(|pair| [pair.first, pair.second].contains(&body));
     let mut met = Vec::new();
     for pair in pairs {
         let Some(mass) = setting.effective_mass(pair) else { continue };

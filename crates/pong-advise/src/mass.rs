@@ -1,9 +1,8 @@
 //! What the adviser is told of a movable group and of the host's step.
 
-use super::bounce::Accuracy;
-use super::coupling::Coupling;
-use crate::error::EngineError;
-use crate::scene::State;
+use crate::bounce::Accuracy;
+use crate::coupling::Coupling;
+use pong_engine::{EngineError, State};
 use pong_geometry::Mat3;
 
 /// Mass properties of a movable group, for the step adviser alone.
@@ -30,14 +29,17 @@ impl GroupMass {
     }
 
     /// The inertia tensor, kg·m²; `None` if it is not known or the group does not yield.
-    pub(super) fn tensor(&self) -> Option<Mat3> {
+    pub(crate) fn tensor(&self) -> Option<Mat3> {
         let [xx, yy, zz, xy, xz, yz] = self.inertia;
         let known = self.mass.is_finite() && self.inertia != [0.0; 6];
         known.then(|| Mat3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz))
     }
 
-    /// Refuses values that no group can have.
-    pub(crate) fn check(&self, group: &str) -> Result<(), EngineError> {
+    /// Refuses values that no group can have; `group` is what the error calls it.
+    ///
+    /// # Errors
+    /// [`EngineError::BadValue`].
+    pub fn check(&self, group: &str) -> Result<(), EngineError> {
         let bad = |cause: String| Err(EngineError::BadValue { what: format!("mass of `{group}`"), cause });
         if self.mass.is_nan() || self.mass <= 0.0 {
             return bad(format!(
@@ -89,7 +91,10 @@ impl StepPlan {
     }
 
     /// Refuses values that no host can have.
-    pub(crate) fn check(&self) -> Result<(), EngineError> {
+    ///
+    /// # Errors
+    /// [`EngineError::BadValue`].
+    pub fn check(&self) -> Result<(), EngineError> {
         /// Wrenches that are later than this are likelier a slip of the pen.
         const LATE_MAX: u32 = 100;
         let bad = |cause: String| Err(EngineError::BadValue { what: "step plan".to_owned(), cause });

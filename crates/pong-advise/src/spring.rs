@@ -1,6 +1,6 @@
 //! What a contact between two surfaces is to a step: springs and dampers, at the depth that is expected.
 
-use crate::law::{FrictionProps, NormalProps, PairProps};
+use pong_engine::{FrictionProps, NormalProps, PairProps};
 use pong_model::Exponent;
 
 /// A spring and its damper.
@@ -14,7 +14,7 @@ pub struct Spring {
 
 /// A whole contact of two surfaces.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct ContactSprings {
+pub(crate) struct ContactSprings {
     /// Along the normal; for laws that follow the depth, the tangent there.
     pub normal: Spring,
     /// In the contact plane, while it sticks.
@@ -34,7 +34,7 @@ impl ContactSprings {
 }
 
 /// The springs of a pair of surfaces on an effective mass (kg), or why they are not known.
-pub(super) fn springs(
+pub(crate) fn springs(
     props: &PairProps,
     mass: f64,
     speed: Option<f64>,
@@ -57,7 +57,7 @@ pub(super) fn springs(
 }
 
 /// The springs of a contact that is so deep (m) and pressed so hard (N), or why they are not known.
-pub(super) fn pressed_springs(
+pub(crate) fn pressed_springs(
     props: &PairProps,
     depth: f64,
     load: f64,

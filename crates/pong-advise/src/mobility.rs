@@ -1,15 +1,15 @@
 //! How a body yields: contacts as rows of a matrix in coordinates in which the body's mass is one.
 
-use super::mass::GroupMass;
+use crate::mass::GroupMass;
 use nalgebra::DMatrix;
 use pong_geometry::{Mat3, Vec3};
 
-pub(super) type Vec6 = nalgebra::SVector<f64, 6>;
-pub(super) type Mat6 = nalgebra::SMatrix<f64, 6, 6>;
+pub(crate) type Vec6 = nalgebra::SVector<f64, 6>;
+pub(crate) type Mat6 = nalgebra::SMatrix<f64, 6, 6>;
 
 /// The inverse root of a mass matrix M = C·Cᵀ about the mass centre.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mobility {
+pub(crate) struct Mobility {
     inverse_root: f64,
     /// Inverse of the Cholesky factor of the inertia; zero where it is not known.
     turn: Mat3,
@@ -59,7 +59,7 @@ impl Mobility {
 }
 
 /// Of a symmetric matrix that has no negative one; infinite beyond the range of numbers, where no search would end.
-pub(super) fn largest_eigenvalue(matrix: DMatrix<f64>) -> f64 {
+pub(crate) fn largest_eigenvalue(matrix: DMatrix<f64>) -> f64 {
     if matrix.iter().any(|x| !x.is_finite()) {
         return f64::INFINITY;
     }

@@ -8,14 +8,14 @@
 //!
 //! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere.
 
-use super::check::Setting;
-use super::coupling::surely_stable_step;
-use super::mass::StepPlan;
-use super::mobility::{Mobility, Vec6, largest_eigenvalue};
-use super::spring::{ContactSprings, pressed_springs};
-use crate::frame::{EvaluationBuffers, FrameContact};
-use crate::sealed::Sealed;
+use crate::check::Setting;
+use crate::coupling::surely_stable_step;
+use crate::mass::{GroupMass, StepPlan};
+use crate::mobility::{Mobility, Vec6, largest_eigenvalue};
+use crate::spring::ContactSprings;
 use nalgebra::DMatrix;
+use pong_engine::inspect::PushingContact;
+use pong_engine::{EngineError, InterfaceId, World};
 use pong_geometry::Vec3;
 use std::collections::BTreeSet;
 
@@ -34,16 +34,22 @@ pub struct ActingReport {
     pub stable_step: f64,
 }
 
-pub(crate) fn acting(
-    setting: &Setting<'_>,
-    sealed: &Sealed,
-    frame: &EvaluationBuffers,
+/// What the contacts of the last frame, all that push in it, leave of a step: exact levers and normals instead of the bound
+/// that [`step_report`](crate::step_report) has before anything touches.
+///
+/// # Errors
+/// A world that is not sealed or has no frame yet, or values that no plan or group can have.
+pub fn acting_report(
+    world: &World,
     plan: &StepPlan,
-) -> ActingReport {
+    masses: &[(InterfaceId, GroupMass)],
+) -> Result<ActingReport, EngineError> {
+    plan.check()?;
+    let setting = Setting::new(world, masses)?;
     let mut not_judged = 0;
     let mut acting = Vec::new();
-    for contact in frame.pushing() {
-        match Acting::new(setting, sealed, frame, contact) {
+    for contact in setting.scene.pushing()? {
+        match Acting::new(&setting, &contact) {
             Some(known) => acting.extend((!known.rows.is_empty()).then_some(known)),
             None => not_judged += 1,
         }
@@ -59,7 +65,7 @@ pub(crate) fn acting(
         true => f64::INFINITY,
         false => surely_stable_step(plan.coupling, stiffness_rate, damping_rate, ratio),
     };
-    ActingReport { contacts: acting.len(), not_judged, stiffness_rate, damping_rate, stable_step }
+    Ok(ActingReport { contacts: acting.len(), not_judged, stiffness_rate, damping_rate, stable_step })
 }
 
 /// A contact that acts on something that yields.
@@ -74,31 +80,19 @@ struct Acting {
 
 impl Acting {
     /// `None` for what cannot be judged.
-    fn new(
-        setting: &Setting<'_>,
-        sealed: &Sealed,
-        frame: &EvaluationBuffers,
-        contact: &FrameContact,
-    ) -> Option<Self> {
-        let found = &contact.found;
-        let (a, b) = sealed.bodies_of(&found.key);
+    fn new(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Self> {
+        let (a, b) = (contact.group_a, contact.group_b);
         let masses = [setting.masses[a].as_ref()?, setting.masses[b].as_ref()?];
-        let pair = &sealed.group_pairs[found.key.group_pair as usize];
-        let flipped = found.key.flipped as usize;
-        let surface =
-            |body: usize, primitive: u32| setting.scene.body(body).primitives[primitive as usize].surface;
-        let surfaces = (surface(a, found.key.primitive_a), surface(b, found.primitive_b));
-        let props = setting.tables[pair.tables[flipped]].props(surfaces.0, surfaces.1);
-        let springs = pressed_springs(props, found.depth, contact.normal_force).ok()?;
-        let x_ba = &frame.input.motions[found.key.group_pair as usize][flipped].x_ba;
-        let at_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));
+        let springs = setting.pressed_springs(contact)?;
+        let x_ba = contact.x_ba;
+        let at_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
         let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
         let on_a = Mobility::new(masses[0])
             .map(|body| (a, axes.map(|axis| body.row(&x_ba.rotation.tr_mul(&axis), &at_a))));
         let on_b =
-            Mobility::new(masses[1]).map(|body| (b, axes.map(|axis| body.row(&-axis, &contact.point))));
+            Mobility::new(masses[1]).map(|body| (b, axes.map(|axis| body.row(&-axis, &contact.point_b))));
         let rows = on_a.into_iter().chain(on_b).collect();
-        Some(Self { springs, weight: found.full_weight(), normal: found.normal, rows })
+        Some(Self { springs, weight: contact.weight, normal: contact.normal_b, rows })
     }
 }
 

@@ -14,21 +14,20 @@
 //! Each of these can only raise λ, but for levers of friction on balls and for the directions of supporting planes, which
 //! are tried on a grid.
 
-use super::asking::Term;
-use super::check::Setting;
-use super::mass::StepPlan;
-use super::mobility::{Mat6, Mobility, largest_eigenvalue};
-use super::spring::{ContactSprings, springs};
-use crate::seal::can_be_tested;
-use crate::sealed::GroupPair;
+use crate::asking::Term;
+use crate::check::Setting;
+use crate::mass::StepPlan;
+use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
+use crate::spring::{ContactSprings, Spring, springs};
 use nalgebra::DMatrix;
+use pong_engine::inspect::GroupPair;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Body, Element, Item, PrimitiveInfo};
 
 /// What acts on one movable group at once, at most.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Load {
+pub(crate) struct Load {
     /// Contacts.
     pub contacts: usize,
     /// Largest k/m of a mode, 1/s².
@@ -93,7 +92,7 @@ struct Direction {
 }
 
 /// What the contacts of a pair do at once, by both its directions, without some of their terms.
-pub(super) fn pair_load(
+pub(crate) fn pair_load(
     setting: &Setting<'_>,
     pair: &GroupPair,
     mass: f64,
@@ -121,11 +120,11 @@ impl Direction {
         let mobility = |body: usize| setting.masses[body].as_ref().and_then(Mobility::new);
         let mobility_a = mobility(a);
         let in_order = (flipped == 0) == pair.first_named_first;
-        let table = &setting.tables[pair.tables[flipped]];
+        let table = pair.tables[flipped];
         let meets = |info_a: &PrimitiveInfo, info_b: &PrimitiveInfo| {
             // Of two equal kinds A is the one that was named first.
             (in_order || info_a.kind != info_b.kind || info_a.kind == PrimitiveKind::Custom)
-                && can_be_tested(&setting.scene.extensions, (body_a, info_a), (body_b, info_b))
+                && setting.scene.can_be_tested((a, info_a), (b, info_b))
         };
         let partners = distinct(body_b);
         let mut pressers = Vec::new();
@@ -137,7 +136,8 @@ impl Direction {
                 Some((_, _, made)) => *made,
                 None => {
                     let met = partners.iter().filter(|partner| meets(info, partner));
-                    let values = met.map(|partner| table.props(info.surface, partner.surface));
+                    let values = met
+                        .map(|partner| setting.scene.surface_values(table, (info.surface, partner.surface)));
                     let made = values.filter_map(|props| springs(props, mass, plan.closing_speed).ok());
                     let made = made.reduce(stiffest).map(|made| made.without(without));
                     cached.push((info.kind, info.surface, made));
@@ -148,7 +148,7 @@ impl Direction {
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
-            |info: &&PrimitiveInfo| kinds.iter().any(|kind| crate::pair_table::has_tester(*kind, info.kind));
+            |info: &&PrimitiveInfo| kinds.iter().any(|kind| pong_engine::has_tester(*kind, info.kind));
         let planes =
             body_b.primitives.iter().filter(touched).filter(|info| info.kind == PrimitiveKind::Plane).count();
         let boxes = boxes(body_b, touched);
@@ -262,7 +262,7 @@ fn around(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> (Vec3, Vec3) {
 
 /// The larger of every value of two contacts.
 fn stiffest(a: ContactSprings, b: ContactSprings) -> ContactSprings {
-    let larger = |a: super::Spring, b: super::Spring| super::Spring {
+    let larger = |a: Spring, b: Spring| Spring {
         stiffness: a.stiffness.max(b.stiffness),
         damping: a.damping.max(b.damping),
     };

@@ -1,0 +1,55 @@
+//! The contacts of a frame against the host's step, one by one, each as deep and as hard pressed as it is.
+//!
+//! Before the run a law whose stiffness follows the depth, or whose damping follows the load, can only be judged for a closing
+//! speed that is guessed. Here nothing is guessed; the warnings are those of `warn.rs`, as for every other check of a step.
+
+use crate::asking::Known;
+use crate::check::{Setting, StepReport, pair_limits};
+use crate::mass::{GroupMass, StepPlan};
+use crate::warn::warnings;
+use pong_engine::inspect::PushingContact;
+use pong_engine::{EngineError, InterfaceId, World};
+use std::collections::BTreeMap;
+
+/// The single contacts of the last frame against a step, each at its depth and load: what
+/// [`step_report`](crate::step_report) can only guess of laws that follow them. Of every pair of movable groups the contact that
+/// bears the least step speaks; bounces are not judged.
+///
+/// # Errors
+/// A world that is not sealed or has no frame yet, or values that no plan or group can have.
+pub fn pressed_report(
+    world: &World,
+    plan: &StepPlan,
+    masses: &[(InterfaceId, GroupMass)],
+) -> Result<StepReport, EngineError> {
+    plan.check()?;
+    let setting = Setting::new(world, masses)?;
+    let plan = StepPlan { accuracy: None, ..*plan };
+    let mut known: BTreeMap<usize, Vec<Known>> = BTreeMap::new();
+    for contact in setting.scene.pushing()? {
+        known.entry(contact.pair).or_default().extend(known_of(&setting, &contact));
+    }
+    let mut report = StepReport::default();
+    for (index, known) in &known {
+        let pair = &setting.scene.pairs()[*index];
+        let Some(mass) = setting.effective_mass(pair) else { continue };
+        let names = [pair.first, pair.second].map(|body| setting.scene.group_name(body));
+        report.pairs.extend(pair_limits(names, mass, known, &plan));
+    }
+    report.warnings = warnings(&report, &plan);
+    Ok(report)
+}
+
+/// `None` where masses are not told, or the law is the host's.
+fn known_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Known> {
+    if setting.masses[contact.group_a].is_none() || setting.masses[contact.group_b].is_none() {
+        return None;
+    }
+    let mut springs = setting.pressed_springs(contact)?;
+    // A contact of a seam, and the end of a bar, carries a part of the spring; its load is its own already.
+    springs.normal.stiffness *= contact.weight;
+    springs.normal.damping *= contact.weight;
+    let table = setting.scene.pairs()[contact.pair].tables[contact.flipped];
+    let surfaces = setting.scene.surface_names(table, contact.surfaces(&setting.scene));
+    Some(Known { springs, surfaces })
+}

@@ -1,0 +1,136 @@
+//! What a tool beside the engine reads of a sealed world: which movable groups can meet, with which combined surface values,
+//! and which contacts of the last frame push. The step adviser (crate `pong-advise`) is made on it.
+//!
+//! Movable groups go by the index of their [`InterfaceId`](crate::InterfaceId), tables of combined surface values by the
+//! numbers that a [`GroupPair`] holds.
+
+use crate::error::EngineError;
+use crate::law::PairProps;
+use crate::running::Running;
+use crate::scene::Scene;
+use crate::seal::can_be_tested;
+pub use crate::sealed::GroupPair;
+use pong_geometry::{Transform, Vec3};
+use pong_model::{Body, PrimitiveInfo};
+
+/// A view into a sealed world; see [`World::inspect`](crate::World::inspect).
+#[derive(Clone, Copy)]
+pub struct Inspection<'w> {
+    scene: &'w Scene,
+    running: &'w Running,
+}
+
+/// A contact of the last frame that pushes, seen from B.
+#[derive(Clone, Copy, Debug)]
+pub struct PushingContact<'w> {
+    /// Index of its pair in [`Inspection::pairs`].
+    pub pair: usize,
+    /// 0 if A is in the pair's first movable group, 1 if in the second.
+    pub flipped: usize,
+    /// Index of the movable group that holds A.
+    pub group_a: usize,
+    /// Index of the movable group that holds B.
+    pub group_b: usize,
+    /// Primitive of A: index into its movable group's list.
+    pub primitive_a: u32,
+    /// Primitive of B.
+    pub primitive_b: u32,
+    /// Share of the contact's spring that acts, 0…1; half of it at each end of a line segment.
+    pub weight: f64,
+    /// Depth, m.
+    pub depth: f64,
+    /// Normal force, N.
+    pub normal_force: f64,
+    /// Unit normal from B to A, in B's frame.
+    pub normal_b: Vec3,
+    /// Where the force acts, m, in B's frame.
+    pub point_b: Vec3,
+    /// The pose of A seen from B.
+    pub x_ba: &'w Transform,
+}
+
+impl<'w> Inspection<'w> {
+    pub(crate) fn new(scene: &'w Scene, running: &'w Running) -> Self {
+        Self { scene, running }
+    }
+
+    /// How many movable groups the world has.
+    pub fn group_count(&self) -> usize {
+        self.scene.bodies.len()
+    }
+
+    /// `object/path` of a movable group.
+    pub fn group_name(&self, group: usize) -> String {
+        self.scene.body_name(group)
+    }
+
+    /// What the model holds of a movable group.
+    pub fn body(&self, group: usize) -> &'w Body {
+        self.scene.body(group)
+    }
+
+    /// The pairs of movable groups that are tested.
+    pub fn pairs(&self) -> &'w [GroupPair] {
+        &self.running.sealed.group_pairs
+    }
+
+    /// Whether primitives of two movable groups have a test, the first as A.
+    pub fn can_be_tested(&self, a: (usize, &PrimitiveInfo), b: (usize, &PrimitiveInfo)) -> bool {
+        can_be_tested(&self.scene.extensions, (self.body(a.0), a.1), (self.body(b.0), b.1))
+    }
+
+    /// The combined values of two surfaces that can meet, by the table of their direction ([`GroupPair::tables`]) and their
+    /// indices in the two models.
+    pub fn surface_values(&self, table: usize, (a, b): (u32, u32)) -> &'w PairProps {
+        self.running.tables[table].props(a, b)
+    }
+
+    /// `model/surface` of two surfaces of a table.
+    pub fn surface_names(&self, table: usize, (a, b): (u32, u32)) -> [String; 2] {
+        let table = &self.running.tables[table];
+        let full = |model: usize, surface: u32| {
+            let model = &self.scene.models[model];
+            format!("{}/{}", model.name, model.surfaces[surface as usize].name)
+        };
+        [full(table.model_a, a), full(table.model_b, b)]
+    }
+
+    /// The contacts of the last frame that push, in the order of every sum.
+    ///
+    /// # Errors
+    /// [`EngineError::WrongPhase`] before the first frame.
+    pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact<'w>>, EngineError> {
+        let Running { sealed, frame, .. } = self.running;
+        if !frame.computed {
+            let cure = "evaluate or step a frame first";
+            return Err(EngineError::WrongPhase { call: "ask what pushes", cure });
+        }
+        Ok(frame.pushing().map(|contact| {
+            let key = &contact.found.key;
+            let (pair, flipped) = (key.group_pair as usize, key.flipped as usize);
+            let (group_a, group_b) = sealed.bodies_of(key);
+            PushingContact {
+                pair,
+                flipped,
+                group_a,
+                group_b,
+                primitive_a: key.primitive_a,
+                primitive_b: contact.found.primitive_b,
+                weight: contact.found.full_weight(),
+                depth: contact.found.depth,
+                normal_force: contact.normal_force,
+                normal_b: contact.found.normal,
+                point_b: contact.point,
+                x_ba: &frame.input.motions[pair][flipped].x_ba,
+            }
+        }))
+    }
+}
+
+impl PushingContact<'_> {
+    /// The surfaces of A and B: indices in their models.
+    pub fn surfaces(&self, scene: &Inspection<'_>) -> (u32, u32) {
+        let surface = |group: usize, primitive: u32| scene.body(group).primitives[primitive as usize].surface;
+        (surface(self.group_a, self.primitive_a), surface(self.group_b, self.primitive_b))
+    }
+}
