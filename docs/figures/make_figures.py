@@ -151,7 +151,7 @@ def entry():
         d.circle(p, 3, fill=INK)
         if k in (4, 0):
             d.arrow(p, (p[0] + 40 * math.cos(angle), p[1] + 40 * math.sin(angle)))
-    d.text((310, 200), "the remembered face follows the curve")
+    d.text((310, 200), "the face follows the curve")
     d.save("entry.svg")
 
 
