@@ -96,7 +96,7 @@ impl StepPlan {
     /// [`EngineError::BadValue`].
     pub fn check(&self) -> Result<(), EngineError> {
         /// Wrenches that are later than this are likelier a slip of the pen.
-        const LATE_MAX: u32 = 100;
+        const DELAY_FRAMES_MAX: u32 = 100;
         let bad = |cause: String| Err(EngineError::BadValue { what: "step plan".to_owned(), cause });
         let positive = |value: f64| value > 0.0 && value.is_finite();
         if !positive(self.step) {
@@ -113,8 +113,8 @@ impl StepPlan {
             );
         }
         match self.coupling {
-            Coupling::Held { late } if late > LATE_MAX => {
-                bad(format!("the wrench comes {late} frames late; give at most {LATE_MAX}"))
+            Coupling::Held { late } if late > DELAY_FRAMES_MAX => {
+                bad(format!("the wrench comes {late} frames late; give at most {DELAY_FRAMES_MAX}"))
             }
             _ => Ok(()),
         }

@@ -7,7 +7,7 @@ use crate::names::{c_text, no_such};
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
 use crate::world::pong_world;
-use pong_engine::{Account, PairAccount, Verdict};
+use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict};
 use std::ffi::c_char;
 
 /// `verdict`: less energy came out than went in.
@@ -167,47 +167,47 @@ pub unsafe extern "C" fn pong_get_contact_energy_accounts(
             inner.law_faults.check()?;
             let listed = inner.world.contact_accounts().enumerate();
             listed.take(capacity).for_each(|(index, account)| out.set(index, (&account).into()));
-            let total = inner.world.wrench_use().map_or(0, |_| inner.world.contact_count());
+            let total = inner.world.wrench_coupling().map_or(0, |_| inner.world.contact_count());
             count.set(total);
             too_small("accounts", capacity, total)
         })
     }
 }
 
-impl From<&Account> for pong_energy_account {
-    fn from(account: &Account) -> Self {
+impl From<&EnergyAccount> for pong_energy_account {
+    fn from(account: &EnergyAccount) -> Self {
         Self {
-            work_in: account.taken,
-            work_out: account.returned,
-            inserted: account.put_in,
-            hold_error: account.made,
+            work_in: account.work_in,
+            work_out: account.work_out,
+            inserted: account.inserted,
+            hold_error: account.hold_error,
             stored: account.stored,
             damping_loss: account.damping_loss,
             friction_loss: account.friction_loss,
             resolution: account.resolution,
             verdict: match account.verdict() {
-                Verdict::Lost => PONG_VERDICT_DISSIPATED,
+                Verdict::Dissipated => PONG_VERDICT_DISSIPATED,
                 Verdict::Unresolved => PONG_VERDICT_UNRESOLVED,
-                Verdict::ReturnedMore => PONG_VERDICT_GAINED,
+                Verdict::Gained => PONG_VERDICT_GAINED,
             },
             reserved: 0,
         }
     }
 }
 
-impl From<&PairAccount> for pong_pair_energy_account {
-    fn from(account: &PairAccount) -> Self {
+impl From<&PairEnergyAccount> for pong_pair_energy_account {
+    fn from(account: &PairEnergyAccount) -> Self {
         let (stiffness, damping) = account.stiffest.unwrap_or_default();
         Self {
             pair: account.pair.into(),
             interfaces: account.interfaces.map(Into::into),
             total: (&account.total).into(),
-            episode: (&account.touch).into(),
-            in_contact: account.touching.into(),
-            gains_energy: account.makes_energy().into(),
-            episodes: account.touches,
-            episodes_gained: account.returned_more,
-            episodes_unresolved: account.unresolved,
+            episode: (&account.episode).into(),
+            in_contact: account.in_contact.into(),
+            gains_energy: account.gains_energy().into(),
+            episodes: account.episodes,
+            episodes_gained: account.episodes_gained,
+            episodes_unresolved: account.episodes_unresolved,
             excess: account.excess,
             worst_excess: account.worst_excess,
             stiffness,

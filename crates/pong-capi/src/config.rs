@@ -4,7 +4,7 @@ use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::guard::{Failure, Outcome};
 use crate::status::pong_status;
 use crate::version::PONG_ABI_VERSION;
-use pong_engine::{Config, WorkerSettings, WrenchUse};
+use pong_engine::{Config, WorkerSettings, WrenchCoupling};
 use std::time::Duration;
 
 /// Tells a configuration that pong_default_config() made from one that nobody filled in.
@@ -130,8 +130,8 @@ impl pong_config {
         Err(Failure::new(pong_status::Config, message))
     }
 
-    fn accounts(&self) -> Outcome<Option<WrenchUse>> {
-        let most = WrenchUse::LATE_MAX.into();
+    fn accounts(&self) -> Outcome<Option<WrenchCoupling>> {
+        let most = WrenchCoupling::DELAY_FRAMES_MAX.into();
         let late = within("delay_frames", self.delay_frames.into(), 0, most, "0 by default")? as u32;
         let wrench_use = coupling::of_accounts(self.energy_accounts, late);
         if wrench_use.is_none() && self.energy_accounts != 0 {

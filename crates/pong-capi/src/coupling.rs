@@ -1,6 +1,6 @@
 //! What the host does with a wrench: one choice, for energy accounts and for the step adviser.
 
-use pong_engine::WrenchUse;
+use pong_engine::WrenchCoupling;
 
 /// The wrench is evaluated again at every stage of an integrator of higher order (the classic Runge-Kutta method).
 pub const PONG_COUPLING_STAGES: u32 = 1;
@@ -10,11 +10,11 @@ pub const PONG_COUPLING_SEMI_IMPLICIT: u32 = 2;
 pub const PONG_COUPLING_ZERO_ORDER_HOLD: u32 = 3;
 
 /// The coupling of energy accounts; none if the host names none.
-pub(crate) fn of_accounts(coupling: u32, delay_frames: u32) -> Option<WrenchUse> {
+pub(crate) fn of_accounts(coupling: u32, delay_frames: u32) -> Option<WrenchCoupling> {
     match coupling {
-        PONG_COUPLING_STAGES => Some(WrenchUse::Stages),
-        PONG_COUPLING_SEMI_IMPLICIT => Some(WrenchUse::SemiImplicit),
-        PONG_COUPLING_ZERO_ORDER_HOLD => Some(WrenchUse::Held { late: delay_frames }),
+        PONG_COUPLING_STAGES => Some(WrenchCoupling::Stages),
+        PONG_COUPLING_SEMI_IMPLICIT => Some(WrenchCoupling::SemiImplicit),
+        PONG_COUPLING_ZERO_ORDER_HOLD => Some(WrenchCoupling::ZeroOrderHold { delay_frames }),
         _ => None,
     }
 }

@@ -1,7 +1,7 @@
 //! What a call of set-up asks for beforehand is enough for what it takes, and not far more.
 
 use pong::memory::of_text;
-use pong_engine::{Config, WorkerSettings, World, WrenchUse};
+use pong_engine::{Config, WorkerSettings, World, WrenchCoupling};
 use pong_geometry::extension::Extensions;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -156,8 +156,8 @@ fn what_a_seal_asks_for_is_enough_and_not_far_more() {
         for (contact_capacity, workers, accounts) in [
             (None, None, None),
             (Some(1), None, None),
-            (Some(30_000), None, Some(WrenchUse::Stages)),
-            (Some(1), workers(4), Some(WrenchUse::Stages)),
+            (Some(30_000), None, Some(WrenchCoupling::Stages)),
+            (Some(1), workers(4), Some(WrenchCoupling::Stages)),
             (Some(30_000), workers(2), None),
         ] {
             let config = Config { contact_capacity, workers, accounts, ..Config::default() };

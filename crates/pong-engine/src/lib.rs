@@ -34,7 +34,7 @@ mod state;
 mod world;
 
 pub use contact::{Contact, ContactSide, Ledger};
-pub use energy::account::{Account, PairAccount, Verdict, WrenchUse};
+pub use energy::account::{EnergyAccount, PairEnergyAccount, Verdict, WrenchCoupling};
 pub use error::EngineError;
 pub use frame::FrictionPreload;
 pub use ids::{InterfaceId, ModelId, ObjectId, PairId};

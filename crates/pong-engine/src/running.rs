@@ -1,6 +1,8 @@
 //! What exists once a world is sealed: its memory, its workers, its frames.
 
-use crate::energy::account::Account;
+use crate::energy::account::EnergyAccount;
+use crate::energy::contact::ContactEnergies;
+use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, Motion, ROUND, WorkerInput, WorkerPool,
@@ -10,8 +12,7 @@ use crate::scene::{Scene, States};
 use crate::seal::leave_room_for_small_things;
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    Books, ContactKey, ContactMemory, ContactRole, PairBook, Remembered, StateError, needed_len, read_block,
-    write_block,
+    ContactKey, ContactMemory, ContactRole, Remembered, StateError, needed_len, read_block, write_block,
 };
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
@@ -49,8 +50,10 @@ impl Running {
         let (sealed, tables) = (Arc::new(sealed), Arc::new(tables));
         let pairs = sealed.group_pairs.len();
         let memory = || {
-            let memory = ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.custom_stride);
-            Arc::new(memory.with_books(Books::new(sealed.account_pairs(), sealed.late)))
+            let memory = ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.law_state_len);
+            let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
+            let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
+            Arc::new(memory.with_energies(energies, pairs))
         };
         let nothing = Arc::new(ContactMemory::with_capacity(0, 0, 0));
         let input = || WorkerInput {
@@ -141,8 +144,8 @@ impl Running {
         let Self { memory, spares, frame, .. } = self;
         take_turns(memory, spares, |_, next| {
             next.replace(fresh(frame), &frame.remembered);
-            (next.work, next.dissipated) = (frame.work, frame.dissipated);
-            next.books.copy_from(&frame.books);
+            (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
+            next.pair_energies.copy_from(&frame.energy.pairs);
         });
         watch.lap(Stage::Commit, &mut frame.times);
         self.evaluated = false;
@@ -157,7 +160,8 @@ impl Running {
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
         let mut left_out = 0;
         take_turns(memory, spares, |old, next| {
-            left_out = old.accept_into(fresh(frame), (&frame.remembered, &frame.books), accepted, next);
+            left_out =
+                old.accept_into(fresh(frame), (&frame.remembered, &frame.energy.pairs), accepted, next);
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
@@ -192,19 +196,20 @@ impl Running {
     }
 
     /// Pairs of movable groups with their accounts, what they have stored taken in, and the stiffest of their contacts.
-    pub fn pair_books(
+    pub fn pair_energies(
         &self,
-    ) -> impl Iterator<Item = (&GroupPair, &PairBook, Account, Account, Option<(f64, f64)>)> {
-        let books = &self.memory.books.pairs;
-        self.sealed.group_pairs.iter().zip(books).enumerate().map(|(index, (pair, book))| {
+    ) -> impl Iterator<Item = (&GroupPair, &PairEnergy, EnergyAccount, EnergyAccount, Option<(f64, f64)>)>
+    {
+        let energies = &self.memory.pair_energies.pairs;
+        self.sealed.group_pairs.iter().zip(energies).enumerate().map(|(index, (pair, energy))| {
             let records = &self.memory.records;
             let first = records.partition_point(|record| (record.key.group_pair as usize) < index);
             let of_pair = records[first..].iter().take_while(|r| r.key.group_pair as usize == index);
             let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
             let stored = pushing.map(|record| record.stored).sum::<f64>() + 0.0;
-            let total = Account { stored, ..book.total };
-            let touch = Account { stored, ..book.touch };
-            (pair, book, total, touch, self.stiffest(pair))
+            let total = EnergyAccount { stored, ..energy.total };
+            let episode = EnergyAccount { stored, ..energy.episode.account };
+            (pair, energy, total, episode, self.stiffest(pair))
         })
     }
 
@@ -316,6 +321,10 @@ fn fresh(frame: &EvaluationBuffers) -> impl Iterator<Item = Remembered<'_>> + Cl
     let out = &frame.caller.out;
     frame.order.iter().map(|place| {
         let index = place.index as usize;
-        (out.contacts[index].record(), out.custom_of(index))
+        Remembered {
+            record: out.contacts[index].record(),
+            law_state: out.law_state_of(index),
+            energy: frame.energy.contacts.get(index),
+        }
     })
 }

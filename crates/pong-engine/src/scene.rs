@@ -1,6 +1,6 @@
 //! Everything that set-up decides, and the states that the host sets.
 
-use crate::energy::account::WrenchUse;
+use crate::energy::account::WrenchCoupling;
 use crate::law::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
@@ -19,7 +19,7 @@ pub struct Config {
     pub ledger: bool,
     /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
     /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).
-    pub accounts: Option<WrenchUse>,
+    pub accounts: Option<WrenchCoupling>,
     /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
     /// are the same bits.
     pub workers: Option<WorkerSettings>,

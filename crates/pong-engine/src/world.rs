@@ -1,7 +1,7 @@
 //! The world: set-up, seal, frames. The only owner of engine memory.
 
 use crate::contact::{Contact, Ledger};
-use crate::energy::account::{Account, PairAccount, WrenchUse};
+use crate::energy::account::{EnergyAccount, PairEnergyAccount, WrenchCoupling};
 use crate::error::EngineError;
 use crate::frame::{FrictionPreload, TunnellingEvent};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
@@ -401,39 +401,39 @@ impl World {
     }
 
     /// What the host does with wrenches, if accounts are kept ([`Config::accounts`]).
-    pub fn wrench_use(&self) -> Option<WrenchUse> {
+    pub fn wrench_coupling(&self) -> Option<WrenchCoupling> {
         self.scene.config.accounts
     }
 
     /// Accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) and in their order; empty
     /// unless [`Config::accounts`] is set.
-    pub fn contact_accounts(&self) -> impl Iterator<Item = Account> + '_ {
+    pub fn contact_accounts(&self) -> impl Iterator<Item = EnergyAccount> + '_ {
         let running = self.running.iter().filter(|_| self.scene.config.accounts.is_some());
-        running.flat_map(|running| running.frame.list_accounts(&running.sealed))
+        running.flat_map(|running| running.frame.list_accounts())
     }
 
     /// Accounts of all pairs of movable groups at the last commit; empty unless [`Config::accounts`] is set.
-    pub fn pair_accounts(&self) -> impl Iterator<Item = PairAccount> + '_ {
-        let books = self.running.iter().flat_map(Running::pair_books);
-        books.map(|(pair, book, total, touch, stiffest)| PairAccount {
+    pub fn pair_accounts(&self) -> impl Iterator<Item = PairEnergyAccount> + '_ {
+        let pairs = self.running.iter().flat_map(Running::pair_energies);
+        pairs.map(|(pair, energy, total, episode, stiffest)| PairEnergyAccount {
             pair: PairId::new(self.stamp, pair.pair),
             interfaces: [pair.first, pair.second].map(|body| InterfaceId::new(self.stamp, body)),
             total,
-            touch,
-            touching: book.touching,
-            touches: book.touches,
-            returned_more: book.returned_more,
-            unresolved: book.unresolved,
-            excess: book.excess,
-            worst_excess: book.worst_excess,
+            episode,
+            in_contact: energy.episode.lasts,
+            episodes: energy.episodes,
+            episodes_gained: energy.episodes_gained,
+            episodes_unresolved: energy.episodes_unresolved,
+            excess: energy.excess,
+            worst_excess: energy.worst_excess,
             stiffest,
-            wrench_use: self.scene.config.accounts.unwrap_or_default(),
+            coupling: self.scene.config.accounts.unwrap_or_default(),
         })
     }
 
     /// The accounts of all pairs of movable groups together, at the last commit.
-    pub fn account(&self) -> Account {
-        let mut all = Account::default();
+    pub fn account(&self) -> EnergyAccount {
+        let mut all = EnergyAccount::default();
         self.pair_accounts().for_each(|pair| all.add(&pair.total));
         all
     }

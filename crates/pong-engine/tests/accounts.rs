@@ -18,20 +18,20 @@ use pong_geometry::{Quat, Vec3};
 use stage::Scene;
 use std::f64::consts::PI;
 
-const USES: [WrenchUse; 5] = [
-    WrenchUse::Stages,
-    WrenchUse::SemiImplicit,
-    WrenchUse::Held { late: 0 },
-    WrenchUse::Held { late: 1 },
-    WrenchUse::Held { late: 3 },
+const USES: [WrenchCoupling; 5] = [
+    WrenchCoupling::Stages,
+    WrenchCoupling::SemiImplicit,
+    WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 1 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 3 },
 ];
 
 /// Sixteen phases of touch of 1 kg at 1 m/s with ω = 100 rad/s.
-fn drops(wrench_use: WrenchUse, omega_step: f64, damping: f64) -> impl Iterator<Item = Drop> {
+fn drops(coupling: WrenchCoupling, omega_step: f64, damping: f64) -> impl Iterator<Item = Drop> {
     (0..16).map(move |phase| {
         let step = omega_step / 100.0;
         let start = [step * (f64::from(phase) + 0.5) / 16.0, -1.0];
-        Drop { mass: 1.0, stiffness: 1e4, damping, gravity: 0.0, start, step, wrench_use }
+        Drop { mass: 1.0, stiffness: 1e4, damping, gravity: 0.0, start, step, coupling }
     })
 }
 
@@ -39,9 +39,9 @@ fn drops(wrench_use: WrenchUse, omega_step: f64, damping: f64) -> impl Iterator<
 /// is the trapezoid rule's for semi-implicit Euler.
 #[test]
 fn work_is_what_the_mass_gained() {
-    for wrench_use in USES.into_iter().filter(|wrench_use| *wrench_use != WrenchUse::Stages) {
+    for coupling in USES.into_iter().filter(|coupling| *coupling != WrenchCoupling::Stages) {
         for damping in [0.0, 30.0] {
-            for drop in drops(wrench_use, 0.1, damping) {
+            for drop in drops(coupling, 0.1, damping) {
                 let landed = drop.run(1000);
                 assert!(landed.left, "{drop:?}");
                 let (gained, work) = (landed.after - landed.before, landed.account.total.net_work());
@@ -55,23 +55,31 @@ fn work_is_what_the_mass_gained() {
 /// account says the same, and tells every such touch. For short steps what was made is ½·k·T·∫v²dt = ½·m·v²·πωT/2, and
 /// 1 + 2n times that if the wrench comes n frames late, to first order in ωT.
 #[test]
-fn an_undamped_contact_that_is_held_makes_energy() {
-    for (late, omega_step, tolerance) in [(0, 0.01, 0.01), (0, 0.1, 0.09), (1, 0.01, 0.05), (2, 0.005, 0.05)]
+fn an_undamped_contact_that_is_held_gains_energy() {
+    for (delay_frames, omega_step, tolerance) in
+        [(0, 0.01, 0.01), (0, 0.1, 0.09), (1, 0.01, 0.05), (2, 0.005, 0.05)]
     {
         let (mut made, mut excess) = (0.0, 0.0);
-        for drop in drops(WrenchUse::Held { late }, omega_step, 0.0) {
+        for drop in drops(WrenchCoupling::ZeroOrderHold { delay_frames }, omega_step, 0.0) {
             let landed = drop.run(2000);
             let account = landed.account;
-            assert_eq!((account.touches, account.returned_more, account.unresolved), (1, 1, 0), "{drop:?}");
-            assert!(account.makes_energy());
+            assert_eq!(
+                (account.episodes, account.episodes_gained, account.episodes_unresolved),
+                (1, 1, 0),
+                "{drop:?}"
+            );
+            assert!(account.gains_energy());
             assert_eq!(account.excess, account.worst_excess);
             assert!((account.excess - (landed.after - landed.before)).abs() < 1e-13);
-            made += account.total.made / 16.0;
+            made += account.total.hold_error / 16.0;
             excess += account.excess / 16.0;
         }
-        let expected = 0.5 * PI * omega_step / 2.0 * f64::from(1 + 2 * late);
-        assert!((made / expected - 1.0).abs() < tolerance, "late {late}, ωT {omega_step}: {made} {expected}");
-        if late == 0 {
+        let expected = 0.5 * PI * omega_step / 2.0 * f64::from(1 + 2 * delay_frames);
+        assert!(
+            (made / expected - 1.0).abs() < tolerance,
+            "late {delay_frames}, ωT {omega_step}: {made} {expected}"
+        );
+        if delay_frames == 0 {
             let expected = 0.5 * ((0.5 * PI * omega_step).exp() - 1.0);
             assert!((excess / expected - 1.0).abs() < 0.02, "ωT {omega_step}: {excess} {expected}");
         }
@@ -81,20 +89,20 @@ fn an_undamped_contact_that_is_held_makes_energy() {
 /// c > k·T·(½ + n) is what it takes: twice that loses in every phase of touch, half of it gains in every one.
 #[test]
 fn damping_beyond_the_remedy_loses_and_below_it_gains() {
-    for late in 0..3 {
-        let wrench_use = WrenchUse::Held { late };
+    for delay_frames in 0..3 {
+        let coupling = WrenchCoupling::ZeroOrderHold { delay_frames };
         let omega_step = 0.01;
-        let needed = 1e4 * (omega_step / 100.0) * (0.5 + f64::from(late));
+        let needed = 1e4 * (omega_step / 100.0) * (0.5 + f64::from(delay_frames));
         for (factor, returned_more) in [(2.0, 0), (0.5, 1)] {
-            for drop in drops(wrench_use, omega_step, factor * needed) {
+            for drop in drops(coupling, omega_step, factor * needed) {
                 let account = drop.run(2000).account;
-                assert_eq!(account.returned_more, returned_more, "{drop:?}");
-                assert_eq!(account.makes_energy(), returned_more == 1);
-                assert_eq!((account.touches, account.unresolved), (1, 0));
-                let limit = drop.damping / (1e4 * (0.5 + f64::from(late)));
+                assert_eq!(account.episodes_gained, returned_more, "{drop:?}");
+                assert_eq!(account.gains_energy(), returned_more == 1);
+                assert_eq!((account.episodes, account.episodes_unresolved), (1, 0));
+                let limit = drop.damping / (1e4 * (0.5 + f64::from(delay_frames)));
                 let told = account.remedy();
                 assert!(told.contains(&format!("at steps below {limit:.3e} s")), "{told}");
-                assert!(told.contains(&format!("k·dt·{}", 0.5 + f64::from(late))), "{told}");
+                assert!(told.contains(&format!("k·dt·{}", 0.5 + f64::from(delay_frames))), "{told}");
             }
         }
     }
@@ -107,11 +115,14 @@ fn a_bounce_takes_its_kinetic_energy_and_loses_what_restitution_says() {
     let s = (1.0 - zeta * zeta).sqrt();
     let e = (-(zeta / s) * (2.0 * zeta * s).atan2(2.0 * zeta * zeta - 1.0)).exp();
     let (mut taken, mut lost) = (0.0, 0.0);
-    for drop in drops(WrenchUse::Stages, 0.002, 2.0 * zeta * 100.0) {
+    for drop in drops(WrenchCoupling::Stages, 0.002, 2.0 * zeta * 100.0) {
         let account = drop.run(5000).account;
-        taken += account.total.taken / 16.0;
+        taken += account.total.work_in / 16.0;
         lost += account.total.damping_loss / 16.0;
-        assert_eq!((account.returned_more, account.unresolved, account.total.made), (0, 0, 0.0));
+        assert_eq!(
+            (account.episodes_gained, account.episodes_unresolved, account.total.hold_error),
+            (0, 0, 0.0)
+        );
         assert_eq!(account.total.friction_loss, 0.0);
     }
     assert!((taken / 0.5 - 1.0).abs() < 2e-3, "{taken}");
@@ -122,9 +133,13 @@ fn a_bounce_takes_its_kinetic_energy_and_loses_what_restitution_says() {
 /// energy was made or lost for certain.
 #[test]
 fn an_elastic_bounce_at_stages_is_left_open() {
-    for drop in drops(WrenchUse::Stages, 0.05, 0.0) {
+    for drop in drops(WrenchCoupling::Stages, 0.05, 0.0) {
         let account = drop.run(1000).account;
-        assert_eq!((account.touches, account.unresolved, account.returned_more), (1, 1, 0), "{drop:?}");
+        assert_eq!(
+            (account.episodes, account.episodes_unresolved, account.episodes_gained),
+            (1, 1, 0),
+            "{drop:?}"
+        );
     }
 }
 
@@ -144,8 +159,8 @@ fn point_and_ground(mu: f64) -> [String; 2] {
 #[test]
 fn friction_heat_of_a_sliding_point_is_mu_n_s() {
     let [tip, ground] = point_and_ground(0.4);
-    for wrench_use in USES {
-        let config = Config { accounts: Some(wrench_use), ..Config::default() };
+    for coupling in USES {
+        let config = Config { accounts: Some(coupling), ..Config::default() };
         let mut rig = Rig::with_config(config, &tip, &ground);
         let (depth, speed) = (1e-3, 0.5);
         for i in 0..=2000 {
@@ -162,11 +177,11 @@ fn friction_heat_of_a_sliding_point_is_mu_n_s() {
         assert!((account.friction_loss / heat - 1.0).abs() < 1e-3, "{} {heat}", account.friction_loss);
         assert!(account.damping_loss.abs() < 1e-15 * heat, "{}", account.damping_loss);
         assert!(
-            (account.put_in - 0.5 * 1e5 * depth * depth).abs() < 1e-15,
+            (account.inserted - 0.5 * 1e5 * depth * depth).abs() < 1e-15,
             "begun inside: {}",
-            account.put_in
+            account.inserted
         );
-        assert_eq!(account.verdict(), Verdict::Lost);
+        assert_eq!(account.verdict(), Verdict::Dissipated);
         assert!(account.imbalance().abs() < 1e-12);
         assert_eq!(rig.world.contact_accounts().count(), 1);
     }
@@ -177,7 +192,7 @@ fn friction_heat_of_a_sliding_point_is_mu_n_s() {
 fn closed_paths_return_nothing() {
     for friction in [0.4, 0.0] {
         let [tip, ground] = point_and_ground(friction);
-        let config = Config { accounts: Some(WrenchUse::Stages), ..Config::default() };
+        let config = Config { accounts: Some(WrenchCoupling::Stages), ..Config::default() };
         let mut rig = Rig::with_config(config, &tip, &ground);
         let (radius, depth) = (0.01, 1e-3);
         let (mut laps, steps) = (Vec::new(), 4000);
@@ -200,15 +215,15 @@ fn closed_paths_return_nothing() {
         let expected = -friction * 1e5 * depth * 2.0 * PI * radius;
         assert!((lap - expected).abs() < 5e-3 * expected.abs() + 1e-12, "{lap} {expected}");
         assert!(lap < 1e-12);
-        assert_eq!(laps[3].verdict(), Verdict::Lost);
+        assert_eq!(laps[3].verdict(), Verdict::Dissipated);
     }
 }
 
 /// What the host puts inside another body was put in, not made; what is forgotten is taken out again.
 #[test]
 fn what_begins_inside_was_put_in() {
-    for wrench_use in USES {
-        let config = Config { accounts: Some(wrench_use), ..Config::default() };
+    for coupling in USES {
+        let config = Config { accounts: Some(coupling), ..Config::default() };
         let [tip, ground] = point_and_ground(0.4);
         let mut rig = Rig::with_config(config, &tip, &ground);
         let stand = |rig: &mut Rig, z: f64| {
@@ -218,29 +233,29 @@ fn what_begins_inside_was_put_in() {
         stand(&mut rig, -1e-3);
         let put_in = 0.05;
         let account = rig.world.pair_accounts().next().unwrap();
-        assert!((account.total.put_in - put_in).abs() < 1e-15 && account.touching, "{account:?}");
-        assert_eq!((account.total.stored, account.total.taken), (account.total.put_in, 0.0));
-        let config = Config { accounts: Some(wrench_use), ..Config::default() };
+        assert!((account.total.inserted - put_in).abs() < 1e-15 && account.in_contact, "{account:?}");
+        assert_eq!((account.total.stored, account.total.work_in), (account.total.inserted, 0.0));
+        let config = Config { accounts: Some(coupling), ..Config::default() };
         let mut other = Rig::with_config(config, &tip, &ground);
         stand(&mut other, -1e-3);
         other.world.forget(other.objects[0]).unwrap();
-        assert!(other.world.account().put_in.abs() < 1e-15);
+        assert!(other.world.account().inserted.abs() < 1e-15);
         // Led out slowly: it returns what was put in, and no more than the rule of work can tell.
         for i in 0..200 {
             stand(&mut rig, -1e-3 + 1.001e-5 * f64::from(i));
         }
         let account = rig.world.pair_accounts().next().unwrap();
-        assert!((account.total.returned / put_in - 1.0).abs() < 0.1, "{account:?}");
+        assert!((account.total.work_out / put_in - 1.0).abs() < 0.1, "{account:?}");
         assert!(account.total.imbalance().abs() < 1e-12);
-        assert_eq!(account.touches, 1);
+        assert_eq!(account.episodes, 1);
         // What was put in was not made; and the touch is over.
         assert!(account.worst_excess < 0.1 * put_in, "{account:?}");
-        assert_eq!(account.touch, Account::default());
+        assert_eq!(account.episode, EnergyAccount::default());
     }
 }
 
-fn with_accounts(mut scene: Scene, wrench_use: WrenchUse) -> Scene {
-    scene.accounts = Some(wrench_use);
+fn with_accounts(mut scene: Scene, coupling: WrenchCoupling) -> Scene {
+    scene.accounts = Some(coupling);
     scene
 }
 
@@ -248,9 +263,9 @@ fn with_accounts(mut scene: Scene, wrench_use: WrenchUse) -> Scene {
 /// is another than without them.
 #[test]
 fn accounts_close_and_change_no_answer() {
-    for wrench_use in USES {
+    for coupling in USES {
         for (scene, plain) in scenes::all().into_iter().zip(scenes::all()) {
-            let (scene, frames) = (with_accounts(scene, wrench_use), plain.frames.min(30));
+            let (scene, frames) = (with_accounts(scene, coupling), plain.frames.min(30));
             let (mut stage, mut plain) = (scene.set_up(None), plain.set_up(None));
             let mut forgotten = false;
             for frame in 0..frames {
@@ -262,18 +277,23 @@ fn accounts_close_and_change_no_answer() {
                 );
                 let world = &stage.world;
                 let (all, ledger) = (world.account(), world.ledger());
-                let size = all.taken + all.returned + all.put_in.abs() + all.stored + 1e-9;
+                let size = all.work_in + all.work_out + all.inserted.abs() + all.stored + 1e-9;
                 assert!(all.imbalance().abs() < 1e-11 * size, "{}: {all:?}", scene.name);
-                for account in world.contact_accounts().chain(world.pair_accounts().map(|pair| pair.touch)) {
+                for account in world.contact_accounts().chain(world.pair_accounts().map(|pair| pair.episode))
+                {
                     assert!(account.imbalance().abs() < 1e-11 * size, "{}: {account:?}", scene.name);
                 }
                 assert_eq!(world.contact_accounts().count(), world.contacts().len());
                 // The work as it follows the motion, and the losses, are those of the ledger; a forget is not in it.
                 forgotten |= (scene.forgets)(frame).is_some()
                     || (0..scene.pairs.len()).any(|p| !(scene.is_on)(frame, p));
-                assert!((all.net_work() - all.made - ledger.work).abs() < 1e-11 * size, "{}", scene.name);
+                assert!(
+                    (all.net_work() - all.hold_error - ledger.work).abs() < 1e-11 * size,
+                    "{}",
+                    scene.name
+                );
                 if !forgotten {
-                    let lost = all.damping_loss + all.friction_loss - all.put_in;
+                    let lost = all.damping_loss + all.friction_loss - all.inserted;
                     assert!(
                         (lost - ledger.dissipated).abs() < 1e-11 * size,
                         "{}: {lost} {ledger:?}",
@@ -290,10 +310,10 @@ fn accounts_close_and_change_no_answer() {
 fn accounts_are_part_of_the_contact_state() {
     let numbers = |world: &World| {
         let pairs: Vec<_> =
-            world.pair_accounts().map(|pair| (pair.total, pair.touch, pair.touches)).collect();
+            world.pair_accounts().map(|pair| (pair.total, pair.episode, pair.episodes)).collect();
         (pairs, world.contact_accounts().collect::<Vec<_>>())
     };
-    let scene = with_accounts(scenes::all().remove(0), WrenchUse::Held { late: 2 });
+    let scene = with_accounts(scenes::all().remove(0), WrenchCoupling::ZeroOrderHold { delay_frames: 2 });
     let settings = WorkerSettings { workers: 3, oversubscribe: true, ..WorkerSettings::default() };
     let (mut alone, mut crew, mut resumed) =
         (scene.set_up(None), scene.set_up(Some(settings)), scene.set_up(None));
@@ -313,7 +333,7 @@ fn accounts_are_part_of_the_contact_state() {
             }
         }
     }
-    assert!(alone.world.account().made != 0.0 && alone.world.contact_count() > 0);
+    assert!(alone.world.account().hold_error != 0.0 && alone.world.contact_count() > 0);
 }
 
 /// Without accounts there are none, and the contact state is no larger; a wrench later than can be kept is refused.
@@ -323,11 +343,14 @@ fn accounts_are_kept_on_request_alone() {
     let size = |accounts| {
         let rig = Rig::with_config(Config { accounts, ..Config::default() }, &tip, &ground);
         assert_eq!(rig.world.pair_accounts().count(), usize::from(accounts.is_some()));
-        assert_eq!((rig.world.wrench_use(), rig.world.keeps_ledger()), (accounts, accounts.is_some()));
+        assert_eq!((rig.world.wrench_coupling(), rig.world.keeps_ledger()), (accounts, accounts.is_some()));
         rig.world.state_size().unwrap()
     };
-    assert!(size(None) < size(Some(WrenchUse::Stages)));
-    let mut world = World::new(Config { accounts: Some(WrenchUse::Held { late: 17 }), ..Config::default() });
+    assert!(size(None) < size(Some(WrenchCoupling::Stages)));
+    let mut world = World::new(Config {
+        accounts: Some(WrenchCoupling::ZeroOrderHold { delay_frames: 17 }),
+        ..Config::default()
+    });
     let error = world.seal().unwrap_err().to_string();
     assert!(error.contains("17 frames late") && error.contains("at most 16"), "{error}");
 }

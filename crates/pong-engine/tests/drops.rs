@@ -7,15 +7,15 @@ mod drop;
 
 use common::Random;
 use drop::{Drop, G, Landed};
-use pong_engine::WrenchUse;
+use pong_engine::WrenchCoupling;
 use std::f64::consts::PI;
 
-const USES: [WrenchUse; 5] = [
-    WrenchUse::Stages,
-    WrenchUse::SemiImplicit,
-    WrenchUse::Held { late: 0 },
-    WrenchUse::Held { late: 1 },
-    WrenchUse::Held { late: 2 },
+const USES: [WrenchCoupling; 5] = [
+    WrenchCoupling::Stages,
+    WrenchCoupling::SemiImplicit,
+    WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 1 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 2 },
 ];
 
 /// A power of ten, evenly between two.
@@ -24,13 +24,13 @@ fn decade(random: &mut Random, low: f64, high: f64) -> f64 {
 }
 
 /// A drop at a step of 10 µs to 10 ms, with ω·dt from 0.005 to 1 and any damping that the step allows, none in every fifth.
-fn random_drop(random: &mut Random, wrench_use: WrenchUse) -> Drop {
+fn random_drop(random: &mut Random, coupling: WrenchCoupling) -> Drop {
     let step = decade(random, -5.0, -2.0);
     let omega = decade(random, -2.3, 0.0) / step;
     let mass = decade(random, -2.0, 5.0);
     let critical = 2.0 * mass * omega;
-    let stable = match wrench_use {
-        WrenchUse::Held { .. } => 0.5 * 2.0 * mass / step,
+    let stable = match coupling {
+        WrenchCoupling::ZeroOrderHold { .. } => 0.5 * 2.0 * mass / step,
         _ => mass / step,
     };
     let share = decade(random, -3.0, 0.3);
@@ -38,7 +38,7 @@ fn random_drop(random: &mut Random, wrench_use: WrenchUse) -> Drop {
     // Fast enough that the weight does not hold it down, and it leaves at all.
     let speed = decade(random, 0.3, 2.0) * G / omega;
     let start = [random.unit() * speed * step, -speed];
-    Drop { mass, stiffness: mass * omega * omega, damping, gravity: G, start, step, wrench_use }
+    Drop { mass, stiffness: mass * omega * omega, damping, gravity: G, start, step, coupling }
 }
 
 #[derive(Debug, Default)]
@@ -68,11 +68,12 @@ impl Tally {
         let closes = account.total.imbalance().abs() < 1e-10 * energy;
         assert!(closes, "{drop:?}: {:?}", account.total);
         let doubt =
-            (account.total.resolution + account.total.made.abs() + account.total.damping_loss.abs()) / energy;
-        match drop.wrench_use {
-            WrenchUse::Stages => assert!(error <= doubt + ROUNDING, "{drop:?}: {error} {doubt}"),
+            (account.total.resolution + account.total.hold_error.abs() + account.total.damping_loss.abs())
+                / energy;
+        match drop.coupling {
+            WrenchCoupling::Stages => assert!(error <= doubt + ROUNDING, "{drop:?}: {error} {doubt}"),
             // A force that still acts has done only half of its work.
-            WrenchUse::SemiImplicit if !landed.left => {}
+            WrenchCoupling::SemiImplicit if !landed.left => {}
             _ => assert!(error < ROUNDING, "{drop:?}: {error}"),
         }
         assert!(landed.least_normal_force >= 0.0, "{drop:?}: {}", landed.least_normal_force);
@@ -83,30 +84,30 @@ impl Tally {
         let above = landed.left && landed.after > landed.before * (1.0 + ROUNDING);
         if above {
             self.above += 1;
-            self.told += u32::from(account.makes_energy());
-            self.left_open += u32::from(!account.makes_energy() && account.unresolved > 0);
-            assert!(account.makes_energy() || account.unresolved > 0, "{drop:?}: {landed:?}");
+            self.told += u32::from(account.gains_energy());
+            self.left_open += u32::from(!account.gains_energy() && account.episodes_unresolved > 0);
+            assert!(account.gains_energy() || account.episodes_unresolved > 0, "{drop:?}: {landed:?}");
             assert!(
-                account.makes_energy() || drop.wrench_use == WrenchUse::Stages,
+                account.gains_energy() || drop.coupling == WrenchCoupling::Stages,
                 "{drop:?}: not told for certain: {landed:?}"
             );
-        } else if landed.left && account.touches == 1 {
-            self.falsely += account.returned_more as u32;
-            assert_eq!(account.returned_more, 0, "{drop:?}: {landed:?}");
+        } else if landed.left && account.episodes == 1 {
+            self.falsely += account.episodes_gained as u32;
+            assert_eq!(account.episodes_gained, 0, "{drop:?}: {landed:?}");
         }
     }
 }
 
 fn drops(count: u32, seed: u64) {
     let mut random = Random(seed);
-    for wrench_use in USES {
+    for coupling in USES {
         let mut tally = Tally { least_normal_force: f64::INFINITY, ..Tally::default() };
         for _ in 0..count / USES.len() as u32 {
-            let drop = random_drop(&mut random, wrench_use);
+            let drop = random_drop(&mut random, coupling);
             tally.note(&drop, &drop.run(4000));
         }
         println!(
-            "{wrench_use:?}: {} drops, {} above the drop height: {} told, {} left open; {} told falsely, {} did not leave; \
+            "{coupling:?}: {} drops, {} above the drop height: {} told, {} left open; {} told falsely, {} did not leave; \
              account against mass: worst {:.1e} of the energy; least normal force {:.1e} N",
             tally.drops,
             tally.above,
@@ -122,12 +123,12 @@ fn drops(count: u32, seed: u64) {
 }
 
 /// Largest error of the accounts against the mass in 16 phases of touch, J of 1 J.
-fn worst_error(wrench_use: WrenchUse, omega_step: f64, zeta: f64) -> f64 {
+fn worst_error(coupling: WrenchCoupling, omega_step: f64, zeta: f64) -> f64 {
     let drop = |phase: u32| {
         let (mass, omega, step) = (2.0, 300.0, omega_step / 300.0);
         let start = [step * (f64::from(phase) + 0.5) / 16.0, -1.0];
         let (stiffness, damping) = (mass * omega * omega, 2.0 * zeta * mass * omega);
-        Drop { mass, stiffness, damping, gravity: G, start, step, wrench_use }
+        Drop { mass, stiffness, damping, gravity: G, start, step, coupling }
     };
     let error = |landed: Landed| (landed.after - landed.before - landed.account.total.net_work()).abs();
     (0..16).map(|phase| error(drop(phase).run(20_000))).fold(0.0, f64::max)
@@ -138,18 +139,16 @@ fn worst_error(wrench_use: WrenchUse, omega_step: f64, zeta: f64) -> f64 {
 #[test]
 fn the_accounts_close_at_the_order_of_the_integrator() {
     for (zeta, order) in [(0.0, 2.0), (0.2, 1.0)] {
-        for wrench_use in USES {
+        for coupling in USES {
             // As many and a half in the half wave of a touch: beginning and end do not cancel.
             let steps = [31.5, 63.5, 127.5, 255.5, 511.5].map(|count| PI / count);
-            let errors = steps.map(|omega_step| worst_error(wrench_use, omega_step, zeta));
+            let errors = steps.map(|omega_step| worst_error(coupling, omega_step, zeta));
             let slope = (errors[0] / errors[4]).log2() / 4.0;
             let errors = errors.map(|error| format!("{error:.1e}")).join(" ");
-            println!(
-                "{wrench_use:?}, ζ = {zeta}: ω·dt π/31.5 to π/511.5: {errors} J of 1 J, order {slope:.2}"
-            );
-            match wrench_use {
-                WrenchUse::Stages => assert!((slope - order).abs() < 0.25, "{slope}"),
-                _ => assert!(worst_error(wrench_use, 0.1, zeta) < 1e-12),
+            println!("{coupling:?}, ζ = {zeta}: ω·dt π/31.5 to π/511.5: {errors} J of 1 J, order {slope:.2}");
+            match coupling {
+                WrenchCoupling::Stages => assert!((slope - order).abs() < 0.25, "{slope}"),
+                _ => assert!(worst_error(coupling, 0.1, zeta) < 1e-12),
             }
         }
     }

@@ -22,7 +22,7 @@ use crate::integrate::Pushed;
 use crate::simulation::Simulation;
 use crate::state::FreeState;
 use crate::system::System;
-use pong_engine::{PairAccount, Verdict, WrenchUse};
+use pong_engine::{PairEnergyAccount, Verdict, WrenchCoupling};
 use pong_geometry::{Twist, Wrench};
 
 /// Energies, J.
@@ -125,7 +125,7 @@ impl System {
         let mut energy = Energy {
             contacts: ledger.stored + 0.0,
             contact_loss: ledger.dissipated,
-            contact_made: self.world.account().made,
+            contact_made: self.world.account().hold_error,
             ..Energy::default()
         };
         for ((_, inertia), state) in self.free.iter().zip(states) {
@@ -143,29 +143,31 @@ impl Simulation {
     /// Warnings about pairs of bodies whose contact has returned more energy than it took, each with the remedy. Empty if none
     /// has, or if the world keeps no accounts ([`Integrator::wrench_use`](crate::Integrator::wrench_use)).
     pub fn energy_warnings(&self) -> Vec<String> {
-        let pairs = self.world().pair_accounts().filter(PairAccount::makes_energy);
+        let pairs = self.world().pair_accounts().filter(PairEnergyAccount::gains_energy);
         pairs.map(|pair| self.energy_warning(&pair)).collect()
     }
 
-    fn energy_warning(&self, pair: &PairAccount) -> String {
+    fn energy_warning(&self, pair: &PairEnergyAccount) -> String {
         let name = |interface| {
             let mut bodies = self.bodies().map(|(_, body)| body);
             bodies.find(|body| body.interface == Some(interface)).map_or("", |body| body.name.as_str())
         };
         let [first, second] = pair.interfaces.map(name);
         let mut text = format!("`{first}` and `{second}`: ");
-        if pair.returned_more > 0 {
+        if pair.episodes_gained > 0 {
             text += &format!(
                 "{} of {} touches returned more energy than they took, {:.3e} J in all and {:.3e} J at most; ",
-                pair.returned_more, pair.touches, pair.excess, pair.worst_excess
+                pair.episodes_gained, pair.episodes, pair.excess, pair.worst_excess
             );
         }
-        if pair.touch.verdict() == Verdict::ReturnedMore {
-            text += &format!("the contact that lasts has returned {:.3e} J too much; ", pair.touch.excess());
+        if pair.episode.verdict() == Verdict::Gained {
+            text +=
+                &format!("the contact that lasts has returned {:.3e} J too much; ", pair.episode.excess());
         }
         text += &pair.remedy();
-        if let (WrenchUse::Held { late }, Some((k, _))) = (pair.wrench_use, pair.stiffest) {
-            let needed = k * self.step_length() * (0.5 + f64::from(late));
+        if let (WrenchCoupling::ZeroOrderHold { delay_frames }, Some((k, _))) = (pair.coupling, pair.stiffest)
+        {
+            let needed = k * self.step_length() * (0.5 + f64::from(delay_frames));
             text += &format!("; at this step c must exceed {needed:.3e} N·s/m");
         }
         text

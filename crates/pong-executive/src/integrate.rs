@@ -9,7 +9,7 @@ pub(crate) use hold::{Held, hold};
 pub(crate) use runge_kutta::{Contact, runge_kutta};
 
 use crate::state::Rates;
-use pong_engine::WrenchUse;
+use pong_engine::WrenchCoupling;
 use pong_geometry::Wrench;
 
 /// How the motion of the free bodies is integrated.
@@ -34,13 +34,12 @@ pub enum Integrator {
 impl Integrator {
     /// What the integrator does with contact wrenches, for a world that keeps accounts of their work
     /// ([`Config::accounts`](pong_engine::Config)); `None` if they come later than accounts can be kept for.
-    pub fn wrench_use(self) -> Option<WrenchUse> {
+    pub fn wrench_use(self) -> Option<WrenchCoupling> {
         match self {
-            Self::SemiImplicitEuler => Some(WrenchUse::SemiImplicit),
-            Self::RungeKutta4 => Some(WrenchUse::Stages),
-            Self::ZeroOrderHold { delay_frames, .. } => {
-                (delay_frames <= WrenchUse::LATE_MAX).then_some(WrenchUse::Held { late: delay_frames })
-            }
+            Self::SemiImplicitEuler => Some(WrenchCoupling::SemiImplicit),
+            Self::RungeKutta4 => Some(WrenchCoupling::Stages),
+            Self::ZeroOrderHold { delay_frames, .. } => (delay_frames <= WrenchCoupling::DELAY_FRAMES_MAX)
+                .then_some(WrenchCoupling::ZeroOrderHold { delay_frames }),
         }
     }
 }

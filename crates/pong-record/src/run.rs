@@ -1,7 +1,7 @@
 //! run.json: what the numbers in the tables of a log mean.
 
 use crate::error::LogError;
-use pong_engine::WrenchUse;
+use pong_engine::WrenchCoupling;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
@@ -72,7 +72,7 @@ pub struct Run {
     pub lost: u64,
 }
 
-/// What a host does with wrenches: [`WrenchUse`](pong_engine::WrenchUse) in a log.
+/// What a host does with wrenches: [`WrenchCoupling`](pong_engine::WrenchCoupling) in a log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RunAccounts {
@@ -89,22 +89,22 @@ pub enum RunAccounts {
     },
 }
 
-impl From<WrenchUse> for RunAccounts {
-    fn from(wrench_use: WrenchUse) -> Self {
-        match wrench_use {
-            WrenchUse::Stages => Self::Stages,
-            WrenchUse::SemiImplicit => Self::SemiImplicit,
-            WrenchUse::Held { late } => Self::ZeroOrderHold { delay_frames: late },
+impl From<WrenchCoupling> for RunAccounts {
+    fn from(coupling: WrenchCoupling) -> Self {
+        match coupling {
+            WrenchCoupling::Stages => Self::Stages,
+            WrenchCoupling::SemiImplicit => Self::SemiImplicit,
+            WrenchCoupling::ZeroOrderHold { delay_frames } => Self::ZeroOrderHold { delay_frames },
         }
     }
 }
 
-impl From<RunAccounts> for WrenchUse {
+impl From<RunAccounts> for WrenchCoupling {
     fn from(accounts: RunAccounts) -> Self {
         match accounts {
             RunAccounts::Stages => Self::Stages,
             RunAccounts::SemiImplicit => Self::SemiImplicit,
-            RunAccounts::ZeroOrderHold { delay_frames } => Self::Held { late: delay_frames },
+            RunAccounts::ZeroOrderHold { delay_frames } => Self::ZeroOrderHold { delay_frames },
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::acting::Acting;
 use super::statistics::Statistics;
 use crate::text::{count, number, numbers, table};
-use pong_engine::{PairAccount, Verdict};
+use pong_engine::{PairEnergyAccount, Verdict};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Simulation};
 use pong_model::printable;
@@ -108,20 +108,26 @@ fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
 
 /// What each pair of bodies gave to its contacts and where it went; nothing if none touched.
 fn accounts(simulation: &Simulation) -> String {
-    let touched = simulation.world().pair_accounts().filter(|pair| pair.touching || pair.touches > 0);
+    let touched = simulation.world().pair_accounts().filter(|pair| pair.in_contact || pair.episodes > 0);
     let names = |interface| {
         let mut bodies = simulation.bodies();
         bodies.find(|(_, body)| body.interface == Some(interface)).map(|(_, body)| body.name.clone())
     };
-    let row = |pair: PairAccount| {
+    let row = |pair: PairEnergyAccount| {
         let [first, second] = pair.interfaces.map(|interface| names(interface).unwrap_or_default());
         let total = &pair.total;
-        let energies =
-            [total.taken, total.returned, total.stored, total.damping_loss, total.friction_loss, total.made];
+        let energies = [
+            total.work_in,
+            total.work_out,
+            total.stored,
+            total.damping_loss,
+            total.friction_loss,
+            total.hold_error,
+        ];
         let mut row = vec![format!("{first}, {second}")];
         row.extend(energies.map(number));
-        row.push((pair.touches + u64::from(pair.touching)).to_string());
-        row.extend([Verdict::ReturnedMore, Verdict::Unresolved].map(|verdict| touches_with(&pair, verdict)));
+        row.push((pair.episodes + u64::from(pair.in_contact)).to_string());
+        row.extend([Verdict::Gained, Verdict::Unresolved].map(|verdict| touches_with(&pair, verdict)));
         row
     };
     let rows: Vec<Vec<String>> = touched.map(row).collect();
@@ -144,8 +150,8 @@ fn accounts(simulation: &Simulation) -> String {
 }
 
 /// How many touches of a pair have a verdict, the one that lasts too.
-fn touches_with(pair: &PairAccount, verdict: Verdict) -> String {
-    let ended = if verdict == Verdict::ReturnedMore { pair.returned_more } else { pair.unresolved };
-    let lasts = pair.touching && pair.touch.verdict() == verdict;
+fn touches_with(pair: &PairEnergyAccount, verdict: Verdict) -> String {
+    let ended = if verdict == Verdict::Gained { pair.episodes_gained } else { pair.episodes_unresolved };
+    let lasts = pair.in_contact && pair.episode.verdict() == verdict;
     (ended + u64::from(lasts)).to_string()
 }

@@ -1,7 +1,7 @@
 //! Energy accounts: what bodies gave to contacts, what they got back, and where the rest went.
 //!
 //! ```text
-//! taken + put_in + made = returned + stored + damping_loss + friction_loss
+//! work_in + inserted + hold_error = work_out + stored + damping_loss + friction_loss
 //! ```
 //!
 //! holds to rounding for each contact, for each pair of movable groups and for all of them together.
@@ -11,9 +11,9 @@ use std::fmt::Write as _;
 
 /// What the host does with a wrench. The engine cannot see it, and the work that a wrench does depends on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum WrenchUse {
+pub enum WrenchCoupling {
     /// Evaluated again within every step, as Runge-Kutta methods do. Work by the trapezoid rule, which is of second
-    /// order; what it may be off by is in [`Account::resolution`].
+    /// order; what it may be off by is in [`EnergyAccount::resolution`].
     #[default]
     Stages,
     /// Gives the velocity with which the bodies then move, once a step: semi-implicit Euler. The trapezoid rule is exact
@@ -21,20 +21,29 @@ pub enum WrenchUse {
     SemiImplicit,
     /// Held from one commit to the next, as by a host that steps the world once a frame: the work is that of the held
     /// wrench over the displacement, which the next commit tells.
-    Held {
-        /// How many whole frames the wrench comes late; at most [`LATE_MAX`](Self::LATE_MAX).
-        late: u32,
+    ZeroOrderHold {
+        /// How many whole frames the wrench comes late; at most [`DELAY_FRAMES_MAX`](Self::DELAY_FRAMES_MAX).
+        delay_frames: u32,
     },
 }
 
-impl WrenchUse {
+impl WrenchCoupling {
     /// The latest that a wrench may come, frames.
-    pub const LATE_MAX: u32 = 16;
+    pub const DELAY_FRAMES_MAX: u32 = 16;
+
+    /// What the hash of a world says of it: the words of the first version, so that blocks saved since then fit.
+    pub(crate) fn hashed(self) -> String {
+        match self {
+            Self::Stages => "Stages".to_owned(),
+            Self::SemiImplicit => "SemiImplicit".to_owned(),
+            Self::ZeroOrderHold { delay_frames } => format!("Held {{ late: {delay_frames} }}"),
+        }
+    }
 
     /// How many frames late.
-    pub(crate) fn late(self) -> usize {
+    pub(crate) fn delay(self) -> usize {
         match self {
-            Self::Held { late } => late as usize,
+            Self::ZeroOrderHold { delay_frames } => delay_frames as usize,
             Self::Stages | Self::SemiImplicit => 0,
         }
     }
@@ -44,49 +53,49 @@ impl WrenchUse {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It gave back less.
-    Lost,
-    /// As much, as far as the accounts can tell: see [`Account::resolution`].
+    Dissipated,
+    /// As much, as far as the accounts can tell: see [`EnergyAccount::resolution`].
     Unresolved,
     /// It gave back more: it makes energy.
-    ReturnedMore,
+    Gained,
 }
 
 /// Energies of a contact, of a pair of movable groups, or of all, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Account {
+pub struct EnergyAccount {
     /// What the bodies gave: work of the wrench on them, where it was negative.
-    pub taken: f64,
+    pub work_in: f64,
     /// What the bodies got back: work of the wrench on them, where it was positive.
-    pub returned: f64,
-    /// Stored without work: where the host put bodies into each other (first frame, after a forget), less what it let
+    pub work_out: f64,
+    /// Stored without work: where the host put bodies into each other (first frame, after the contact history was cleared), less what it let
     /// be forgotten. Of a contact that began while the pair touched already: what it may have taken over from another.
-    pub put_in: f64,
+    pub inserted: f64,
     /// Made by holding the wrench: its work on the bodies less that of the force as it would have followed their motion.
-    pub made: f64,
+    pub hold_error: f64,
     /// Stored in normal springs and bristles now.
     pub stored: f64,
     /// Lost in normal damping.
     pub damping_loss: f64,
     /// Lost in friction.
     pub friction_loss: f64,
-    /// What `returned − taken` may be off by, rounding apart: the work in intervals in which contact began or ended, if
-    /// the work is that of the trapezoid rule for [`WrenchUse::Stages`]; else 0.
+    /// What `work_out − work_in` may be off by, rounding apart: the work in intervals in which contact began or ended, if
+    /// the work is that of the trapezoid rule for [`WrenchCoupling::Stages`]; else 0.
     pub resolution: f64,
 }
 
 /// Rounding of sums of works, relative to all that went in and out.
 const ROUNDING: f64 = 1e-9;
 
-impl Account {
+impl EnergyAccount {
     /// Numbers that are remembered.
     pub(crate) const NUMBERS: usize = 7;
 
     pub(crate) fn from_numbers(numbers: &[f64]) -> Self {
         Self {
-            taken: numbers[0],
-            returned: numbers[1],
-            put_in: numbers[2],
-            made: numbers[3],
+            work_in: numbers[0],
+            work_out: numbers[1],
+            inserted: numbers[2],
+            hold_error: numbers[3],
             damping_loss: numbers[4],
             friction_loss: numbers[5],
             resolution: numbers[6],
@@ -97,10 +106,10 @@ impl Account {
     /// All but `stored`, which is found anew.
     pub(crate) fn numbers(&self) -> [f64; Self::NUMBERS] {
         [
-            self.taken,
-            self.returned,
-            self.put_in,
-            self.made,
+            self.work_in,
+            self.work_out,
+            self.inserted,
+            self.hold_error,
             self.damping_loss,
             self.friction_loss,
             self.resolution,
@@ -109,15 +118,15 @@ impl Account {
 
     /// Takes in work on the bodies.
     pub(crate) fn work(&mut self, done: f64) {
-        *(if done > 0.0 { &mut self.returned } else { &mut self.taken }) += done.abs();
+        *(if done > 0.0 { &mut self.work_out } else { &mut self.work_in }) += done.abs();
     }
 
     /// Adds another account.
     pub(crate) fn add(&mut self, other: &Self) {
-        self.taken += other.taken;
-        self.returned += other.returned;
-        self.put_in += other.put_in;
-        self.made += other.made;
+        self.work_in += other.work_in;
+        self.work_out += other.work_out;
+        self.inserted += other.inserted;
+        self.hold_error += other.hold_error;
         self.stored += other.stored;
         self.damping_loss += other.damping_loss;
         self.friction_loss += other.friction_loss;
@@ -126,75 +135,75 @@ impl Account {
 
     /// Work done on the bodies so far, J: over a closed path, whose ends store the same, what it gained them.
     pub fn net_work(&self) -> f64 {
-        self.returned - self.taken
+        self.work_out - self.work_in
     }
 
     /// What was returned beyond what was taken and put in, J.
     pub fn excess(&self) -> f64 {
-        self.returned - self.taken - self.put_in
+        self.work_out - self.work_in - self.inserted
     }
 
     /// Whether more was returned than taken.
     pub fn verdict(&self) -> Verdict {
-        let doubt = self.resolution + ROUNDING * (self.taken + self.returned + self.put_in.abs());
+        let doubt = self.resolution + ROUNDING * (self.work_in + self.work_out + self.inserted.abs());
         match self.excess() {
-            excess if excess > doubt => Verdict::ReturnedMore,
+            excess if excess > doubt => Verdict::Gained,
             excess if excess > -doubt => Verdict::Unresolved,
-            _ => Verdict::Lost,
+            _ => Verdict::Dissipated,
         }
     }
 
     /// What the accounts fail to close by, J: rounding, if they are right.
     pub fn imbalance(&self) -> f64 {
-        let went_in = self.taken + self.put_in + self.made;
-        went_in - (self.returned + self.stored + self.damping_loss + self.friction_loss)
+        let went_in = self.work_in + self.inserted + self.hold_error;
+        went_in - (self.work_out + self.stored + self.damping_loss + self.friction_loss)
     }
 }
 
 /// Accounts of a pair of movable groups at the last commit.
 ///
-/// A *touch* lasts from the first contact of the pair until nothing of it touches any more, and no late wrench of it is on
-/// its way. Verdicts are those of touches: energy may go from one contact of a pair to another, a ball from facet to facet.
+/// An *episode* lasts from the first contact of the pair until nothing of it touches any more, and no delayed wrench of it is on
+/// its way. Verdicts are those of episodes: energy may go from one contact of a pair to another, a ball from facet to facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PairAccount {
+pub struct PairEnergyAccount {
     /// The pair of Objects.
     pub pair: PairId,
     /// The two movable groups.
     pub interfaces: [InterfaceId; 2],
     /// Since the world began.
-    pub total: Account,
-    /// Of the touch that lasts; all zero if nothing touches.
-    pub touch: Account,
-    /// Whether a touch lasts.
-    pub touching: bool,
-    /// Touches that have ended.
-    pub touches: u64,
-    /// Of those, the ones that returned more than they took.
-    pub returned_more: u64,
+    pub total: EnergyAccount,
+    /// Of the episode that lasts; all zero if nothing touches.
+    pub episode: EnergyAccount,
+    /// Whether an episode lasts.
+    pub in_contact: bool,
+    /// Episodes that have ended.
+    pub episodes: u64,
+    /// Of those, the ones that gained energy.
+    pub episodes_gained: u64,
     /// Of those, the ones of which the accounts cannot tell.
-    pub unresolved: u64,
-    /// What touches returned too much, all together, J.
+    pub episodes_unresolved: u64,
+    /// What episodes gained, all together, J.
     pub excess: f64,
-    /// What one touch returned too much at most, J.
+    /// What one episode gained at most, J.
     pub worst_excess: f64,
     /// Stiffness of the stiffest contact of the pair, N/m, and its damping, N·s/m, if it does not depend on the depth.
     pub stiffest: Option<(f64, f64)>,
     /// What the host does with wrenches.
-    pub wrench_use: WrenchUse,
+    pub coupling: WrenchCoupling,
 }
 
-impl PairAccount {
-    /// Whether a touch, over or not, has returned more than it took.
-    pub fn makes_energy(&self) -> bool {
-        self.returned_more > 0 || self.touch.verdict() == Verdict::ReturnedMore
+impl PairEnergyAccount {
+    /// Whether an episode, over or not, has gained energy.
+    pub fn gains_energy(&self) -> bool {
+        self.episodes_gained > 0 || self.episode.verdict() == Verdict::Gained
     }
 
     /// What to do about a pair that makes energy.
     pub fn remedy(&self) -> String {
         let mut text = String::from("shorten the step, or give the surfaces more damping");
-        match (self.wrench_use, self.stiffest) {
-            (WrenchUse::Held { late }, Some((k, c))) => {
-                let share = 0.5 + f64::from(late);
+        match (self.coupling, self.stiffest) {
+            (WrenchCoupling::ZeroOrderHold { delay_frames }, Some((k, c))) => {
+                let share = 0.5 + f64::from(delay_frames);
                 let _ = write!(
                     text,
                     ": a wrench held over a step dt loses energy only while c > k·dt·{share}, here k = {k:.3e} N/m and c = {c:.3e} N·s/m"
@@ -203,17 +212,17 @@ impl PairAccount {
                     let _ = write!(text, ", at steps below {:.3e} s", c / (k * share));
                 }
             }
-            (WrenchUse::Held { late }, None) => {
-                let share = 0.5 + f64::from(late);
+            (WrenchCoupling::ZeroOrderHold { delay_frames }, None) => {
+                let share = 0.5 + f64::from(delay_frames);
                 let _ = write!(
                     text,
                     ": a wrench held over a step dt loses energy only while the damping exceeds {share}·dt times the stiffness at hand"
                 );
             }
-            (WrenchUse::Stages | WrenchUse::SemiImplicit, Some((k, c))) => {
+            (WrenchCoupling::Stages | WrenchCoupling::SemiImplicit, Some((k, c))) => {
                 let _ = write!(text, "; here k = {k:.3e} N/m and c = {c:.3e} N·s/m");
             }
-            (WrenchUse::Stages | WrenchUse::SemiImplicit, None) => {}
+            (WrenchCoupling::Stages | WrenchCoupling::SemiImplicit, None) => {}
         }
         text
     }

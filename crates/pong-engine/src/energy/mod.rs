@@ -1,4 +1,5 @@
 //! Energy accounts: what is remembered and told of the energies of contacts, pairs and the whole world.
 
 pub mod account;
-pub(crate) mod pairs;
+pub(crate) mod contact;
+pub(crate) mod episodes;

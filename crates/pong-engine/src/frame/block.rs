@@ -23,7 +23,7 @@ use pong_model::box_tree::lanes;
 
 /// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches, with room for so many
 /// interferences of one chunk, and laws of so many numbers per contact.
-pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_stride: usize) -> usize {
+pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, law_state_len: usize) -> usize {
     /// The arena rounds every piece up to its grain.
     const PIECES: usize = 7;
     const GRAIN: usize = 16;
@@ -31,7 +31,7 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, custom_str
         + nodes * size_of::<u32>()
         + LANES * size_of::<TransformedPrimitive>()
         + found * (size_of::<ContactCandidate>() + size_of::<SharedContact>())
-        + custom_stride * size_of::<f64>()
+        + law_state_len * size_of::<f64>()
         + PIECES * GRAIN
 }
 
@@ -78,7 +78,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut carried = arena.list(LANES).expect(room);
         let mut found = Findings::new(arena.list(sealed.limits.found).expect(room), waiting);
-        let custom = arena.slice(sealed.custom_stride, 0.0).expect(room);
+        let law_state = arena.slice(sealed.law_state_len, 0.0).expect(room);
         let mut shared_contacts = arena.list(sealed.limits.found).expect(room);
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
@@ -117,7 +117,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     );
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::Sharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, &found.list, custom, out);
+                    forces::compute_forces(&context, sealed, &found.list, law_state, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }

@@ -1,13 +1,13 @@
 //! What a frame writes, grouped by the stage that writes it.
 
-use crate::frame::energy::interval::Interval;
+use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::WorkerInput;
 use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
 use crate::sealed::Sealed;
-use crate::state::{Books, ContactRole, PairPose};
+use crate::state::{ContactRole, PairPose};
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};
 
@@ -28,10 +28,7 @@ pub(crate) struct EvaluationBuffers {
     pub order: Table<Place>,
     pub tunnelling: TunnellingEvents,
     // ledger
-    pub work: f64,
-    pub dissipated: f64,
-    pub books: Books,
-    pub intervals: Vec<Interval>,
+    pub energy: EnergyBuffers,
     // reduce
     pub wrenches: Vec<Wrench>,
     pub report: FrameReport,
@@ -59,10 +56,7 @@ impl EvaluationBuffers {
             caller: WorkerContext::new(sealed, sealed.limits.lane_contacts, true),
             order: Table::with_capacity(sealed.limits.lane_contacts, nowhere),
             tunnelling: TunnellingEvents::default(),
-            work: 0.0,
-            dissipated: 0.0,
-            books: Books::new(sealed.account_pairs(), sealed.late),
-            intervals: vec![Interval::default(); sealed.account_pairs()],
+            energy: EnergyBuffers::new(sealed),
             wrenches: vec![Wrench::zero(); bodies],
             report: FrameReport::default(),
             counts: FrameCounts::default(),

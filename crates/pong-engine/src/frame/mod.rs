@@ -16,7 +16,6 @@ mod worker_pool;
 pub(crate) use block::arena_bytes;
 pub(crate) use broad_phase::blocks::ROUND;
 pub(crate) use buffers::{EvaluationBuffers, Place};
-pub(crate) use energy::accounts::contact_numbers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use input::motion::Motion;

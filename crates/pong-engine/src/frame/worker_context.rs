@@ -26,7 +26,7 @@ impl WorkerContext {
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
             waiting: Waiting::default(),
-            out: ContactBuffer::new(sealed.custom_stride, contacts, ranks),
+            out: ContactBuffer::new(sealed.law_state_len, contacts, ranks),
         }
     }
 }

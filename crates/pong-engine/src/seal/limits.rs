@@ -1,5 +1,6 @@
 //! How much memory the frames of a scene get.
 
+use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
@@ -21,7 +22,7 @@ pub(super) fn limits(
     scene: &Scene,
     group_pairs: &[GroupPair],
     record_capacity: usize,
-    custom_stride: usize,
+    law_state_len: usize,
 ) -> Limits {
     /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
     /// settled which of them push.
@@ -35,27 +36,27 @@ pub(super) fn limits(
         bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
     };
     let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
-    let arena_bytes = arena_bytes(nodes, batches, found, custom_stride);
+    let arena_bytes = arena_bytes(nodes, batches, found, law_state_len);
     /// Every piece is rounded up to a grain.
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
-    let numbers = custom_stride * size_of::<f64>();
+    let numbers = law_state_len * size_of::<f64>();
     let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
     Limits { lane_contacts, found, arena_bytes, scratch_bytes }
 }
 
 /// What a worker's lane takes however small the capacity is, bytes.
-pub(super) fn least_lane_bytes(limits: &Limits, custom_stride: usize) -> usize {
-    limits.least_worker_contacts() * (size_of::<FrameContact>() + custom_stride * size_of::<f64>())
+pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
+    limits.least_worker_contacts() * (size_of::<FrameContact>() + law_state_len * size_of::<f64>())
 }
 
 /// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
 const ROOM_BYTES_MAX: usize = 8 << 30;
 
 /// What is wrong with a capacity that asks for more memory than that, if it does.
-pub(super) fn too_large(scene: &Scene, wanted: usize, custom_stride: usize) -> Option<String> {
+pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> Option<String> {
     let lanes = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
-    let each = bytes_per_contact(lanes, custom_stride);
+    let each = bytes_per_contact(scene, lanes, law_state_len);
     let most = ROOM_BYTES_MAX / each;
     (wanted > most).then(|| {
         let gib = wanted as f64 * each as f64 / (1 << 30) as f64;
@@ -68,13 +69,14 @@ pub(super) fn too_large(scene: &Scene, wanted: usize, custom_stride: usize) -> O
 }
 
 /// Memory that one contact of the capacity takes in all buffers, with so many lanes beside the caller's own, bytes.
-pub(super) fn bytes_per_contact(lanes: usize, custom_stride: usize) -> usize {
+pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usize) -> usize {
     /// There is room to remember as many contacts as may push.
     const RECORDS: usize = 2;
-    let numbers = custom_stride * size_of::<f64>();
+    let numbers = law_state_len * size_of::<f64>();
     // The committed contact state, the next one, and one that a stuck worker may still read.
     let states = if lanes > 0 { 3 } else { 2 };
-    let remembered = states * (size_of::<ContactRecord>() + numbers);
+    let energies = ContactEnergies::bytes_each(scene.config.accounts);
+    let remembered = states * (size_of::<ContactRecord>() + numbers + energies) + energies + energies / 8;
     // The lane's contacts, an eighth more than records, their ranks and order, and what rays and the ledger ask for.
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>() + size_of::<Place>() + size_of::<u32>();
     let lane = size_of::<FrameContact>() + numbers + per_contact;

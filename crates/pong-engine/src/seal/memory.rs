@@ -5,12 +5,13 @@
 //! movable groups, before they are listed, and of what the frames get, once their limits are known.
 
 use super::limits::{bytes_per_contact, least_lane_bytes};
-use crate::energy::account::WrenchUse;
+use crate::energy::account::WrenchCoupling;
+use crate::energy::episodes::PairEnergy;
 use crate::error::EngineError;
 use crate::frame::{Block, Interval, Motion, ROUND};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits, Plan};
-use crate::state::{PairBook, PairPose};
+use crate::state::PairPose;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_threads::MAX_WORKERS;
 
@@ -63,14 +64,12 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
 /// What frames keep of a pair of movable groups, bytes.
 fn per_pair(scene: &Scene) -> usize {
     let crew = usize::from(scene.config.workers.is_some());
-    let books = scene
-        .config
-        .accounts
-        .map_or(0, |wrench_use| size_of::<PairBook>() + WrenchUse::late(wrench_use) * size_of::<Wrench>());
+    let delay = scene.config.accounts.map_or(0, WrenchCoupling::delay);
+    let energies = scene.config.accounts.map_or(0, |_| size_of::<PairEnergy>() + delay * size_of::<Wrench>());
     let intervals = if scene.config.accounts.is_some() { size_of::<Interval>() } else { 0 };
     // The contact states that take turns, the one that a stuck worker may hold, and the frame's own.
     let states = 3 + crew;
-    states * (size_of::<PairPose>() + books) + intervals + (1 + crew) * size_of::<[Motion; 2]>()
+    states * (size_of::<PairPose>() + energies) + intervals + (1 + crew) * size_of::<[Motion; 2]>()
 }
 
 /// What the frames get, bytes.
@@ -83,7 +82,7 @@ pub(super) fn for_frames(
 ) -> usize {
     let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS));
     let lanes = scene.config.workers.as_ref().map_or(0, |_| workers + 1);
-    let contacts = capacity.saturating_mul(bytes_per_contact(lanes, stride));
+    let contacts = capacity.saturating_mul(bytes_per_contact(scene, lanes, stride));
     let scratch = limits.arena_bytes + limits.scratch_bytes + least_lane_bytes(limits, stride);
     let blocks = 2 * ROUND * size_of::<Block>();
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());

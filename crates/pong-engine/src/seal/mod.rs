@@ -12,9 +12,9 @@ pub(crate) use surfaces::{check_surface_change, surface_tables};
 pub(crate) use testable::can_be_tested;
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 
-use crate::energy::account::WrenchUse;
+use crate::energy::account::WrenchCoupling;
+use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
-use crate::frame::contact_numbers;
 use crate::scene::{ObjectPair, Scene};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::fnv1a;
@@ -24,7 +24,7 @@ use pong_geometry::bounding::VolumeTests;
 use pong_model::Surface;
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
-use surfaces::{custom_stride, friction_lost};
+use surfaces::{friction_lost, law_state_len};
 use warnings::warnings;
 
 /// What sealing tells the host.
@@ -68,14 +68,13 @@ pub(crate) fn seal(
     if let Some(0) = scene.config.contact_capacity {
         problems.push("contact capacity: 0 leaves no contact; give at least 1 or leave it out".to_owned());
     }
-    let account_at = custom_stride(&tables);
-    let custom_stride = account_at + scene.config.accounts.map_or(0, contact_numbers);
-    let late = scene.config.accounts.map_or(0, WrenchUse::late);
-    if late > WrenchUse::LATE_MAX as usize {
-        let most = WrenchUse::LATE_MAX;
-        problems.push(format!("accounts: wrenches that come {late} frames late; give at most {most}"));
+    let (law_state_len, coupling) = (law_state_len(&tables), scene.config.accounts);
+    let delay = coupling.map_or(0, WrenchCoupling::delay);
+    if delay > WrenchCoupling::DELAY_FRAMES_MAX as usize {
+        let most = WrenchCoupling::DELAY_FRAMES_MAX;
+        problems.push(format!("accounts: wrenches that come {delay} frames late; give at most {most}"));
     }
-    problems.extend(scene.config.contact_capacity.and_then(|wanted| too_large(scene, wanted, custom_stride)));
+    problems.extend(scene.config.contact_capacity.and_then(|wanted| too_large(scene, wanted, law_state_len)));
     if !problems.is_empty() {
         return Err(EngineError::Seal { problems });
     }
@@ -87,9 +86,9 @@ pub(crate) fn seal(
     }
     let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
     let record_capacity = 2 * contact_capacity;
-    let hash = scene_hash(scene, contact_capacity, custom_stride);
-    let limits = limits(scene, &group_pairs, record_capacity, custom_stride);
-    let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, custom_stride);
+    let hash = scene_hash(scene, contact_capacity, law_state_len);
+    let limits = limits(scene, &group_pairs, record_capacity, law_state_len);
+    let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, law_state_len);
     require_memory(
         "seal: the frames",
         for_frames,
@@ -104,10 +103,8 @@ pub(crate) fn seal(
         volume_tests,
         contact_capacity,
         record_capacity,
-        custom_stride,
-        account_at,
-        keeps_accounts: scene.config.accounts.is_some(),
-        late,
+        law_state_len,
+        coupling,
         hash,
     };
     let report = SealReport {
@@ -193,10 +190,11 @@ fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTe
 }
 
 /// Hash of everything that decides what a contact state block means.
-fn scene_hash(scene: &Scene, capacity: usize, custom_stride: usize) -> u64 {
-    let mut text = format!("capacity {capacity} stride {custom_stride} ledger {}\n", scene.config.ledger);
-    if let Some(wrench_use) = scene.config.accounts {
-        text += &format!("accounts {wrench_use:?}\n");
+fn scene_hash(scene: &Scene, capacity: usize, law_state_len: usize) -> u64 {
+    let stride = law_state_len + ContactEnergies::numbers_each(scene.config.accounts);
+    let mut text = format!("capacity {capacity} stride {stride} ledger {}\n", scene.config.ledger);
+    if let Some(coupling) = scene.config.accounts {
+        text += &format!("accounts {}\n", coupling.hashed());
     }
     for model in &scene.models {
         text += &format!("model {:016x}\n", model.hash);

@@ -155,7 +155,7 @@ fn table_entry<'m>(
     })
 }
 
-pub(super) fn custom_stride(tables: &[SurfaceTable]) -> usize {
+pub(super) fn law_state_len(tables: &[SurfaceTable]) -> usize {
     let lens = tables.iter().flat_map(|table| &table.props).flatten().map(|props| match &props.friction {
         FrictionProps::Custom { law, .. } => law.state_len(),
         _ => 0,

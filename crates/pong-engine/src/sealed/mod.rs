@@ -8,7 +8,10 @@ pub(crate) use limits::Limits;
 pub(crate) use plan::Plan;
 pub(crate) use surface_table::SurfaceTable;
 
-use crate::state::{Books, ContactKey, block_len};
+use crate::energy::account::WrenchCoupling;
+use crate::energy::contact::ContactEnergies;
+use crate::energy::episodes::PairEnergies;
+use crate::state::{ContactKey, block_len};
 use pong_geometry::bounding::VolumeTests;
 
 /// A pair of movable groups that are tested against each other.
@@ -40,26 +43,29 @@ pub(crate) struct Sealed {
     pub contact_capacity: usize,
     /// Records: contacts, and as many that are only remembered.
     pub record_capacity: usize,
-    /// Numbers that are remembered of a contact: those of registered friction laws, then its account.
-    pub custom_stride: usize,
-    /// Where among them the account begins.
-    pub account_at: usize,
-    /// Whether accounts are kept, and how many frames late the host's wrenches are.
-    pub keeps_accounts: bool,
-    pub late: usize,
+    /// Numbers that registered friction laws remember of a contact.
+    pub law_state_len: usize,
+    /// How the host uses wrenches, if accounts are kept.
+    pub coupling: Option<WrenchCoupling>,
     pub hash: u64,
 }
 
 impl Sealed {
     /// Pairs of movable groups of which accounts are kept: all or none.
     pub fn account_pairs(&self) -> usize {
-        if self.keeps_accounts { self.group_pairs.len() } else { 0 }
+        if self.coupling.is_some() { self.group_pairs.len() } else { 0 }
+    }
+
+    /// How many frames late the host's wrenches come.
+    pub fn delay(&self) -> usize {
+        self.coupling.map_or(0, WrenchCoupling::delay)
     }
 
     /// Size of the largest contact state block, bytes.
     pub fn state_size(&self) -> usize {
-        let accounts = Books::block_len(self.account_pairs(), self.late);
-        block_len(self.group_pairs.len(), self.record_capacity, self.custom_stride, accounts)
+        let numbers = self.law_state_len + ContactEnergies::numbers_each(self.coupling);
+        let accounts = PairEnergies::block_len(self.account_pairs(), self.delay());
+        block_len(self.group_pairs.len(), self.record_capacity, numbers, accounts)
     }
 
     /// The bodies that hold A and B of a contact.

@@ -3,8 +3,8 @@
 //! ```text
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
 //! | poses: known 8, two poses of 7 × 8, per pair of movable groups
-//! | accounts, if they are kept: PairBook::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
-//! | records: RECORD_LEN + 8 × custom numbers, for each contact that is remembered
+//! | accounts, if they are kept: PairEnergy::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
+//! | records: RECORD_LEN + 8 × numbers of its friction law and of its energies, for each contact that is remembered
 //! | checksum 8 (FNV-1a of everything before)
 //! ```
 //!
@@ -12,8 +12,10 @@
 //! any size between the two holds a block: behind it are zeros.
 
 use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose};
-use crate::energy::pairs::{Books, PairBook};
-use pong_geometry::{Pose, Vec3};
+use crate::energy::account::{EnergyAccount, WrenchCoupling};
+use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
+use crate::energy::episodes::{PairEnergies, PairEnergy};
+use pong_geometry::{Pose, Vec3, Wrench};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
 const VERSION: u32 = 2;
@@ -80,27 +82,27 @@ impl std::fmt::Display for StateError {
 impl std::error::Error for StateError {}
 
 /// Size of the largest block of a sealed world whose accounts of pairs take so many bytes.
-pub(crate) fn block_len(group_pairs: usize, capacity: usize, custom_stride: usize, accounts: usize) -> usize {
-    used_len(group_pairs, capacity, custom_stride) + accounts + CHECKSUM_LEN
+pub(crate) fn block_len(group_pairs: usize, capacity: usize, numbers_each: usize, accounts: usize) -> usize {
+    used_len(group_pairs, capacity, numbers_each) + accounts + CHECKSUM_LEN
 }
 
 /// Size of the largest block of a memory, bytes.
 fn most_len(memory: &ContactMemory) -> usize {
-    block_len(memory.poses.len(), memory.records.capacity(), memory.custom_stride, accounts_len(memory))
+    block_len(memory.poses.len(), memory.records.capacity(), memory.numbers_each(), accounts_len(memory))
 }
 
 /// Size of the block of what a memory holds now, bytes.
 pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
-    block_len(memory.poses.len(), memory.records.len(), memory.custom_stride, accounts_len(memory))
+    block_len(memory.poses.len(), memory.records.len(), memory.numbers_each(), accounts_len(memory))
 }
 
 fn accounts_len(memory: &ContactMemory) -> usize {
-    Books::block_len(memory.books.pairs.len(), memory.books.late)
+    PairEnergies::block_len(memory.pair_energies.pairs.len(), memory.pair_energies.delay)
 }
 
 /// What is written for a number of records, without accounts of pairs and checksum, bytes.
-fn used_len(group_pairs: usize, records: usize, custom_stride: usize) -> usize {
-    HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * custom_stride)
+fn used_len(group_pairs: usize, records: usize, numbers_each: usize) -> usize {
+    HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * numbers_each)
 }
 
 /// Writes the block into a buffer of at least [`needed_len`] bytes. What the buffer has room for beyond that, up to the
@@ -128,10 +130,11 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.f64(memory.work);
     writer.f64(memory.dissipated);
     memory.poses.iter().for_each(|pose| writer.pair_pose(pose));
-    writer.books(&memory.books);
-    for (record, custom) in memory.iter() {
-        writer.record(record);
-        custom.iter().for_each(|x| writer.f64(*x));
+    writer.pair_energies(&memory.pair_energies);
+    for remembered in memory.iter() {
+        writer.record(&remembered.record);
+        remembered.law_state.iter().for_each(|x| writer.f64(*x));
+        remembered.energy.iter().flat_map(ContactEnergyRef::numbers).for_each(|x| writer.f64(x));
     }
     writer.at
 }
@@ -152,14 +155,15 @@ pub(crate) fn read_block(
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
     memory.poses.iter_mut().for_each(|pose| *pose = reader.pair_pose());
-    reader.books(&mut memory.books);
+    reader.pair_energies(&mut memory.pair_energies);
     memory.clear_records();
     for _ in 0..count {
         let record = reader.record().expect("checked before");
         memory.records.push(record).expect("no more than the capacity");
-        for _ in 0..memory.custom_stride {
-            memory.custom.push(reader.f64()).expect("as many as the records have");
+        for _ in 0..memory.law_state_len {
+            memory.law_state.push(reader.f64()).expect("as many as the records have");
         }
+        reader.contact_energy(&mut memory.energies);
     }
     Ok(())
 }
@@ -187,7 +191,7 @@ fn check(
     if count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
-    let used = used_len(like.poses.len(), count, like.custom_stride) + accounts_len(like);
+    let used = used_len(like.poses.len(), count, like.numbers_each()) + accounts_len(like);
     let (least, most) = (used + CHECKSUM_LEN, most_len(like));
     if !(least..=most).contains(&block.len()) {
         return Err(StateError::Length { least, most, got: block.len() });
@@ -229,7 +233,7 @@ fn records_make_sense(
     let mut last = ContactKey::default();
     (0..count).all(|_| {
         let record = reader.record();
-        reader.at += 8 * like.custom_stride;
+        reader.at += 8 * like.numbers_each();
         record.is_some_and(|record| {
             let in_order = last <= record.key;
             last = record.key;
@@ -288,9 +292,9 @@ impl Writer<'_> {
         }
     }
 
-    fn books(&mut self, books: &Books) {
-        books.pairs.iter().flat_map(PairBook::numbers).for_each(|x| self.f64(x));
-        for wrench in &books.waiting {
+    fn pair_energies(&mut self, energies: &PairEnergies) {
+        energies.pairs.iter().flat_map(PairEnergy::numbers).for_each(|x| self.f64(x));
+        for wrench in &energies.delayed {
             self.vec3(&wrench.force);
             self.vec3(&wrench.moment);
         }
@@ -357,16 +361,34 @@ impl Reader<'_> {
         PairPose { relative: [self.pose(), self.pose()], known }
     }
 
-    fn books(&mut self, books: &mut Books) {
-        for book in &mut books.pairs {
-            *book = PairBook::from_numbers(&std::array::from_fn(|_| self.f64()));
-        }
-        for wrench in &mut books.waiting {
-            (wrench.force, wrench.moment) = (self.vec3(), self.vec3());
-        }
+    fn wrench(&mut self) -> Wrench {
+        Wrench { force: self.vec3(), moment: self.vec3() }
     }
 
-    /// `None` if the record has a role that there is not.
+    fn pair_energies(&mut self, energies: &mut PairEnergies) {
+        for energy in &mut energies.pairs {
+            *energy = PairEnergy::from_numbers(&std::array::from_fn(|_| self.f64()));
+        }
+        energies.delayed.iter_mut().for_each(|wrench| *wrench = self.wrench());
+    }
+
+    /// The energies of the record that was read last.
+    fn contact_energy(&mut self, energies: &mut ContactEnergies) {
+        if energies.numbers() == 0 {
+            return;
+        }
+        let account =
+            EnergyAccount::from_numbers(&std::array::from_fn::<_, { EnergyAccount::NUMBERS }, _>(|_| {
+                self.f64()
+            }));
+        let energy = ContactEnergy { account, bristle: self.f64() };
+        let mut delayed = [Wrench::zero(); WrenchCoupling::DELAY_FRAMES_MAX as usize];
+        let delayed = &mut delayed[..energies.delay()];
+        delayed.iter_mut().for_each(|wrench| *wrench = self.wrench());
+        let read = ContactEnergyRef { energy: &energy, delayed };
+        energies.push(Some(read)).expect("as much room as for records");
+    }
+
     fn record(&mut self) -> Option<ContactRecord> {
         let key = ContactKey {
             group_pair: self.u32(),

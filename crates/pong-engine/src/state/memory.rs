@@ -1,6 +1,7 @@
 //! Contact records under their keys, and the relative poses of the last commit.
 
-use crate::energy::pairs::Books;
+use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
+use crate::energy::episodes::PairEnergies;
 use pong_arena::{Full, Table};
 use pong_geometry::{Pose, Vec3};
 
@@ -105,6 +106,16 @@ pub(crate) struct ContactRecord {
     pub dissipated: f64,
 }
 
+/// All that is remembered of one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Remembered<'a> {
+    pub record: ContactRecord,
+    /// What its registered friction law remembers.
+    pub law_state: &'a [f64],
+    /// Its energies, if the world keeps accounts.
+    pub energy: Option<ContactEnergyRef<'a>>,
+}
+
 /// Relative poses of a pair of movable groups at the last commit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PairPose {
@@ -121,12 +132,14 @@ pub(crate) struct ContactMemory {
     pub poses: Box<[PairPose]>,
     /// Sorted by key, then piece and feature.
     pub records: Table<ContactRecord>,
-    /// Numbers of registered friction laws and of accounts: `custom_stride` per record.
-    pub custom: Table<f64>,
-    /// Accounts of pairs; empty unless the world keeps them.
-    pub books: Books,
-    /// How many numbers each record has in `custom`.
-    pub custom_stride: usize,
+    /// What registered friction laws remember: `law_state_len` numbers per record.
+    pub law_state: Table<f64>,
+    /// Energies of the records; none unless the world keeps accounts.
+    pub energies: ContactEnergies,
+    /// Energies of pairs; none unless the world keeps accounts.
+    pub pair_energies: PairEnergies,
+    /// How many numbers each record has in `law_state`.
+    pub law_state_len: usize,
     /// Energy that left the contacts for good since the world began, J.
     pub dissipated: f64,
     /// Work done on the bodies since the world began, J.
@@ -164,38 +177,46 @@ impl ContactRecord {
 
 impl ContactMemory {
     /// An empty memory with room for so many records of so many numbers each.
-    pub fn with_capacity(group_pairs: usize, records: usize, custom_stride: usize) -> Self {
+    pub fn with_capacity(group_pairs: usize, records: usize, law_state_len: usize) -> Self {
         Self {
             poses: vec![PairPose::unknown(); group_pairs].into_boxed_slice(),
             records: Table::with_capacity(records, ContactRecord::blank()),
-            custom: Table::with_capacity(records * custom_stride, 0.0),
-            custom_stride,
-            books: Books::default(),
+            law_state: Table::with_capacity(records * law_state_len, 0.0),
+            law_state_len,
+            energies: ContactEnergies::default(),
+            pair_energies: PairEnergies::default(),
             dissipated: 0.0,
             work: 0.0,
         }
     }
 
-    /// The same with room for accounts of pairs.
-    pub fn with_books(self, books: Books) -> Self {
-        Self { books, ..self }
+    /// The same with room for energies.
+    pub fn with_energies(self, energies: ContactEnergies, pair_energies: PairEnergies) -> Self {
+        Self { energies, pair_energies, ..self }
     }
 
-    /// Appends a record and its custom numbers, `custom_stride` of them; keys must come in order.
+    /// Numbers that a record has in a block beside its own.
+    pub fn numbers_each(&self) -> usize {
+        self.law_state_len + self.energies.numbers()
+    }
+
+    /// Appends a record; keys must come in order.
     ///
     /// # Errors
     /// [`Full`] if there is no room; the memory stays as it is.
-    pub fn push(&mut self, record: &ContactRecord, custom: &[f64]) -> Result<(), Full> {
-        debug_assert_eq!(custom.len(), self.custom_stride);
-        debug_assert!(self.records.last().is_none_or(|last| last.key <= record.key));
-        self.records.push(*record)?;
-        self.custom.extend_from_slice(custom)
+    pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
+        debug_assert_eq!(remembered.law_state.len(), self.law_state_len);
+        debug_assert!(self.records.last().is_none_or(|last| last.key <= remembered.record.key));
+        self.records.push(remembered.record)?;
+        self.law_state.extend_from_slice(remembered.law_state)?;
+        self.energies.push(remembered.energy)
     }
 
     /// Drops all records; everything else stays.
     pub fn clear_records(&mut self) {
         self.records.clear();
-        self.custom.clear();
+        self.law_state.clear();
+        self.energies.clear();
     }
 
     /// Becomes equal to a memory of the same size.
@@ -205,15 +226,20 @@ impl ContactMemory {
         let fits = self
             .records
             .extend_from_slice(&other.records)
-            .and_then(|()| self.custom.extend_from_slice(&other.custom));
+            .and_then(|()| self.law_state.extend_from_slice(&other.law_state));
         fits.expect("memories of one world have room for the same");
-        self.books.copy_from(&other.books);
+        self.energies.copy_from(&other.energies);
+        self.pair_energies.copy_from(&other.pair_energies);
         (self.work, self.dissipated) = (other.work, other.dissipated);
     }
 
-    /// The records with their custom numbers, in order.
-    pub fn iter(&self) -> impl Iterator<Item = (&ContactRecord, &[f64])> + Clone {
-        self.records.iter().enumerate().map(|(index, record)| (record, self.custom_of(index)))
+    /// All that is remembered of contacts, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Remembered<'_>> + Clone {
+        self.records.iter().enumerate().map(|(index, record)| Remembered {
+            record: *record,
+            law_state: self.law_state_of(index),
+            energy: self.energies.get(index),
+        })
     }
 
     /// The records under one key, with the index of the first.
@@ -245,9 +271,9 @@ impl ContactMemory {
         best.map(|(i, _)| first + i)
     }
 
-    /// The custom numbers of a record.
-    pub fn custom_of(&self, record: usize) -> &[f64] {
-        &self.custom[record * self.custom_stride..(record + 1) * self.custom_stride]
+    /// What the friction law of a record remembers.
+    pub fn law_state_of(&self, record: usize) -> &[f64] {
+        &self.law_state[record * self.law_state_len..(record + 1) * self.law_state_len]
     }
 
     /// Drops everything remembered of the pairs of movable groups that `forgotten` names.
@@ -255,23 +281,25 @@ impl ContactMemory {
         for (index, pose) in self.poses.iter_mut().enumerate() {
             if forgotten(index as u32) {
                 *pose = PairPose::unknown();
-                if !self.books.pairs.is_empty() {
+                if !self.pair_energies.pairs.is_empty() {
                     let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
                     let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
-                    self.books.forget(index, pushing.map(|record| record.stored).sum());
+                    self.pair_energies.forget(index, pushing.map(|record| record.stored).sum());
                 }
             }
         }
-        let stride = self.custom_stride;
+        let stride = self.law_state_len;
         let mut kept = 0;
         for index in 0..self.records.len() {
             if !forgotten(self.records[index].key.group_pair) {
                 self.records[kept] = self.records[index];
-                self.custom.copy_within(index * stride..(index + 1) * stride, kept * stride);
+                self.law_state.copy_within(index * stride..(index + 1) * stride, kept * stride);
+                self.energies.copy_within(index, kept);
                 kept += 1;
             }
         }
         self.records.truncate(kept);
-        self.custom.truncate(kept * stride);
+        self.law_state.truncate(kept * stride);
+        self.energies.truncate(kept);
     }
 }

@@ -4,12 +4,9 @@
 //! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
 //! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
 
-use super::memory::{ContactMemory, ContactRecord, PairPose};
-use crate::energy::pairs::Books;
+use super::memory::{ContactMemory, ContactRecord, PairPose, Remembered};
+use crate::energy::episodes::PairEnergies;
 use std::iter::Peekable;
-
-/// A record and its custom numbers.
-pub(crate) type Remembered<'a> = (ContactRecord, &'a [f64]);
 
 impl ContactMemory {
     /// Takes over all that a frame would remember: `fresh` in key order, `poses` of every pair of movable groups. The
@@ -26,25 +23,25 @@ impl ContactMemory {
     }
 
     /// Writes into `next` what is remembered after a commit of the pairs of movable groups that `accepted` names:
-    /// of those `fresh`, `poses` and `books`, of all others what is remembered now. The totals are the present ones.
+    /// of those `fresh`, `poses` and `energies`, of all others what is remembered now. The totals are the present ones.
     ///
     /// Answers how many records were left out because `next` has no room for them.
     pub fn accept_into<'a>(
         &'a self,
         fresh: impl Iterator<Item = Remembered<'a>> + Clone,
-        (poses, books): (&[PairPose], &Books),
+        (poses, energies): (&[PairPose], &PairEnergies),
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
     ) -> usize {
         for (index, pose) in next.poses.iter_mut().enumerate() {
             *pose = if accepted(index as u32) { poses[index] } else { self.poses[index] };
-            next.books.copy_pair(index, if accepted(index as u32) { books } else { &self.books });
+            let energies = if accepted(index as u32) { energies } else { &self.pair_energies };
+            next.pair_energies.copy_pair(index, energies);
         }
         (next.work, next.dissipated) = (self.work, self.dissipated);
         let is_accepted = |record: &ContactRecord| accepted(record.key.group_pair);
-        let kept = self.iter().filter(|(record, _)| !is_accepted(record));
-        let kept = kept.map(|(record, custom)| (*record, custom)).peekable();
-        let fresh = fresh.filter(|(record, _)| is_accepted(record)).peekable();
+        let kept = self.iter().filter(|kept| !is_accepted(&kept.record)).peekable();
+        let fresh = fresh.filter(|fresh| is_accepted(&fresh.record)).peekable();
         next.fill(InKeyOrder { kept, fresh })
     }
 
@@ -53,16 +50,16 @@ impl ContactMemory {
         if self.take(records.clone()) {
             return 0;
         }
-        let ranks = records.clone().map(|(record, _)| rank(&record));
+        let ranks = records.clone().map(|remembered| rank(&remembered.record));
         let mut bar = Bar::letting_in(self.records.capacity(), ranks);
-        self.take(records.clone().filter(|(record, _)| bar.lets_in(rank(record))));
+        self.take(records.clone().filter(|remembered| bar.lets_in(rank(&remembered.record))));
         records.count() - self.records.len()
     }
 
     /// Replaces all records, as long as there is room; whether there was.
     fn take<'a>(&mut self, mut records: impl Iterator<Item = Remembered<'a>>) -> bool {
         self.clear_records();
-        records.all(|(record, custom)| self.push(&record, custom).is_ok())
+        records.all(|remembered| self.push(&remembered).is_ok())
     }
 }
 
@@ -82,7 +79,7 @@ where
 
     fn next(&mut self) -> Option<Self::Item> {
         match (self.kept.peek(), self.fresh.peek()) {
-            (Some((kept, _)), Some((fresh, _))) if kept.key < fresh.key => self.kept.next(),
+            (Some(kept), Some(fresh)) if kept.record.key < fresh.record.key => self.kept.next(),
             (Some(_), None) => self.kept.next(),
             _ => self.fresh.next(),
         }

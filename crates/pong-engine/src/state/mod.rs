@@ -6,10 +6,8 @@ mod merge;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use crate::energy::pairs::{Books, PairBook};
 pub use block::StateError;
 pub(crate) use block::{block_len, fnv1a, needed_len, read_block, write_block};
 pub(crate) use memory::{
-    ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, PairPose, SAME_WAY_COSINE_MIN,
+    ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, PairPose, Remembered, SAME_WAY_COSINE_MIN,
 };
-pub(crate) use merge::Remembered;

@@ -1,10 +1,14 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
 use super::block::{StateError, block_len, fnv1a, needed_len, write_block};
-use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose};
-use super::merge::Remembered;
-use pong_geometry::{Pose, Quat, Vec3};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose, Remembered};
+use crate::energy::account::{EnergyAccount, WrenchCoupling};
+use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
+use crate::energy::episodes::PairEnergies;
+use pong_geometry::{Pose, Quat, Vec3, Wrench};
 
+/// How many frames late the wrench comes where energies are kept.
+const DELAY: u32 = 2;
 const GROUP_PAIRS: usize = 5;
 const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
@@ -66,9 +70,26 @@ impl Random {
         }
     }
 
-    /// A memory with so many records.
+    /// A memory with so many records and no energies.
     fn memory(&mut self, records: usize, stride: usize) -> ContactMemory {
-        let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, stride);
+        self.memory_with(records, stride, None)
+    }
+
+    /// A memory with so many records; energies are kept where a friction law's numbers are odd in number.
+    fn memory_with_energies(&mut self, records: usize, stride: usize) -> ContactMemory {
+        let held = WrenchCoupling::ZeroOrderHold { delay_frames: DELAY };
+        self.memory_with(records, stride, (stride % 2 == 1).then_some(held))
+    }
+
+    fn memory_with(
+        &mut self,
+        records: usize,
+        stride: usize,
+        coupling: Option<WrenchCoupling>,
+    ) -> ContactMemory {
+        let energies = ContactEnergies::with_capacity(coupling, CAPACITY);
+        let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, stride)
+            .with_energies(energies, PairEnergies::default());
         for pose in &mut memory.poses {
             *pose = PairPose { relative: [self.pose(), self.pose()], known: self.below(2) == 1 };
         }
@@ -76,8 +97,21 @@ impl Random {
         let mut fresh: Vec<ContactRecord> = (0..records).map(|_| self.record()).collect();
         fresh.sort_by_key(|record| record.key);
         for record in fresh {
-            let custom: Vec<f64> = (0..stride).map(|_| self.unit()).collect();
-            memory.push(&record, &custom).unwrap();
+            let law_state: Vec<f64> = (0..stride).map(|_| self.unit()).collect();
+            let Some(coupling) = coupling else {
+                memory.push(&Remembered { record, law_state: &law_state, energy: None }).unwrap();
+                continue;
+            };
+            let account = EnergyAccount {
+                work_in: self.unit(),
+                friction_loss: self.unit(),
+                ..EnergyAccount::default()
+            };
+            let energy = ContactEnergy { account, bristle: self.unit() };
+            let wrench = |_| Wrench { force: self.vec3(), moment: self.vec3() };
+            let delayed: Vec<Wrench> = (0..coupling.delay()).map(wrench).collect();
+            let energy = Some(ContactEnergyRef { energy: &energy, delayed: &delayed });
+            memory.push(&Remembered { record, law_state: &law_state, energy }).unwrap();
         }
         memory
     }
@@ -85,11 +119,15 @@ impl Random {
 
 /// A list of records as a slow model holds them.
 fn listed(memory: &ContactMemory) -> Vec<(ContactRecord, Vec<f64>)> {
-    memory.iter().map(|(record, custom)| (*record, custom.to_vec())).collect()
+    let numbers = |remembered: &Remembered<'_>| {
+        let energy = remembered.energy.iter().flat_map(ContactEnergyRef::numbers);
+        remembered.law_state.iter().copied().chain(energy).collect()
+    };
+    memory.iter().map(|remembered| (remembered.record, numbers(&remembered))).collect()
 }
 
 fn fresh_of(memory: &ContactMemory) -> impl Iterator<Item = Remembered<'_>> + Clone {
-    memory.iter().map(|(record, custom)| (*record, custom))
+    memory.iter()
 }
 
 /// Two memories, of which the first ones fit together into one and the later ones do not always.
@@ -97,7 +135,7 @@ fn two_memories(random: &mut Random, round: u32) -> (ContactMemory, ContactMemor
     let stride = round as usize % 4;
     let (least, most) = if round < 200 { (0, CAPACITY / 2) } else { (CAPACITY - 3, CAPACITY) };
     let [first, second] = [0, 1].map(|_| least + random.below((most - least) as u32 + 1) as usize);
-    (random.memory(first, stride), random.memory(second, stride))
+    (random.memory_with_energies(first, stride), random.memory_with_energies(second, stride))
 }
 
 #[test]
@@ -117,7 +155,7 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_forgotten(record.key.group_pair));
         assert_eq!(listed(&left), expected);
-        assert_eq!(left.custom.len(), left.records.len() * left.custom_stride);
+        assert_eq!(left.law_state.len(), left.records.len() * left.law_state_len);
         for (pair, (pose, before)) in left.poses.iter().zip(&memory.poses).enumerate() {
             let unknown = PairPose::unknown();
             assert_eq!(pose, if is_forgotten(pair as u32) { &unknown } else { before });
@@ -129,14 +167,15 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
 #[test]
 fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
     let mut random = Random(2);
-    let mut next = [0, 1, 2, 3].map(|stride| random.memory(CAPACITY, stride));
+    let mut next = [0, 1, 2, 3].map(|stride| random.memory_with_energies(CAPACITY, stride));
     let mut overflows = 0;
     for round in 0..600 {
         let (memory, trial) = two_memories(&mut random, round);
         let accepted = random.below(1 << GROUP_PAIRS);
         let is_accepted = |pair: u32| accepted >> pair & 1 == 1;
-        let next = &mut next[memory.custom_stride];
-        let left_out = memory.accept_into(fresh_of(&trial), (&trial.poses, &trial.books), is_accepted, next);
+        let next = &mut next[memory.law_state_len];
+        let left_out =
+            memory.accept_into(fresh_of(&trial), (&trial.poses, &trial.pair_energies), is_accepted, next);
 
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_accepted(record.key.group_pair));
@@ -171,7 +210,7 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
         assert_eq!(memory.replace(fresh_of(&trial), &trial.poses), 0);
         assert_eq!((listed(&memory), &memory.poses), (listed(&trial), &trial.poses));
         assert_eq!((memory.work, memory.dissipated), totals);
-        let mut copy = random.memory(CAPACITY, memory.custom_stride);
+        let mut copy = random.memory_with_energies(CAPACITY, memory.law_state_len);
         copy.copy_from(&memory);
         assert!(copy == memory);
     }
@@ -181,11 +220,11 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
 fn records_of_one_key_are_found_together() {
     let mut random = Random(4);
     let memory = random.memory(CAPACITY, 2);
-    for (index, (record, custom)) in memory.iter().enumerate() {
+    for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
         let (first, same) = memory.under(&record.key);
         assert!(first <= index && index < first + same.len());
         assert!(same.iter().all(|other| other.key == record.key));
-        assert_eq!(memory.custom_of(index), custom);
+        assert_eq!(memory.law_state_of(index), law_state);
     }
 }
 
@@ -201,7 +240,13 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
         (oblique, 5, ContactRole::Active),
         (Vec3::z(), 0, ContactRole::Tracked),
     ] {
-        memory.push(&ContactRecord { normal, feature, role, ..model }, &[]).unwrap();
+        memory
+            .push(&Remembered {
+                record: ContactRecord { normal, feature, role, ..model },
+                law_state: &[],
+                energy: None,
+            })
+            .unwrap();
     }
     let found = |normal: Vec3, role| memory.matching(&model.key, &normal, role);
     assert_eq!(found(Vec3::x(), ContactRole::Active), Some(0));
@@ -218,7 +263,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
 
 /// In a buffer that has room for the largest block.
 fn block_of(memory: &ContactMemory) -> Vec<u8> {
-    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.custom_stride, 0)];
+    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.numbers_each(), 0)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }
@@ -289,7 +334,7 @@ fn a_block_has_no_room_for_contacts_that_there_are_not() {
     for round in 0..100 {
         let (memory, mut other) = two_memories(&mut random, round);
         let (tight, whole) = (tight_block_of(&memory), block_of(&memory));
-        let numbers = memory.records.len() * (RECORD_BYTES + 8 * memory.custom_stride);
+        let numbers = memory.records.len() * (RECORD_BYTES + 8 * memory.numbers_each());
         assert_eq!(tight.len(), RECORD + numbers + 8);
         assert!(whole[..tight.len()] == tight && whole[tight.len()..].iter().all(|byte| *byte == 0));
         // Beyond the room for the largest block a buffer is left alone.

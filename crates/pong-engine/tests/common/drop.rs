@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use crate::common::{Rig, at, model, moving, surface};
-use pong_engine::{Config, PairAccount, State, WrenchUse};
+use pong_engine::{Config, PairEnergyAccount, State, WrenchCoupling};
 use pong_geometry::{Quat, Vec3};
 use std::collections::VecDeque;
 
@@ -18,7 +18,7 @@ pub struct Drop {
     /// Where it begins, m above the plane, and its velocity, m/s, upward.
     pub start: [f64; 2],
     pub step: f64,
-    pub wrench_use: WrenchUse,
+    pub coupling: WrenchCoupling,
 }
 
 /// What became of it.
@@ -30,7 +30,7 @@ pub struct Landed {
     /// Whether it left the plane for good within the time.
     pub left: bool,
     pub least_normal_force: f64,
-    pub account: PairAccount,
+    pub account: PairEnergyAccount,
 }
 
 /// The mass between two commits.
@@ -67,18 +67,19 @@ impl Flight {
     /// One step of the host's, from a force that was committed.
     fn step(&mut self, [z, v]: [f64; 2], committed: f64, waiting: &mut VecDeque<f64>) -> [f64; 2] {
         let h = self.drop.step;
-        match self.drop.wrench_use {
-            WrenchUse::SemiImplicit => {
+        match self.drop.coupling {
+            WrenchCoupling::SemiImplicit => {
                 let v = v + h * self.acceleration(committed);
                 [z + h * v, v]
             }
-            WrenchUse::Held { late } => {
+            WrenchCoupling::ZeroOrderHold { delay_frames } => {
                 waiting.push_back(committed);
-                let held = if waiting.len() > late as usize { waiting.pop_front().unwrap() } else { 0.0 };
+                let held =
+                    if waiting.len() > delay_frames as usize { waiting.pop_front().unwrap() } else { 0.0 };
                 let a = self.acceleration(held);
                 [z + h * (v + 0.5 * h * a), v + h * a]
             }
-            WrenchUse::Stages => {
+            WrenchCoupling::Stages => {
                 let a1 = self.acceleration(committed);
                 let v2 = v + 0.5 * h * a1;
                 let force = self.force(z + 0.5 * h * v, v2);
@@ -98,8 +99,8 @@ impl Flight {
 impl Drop {
     /// What free flight keeps, J: for semi-implicit Euler the energy that it keeps exactly.
     fn energy(&self, [z, v]: [f64; 2]) -> f64 {
-        let z = match self.wrench_use {
-            WrenchUse::SemiImplicit => z - 0.5 * self.step * v,
+        let z = match self.coupling {
+            WrenchCoupling::SemiImplicit => z - 0.5 * self.step * v,
             _ => z,
         };
         self.mass * (0.5 * v * v + self.gravity * z)
@@ -111,7 +112,7 @@ impl Drop {
         let tip = model("tip", &law, "Point(name: \"p\", position: (0,0,0))");
         let rigid = "\"s\": (stiffness: inf)";
         let ground = model("ground", rigid, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
-        let config = Config { accounts: Some(self.wrench_use), ..Config::default() };
+        let config = Config { accounts: Some(self.coupling), ..Config::default() };
         let mut flight = Flight {
             rig: Rig::with_config(config, &tip, &ground),
             drop: *self,
@@ -126,7 +127,7 @@ impl Drop {
             state = flight.step(state, force, &mut waiting);
             force = flight.commit(state[0], state[1]);
             let account = flight.rig.world.pair_accounts().next().unwrap();
-            if account.touches > 0 && !account.touching && state[1] > 0.0 {
+            if account.episodes > 0 && !account.in_contact && state[1] > 0.0 {
                 left = true;
                 break;
             }

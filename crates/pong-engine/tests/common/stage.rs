@@ -4,7 +4,7 @@
 
 use pong_engine::{
     Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, StatusBits, WorkerSettings, World,
-    WrenchUse,
+    WrenchCoupling,
 };
 use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
@@ -63,7 +63,7 @@ pub struct Scene {
     pub frames: usize,
     pub contact_capacity: Option<usize>,
     pub ledger: bool,
-    pub accounts: Option<WrenchUse>,
+    pub accounts: Option<WrenchCoupling>,
     /// With the primitives, volumes and laws of `own_kinds.rs`.
     pub own_kinds: bool,
     pub models: Vec<String>,

@@ -35,17 +35,23 @@ impl AccountsTable {
     /// # Errors
     /// A file that cannot be written.
     pub fn write(&mut self, world: &World, time: f64) -> Result<(), LogError> {
-        for pair in world.pair_accounts().filter(|pair| pair.touching || pair.touches > 0) {
+        for pair in world.pair_accounts().filter(|pair| pair.in_contact || pair.episodes > 0) {
             self.table.begin(time);
             for interface in pair.interfaces {
                 let name = self.bodies.iter().find(|(known, _)| *known == interface);
                 self.table.cell(name.map_or("", |(_, name)| name));
             }
             let total = &pair.total;
-            self.table.numbers(&[total.taken, total.returned, total.put_in, total.made, total.stored]);
+            self.table.numbers(&[
+                total.work_in,
+                total.work_out,
+                total.inserted,
+                total.hold_error,
+                total.stored,
+            ]);
             self.table.numbers(&[total.damping_loss, total.friction_loss, total.resolution]);
-            self.table.cell(u8::from(pair.touching));
-            for number in [pair.touches, pair.returned_more, pair.unresolved] {
+            self.table.cell(u8::from(pair.in_contact));
+            for number in [pair.episodes, pair.episodes_gained, pair.episodes_unresolved] {
                 self.table.cell(number);
             }
             self.table.numbers(&[pair.excess]);

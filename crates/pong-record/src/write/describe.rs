@@ -48,7 +48,7 @@ pub(crate) fn describe(
         integrator: options.integrator.clone(),
         contact_capacity: Some(world.contact_capacity()? as u64),
         ledger: world.keeps_ledger(),
-        energy_accounts: world.wrench_use().map(Into::into),
+        energy_accounts: world.wrench_coupling().map(Into::into),
         laws: world.law_names().map(str::to_owned).collect(),
         models,
         objects,

@@ -1,4 +1,4 @@
-//! Accounts of contacts and of pairs of movable groups, on request (see [`Account`]).
+//! Accounts of contacts and of pairs of movable groups, on request (see [`EnergyAccount`]).
 //!
 //! The work of a wrench that the host holds from one commit to the next, with x the origin of A seen from B, is
 //!
@@ -11,43 +11,36 @@
 
 use super::displacement::Displacement;
 use super::interval::Interval;
-use crate::energy::account::{Account, WrenchUse};
+use crate::energy::account::{EnergyAccount, WrenchCoupling};
+use crate::energy::contact::{ContactEnergies, ContactEnergy};
+use crate::energy::episodes::PairEnergies;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::WorkerInput;
 use crate::law::stored_energy;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{Books, ContactMemory, ContactRecord, ContactRole, PairPose};
+use crate::state::{ContactMemory, ContactRecord, ContactRole, PairPose};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
 
-/// Numbers of one contact: its account, what its bristle stores, and the wrenches on their way.
-pub(crate) fn contact_numbers(wrench_use: WrenchUse) -> usize {
-    WAITING_AT + WRENCH_NUMBERS * wrench_use.late()
-}
-
-const BRISTLE_AT: usize = Account::NUMBERS;
-const WAITING_AT: usize = BRISTLE_AT + 1;
-const WRENCH_NUMBERS: usize = 6;
-
-/// Keeps the accounts of one frame.
-pub(crate) struct Keeper<'a> {
+/// The accounts of one frame.
+pub(crate) struct Accounts<'a> {
     pub scene: &'a Scene,
     pub sealed: &'a Sealed,
     pub memory: &'a ContactMemory,
     pub input: &'a WorkerInput,
-    pub wrench_use: WrenchUse,
+    pub coupling: WrenchCoupling,
     /// What a commit will remember of pairs.
-    pub books: &'a mut Books,
+    pub pairs: &'a mut PairEnergies,
     /// What happened to each pair since the last commit.
     pub intervals: &'a mut [Interval],
-    /// Numbers of the frame's contacts.
-    pub custom: &'a mut [f64],
+    /// What a commit will remember of contacts.
+    pub energies: &'a mut ContactEnergies,
 }
 
 /// Force of a contact on A, by what makes it, and its place.
 #[derive(Default)]
-struct Pressed {
+struct ForceParts {
     point: Vec3,
     normal: Vec3,
     friction: Vec3,
@@ -55,13 +48,24 @@ struct Pressed {
     stored: [f64; 2],
 }
 
-/// Work on the bodies of the normal force and of friction.
-struct Followed {
+/// Work on the bodies of the normal force and of friction, as if the force followed the motion.
+#[derive(Default)]
+struct WorkAlongMotion {
     normal: f64,
     friction: f64,
 }
 
-impl Pressed {
+/// Work on the bodies since the last commit, J.
+#[derive(Default)]
+struct Work {
+    /// Of the wrench as the host uses it.
+    as_used: f64,
+    along_motion: WorkAlongMotion,
+    /// The wrench that a host which holds wrenches was sent at the last commit.
+    sent: Option<Wrench>,
+}
+
+impl ForceParts {
     fn before(record: &ContactRecord, bristle: f64) -> Self {
         let normal = record.normal * record.normal.dot(&record.force);
         let stored = [record.stored - bristle, bristle];
@@ -69,16 +73,11 @@ impl Pressed {
     }
 }
 
-impl Keeper<'_> {
+impl Accounts<'_> {
     /// Begins a frame.
     pub fn begin(&mut self) {
-        self.books.copy_from(&self.memory.books);
+        self.pairs.copy_from(&self.memory.pair_energies);
         self.intervals.fill(Interval::default());
-    }
-
-    /// Numbers of a contact that was committed.
-    fn before(&self, earlier: usize) -> &[f64] {
-        &self.memory.custom_of(earlier)[self.sealed.account_at..]
     }
 
     /// Takes in a contact that pushes, which may continue a committed one.
@@ -90,87 +89,98 @@ impl Keeper<'_> {
         displacement: Option<&Displacement>,
     ) {
         let pair = contact.found.key.group_pair as usize;
-        let mut numbers = Numbers::new(earlier.map(|earlier| self.before(earlier)));
-        let before = earlier.map(|earlier| Pressed::before(&self.memory.records[earlier], numbers.bristle));
-        let now = self.pressed(contact);
-        numbers.bristle = now.stored[1];
+        let committed = earlier.and_then(|earlier| self.memory.energies.get(earlier));
+        let mut energy = committed.map_or_else(ContactEnergy::default, |committed| *committed.energy);
+        let delayed = committed.map_or(&[][..], |committed| committed.delayed);
+        let before = earlier.map(|earlier| ForceParts::before(&self.memory.records[earlier], energy.bristle));
+        let now = self.force_parts(contact);
+        energy.bristle = now.stored[1];
         let begins = before.is_none();
         let before = before.unwrap_or_default();
         let record = earlier.map(|earlier| &self.memory.records[earlier]);
-        let (done, followed) = self.work(&mut numbers, record, (&before, Some(&now)), displacement);
+        let done = self.work(delayed, record, (&before, Some(&now)), displacement);
         let interval = &mut self.intervals[pair];
         interval.pushes = true;
-        let mut one = self.entry(&before, &now, &followed, begins);
+        let mut one = self.entry(&before, &now, &done.along_motion, begins);
         if displacement.is_none() {
             // Without an earlier pose the host has put the bodies into each other.
-            one.put_in = now.stored[0] + now.stored[1];
+            one.inserted = now.stored[0] + now.stored[1];
             one.damping_loss += now.stored[0];
             one.friction_loss += now.stored[1];
         }
-        self.note(pair, &one, done, &followed);
-        if begins && displacement.is_some() && self.memory.books.pairs[pair].touching {
+        self.note(pair, &one, &done);
+        if begins && displacement.is_some() && self.memory.pair_energies.pairs[pair].episode.lasts {
             // What another contact of the pair had stored may now be this one's.
-            one.put_in = (now.stored[0] + now.stored[1] + done).max(0.0);
-            one.damping_loss += one.put_in;
+            one.inserted = (now.stored[0] + now.stored[1] + done.as_used).max(0.0);
+            one.damping_loss += one.inserted;
         }
-        one.work(done);
-        one.made = done - followed.sum();
-        numbers.account.add(&one);
-        let stride = self.sealed.custom_stride;
-        let place = index * stride + self.sealed.account_at..(index + 1) * stride;
-        numbers.write(&mut self.custom[place]);
+        one.work(done.as_used);
+        one.hold_error = done.as_used - done.along_motion.sum();
+        energy.account.add(&one);
+        self.energies.set(index, energy, delayed, done.sent);
     }
 
     /// Takes in a committed contact that is no more.
     pub fn ended(&mut self, earlier: usize, displacement: Option<&Displacement>) {
+        let Some(committed) = self.memory.energies.get(earlier) else { return };
         let record = &self.memory.records[earlier];
-        let mut numbers = Numbers::new(Some(self.before(earlier)));
-        let before = Pressed::before(record, numbers.bristle);
-        let (done, followed) = self.work(&mut numbers, Some(record), (&before, None), displacement);
-        let one = self.entry(&before, &Pressed::default(), &followed, true);
-        self.note(record.key.group_pair as usize, &one, done, &followed);
+        let before = ForceParts::before(record, committed.energy.bristle);
+        let done = self.work(committed.delayed, Some(record), (&before, None), displacement);
+        let one = self.entry(&before, &ForceParts::default(), &done.along_motion, true);
+        self.note(record.key.group_pair as usize, &one, &done);
     }
 
     /// Work since the last commit, of the wrench as the host uses it and as it would have followed the motion; none without
     /// an earlier pose.
     fn work(
         &self,
-        numbers: &mut Numbers,
+        delayed: &[Wrench],
         record: Option<&ContactRecord>,
-        (before, now): (&Pressed, Option<&Pressed>),
+        (before, now): (&ForceParts, Option<&ForceParts>),
         displacement: Option<&Displacement>,
-    ) -> (f64, Followed) {
-        let Some(displacement) = displacement else { return (0.0, Followed { normal: 0.0, friction: 0.0 }) };
-        let followed = displacement.followed(before, now);
-        let done = match self.wrench_use {
-            WrenchUse::Held { late } => {
+    ) -> Work {
+        let Some(displacement) = displacement else { return Work::default() };
+        let along_motion = displacement.work_along_motion(before, now);
+        match self.coupling {
+            WrenchCoupling::ZeroOrderHold { .. } => {
                 let sent = record.map_or_else(Wrench::zero, |record| displacement.held(record));
-                displacement.origin_work(&numbers.exchange(sent, late as usize))
+                // A contact that begins has nothing on its way yet.
+                let nothing = if self.coupling.delay() > 0 { Wrench::zero() } else { sent };
+                let arrives = delayed.first().copied().unwrap_or(nothing);
+                Work { as_used: displacement.origin_work(&arrives), along_motion, sent: Some(sent) }
             }
-            WrenchUse::Stages | WrenchUse::SemiImplicit => followed.sum(),
-        };
-        (done, followed)
-    }
-
-    /// Losses of a contact since the last commit.
-    fn entry(&self, before: &Pressed, now: &Pressed, followed: &Followed, at_an_end: bool) -> Account {
-        let doubtful = at_an_end && self.wrench_use == WrenchUse::Stages;
-        Account {
-            damping_loss: -followed.normal - (now.stored[0] - before.stored[0]),
-            friction_loss: -followed.friction - (now.stored[1] - before.stored[1]),
-            resolution: if doubtful { followed.sum().abs() } else { 0.0 },
-            ..Account::default()
+            WrenchCoupling::Stages | WrenchCoupling::SemiImplicit => {
+                Work { as_used: along_motion.sum(), along_motion, sent: None }
+            }
         }
     }
 
-    fn note(&mut self, pair: usize, one: &Account, done: f64, followed: &Followed) {
-        let interval = &mut self.intervals[pair];
-        interval.sum.add(one);
-        interval.done += done;
-        interval.followed += followed.sum();
+    /// Losses of a contact since the last commit.
+    fn entry(
+        &self,
+        before: &ForceParts,
+        now: &ForceParts,
+        followed: &WorkAlongMotion,
+        at_an_end: bool,
+    ) -> EnergyAccount {
+        let doubtful = at_an_end && self.coupling == WrenchCoupling::Stages;
+        EnergyAccount {
+            damping_loss: -followed.normal - (now.stored[0] - before.stored[0]),
+            friction_loss: -followed.friction - (now.stored[1] - before.stored[1]),
+            resolution: if doubtful { followed.sum().abs() } else { 0.0 },
+            ..EnergyAccount::default()
+        }
     }
 
-    fn pressed(&self, contact: &FrameContact) -> Pressed {
+    fn note(&mut self, pair: usize, one: &EnergyAccount, done: &Work) {
+        let interval = &mut self.intervals[pair];
+        interval.sum.add(one);
+        interval.as_used += done.as_used;
+        interval.along_motion += done.along_motion.sum();
+    }
+
+    /// The force of a contact by what makes it.
+    fn force_parts(&self, contact: &FrameContact) -> ForceParts {
         let found = &contact.found;
         let (body_a, body_b) = self.sealed.bodies_of(&found.key);
         let surface_a = self.scene.body(body_a).primitives[found.key.primitive_a as usize].surface;
@@ -178,7 +188,7 @@ impl Keeper<'_> {
         let pair = &self.sealed.group_pairs[found.key.group_pair as usize];
         let table = &self.input.tables[pair.tables[found.key.flipped as usize]];
         let spring = stored_energy(table.props(surface_a, surface_b), found.full_weight(), found.depth);
-        Pressed {
+        ForceParts {
             point: contact.point,
             normal: found.normal * contact.normal_force,
             friction: contact.friction_force,
@@ -186,29 +196,29 @@ impl Keeper<'_> {
         }
     }
 
-    /// Ends a frame: sums of pairs, and touches that are over.
+    /// Ends a frame: sums of pairs, and episodes that are over.
     pub fn close(&mut self, remembered: &[PairPose]) {
-        if self.wrench_use.late() > 0 {
-            self.send_wrenches(remembered);
+        if self.coupling.delay() > 0 {
+            self.exchange_wrenches(remembered);
         }
         for (pair, interval) in self.intervals.iter().enumerate() {
             let mut sum = interval.sum;
-            sum.work(interval.done);
-            sum.made = interval.done - interval.followed;
-            let waits = self.books.is_waiting(pair);
-            let book = &mut self.books.pairs[pair];
-            book.total.add(&sum);
-            book.touch.add(&sum);
-            if interval.pushes || waits {
-                book.touching = true;
-            } else if book.touching {
-                book.end_touch();
+            sum.work(interval.as_used);
+            sum.hold_error = interval.as_used - interval.along_motion;
+            let is_delayed = self.pairs.is_delayed(pair);
+            let energy = &mut self.pairs.pairs[pair];
+            energy.total.add(&sum);
+            energy.episode.account.add(&sum);
+            if interval.pushes || is_delayed {
+                energy.episode.lasts = true;
+            } else if energy.episode.lasts {
+                energy.end_episode();
             }
         }
     }
 
-    /// What comes late is the wrench of a whole pair: it comes even if the contacts that made it are gone.
-    fn send_wrenches(&mut self, remembered: &[PairPose]) {
+    /// What comes later is the wrench of a whole pair: it comes even if the contacts that made it are gone.
+    fn exchange_wrenches(&mut self, remembered: &[PairPose]) {
         let mut records = self.memory.records.iter().peekable();
         for (pair, pose) in remembered.iter().enumerate() {
             let earlier = &self.memory.poses[pair];
@@ -218,9 +228,9 @@ impl Keeper<'_> {
                     sent += on_first(record, &earlier.relative[0]);
                 }
             }
-            let arrives = self.books.exchange(pair, sent);
+            let arrives = self.pairs.exchange(pair, sent);
             let known = earlier.known && pose.known;
-            self.intervals[pair].done = if known { work_on_first(&arrives, earlier, pose) } else { 0.0 };
+            self.intervals[pair].as_used = if known { work_on_first(&arrives, earlier, pose) } else { 0.0 };
         }
     }
 }
@@ -240,7 +250,7 @@ fn work_on_first(wrench: &Wrench, earlier: &PairPose, now: &PairPose) -> f64 {
     wrench.force.dot(&(after.position - before.position)) + wrench.moment.dot(&rotation)
 }
 
-impl Followed {
+impl WorkAlongMotion {
     fn sum(&self) -> f64 {
         self.normal + self.friction
     }
@@ -248,12 +258,12 @@ impl Followed {
 
 impl Displacement {
     /// Work of a force as it follows the motion: the trapezoid rule.
-    fn followed(&self, before: &Pressed, now: Option<&Pressed>) -> Followed {
-        let work = |of: fn(&Pressed) -> &Vec3| {
+    fn work_along_motion(&self, before: &ForceParts, now: Option<&ForceParts>) -> WorkAlongMotion {
+        let work = |of: fn(&ForceParts) -> &Vec3| {
             self.half_work(&before.point, of(before), false)
                 + now.map_or(0.0, |now| self.half_work(&now.point, of(now), true))
         };
-        Followed { normal: work(|pressed| &pressed.normal), friction: work(|pressed| &pressed.friction) }
+        WorkAlongMotion { normal: work(|parts| &parts.normal), friction: work(|parts| &parts.friction) }
     }
 
     /// Wrench of a committed contact on A about its origin.
@@ -265,48 +275,4 @@ impl Displacement {
     fn origin_work(&self, wrench: &Wrench) -> f64 {
         wrench.force.dot(&(self.origin_now - self.origin_before)) + wrench.moment.dot(&self.rotation)
     }
-}
-
-/// The numbers of one contact while they are worked on.
-struct Numbers {
-    account: Account,
-    bristle: f64,
-    waiting: [[f64; WRENCH_NUMBERS]; WrenchUse::LATE_MAX as usize],
-}
-
-impl Numbers {
-    fn new(before: Option<&[f64]>) -> Self {
-        let mut waiting = [[0.0; WRENCH_NUMBERS]; WrenchUse::LATE_MAX as usize];
-        let Some(numbers) = before else {
-            return Self { account: Account::default(), bristle: 0.0, waiting };
-        };
-        for (to, from) in waiting.iter_mut().zip(numbers[WAITING_AT..].chunks_exact(WRENCH_NUMBERS)) {
-            to.copy_from_slice(from);
-        }
-        Self { account: Account::from_numbers(numbers), bristle: numbers[BRISTLE_AT], waiting }
-    }
-
-    /// Sends a wrench on its way and takes out the one that arrives.
-    fn exchange(&mut self, sent: Wrench, late: usize) -> Wrench {
-        let Some(first) = self.waiting[..late].first_mut() else { return sent };
-        let arrives = *first;
-        let [fx, fy, fz, mx, my, mz] = arrives;
-        let (force, moment) = (sent.force, sent.moment);
-        *first = [force.x, force.y, force.z, moment.x, moment.y, moment.z];
-        self.waiting[..late].rotate_left(1);
-        Wrench { force: Vec3::new(fx, fy, fz), moment: Vec3::new(mx, my, mz) }
-    }
-
-    fn write(&self, numbers: &mut [f64]) {
-        numbers[..BRISTLE_AT].copy_from_slice(&self.account.numbers());
-        numbers[BRISTLE_AT] = self.bristle;
-        for (to, from) in numbers[WAITING_AT..].chunks_exact_mut(WRENCH_NUMBERS).zip(&self.waiting) {
-            to.copy_from_slice(from);
-        }
-    }
-}
-
-/// The account of a contact among its numbers.
-pub(crate) fn account_of(numbers: &[f64], stored: f64) -> Account {
-    Account { stored, ..Account::from_numbers(numbers) }
 }

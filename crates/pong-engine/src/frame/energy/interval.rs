@@ -1,14 +1,14 @@
 //! What happened to a pair of movable groups between two commits.
 
-use crate::energy::account::Account;
+use crate::energy::account::EnergyAccount;
 
 /// A pair of movable groups since the last commit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Interval {
     /// All but what was taken and returned.
-    pub sum: Account,
+    pub sum: EnergyAccount,
     /// Work of the wrench as the host uses it, and as it would have followed the motion.
-    pub done: f64,
-    pub followed: f64,
+    pub as_used: f64,
+    pub along_motion: f64,
     pub pushes: bool,
 }

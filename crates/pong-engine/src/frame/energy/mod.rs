@@ -10,6 +10,7 @@
 //! and dissipated = −W − Δstored. A contact that ended did its last half of the work and lost what it stored.
 
 pub(crate) mod accounts;
+pub(crate) mod buffers;
 mod displacement;
 pub(crate) mod interval;
 
@@ -20,31 +21,35 @@ use crate::frame::worker_context::WorkerContext;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, ContactRecord, ContactRole};
-use accounts::Keeper;
+use accounts::Accounts;
+use buffers::EnergyBuffers;
 use displacement::Displacement;
 use pong_geometry::Vec3;
 
 /// Fills in the energies of the contacts and the totals.
 pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut EvaluationBuffers) {
-    frame.work = memory.work;
-    frame.dissipated = memory.dissipated;
+    frame.energy.work = memory.work;
+    frame.energy.dissipated = memory.dissipated;
     if !scene.config.ledger {
         return;
     }
-    let EvaluationBuffers { input, caller, order, work: all_work, dissipated: all_dissipated, .. } = frame;
+    let EvaluationBuffers { input, caller, order, energy, .. } = frame;
+    let EnergyBuffers { work: all_work, dissipated: all_dissipated, contacts: energies, pairs, intervals } =
+        energy;
     let WorkerContext { scratch, out, .. } = caller;
     let input = &*input;
-    let mut keeper = scene.config.accounts.map(|wrench_use| Keeper {
+    energies.reset(out.contacts.len());
+    let mut accounts = sealed.coupling.map(|coupling| Accounts {
         scene,
         sealed,
         memory,
         input,
-        wrench_use,
-        books: &mut frame.books,
-        intervals: &mut frame.intervals,
-        custom: &mut out.custom,
+        coupling,
+        pairs,
+        intervals,
+        energies,
     });
-    keeper.iter_mut().for_each(Keeper::begin);
+    accounts.iter_mut().for_each(Accounts::begin);
     scratch.reset();
     let continued = scratch.slice(memory.records.len(), false).expect("sealing has sized the scratch");
     for place in order.iter() {
@@ -76,8 +81,8 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         contact.dissipated = before.dissipated + dissipated;
         *all_work += work;
         *all_dissipated += dissipated;
-        if let Some(keeper) = &mut keeper {
-            keeper.contact(place.index as usize, contact, earlier, displacement.as_ref());
+        if let Some(accounts) = &mut accounts {
+            accounts.contact(place.index as usize, contact, earlier, displacement.as_ref());
         }
     }
     let ended =
@@ -87,11 +92,11 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         let (work, dissipated) = end_contact(earlier, displacement.as_ref());
         *all_work += work;
         *all_dissipated += dissipated;
-        if let Some(keeper) = &mut keeper {
-            keeper.ended(index, displacement.as_ref());
+        if let Some(accounts) = &mut accounts {
+            accounts.ended(index, displacement.as_ref());
         }
     }
-    keeper.iter_mut().for_each(|keeper| keeper.close(&frame.remembered));
+    accounts.iter_mut().for_each(|accounts| accounts.close(&frame.remembered));
 }
 
 /// What a contact was at the last commit; all zero if it was none.

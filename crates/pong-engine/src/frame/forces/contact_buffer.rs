@@ -15,8 +15,8 @@ pub(crate) struct ContactBuffer {
     /// Contacts found and pressed, in no order.
     pub contacts: Table<FrameContact>,
     /// Numbers of registered friction laws, as many for every contact.
-    pub custom: Table<f64>,
-    pub custom_stride: usize,
+    pub law_state: Table<f64>,
+    pub law_state_len: usize,
     /// Room for ranking the contacts; none in a worker's buffer.
     ranked: Table<u32>,
     pub demand: CapacityDemand,
@@ -65,12 +65,12 @@ pub(crate) struct Checkpoint {
 
 impl ContactBuffer {
     /// Room for so many contacts, and to rank them if the deepest are to be kept.
-    pub fn new(custom_stride: usize, contacts: usize, ranks: bool) -> Self {
+    pub fn new(law_state_len: usize, contacts: usize, ranks: bool) -> Self {
         Self {
             phase: 0,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
-            custom: Table::with_capacity(contacts * custom_stride, 0.0),
-            custom_stride,
+            law_state: Table::with_capacity(contacts * law_state_len, 0.0),
+            law_state_len,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
             demand: CapacityDemand::default(),
             counts: FrameCounts::default(),
@@ -82,15 +82,15 @@ impl ContactBuffer {
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
-        self.custom.clear();
+        self.law_state.clear();
         self.demand = CapacityDemand::default();
         self.counts = FrameCounts::default();
         self.times = WorkTimes::default();
     }
 
-    /// The custom numbers of a contact.
-    pub fn custom_of(&self, contact: usize) -> &[f64] {
-        &self.custom[contact * self.custom_stride..(contact + 1) * self.custom_stride]
+    /// The numbers of a contact.
+    pub fn law_state_of(&self, contact: usize) -> &[f64] {
+        &self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
     }
 
     /// How far the buffer has got.
@@ -101,7 +101,7 @@ impl ContactBuffer {
     /// Forgets all that came after a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
-        self.custom.truncate(checkpoint.contacts * self.custom_stride);
+        self.law_state.truncate(checkpoint.contacts * self.law_state_len);
         self.demand = checkpoint.demand;
         self.counts = checkpoint.counts;
     }
@@ -109,13 +109,13 @@ impl ContactBuffer {
     /// Takes over all that another buffer found; whether there was room.
     pub fn absorb(&mut self, other: &Self) -> bool {
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
-            && self.custom.extend_from_slice(&other.custom).is_ok();
+            && self.law_state.extend_from_slice(&other.law_state).is_ok();
         self.demand.add(&other.demand);
         self.counts.add(&other.counts);
         room && !other.demand.overflowed
     }
 
-    /// Adds a contact, whose custom numbers the caller adds. Where there is no room the deepest so far stay, if this
+    /// Adds a contact, whose numbers the caller adds. Where there is no room the deepest so far stay, if this
     /// buffer can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
     #[inline]
     pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
@@ -158,11 +158,11 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
-            let stride = self.custom_stride;
+            let stride = self.law_state_len;
             let from = from as usize * stride;
-            self.custom.as_mut_slice().copy_within(from..from + stride, to * stride);
+            self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);
         }
         self.contacts.truncate(ranked.len());
-        self.custom.truncate(ranked.len() * self.custom_stride);
+        self.law_state.truncate(ranked.len() * self.law_state_len);
     }
 }

@@ -26,20 +26,20 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
 /// Computes the forces of what was found for a chunk of A, in the order of sums, and hands it to the buffer.
 ///
-/// `custom` has room for the numbers of one contact's registered friction law.
+/// `law_state` has room for the numbers of one contact's registered friction law.
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
     found: &[ContactCandidate],
-    custom: &mut [f64],
+    law_state: &mut [f64],
     out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             let Some(contact) = out.add(FrameContact::new(*one), sealed) else { continue };
-            context.compute_force(contact, bristle_share(one, counts()), custom);
-            out.custom.extend_from_slice(custom).expect("as much room as for contacts");
+            context.compute_force(contact, bristle_share(one, counts()), law_state);
+            out.law_state.extend_from_slice(law_state).expect("as much room as for contacts");
         }
     }
 }
@@ -49,7 +49,7 @@ pub(crate) fn recompute_forces(scene: &Scene, sealed: &Sealed, frame: &mut Evalu
     let EvaluationBuffers { input, caller, order, .. } = frame;
     caller.scratch.reset();
     let WorkerContext { scratch, out, .. } = caller;
-    let custom = scratch.slice(out.custom_stride, 0.0).expect("sealing has sized the scratch");
+    let law_state = scratch.slice(out.law_state_len, 0.0).expect("sealing has sized the scratch");
     let places = &*order;
     let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index as usize].found.key;
     let mut rest = places.as_slice();
@@ -64,10 +64,10 @@ pub(crate) fn recompute_forces(scene: &Scene, sealed: &Sealed, frame: &mut Evalu
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
             let mut contact = FrameContact::new(found);
-            context.compute_force(&mut contact, share, custom);
+            context.compute_force(&mut contact, share, law_state);
             out.contacts[index] = contact;
-            let first = index * out.custom_stride;
-            out.custom[first..first + out.custom_stride].copy_from_slice(custom);
+            let first = index * out.law_state_len;
+            out.law_state[first..first + out.law_state_len].copy_from_slice(law_state);
         }
     }
 }
@@ -97,8 +97,8 @@ impl PairContext<'_> {
     }
 
     /// Fills in the forces of a contact.
-    fn compute_force(&self, contact: &mut FrameContact, share: f64, custom: &mut [f64]) {
-        custom.fill(0.0);
+    fn compute_force(&self, contact: &mut FrameContact, share: f64, law_state: &mut [f64]) {
+        law_state.fill(0.0);
         let found = contact.found;
         let props = self.props(&found);
         contact.point = found.point_a + found.normal * (props.share_a * found.depth);
@@ -114,7 +114,7 @@ impl PairContext<'_> {
             contact.normal_force = normal_force(props, weight, found.depth, closing);
             contact.stored = stored_energy(props, weight, found.depth);
             if contact.normal_force > 0.0 {
-                output = self.friction_force(contact, props, share, custom);
+                output = self.friction_force(contact, props, share, law_state);
             }
         }
         contact.friction_force = output.force;
@@ -140,7 +140,7 @@ impl PairContext<'_> {
         contact: &FrameContact,
         props: &PairProps,
         share: f64,
-        custom: &mut [f64],
+        law_state: &mut [f64],
     ) -> FrictionOutput {
         if matches!(props.friction, FrictionProps::None) {
             return FrictionOutput::free();
@@ -163,13 +163,13 @@ impl PairContext<'_> {
             input.stuck = record.sticks;
         }
         if let Some(index) = contact.continues {
-            custom.copy_from_slice(self.memory.custom_of(index as usize));
+            law_state.copy_from_slice(self.memory.law_state_of(index as usize));
         }
         // Coulomb's law asks for the velocity alone.
         if !matches!(props.friction, FrictionProps::Coulomb { .. }) {
             input.slip = self.slip(contact, record);
         }
-        friction_force(&props.friction, &input, custom)
+        friction_force(&props.friction, &input, law_state)
     }
 
     /// φ, worked out once for all contacts of the pair.

@@ -1,9 +1,8 @@
 //! The contacts of a frame as the host sees them: ids, common frame.
 
 use crate::contact::{Contact, ContactSide};
-use crate::energy::account::Account;
+use crate::energy::account::EnergyAccount;
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::energy::accounts::account_of;
 use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
 use crate::scene::Scene;
@@ -23,12 +22,14 @@ impl EvaluationBuffers {
     }
 
     /// Accounts of the contacts that push, in key order.
-    pub fn list_accounts<'a>(&'a self, sealed: &'a Sealed) -> impl Iterator<Item = Account> + 'a {
+    pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
         let out = &self.caller.out;
         let pushing = self.order.iter().map(|place| place.index as usize);
         let pushing = pushing.filter(|&index| out.contacts[index].found.role == ContactRole::Active);
-        pushing
-            .map(|index| account_of(&out.custom_of(index)[sealed.account_at..], out.contacts[index].stored))
+        pushing.filter_map(|index| {
+            let energy = self.energy.contacts.get(index)?.energy;
+            Some(EnergyAccount { stored: out.contacts[index].stored, ..energy.account })
+        })
     }
 
     fn list_contact(

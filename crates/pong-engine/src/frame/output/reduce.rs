@@ -38,7 +38,7 @@ impl EvaluationBuffers {
             };
             let mut contacts = self.order.iter().map(|place| &self.caller.out.contacts[place.index as usize]);
             let bad = contacts.find(|contact| !holds(of_contact(contact)));
-            let ledger = !holds(self.work.abs() + self.dissipated.abs());
+            let ledger = !holds(self.energy.work.abs() + self.energy.dissipated.abs());
             // Energies are nobody's: the first group stands for all.
             bad.map(|contact| sealed.bodies_of(&contact.found.key).0).or(ledger.then_some(0))
         })
