@@ -24,7 +24,7 @@ use std::time::Duration;
 const KNOWN: [(&str, u64, u64); 8] = [
     ("stations", 0x86016d68ff1d5f28, 0xdccf79b19802cc2f),
     ("arms", 0x0d553e61d5bc7f08, 0x5da1b3c3d39ea7e3),
-    ("sheets", 0x63a9c97f111e3f9a, 0x76a5e424f234e2c7),
+    ("sheets", 0x947ce26c7ecd0271, 0xdf88c4e75750d48f),
     ("pieces", 0x3aa6077eba72baf1, 0xffc8f3e467437a8c),
     ("own_kinds", 0x3a0ed15dde8ac4f8, 0x627451b4516545e1),
     ("crowd", 0xea6c694a9ff398c3, 0xff9c08176ccea491),

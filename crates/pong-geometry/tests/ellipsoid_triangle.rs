@@ -26,10 +26,10 @@ fn contacts(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleCon
     found
 }
 
-/// The contacts that push, spare ones only where nothing else is as deep.
+/// The contacts that push, spare ones and stand-ins only where nothing else is as deep.
 fn pushing(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleContact> {
-    let (mut firm, spare): (Vec<_>, Vec<_>) =
-        contacts(e, set, thickness).into_iter().partition(|c| c.standing != Standing::Spare);
+    let is_firm = |c: &TriangleContact| matches!(c.standing, Standing::Front | Standing::Behind);
+    let (mut firm, spare): (Vec<_>, Vec<_>) = contacts(e, set, thickness).into_iter().partition(is_firm);
     let deepest = firm.iter().map(|c| c.interference.depth).fold(0.0, f64::max);
     firm.extend(spare.into_iter().filter(|c| c.interference.depth * (1.0 - 1e-9) > deepest));
     firm

@@ -5,7 +5,7 @@ use pong_invariance::invariances::{find, numbers};
 use pong_invariance::judge::Verdict;
 use pong_invariance::make;
 use pong_invariance::random::Random;
-use pong_invariance::scene::Scene;
+use pong_invariance::scene::{Scene, Shape};
 use pong_invariance::text;
 use pong_invariance::{Order, Survey};
 
@@ -50,6 +50,49 @@ fn nothing_differs_where(only: &[&str], family: &str, scenes: u64, is_asked: imp
 
 fn all_touch_as(kind: &str, scene: &Scene) -> bool {
     scene.bodies[0].shapes.iter().all(|shape| shape.kind() == kind)
+}
+
+/// Balls on a mesh that has no back: which of its two sides pushes is another matter.
+fn are_balls_on_fronts(scene: &Scene) -> bool {
+    let is_front =
+        |shape: &Shape| matches!(shape, Shape::Mesh(mesh) if !mesh.two_sided && mesh.thickness.is_none());
+    all_touch_as("Sphere", scene) && scene.bodies[1].shapes.iter().all(is_front)
+}
+
+#[test]
+fn balls_on_the_seams_of_flat_plates() {
+    nothing_differs_where(&["turned", "scaled", "cut", "group_frame"], "plate", 2000, are_balls_on_fronts);
+}
+
+#[test]
+fn balls_in_valleys_and_bowls() {
+    let told = ["turned", "scaled", "cut", "group_frame", "reordered"];
+    nothing_differs_where(&told, "valley", 1500, are_balls_on_fronts);
+    nothing_differs_where(&told, "bowl", 800, are_balls_on_fronts);
+}
+
+/// Few are compared: an ellipsoid so deep that it reaches several pieces has an answer of its own there.
+#[test]
+fn ellipsoids_beside_the_walls_between_pieces() {
+    let are_ellipsoids = |scene: &Scene| all_touch_as("Ellipsoid", scene);
+    nothing_differs_where(&["cut", "turned"], "solid", 3000, are_ellipsoids);
+}
+
+#[test]
+fn balls_at_the_walls_between_pieces() {
+    let are_balls = |scene: &Scene| all_touch_as("Sphere", scene);
+    nothing_differs_where(&["turned", "group_frame"], "pieces", 3000, are_balls);
+}
+
+#[test]
+fn ellipsoids_set_down_outside() {
+    nothing_differs(&["set_down"], None, 1500);
+}
+
+#[test]
+fn friction_among_nearly_equal_normals() {
+    nothing_differs(&["committed_again"], Some("bowl"), 500);
+    nothing_differs(&["committed_again"], Some("plate"), 500);
 }
 
 #[test]

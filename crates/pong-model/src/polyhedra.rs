@@ -210,7 +210,9 @@ fn set_cones(polyhedron: &mut PolyhedronParts, surface: u32, stars: &mut WordMap
 }
 
 impl VertexStar {
-    /// Whether some normal points away from every edge.
+    /// Whether some normal points away from every edge, or across it: beside a vertex in the middle of a straight edge,
+    /// where a wall between pieces ends, normals across the edge are all that is left, and rounding may put a centre
+    /// between the two halves of the edge.
     ///
     /// Where the surface is convex the mean of its normals does. At the tip of a spire with grooves it need not;
     /// there the normal is turned away from the worst edge until it suits all.
@@ -223,8 +225,9 @@ impl VertexStar {
             let height = |away: &&Vec3| normal.dot(away);
             let worst = self.directions.iter().max_by(|a, b| height(a).total_cmp(&height(b)));
             match worst {
-                Some(away) if normal.dot(away) >= -FLAT_SINE => normal -= away,
-                _ => return true,
+                Some(away) if normal.dot(away) > FLAT_SINE * normal.norm() => normal -= away,
+                // A normal that the turns have brought to nothing points nowhere.
+                _ => return normal.norm() > FLAT_SINE,
             }
         }
         false

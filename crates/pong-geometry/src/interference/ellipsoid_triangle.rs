@@ -15,8 +15,8 @@
 //! An ellipsoid may sink into a valley so deep that the foot on either of two faces lies beyond their concave edge, and
 //! neither face holds it. The feet say nothing then: each lies in the plane of its own face, and neither is over the
 //! other. The centre decides instead, by heights and distances that are zero only where it lies in a plane that bounds
-//! the regions. The face stands in, emitted as spare, so that it counts only where nothing else is as deep: in front of
-//! it if the centre is not beyond the edge, behind it if it would push a ball.
+//! the regions. The face stands in, and counts only where nothing else is as deep: in front of it if the centre is not
+//! beyond the edge, behind it if it would push a ball.
 //!
 //! Degenerate cases: centre in the plane, on an edge or a vertex counts as in front; there the nearest surface point's
 //! normal decides.
@@ -211,10 +211,13 @@ impl Tester<'_> {
         if (0..3).any(|k| self.edge_is_less_deep(k, depth)) {
             return;
         }
+        let is_lost = || (0..3).any(|k| self.is_lost(k, &foot));
         let standing = match (holds, behind) {
-            (false, _) => Standing::Spare,
             (true, true) => Standing::Behind,
             (true, false) => Standing::Front,
+            (false, _) if is_lost() => Standing::StandIn,
+            (false, true) => Standing::SpareBehind,
+            (false, false) => Standing::Spare,
         };
         self.push(depth, &self.view.normal, Feature::face(self.view.index as usize), standing, emit);
     }
@@ -262,15 +265,20 @@ impl Tester<'_> {
     /// Whether the face stands in for a foot that it does not hold: beyond an edge by rounding, or where concave and flat
     /// edges have lost it and the centre says so (see the head of this file).
     fn stands_in(&self, foot: &Vec3) -> bool {
-        let lost = |k: &usize| self.edges.beyond(*k, foot) > self.foot_slack;
+        let lost = |k: &usize| self.is_lost(*k, foot);
         if !(0..3).filter(lost).all(|k| self.is_lost_beyond(k)) {
             return false;
         }
         if self.is_behind(self.height) {
             return !(0..3).any(|k| lost(&k))
-                || (0..3).all(|k| !self.center_is_beyond(k) || self.is_lower_of_two_behind(k));
+                || (0..3).all(|k| !self.center_is_beyond(k) || self.is_beyond_and_behind_both(k));
         }
         (0..3).filter(lost).all(|k| !self.center_is_beyond(k))
+    }
+
+    /// Whether the foot lies beyond edge `k` by more than rounding.
+    fn is_lost(&self, k: usize, foot: &Vec3) -> bool {
+        self.edges.beyond(k, foot) > self.foot_slack
     }
 
     /// Whether edge `k`, beyond which the foot lies, is concave or flat, and the other face does not hold its own foot
@@ -288,12 +296,17 @@ impl Tester<'_> {
         self.edges.beyond(k, &self.ellipsoid.center) > self.foot_slack
     }
 
-    /// Whether a centre beyond edge `k` is beyond and behind the other face as well, of which this is the lower.
-    fn is_lower_of_two_behind(&self, k: usize) -> bool {
+    /// Whether a centre beyond edge `k` is beyond and behind the other face as well, and no farther than the thickness from
+    /// the edge.
+    fn is_beyond_and_behind_both(&self, k: usize) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
         let other_height = TriangleView::new(self.set, neighbor).height(&self.ellipsoid.center);
         let beyond_other = outward.dot(&(self.ellipsoid.center - self.view.edge_ends(k)[0]));
-        self.view.index < neighbor && beyond_other > self.foot_slack && self.is_behind(other_height)
+        let is_near = || {
+            let within = self.thickness - self.foot_slack;
+            self.edges.square_from_edge(k, &self.ellipsoid.center) < within * within
+        };
+        beyond_other > self.foot_slack && self.is_behind(other_height) && is_near()
     }
 
     /// Whether a centre of this height is behind; what only rounding puts there is in the plane, and so in front.
@@ -348,6 +361,10 @@ impl Tester<'_> {
                 return None;
             }
             let normal = shadow.vector(&foot.normal);
+            // Where the two faces are flat but for rounding, the normals within the slack are those of the back as well.
+            if neighbor.is_some_and(|(other, _)| (self.view.normal + other).dot(&normal) <= 0.0) {
+                return None;
+            }
             let least = neighbor.map_or(f64::INFINITY, |(_, o)| o.dot(&normal)).min(outward.dot(&normal));
             let strictly = self.on_edge(k, &normal).filter(|_| least > -CONE_SLACK)?;
             let standing = self.standing(&normal, &first, strictly && least > 0.0)?;

@@ -103,7 +103,8 @@ impl Feature {
 
 /// Sphere pushed away from a point of B: an edge's or a vertex's foot, or the centre of another ball.
 ///
-/// `mean_normal` decides the direction when the sphere's centre coincides with the point; any length but zero.
+/// `mean_normal` decides the direction when the sphere's centre coincides with the point, or only rounding keeps the two
+/// apart: the direction between them is then noise, and may point along an edge or into the solid. Any length but zero.
 #[inline]
 pub(crate) fn ball_over_point(
     sphere: &Sphere,
@@ -111,12 +112,15 @@ pub(crate) fn ball_over_point(
     feature: Feature,
     mean_normal: impl FnOnce() -> Vec3,
 ) -> Option<Interference> {
+    /// Relative to the coordinates: what the last few roundings of the two points come to.
+    const ROUNDING: f64 = 16.0 * f64::EPSILON;
     let arm = sphere.center - foot;
     let distance = arm.norm();
     let depth = sphere.radius - distance;
     if depth <= 0.0 {
         return None;
     }
-    let normal = if distance > 0.0 { (arm / distance).normalize() } else { mean_normal().normalize() };
+    let has_direction = distance > ROUNDING * sphere.center.amax();
+    let normal = if has_direction { (arm / distance).normalize() } else { mean_normal().normalize() };
     Some(Interference { depth, normal, point_a: sphere.center - normal * sphere.radius, feature })
 }

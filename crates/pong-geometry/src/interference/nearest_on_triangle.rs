@@ -43,6 +43,18 @@ pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     nearest
 }
 
+/// The point of a triangle nearest to a given point of its plane.
+pub fn nearest_in_plane(p: &Vec3, corners: &[Vec3; 3]) -> Vec3 {
+    match nearest_on_triangle(p, corners).1 {
+        Place::Face => *p,
+        Place::Corner(k) => corners[k],
+        Place::Edge(k) => {
+            let along = corners[(k + 1) % 3] - corners[k];
+            corners[k] + along * ((p - corners[k]).dot(&along) / along.norm_squared())
+        }
+    }
+}
+
 /// Whether a point is in front of a surface whose nearest point lies at `place` of a triangle; a point on the surface is.
 ///
 /// On an edge the sum of the normals that meet there decides, at a vertex the sense in which the surface runs around it,

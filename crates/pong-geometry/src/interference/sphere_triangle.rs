@@ -56,7 +56,7 @@ fn emit_features(
     });
     // In front nobody owns what is clearly beyond an edge.
     let nobodys = near.in_front && near.beyond.contains(&true);
-    if !nobodys && (0..3).all(|k| !beyond[k] || edges.has_beyond(k, &sphere.center)) {
+    if !nobodys && (0..3).all(|k| !beyond[k] || edges.has_beyond(k, &sphere.center, thickness)) {
         emit_face(sphere, view, height, thickness, emit);
     }
     for k in (0..3).filter(|&k| beyond[k]) {

@@ -10,7 +10,8 @@
 //!
 //! The three kinds of regions partition the space in front. Each bounding plane is computed once, from the same
 //! numbers, for the features on both its sides, so that rounding opens no gap between them; where an edge is
-//! silent there is no third region, and a point that rounding puts outside both faces belongs to the lower one.
+//! silent there is no third region, and a point that rounding puts outside both faces belongs to the lower one. Behind two
+//! faces that meet concavely there is a wedge beyond both: it belongs to both, as the space in front of their line does.
 
 use super::{Feature, FeatureKind, Interference};
 use crate::Vec3;
@@ -28,8 +29,13 @@ pub enum Standing {
     Front,
     /// The centre is behind the face, within its thickness.
     Behind,
-    /// A vertex that may not push by its cone, but only within rounding: counts where nothing else is as near.
+    /// It pushes within rounding alone: beside what it belongs to lies another feature, and rounding decides which of the
+    /// two, or neither, has the place. It counts where no other contact has it.
     Spare,
+    /// A spare face with the centre behind it.
+    SpareBehind,
+    /// A face that has lost its foot beyond a concave edge and stands in for it: counts where nothing else is as deep.
+    StandIn,
 }
 
 /// A contact of a sphere or an ellipsoid with one triangle.
@@ -199,6 +205,12 @@ impl<'a> TriangleEdges<'a> {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
     }
 
+    /// Square of the distance of a point from the line of edge `k`, m².
+    pub fn square_from_edge(&self, k: usize, p: &Vec3) -> f64 {
+        let (beyond, height) = (self.beyond(k, p), self.view.height(p));
+        beyond * beyond + height * height
+    }
+
     /// Whether a point lies beyond edge `k`; a NaN does.
     #[inline]
     pub fn is_beyond(&self, k: usize, p: &Vec3) -> bool {
@@ -206,28 +218,20 @@ impl<'a> TriangleEdges<'a> {
         beyond > 0.0 || beyond.is_nan()
     }
 
-    /// Whether a point beyond edge `k` still belongs to this triangle: where it lies beyond both faces of a silent edge
-    /// it belongs to the lower of the two. In front that is the seam that rounding leaves, behind the wedge between the
-    /// two prisms.
-    pub fn has_beyond(&self, k: usize, p: &Vec3) -> bool {
-        // A free edge has no neighbour.
-        let neighbor = self.set.triangles[self.view.index as usize].neighbors[k];
-        if neighbor == NO_NEIGHBOR || self.view.index > neighbor {
+    /// Whether a point beyond edge `k` still belongs to this triangle: it does where it lies beyond both faces of a silent
+    /// edge. Behind the two that is the wedge between their prisms, and each has it as far as `thickness` (m) from the
+    /// edge: which is the lower must not decide which way the point is pushed. In front it is the seam that rounding leaves,
+    /// and the lower has it; but two faces folded to less than a right angle have such points outside the fold, where
+    /// neither pushes.
+    pub fn has_beyond(&self, k: usize, p: &Vec3, thickness: f64) -> bool {
+        let EdgeClass::Silent { neighbor, outward } = self.class(k) else { return false };
+        if outward.dot(&(p - self.view.edge_ends(k)[0])) <= 0.0 {
             return false;
         }
-        match self.class(k) {
-            EdgeClass::Silent { neighbor, outward } => {
-                outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0 && self.is_seam_or_behind(neighbor, p)
-            }
-            EdgeClass::Free | EdgeClass::Convex { .. } => false,
-        }
-    }
-
-    /// For a point beyond both faces of a silent edge: two faces folded to less than a right angle have such
-    /// points in front of one of them, outside the fold, where neither pushes.
-    fn is_seam_or_behind(&self, neighbor: u32, p: &Vec3) -> bool {
         let other = TriangleView::new(self.set, neighbor);
-        self.view.normal.dot(&other.normal) > 0.0 || (self.view.height(p) <= 0.0 && other.height(p) <= 0.0)
+        let is_behind = self.view.height(p) <= 0.0 && other.height(p) <= 0.0;
+        (is_behind && self.square_from_edge(k, p) < thickness * thickness)
+            || (self.view.index < neighbor && self.view.normal.dot(&other.normal) > 0.0)
     }
 }
 

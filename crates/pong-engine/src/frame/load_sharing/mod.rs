@@ -6,13 +6,14 @@ pub(crate) mod solver;
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
-use pieces::{drop_what_the_body_lacks, pushes_before};
+use pieces::{are_convex, are_one_place, drop_what_the_body_lacks, pushes_before, touch_convexly, touched};
 use pong_arena::{Arena, Full, List};
+use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, PolyhedronFace, PrimitiveKind, TriangleSet};
 use solver::{SharedContact, share_within};
 
-/// Relative: a fallback contact counts if no other is deeper by more than rounding.
+/// Relative: depths this close are as deep as each other.
 const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 
 /// Sorts the contacts into the order of every sum and assigns their weights. Those that do not count are marked as
@@ -48,10 +49,16 @@ pub(crate) fn assign_weights(
         }
         if group[0].shares && group.len() > 1 {
             let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
-            if (kind_a, group[0].kind_b) == (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) {
-                drop_what_the_body_lacks(group, &context.body_b.polyhedra);
+            let triangles = &context.body_b.triangles;
+            settle_fallbacks(group);
+            match (kind_a, group[0].kind_b) {
+                (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
+                    drop_what_the_body_lacks(group, &context.body_b.polyhedra);
+                }
+                (PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => drop_deeper_faces(group),
+                _ => {}
             }
-            outcome = outcome.and(share_surface(group, &context.body_b.triangles, shared_contacts, scratch));
+            outcome = outcome.and(share_surface(group, triangles, shared_contacts, scratch));
         }
     }
     outcome
@@ -150,7 +157,7 @@ fn share_surface(
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     drop_deeper_of_convex_faces(group, triangles);
-    cull_idle_fallbacks(group);
+    cull_idle_stand_ins(group);
     let counts = |contact: &ContactCandidate| {
         contact.status != CandidateStatus::Culled && contact.role == ContactRole::Active
     };
@@ -174,6 +181,59 @@ fn share_surface(
     outcome
 }
 
+/// A fallback contact counts where no other has its place; then it is what rounding has made it miss.
+///
+/// Another wall that the same ball touches does not have the place, however deep it is.
+fn settle_fallbacks(group: &mut [ContactCandidate]) {
+    let is_fallback = |contact: &ContactCandidate| {
+        matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)
+    };
+    let counts = |contact: &ContactCandidate| {
+        matches!(contact.status, CandidateStatus::Front | CandidateStatus::BackFace)
+    };
+    for i in 0..group.len() {
+        if !is_fallback(&group[i]) {
+            continue;
+        }
+        let fallback = &group[i];
+        let (least, place) = (fallback.depth * (1.0 - FALLBACK_DEPTH_SLACK), touched(fallback));
+        let has_place = |other: &ContactCandidate| {
+            let pushes = counts(other) && other.role == ContactRole::Active;
+            pushes && other.depth >= least && are_one_place(&touched(other), &place)
+        };
+        group[i].status = match (group.iter().any(has_place), fallback.status) {
+            (true, _) => CandidateStatus::Culled,
+            (false, CandidateStatus::BackFaceFallback) => CandidateStatus::BackFace,
+            (false, _) => CandidateStatus::Front,
+        };
+    }
+}
+
+/// An ellipsoid so deep that a face and another feature that meets it convexly both have a minimum is pushed by the less
+/// deep alone, however many triangles lie between the two. Which face that yields is in the model must not matter: a face
+/// that is cut no longer has the edge to which it yields.
+fn drop_deeper_faces(group: &mut [ContactCandidate]) {
+    let counts = |contact: &ContactCandidate| {
+        contact.role == ContactRole::Active
+            && matches!(contact.status, CandidateStatus::Front | CandidateStatus::BackFace)
+    };
+    for i in 0..group.len() {
+        let contact = &group[i];
+        if !counts(contact) || !is_triangles_face(contact) {
+            continue;
+        }
+        let covers = |other: &ContactCandidate| {
+            counts(other) && pushes_before(other, contact) && touch_convexly(contact, other)
+        };
+        if group.iter().any(covers) {
+            match group[i].status {
+                CandidateStatus::BackFace => group[i].role = ContactRole::Tracked,
+                _ => group[i].status = CandidateStatus::Culled,
+            }
+        }
+    }
+}
+
 /// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     for i in 0..group.len() {
@@ -185,7 +245,7 @@ fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &Trian
             let counts = other.role == ContactRole::Active && is_triangles_face(other);
             counts
                 && pushes_before(other, contact)
-                && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other))
+                && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other, triangles))
         });
         if is_covered {
             group[i].role = ContactRole::Tracked;
@@ -208,23 +268,23 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
 }
 
 /// Whether two faces meet convexly, however many triangles lie between the two that push: the centre is behind both, and
-/// where each is touched lies below the plane of the other. Beside a concave edge it lies above.
-fn meet_below(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
-    let touched = |of: &ContactCandidate| of.point_a + of.normal * of.depth;
-    let apart = touched(other) - touched(contact);
+/// where each is touched lies below the plane of the other. Beside a concave edge it lies above; in the wedge behind one
+/// both are touched in the edge.
+fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let are_faces = other.status == CandidateStatus::BackFace && is_triangles_face(contact);
-    are_faces && contact.normal.dot(&apart) < 0.0 && other.normal.dot(&apart) > 0.0
+    let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
+    are_faces && are_convex([&on(contact), &on(other)], [&contact.normal, &other.normal])
 }
 
-/// A fallback contact counts only where rounding has left nothing else that is as deep.
-fn cull_idle_fallbacks(group: &mut [ContactCandidate]) {
+/// A stand-in counts only where nothing else is as deep.
+fn cull_idle_stand_ins(group: &mut [ContactCandidate]) {
     let deepest = group
         .iter()
-        .filter(|contact| !matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::Culled))
+        .filter(|contact| !matches!(contact.status, CandidateStatus::StandIn | CandidateStatus::Culled))
         .filter(|contact| contact.role == ContactRole::Active)
         .map(|contact| contact.depth)
         .fold(0.0, f64::max);
-    for contact in group.iter_mut().filter(|contact| contact.status == CandidateStatus::Fallback) {
+    for contact in group.iter_mut().filter(|contact| contact.status == CandidateStatus::StandIn) {
         if deepest >= contact.depth * (1.0 - FALLBACK_DEPTH_SLACK) {
             contact.status = CandidateStatus::Culled;
         }

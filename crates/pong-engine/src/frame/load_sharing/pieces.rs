@@ -19,12 +19,12 @@ const PLACE_SLACK: f64 = 1e-9;
 /// deep is the minimum translation; features that meet concavely, as two walls of a corner, are overcome each for itself.
 /// A contact that only stands in for a piece counts if there is none but such.
 pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &[Polyhedron]) {
-    let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::Fallback;
+    let stands_in = |contact: &ContactCandidate| contact.status == CandidateStatus::StandIn;
     if !group.iter().all(stands_in) {
         group
             .iter_mut()
             .filter(|contact| stands_in(contact))
-            .for_each(|spare| spare.status = CandidateStatus::Culled);
+            .for_each(|contact| contact.status = CandidateStatus::Culled);
     }
     for i in 0..group.len() {
         let contact = &group[i];
@@ -45,25 +45,44 @@ pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate
     difference < -rounding || (difference <= rounding && contact.order() < other.order())
 }
 
-/// Whether what is touched belongs to one convex body: each place lies below the plane through the other across its
-/// normal, or in it.
+/// Whether what is touched belongs to one convex body.
 fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
-    if contact.status == CandidateStatus::Fallback && other.status == CandidateStatus::Fallback {
+    if contact.status == CandidateStatus::StandIn && other.status == CandidateStatus::StandIn {
         // The feet lie beside the pieces and say nothing; the faces themselves do.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
+    touch_convexly(contact, other)
+}
+
+/// Whether the features of two contacts belong to one convex body, by the places that are touched.
+///
+/// Of two that are touched in one place neither lies below the other. An edge or a vertex that pushes is convex; two faces
+/// may meet flat or concavely there.
+pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidate) -> bool {
     let (here, there) = (touched(contact), touched(other));
+    if are_one_place(&here, &there) {
+        return !contact.feature.is_face() || !other.feature.is_face();
+    }
+    are_convex([&here, &there], [&contact.normal, &other.normal])
+}
+
+/// Whether two places belong to one convex body: each lies below the plane through the other across its normal, or in it.
+/// To push out of either is then to push out of both. One place does not.
+pub(super) fn are_convex([here, there]: [&Vec3; 2], [normal, other_normal]: [&Vec3; 2]) -> bool {
     let apart = there - here;
     let distance = apart.norm();
-    if distance <= PLACE_SLACK * (here.amax() + there.amax()) {
-        return false;
-    }
-    contact.normal.dot(&apart) <= PLANE_SLACK * distance
-        && other.normal.dot(&apart) >= -PLANE_SLACK * distance
+    !are_one_place(here, there)
+        && normal.dot(&apart) <= PLANE_SLACK * distance
+        && other_normal.dot(&apart) >= -PLANE_SLACK * distance
+}
+
+/// Whether only rounding keeps two places apart.
+pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
+    (there - here).norm() <= PLACE_SLACK * (here.amax() + there.amax())
 }
 
 /// Where A's deepest point comes to lie once it is pushed out.
-fn touched(contact: &ContactCandidate) -> Vec3 {
+pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
     contact.point_a + contact.normal * contact.depth
 }
 

@@ -41,8 +41,12 @@ pub(crate) enum CandidateStatus {
     Front,
     /// The centre is behind the face.
     BackFace,
-    /// Counts only where nothing else is as deep.
+    /// Pushes within rounding alone: counts where no other contact has the place.
     Fallback,
+    /// The same with the centre behind the face.
+    BackFaceFallback,
+    /// Stands in for what has lost its foot: counts only where nothing else is as deep.
+    StandIn,
     /// A point in a piece, at an inner wall: counts unless the point is in a piece of lower index as well.
     AtWall,
     /// A point at an inner wall of a piece, but beyond: counts only where rounding leaves the point in no piece at all.

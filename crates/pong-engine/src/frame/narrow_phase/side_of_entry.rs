@@ -2,7 +2,7 @@
 //! (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
-use crate::state::{ContactKey, ContactMemory, ContactRole, NO_FACE, SAME_WAY_COSINE_MIN};
+use crate::state::{ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
@@ -123,6 +123,8 @@ pub(crate) struct TriangleEntry<'a> {
     pub center: Vec3,
     /// Where it was at the last commit, in B's frame.
     pub earlier: Option<Vec3>,
+    /// Whether A touched a feature of the triangle from behind at the last commit, whether or not that pushed.
+    pub touched_behind: &'a dyn Fn(Feature) -> bool,
 }
 
 impl TriangleEntry<'_> {
@@ -133,44 +135,44 @@ impl TriangleEntry<'_> {
         if may_be_behind && nearby.is_behind(contact) {
             return self.pushes_from_behind(key, contact).then_some(ContactRole::Active);
         }
-        let continues = |role| self.memory.matching(key, &contact.interference.normal, role).is_some();
-        if continues(ContactRole::Active) || continues(ContactRole::Tracked) {
-            return Some(ContactRole::Active);
-        }
-        if continues(ContactRole::WrongSide) {
-            return Some(ContactRole::WrongSide);
+        let Interference { normal, feature, .. } = &contact.interference;
+        match self.memory.role_of_nearest(key, normal, *feature) {
+            Some(ContactRole::WrongSide) => return Some(ContactRole::WrongSide),
+            Some(_) => return Some(ContactRole::Active),
+            None => {}
         }
         let Some(earlier) = self.earlier else { return Some(ContactRole::Active) };
-        let barred = !self.was_in_front(&earlier) && self.came_from_behind(&earlier, key.shell_b);
+        let was_in_front = self.was_in_front(&earlier, *feature);
+        let barred = !was_in_front && self.came_from_behind(&earlier, key.shell_b);
         Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
     }
 
     /// Whether a feature that the centre is behind pushes it back to the front: the centre came from there.
     ///
     /// It did if it was behind a feature that pushed the same way at the last commit, if it was in front of a face of this
-    /// one, or if its line since then has come through the surface from the front and not gone deeper since than it lies below
-    /// this feature: another sheet of the surface, on whose back the centre has been all the time, is farther away.
+    /// one and has not merely passed beside it, or if its line since then has come through the surface from the front and
+    /// not gone deeper since than it lies below this feature: another sheet of the surface, on whose back the centre has
+    /// been all the time, is farther away.
     fn pushes_from_behind(&self, key: &ContactKey, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier else { return true };
         let Interference { depth, normal, point_a, feature } = &contact.interference;
-        if self.was_held_behind(key, normal, &earlier) {
+        if self.was_held_behind(key, &contact.interference, &earlier) {
             return true;
         }
         if self.memory.matching(key, normal, ContactRole::WrongSide).is_some() {
             return false;
         }
-        let set = &self.body.triangles;
-        let is_mirror = self.nearby().is_mirror();
-        if self.was_in_front(&earlier)
-            || (!is_mirror && is_in_front_of_a_face(&earlier, set, self.triangle.element, *feature, 0.0))
-        {
-            return true;
+        if self.was_in_front(&earlier, *feature) {
+            return self.came_through_or_under(key, contact, &earlier);
         }
-        if is_mirror && self.height_of(&earlier) >= -ROUNDING * earlier.amax() {
+        let below = depth - normal.dot(&(self.center - point_a));
+        let in_plane = |height: f64, p: &Vec3| height >= -ROUNDING * p.amax();
+        let is_or_was_in_plane =
+            || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center);
+        if self.nearby().is_mirror() && is_or_was_in_plane() {
             // In the plane, which counts as on the front: nothing has been crossed.
             return false;
         }
-        let below = depth - normal.dot(&(self.center - point_a));
         if below > (self.center - earlier).norm() {
             return false;
         }
@@ -178,21 +180,38 @@ impl TriangleEntry<'_> {
         crossed.from_front < crossed.from_behind && below <= crossed.from_front * (1.0 + ROUNDING)
     }
 
-    /// Whether the centre was in front of the triangle at the last commit. A centre in a two-sided triangle is on its
-    /// front.
-    fn was_in_front(&self, earlier: &Vec3) -> bool {
-        let height = self.height_of(earlier);
-        if self.nearby().is_mirror() { height > ROUNDING * earlier.amax() } else { height >= 0.0 }
+    /// Whether a centre that was in front of a feature's plane at the last commit, and is behind it now, has come there
+    /// through the surface, or belongs to its back.
+    ///
+    /// Planes reach beyond their faces. A centre whose line since then crosses the surface nowhere, and that is in front of
+    /// it now, has passed the plane beside the face: it is pushed as if set down there, unless the contact held it already.
+    fn came_through_or_under(&self, key: &ContactKey, contact: &TriangleContact, earlier: &Vec3) -> bool {
+        let normal = &contact.interference.normal;
+        let held = |role| self.memory.matching(key, normal, role).is_some();
+        held(ContactRole::Active)
+            || held(ContactRole::Tracked)
+            || self.last_crossings(earlier, key.shell_b).are_any()
+            || !self.nearby().is_in_front()
+    }
+
+    /// Whether the centre was in front of one of the triangles that meet at a feature at the last commit, whichever of them
+    /// the feature is counted with. A centre in a two-sided triangle is on its front.
+    fn was_in_front(&self, earlier: &Vec3, feature: Feature) -> bool {
+        let rounding = if self.nearby().is_mirror() { -ROUNDING * earlier.amax() } else { 0.0 };
+        is_in_front_of_a_face(earlier, &self.body.triangles, self.triangle.element, feature, rounding)
     }
 
     fn height_of(&self, p: &Vec3) -> f64 {
         TriangleView::new(&self.body.triangles, self.triangle.element).height(p)
     }
 
-    /// Whether a contact that is remembered, of nearly this normal, held the centre from behind, or in its plane.
-    fn was_held_behind(&self, key: &ContactKey, normal: &Vec3, earlier: &Vec3) -> bool {
+    /// Whether a contact that is remembered, of nearly this normal, held the centre from behind, or in its plane. One of
+    /// another feature speaks for this one if the centre has come over it since: what it was over already, and did not
+    /// push then, does not push now.
+    fn was_held_behind(&self, key: &ContactKey, present: &Interference, earlier: &Vec3) -> bool {
         let (_, records) = self.memory.under(key);
-        records.iter().any(|record| {
+        let Interference { normal, feature, .. } = present;
+        let held = |record: &ContactRecord| {
             let place = || place_on_feature(&self.body.triangles, Feature(record.feature));
             let is_behind = |place: Vec3| {
                 let arm = earlier - place;
@@ -201,7 +220,9 @@ impl TriangleEntry<'_> {
             record.role != ContactRole::WrongSide
                 && record.normal.dot(normal) > SAME_WAY_COSINE_MIN
                 && place().is_some_and(is_behind)
-        })
+        };
+        records.iter().any(|record| record.feature == feature.0 && held(record))
+            || (records.iter().any(held) && !(self.touched_behind)(*feature))
     }
 
     /// Whether the last crossing of the surface by the straight line since the last commit was from behind.
@@ -210,7 +231,8 @@ impl TriangleEntry<'_> {
         crossed.from_behind < crossed.from_front
     }
 
-    /// The last crossings of the surface by the straight line since the last commit.
+    /// The last crossings of the surface by the straight line since the last commit. A line that begins within rounding
+    /// of the surface begins in front of it.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let path = self.center - earlier;
         let length = path.norm();
@@ -225,6 +247,7 @@ impl TriangleEntry<'_> {
             reach: None,
             response: RayResponse::Normal,
         };
+        let before = ROUNDING * earlier.amax();
         let forward = ray(*earlier, path / length);
         let backward = ray(self.center, -path / length);
         visit_triangles(self.body, &earlier.inf(&self.center), &earlier.sup(&self.center), &mut |item| {
@@ -235,7 +258,7 @@ impl TriangleEntry<'_> {
             if let Some(hit) = ray_triangle(&backward, set, triangle, 0.0) {
                 last.from_behind = last.from_behind.min(hit.distance);
             }
-            if let Some(hit) = ray_triangle(&forward, set, triangle, 0.0) {
+            if let Some(hit) = ray_triangle(&forward, set, triangle, before) {
                 last.from_front = last.from_front.min(length - hit.distance);
             }
         });
@@ -251,4 +274,10 @@ impl TriangleEntry<'_> {
 struct LastCrossings {
     from_behind: f64,
     from_front: f64,
+}
+
+impl LastCrossings {
+    fn are_any(&self) -> bool {
+        self.from_behind.min(self.from_front) < f64::INFINITY
+    }
 }

@@ -15,7 +15,7 @@ use pong_geometry::Vec3;
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
-    Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_piece,
+    Feature, Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_piece,
     ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
     line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
     point_plane::point_plane, point_polyhedron::point_below_face, point_sphere::point_sphere,
@@ -351,12 +351,12 @@ impl<'a> Side<'a> {
                 self.emit(&contact.interference, found, |out| {
                     out.shares = true;
                     out.status =
-                        if contact.stands_in { CandidateStatus::Fallback } else { CandidateStatus::Front };
+                        if contact.stands_in { CandidateStatus::StandIn } else { CandidateStatus::Front };
                 });
             }
             _ => {
                 let local = self.body_a().ellipsoids[self.item_a.element as usize].center;
-                let thickness = self.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis());
+                let thickness = self.thickness_for_ellipsoid(ellipsoid);
                 let mut emit = |contact| self.on_triangle(&local, &ellipsoid.center, contact, found);
                 ellipsoid_triangle(ellipsoid, &body.triangles, self.item_b.element, thickness, &mut emit);
             }
@@ -387,6 +387,7 @@ impl<'a> Side<'a> {
             triangle: self.item_b,
             center: *center,
             earlier,
+            touched_behind: &|feature| self.touched_triangle_behind(feature),
         };
         let key = self.key();
         let Some(role) = entry.role(&key, &contact) else { return };
@@ -397,8 +398,37 @@ impl<'a> Side<'a> {
                 Standing::Front => CandidateStatus::Front,
                 Standing::Behind => CandidateStatus::BackFace,
                 Standing::Spare => CandidateStatus::Fallback,
+                Standing::SpareBehind => CandidateStatus::BackFaceFallback,
+                Standing::StandIn => CandidateStatus::StandIn,
             };
         });
+    }
+
+    /// Whether the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last commit.
+    fn touched_triangle_behind(&self, feature: Feature) -> bool {
+        let Some(since) = self.motion().since_commit else { return false };
+        let (set, triangle) = (&self.body_b().triangles, self.item_b.element);
+        let mut touched = false;
+        let mut note = |contact: TriangleContact| {
+            touched |= contact.interference.feature == feature && contact.standing == Standing::Behind;
+        };
+        match TransformedPrimitive::new(self.body_a(), self.item_a, &since.x_ba) {
+            Some(TransformedPrimitive::Sphere(sphere)) => {
+                let thickness = thickness_for(self.context, self.item_b, &sphere);
+                sphere_triangle(&sphere, set, triangle, thickness, &mut note);
+            }
+            Some(TransformedPrimitive::Ellipsoid(ellipsoid)) => {
+                let thickness = self.thickness_for_ellipsoid(&ellipsoid);
+                ellipsoid_triangle(&ellipsoid, set, triangle, thickness, &mut note);
+            }
+            _ => {}
+        }
+        touched
+    }
+
+    /// How far behind a triangle the centre of an ellipsoid is still pushed to the front, m.
+    fn thickness_for_ellipsoid(&self, ellipsoid: &Ellipsoid) -> f64 {
+        self.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis())
     }
 
     /// Whether a contact would push a centre without an earlier place from behind, though the centre is in front of the
