@@ -155,26 +155,29 @@ pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
 ///
 /// Vertices that merging has dropped count too: no place of the solid may move by more than the tolerance.
 pub(super) fn convex(vertices: &[Vec3], faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
-    let tolerance = PLANE_TOLERANCE * diameter;
-    let mut problems = Vec::new();
-    for face in faces {
-        problems.extend(vertex_in_front(vertices, face, tree, diameter).or_else(|| {
-            let corners = corners(vertices, &face.outline);
-            let (depth, corner) = dent(&corners, &face.normal, tolerance)?;
-            let cause = format!(
-                "the outline of this face has a dent: the vertex {} is {:.1e} of the diameter beyond the line of an edge",
-                place(&corners[corner]),
-                depth / diameter
-            );
-            Some(not_convex(face, "face-not-convex", cause))
-        }));
-    }
-    let thin = |face: &HullFace| tree.highest((&-face.normal, -face.offset), tolerance, |_| true).is_none();
-    // Merged to fewer faces, the solid would be as good as flat.
-    if problems.is_empty() && (faces.len() < 4 || faces.iter().any(thin)) {
-        problems.push(no_thickness());
-    }
-    verdict(problems)
+    verdict(faces.iter().filter_map(|one| face(vertices, one, tree, diameter)).collect())?;
+    thickness(faces, tree, diameter)
+}
+
+/// What is wrong with one face: a vertex in front of it, or a dent.
+pub(super) fn face(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: f64) -> Option<Problem> {
+    vertex_in_front(vertices, face, tree, diameter).or_else(|| {
+        let corners = corners(vertices, &face.outline);
+        let (depth, corner) = dent(&corners, &face.normal, PLANE_TOLERANCE * diameter)?;
+        let cause = format!(
+            "the outline of this face has a dent: the vertex {} is {:.1e} of the diameter beyond the line of an edge",
+            place(&corners[corner]),
+            depth / diameter
+        );
+        Some(not_convex(face, "face-not-convex", cause))
+    })
+}
+
+/// There is something behind every face. Merged to fewer than four, the solid would be as good as flat.
+pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
+    let floor = PLANE_TOLERANCE * diameter;
+    let thin = |face: &HullFace| !tree.any_above((&-face.normal, -face.offset), floor);
+    if faces.len() < 4 || faces.iter().any(thin) { Err(vec![no_thickness()]) } else { Ok(()) }
 }
 
 fn not_convex(face: &HullFace, rule: &'static str, cause: String) -> Problem {

@@ -300,28 +300,25 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
 /// How often the plane of a face is tilted until it supports the solid.
 const TILTS: usize = 8;
 
-/// Tilts planes that a vertex is in front of about the long direction of their faces, until they support the solid.
+/// Tilts the plane of a face that a vertex is in front of about the long direction of the face, until it supports the solid.
 ///
 /// Across a narrow face rounding decides which way its normal points, and far away the plane would cut into the solid;
 /// a plane that touches the vertex in front is as good for the face itself. One that would leave the face's own vertices is
 /// not taken.
-pub(super) fn support(vertices: &[Vec3], faces: &mut [HullFace], tree: &Places, tolerance: f64) {
-    for face in faces {
-        let corners: Vec<Vec3> = face.outline.iter().map(|&v| vertices[v as usize]).collect();
-        let middle = super::polygon::mean(&corners);
-        let (mut normal, mut offset) = (face.normal, face.offset);
-        for _ in 0..TILTS {
-            let Some((_, vertex)) =
-                tree.highest((&normal, offset), tolerance, |v| !face.outline.contains(&v))
-            else {
-                (face.normal, face.offset) = (normal, offset);
-                break;
-            };
-            let Some(tilted) = tilted(&corners, &normal, &vertices[vertex as usize]) else { break };
-            (normal, offset) = (tilted, tilted.dot(&middle));
-            if corners.iter().any(|c| (normal.dot(c) - offset).abs() > tolerance) {
-                break;
-            }
+pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tolerance: f64) {
+    let corners: Vec<Vec3> = face.outline.iter().map(|&v| vertices[v as usize]).collect();
+    let middle = super::polygon::mean(&corners);
+    let (mut normal, mut offset) = (face.normal, face.offset);
+    for _ in 0..TILTS {
+        let Some((_, vertex)) = tree.highest((&normal, offset), tolerance, |v| !face.outline.contains(&v))
+        else {
+            (face.normal, face.offset) = (normal, offset);
+            break;
+        };
+        let Some(tilted) = tilted(&corners, &normal, &vertices[vertex as usize]) else { break };
+        (normal, offset) = (tilted, tilted.dot(&middle));
+        if corners.iter().any(|c| (normal.dot(c) - offset).abs() > tolerance) {
+            break;
         }
     }
 }

@@ -9,6 +9,8 @@ mod checks;
 mod merge;
 mod places;
 mod polygon;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use polygon::{area, overlap_area};
 
@@ -78,34 +80,68 @@ pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Res
     checks::closed_surface(&vertices, &faces)?;
     checks::volume(&vertices, &faces, diameter)?;
     checks::planar(&vertices, &faces, diameter)?;
-    let mut problems = Vec::new();
-    for attempt in 0..=merge::LEVELS + 1 {
-        let merged = faces_of_attempt(attempt, (&vertices, &tree), &faces, active, diameter);
-        match checks::convex(&vertices, &merged, &tree, diameter) {
-            Ok(()) => return Ok(without_unused(Hull { vertices, faces: merged, diameter, remarks })),
-            // Those of the last attempt are about the faces as authored.
-            Err(found) => problems = found,
-        }
-    }
-    Err(problems)
+    let faces = convex_faces((&vertices, &tree), &faces, active, diameter)?;
+    Ok(without_unused(Hull { vertices, faces, diameter, remarks }))
 }
 
-/// The first attempt merges all that lies within the tolerance and leaves the rest as it is, which suits nearly every solid.
-/// Those after it straighten edges and planes that rounding has bent, and merge less and less.
-fn faces_of_attempt(
-    attempt: usize,
+/// The faces of a closed surface, merged as far as the solid stays convex; or what keeps it from being so.
+fn convex_faces(
     (vertices, tree): (&[Vec3], &Places),
     faces: &[Vec<u32>],
     active: &[bool],
     diameter: f64,
-) -> Vec<HullFace> {
+) -> Result<Vec<HullFace>, Vec<Problem>> {
     let tolerance = PLANE_TOLERANCE * diameter;
+    let last = merge::LEVELS + 1;
+    let mut suspect = 0;
+    for attempt in 0..last {
+        let mut merged = faces_of_attempt(attempt, vertices, faces, active, diameter);
+        let is_bad = |face: &mut HullFace| {
+            if attempt > 0 {
+                merge::support(vertices, face, tree, tolerance);
+            }
+            checks::face(vertices, face, tree, diameter).is_some()
+        };
+        match first_from(&mut merged, suspect, is_bad) {
+            // Likely this is where the next attempt fails too: it begins there, and need not look at all faces.
+            Some(authored) => suspect = authored,
+            None if checks::thickness(&merged, tree, diameter).is_ok() => return Ok(merged),
+            None => {}
+        }
+    }
+    // What is wrong in the last attempt is told: its faces are those that were authored.
+    let mut merged = faces_of_attempt(last, vertices, faces, active, diameter);
+    merged.iter_mut().for_each(|face| merge::support(vertices, face, tree, tolerance));
+    checks::convex(vertices, &merged, tree, diameter)?;
+    Ok(merged)
+}
+
+/// The first attempt merges all that lies within the tolerance and leaves the rest as it is, which suits nearly every solid.
+/// Those after it straighten edges that rounding has bent, and merge less and less; their planes are tilted face by face
+/// ([`merge::support`]).
+fn faces_of_attempt(
+    attempt: usize,
+    vertices: &[Vec3],
+    faces: &[Vec<u32>],
+    active: &[bool],
+    diameter: f64,
+) -> Vec<HullFace> {
     let mut merged = merge::merge_coplanar(vertices, faces, active, diameter, attempt.saturating_sub(1));
     if attempt > 0 {
-        merge::straighten(vertices, &mut merged, tolerance);
-        merge::support(vertices, &mut merged, tree, tolerance);
+        merge::straighten(vertices, &mut merged, PLANE_TOLERANCE * diameter);
     }
     merged
+}
+
+/// Looks at the faces once round, from an authored one on: which authored face the first bad one is.
+fn first_from(
+    faces: &mut [HullFace],
+    authored: u32,
+    mut is_bad: impl FnMut(&mut HullFace) -> bool,
+) -> Option<u32> {
+    let first = faces.partition_point(|face| face.authored < authored);
+    let (before, after) = faces.split_at_mut(first);
+    after.iter_mut().chain(before).find_map(|face| is_bad(face).then_some(face.authored))
 }
 
 /// Bit-equal positions become one vertex.

@@ -32,6 +32,9 @@ pub(super) struct Places {
     /// The number that each had.
     numbers: Vec<u32>,
     nodes: Vec<Node>,
+    /// Boxes looked at since the tree was made.
+    #[cfg(test)]
+    pub(super) looked: std::cell::Cell<u64>,
 }
 
 impl Node {
@@ -50,7 +53,13 @@ impl Places {
         let mut order: Vec<u32> = (0..points.len() as u32).collect();
         let mut nodes = Vec::new();
         grow(points, &mut order, 0, &mut nodes);
-        Self { places: order.iter().map(|&i| points[i as usize]).collect(), numbers: order, nodes }
+        Self {
+            places: order.iter().map(|&i| points[i as usize]).collect(),
+            numbers: order,
+            nodes,
+            #[cfg(test)]
+            looked: std::cell::Cell::default(),
+        }
     }
 
     /// The highest of the places that lie more than `floor` above a plane and are `wanted`: height and number, the lowest
@@ -65,6 +74,7 @@ impl Places {
         let mut open = vec![0];
         while let Some(index) = open.pop() {
             let node = &self.nodes[index];
+            self.look();
             if node.bound(normal, offset) < best.map_or(floor, |(height, _)| height) {
                 continue;
             }
@@ -86,6 +96,35 @@ impl Places {
             open.extend([children[far], children[near]]);
         }
         best
+    }
+
+    /// Whether a place lies more than `floor` above a plane.
+    pub(super) fn any_above(&self, (normal, offset): (&Vec3, f64), floor: f64) -> bool {
+        let mut open = vec![0];
+        while let Some(index) = open.pop() {
+            let node = &self.nodes[index];
+            self.look();
+            if node.bound(normal, offset) < floor {
+                continue;
+            }
+            if node.second == 0 {
+                if self.places[node.range.clone()].iter().any(|place| normal.dot(place) - offset > floor) {
+                    return true;
+                }
+                continue;
+            }
+            let children = [index + 1, node.second];
+            let bounds = children.map(|child| self.nodes[child].bound(normal, offset));
+            let [near, far] = if bounds[0] < bounds[1] { [1, 0] } else { [0, 1] };
+            open.extend([children[far], children[near]]);
+        }
+        false
+    }
+
+    /// Counts the boxes that are looked at, where tests ask how much work a solid takes.
+    fn look(&self) {
+        #[cfg(test)]
+        self.looked.set(self.looked.get() + 1);
     }
 
     /// The largest distance between two places.
@@ -236,6 +275,10 @@ mod tests {
                 };
                 assert_eq!(tree.highest((&normal, offset), 0.4, |_| true), highest(0.4, 0), "{count}");
                 assert_eq!(tree.highest((&normal, offset), 0.0, |i| i % 2 == 1), highest(0.0, 1), "{count}");
+                for floor in [-1.0, 0.0, 0.4, 1.5, 3.0] {
+                    let above = heights.clone().any(|(height, _)| height > floor);
+                    assert_eq!(tree.any_above((&normal, offset), floor), above, "{count} {floor}");
+                }
             }
         }
     }

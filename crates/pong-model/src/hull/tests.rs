@@ -1,0 +1,45 @@
+//! What reading a solid costs, in boxes that are looked at: no clock is asked.
+
+use super::*;
+
+/// A ball of unit radius with its poles on the third axis: triangles at the poles, quadrangles elsewhere.
+fn ball(circles: u32, meridians: u32) -> (Vec<Vec3>, Vec<Vec<u32>>) {
+    let pi = std::f64::consts::PI;
+    let mut vertices = vec![Vec3::z(), -Vec3::z()];
+    for circle in 1..circles {
+        let (sine, cosine) = libm::sincos(pi * f64::from(circle) / f64::from(circles));
+        for meridian in 0..meridians {
+            let (y, x) = libm::sincos(2.0 * pi * f64::from(meridian) / f64::from(meridians));
+            vertices.push(Vec3::new(sine * x, sine * y, cosine));
+        }
+    }
+    let at = |circle: u32, meridian: u32| 2 + (circle - 1) * meridians + meridian % meridians;
+    let mut faces = Vec::new();
+    for m in 0..meridians {
+        faces.push(vec![0, at(1, m), at(1, m + 1)]);
+        faces.push(vec![1, at(circles - 1, m + 1), at(circles - 1, m)]);
+        let quadrangle = |c: u32| vec![at(c, m), at(c + 1, m), at(c + 1, m + 1), at(c, m + 1)];
+        faces.extend((1..circles - 1).map(quadrangle));
+    }
+    (vertices, faces)
+}
+
+/// Thin triangles at the poles lie so nearly in one plane that they are merged again and again, less and less. Attempts that
+/// fail cost little beside looking at every face once.
+#[test]
+fn a_ball_that_takes_many_attempts_costs_little_more() {
+    let (vertices, faces) = ball(40, 1000);
+    let active = vec![true; faces.len()];
+    let tree = Places::new(&vertices);
+    assert!(
+        checks::convex(&vertices, &faces_of_attempt(0, &vertices, &faces, &active, 2.0), &tree, 2.0).is_err()
+    );
+    tree.looked.set(0);
+    let mut once = faces_of_attempt(merge::LEVELS + 1, &vertices, &faces, &active, 2.0);
+    once.iter_mut().for_each(|face| merge::support(&vertices, face, &tree, 2.0 * PLANE_TOLERANCE));
+    assert!(checks::convex(&vertices, &once, &tree, 2.0).is_ok());
+    let looked_once = tree.looked.replace(0);
+    assert!(convex_faces((&vertices, &tree), &faces, &active, 2.0).is_ok());
+    let looked = tree.looked.get();
+    assert!(looked < 2 * looked_once, "{looked} boxes, {looked_once} at every face once");
+}
