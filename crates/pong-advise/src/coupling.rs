@@ -50,16 +50,20 @@ impl std::fmt::Display for Coupling {
 /// (kg) is stable; 0 if no step is.
 pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
     match coupling {
-        // Where |z| = dt·√(k/m) of underdamped roots is least, 2.62, and −γ of the faster real one.
+        Coupling::StageWise | Coupling::OncePerStep if k <= 0.0 && c <= 0.0 => f64::INFINITY,
+        // Where |z| = dt·√(k/m) of underdamped roots is least, 2.62, and −γ of the faster real one. Of a frequency and a
+        // damping rate one that is less than half the other does not count, and is raised to that: either may be zero.
         Coupling::StageWise => {
-            let surely = (2.6 / (k / m).sqrt()).min(2.78 * m / c.max(f64::MIN_POSITIVE));
+            let frequency = (k / m).sqrt();
+            let surely = (2.6 / frequency.max(0.5 * c / m)).min(2.78 * m / c.max(0.5 * m * frequency));
             last_within(surely, 2.0, |step| stage_wise_holds(k * step * step / m, c * step / m))
         }
         // The positive root of k·dt² + 2c·dt − 4m.
         Coupling::OncePerStep => 4.0 * m / ((c * c + 4.0 * k * m).sqrt() + c),
         Coupling::Held { .. } if c <= 0.0 => 0.0,
         Coupling::Held { late } => {
-            let at_most = (c / (k * coupling.lag())).min(2.0 * m / c);
+            // Where the second is the less, the first may be any that is more: k may be zero.
+            let at_most = (c / (k * coupling.lag()).max(0.25 * c * c / m)).min(2.0 * m / c);
             if late == 0 {
                 return at_most;
             }
@@ -74,11 +78,11 @@ pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
 /// A mode x of M·q'' + C·q' + K·q = 0 obeys the scalar equation with its own x*Kx and x*Cx, so a bound of both suffices.
 pub(crate) fn surely_stable_step(coupling: Coupling, k: f64, c: f64, ratio: f64) -> f64 {
     let most = longest_stable_step(coupling, k, c, 1.0);
-    let least = || longest_stable_step(coupling, k, k * ratio.min(c / k), 1.0);
+    let least = || longest_stable_step(coupling, k, (k * ratio).min(c), 1.0);
     match coupling {
         // As the damping ratio ½c/√k rises to 0.54 the region's reach grows a little, then falls to its narrowest place: of
         // any stretch the ends are the least. Beyond, the real end of a mode with damping alone is nearer still.
-        Coupling::StageWise => most.min(least()).min(2.785 / c.max(f64::MIN_POSITIVE)),
+        Coupling::StageWise => most.min(least()).min(2.785 / c.max(0.5 * k.sqrt())),
         Coupling::OncePerStep => most,
         Coupling::Held { .. } => most.min(least()).min(ratio / coupling.lag()),
     }
@@ -115,10 +119,11 @@ fn late_hold_is_stable(kappa: f64, gamma: f64, late: u32) -> bool {
     }
     while p.len() > 1 {
         let last = p.len() - 1;
-        let reflection = p[0] / p[last];
-        if reflection.is_nan() || reflection.abs() >= 1.0 {
+        let shrinks = p[0].abs() < p[last].abs();
+        if !shrinks {
             return false;
         }
+        let reflection = p[0] / p[last];
         p = (0..last).map(|i| p[i + 1] - reflection * p[last - 1 - i]).collect();
     }
     true
@@ -190,6 +195,21 @@ mod tests {
         assert!((stages(1e-9, 10.0) * 10.0 - 2.785293563).abs() < 1e-6);
         // Half of critical damping: the region is narrower there than on either axis.
         assert!((stages(1.0, 1.0) - 2.623).abs() < 1e-3, "{}", stages(1.0, 1.0));
+    }
+
+    /// What has no stiffness, or no damping, is held by the other alone; what has neither, at every step. No infinity
+    /// takes part: `ci/traps` looks.
+    #[test]
+    fn nothing_to_hold_limits_no_step() {
+        for m in [1e-6, 1.0, 1e9] {
+            let stages = |k, c| longest_stable_step(Coupling::StageWise, k, c, m);
+            assert!((stages(0.0, 10.0 * m) * 10.0 - 2.785293563).abs() < 1e-6);
+            assert_eq!(stages(1e4 * m, 0.0), stages(1e4 * m, 1e-300));
+            assert!((longest_stable_step(HELD, 0.0, 5.0 * m, m) - 0.4).abs() < 1e-15);
+            for coupling in [Coupling::StageWise, Coupling::OncePerStep] {
+                assert_eq!(longest_stable_step(coupling, 0.0, 0.0, m), f64::INFINITY);
+            }
+        }
     }
 
     /// The least damping of a late wrench, found elsewhere by iteration of the map: 1.515·kT one frame late at κ = 0.01,

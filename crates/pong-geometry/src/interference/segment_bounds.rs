@@ -325,7 +325,9 @@ impl<S: Simd> Leaving<S> {
         }
         let numerator = simd.mul(height, exit_slope);
         let square = simd.ratio(simd.mul(numerator, numerator), length_square);
-        let square = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), square);
+        // Not chosen in place of the quotient: a compiler would then leave out what keeps that from being 0/0.
+        let least = simd.select(simd.equal(length_square, zero), simd.splat(f64::INFINITY), zero);
+        let square = simd.larger(square, least);
         simd.select(simd.below(zero, height), zero, square)
     }
 }

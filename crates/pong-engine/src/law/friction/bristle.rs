@@ -72,6 +72,10 @@ impl Bristle {
 }
 
 /// A vector of the given length, shortened to at most `limit`.
+///
+/// The quotient is 1, exactly, where nothing is cut, and is computed in any case: behind a branch a compiler may compute it
+/// before the branch, and then nothing over nothing would be an invalid operation.
 fn cut(vector: Vec3, length: f64, limit: f64) -> Vec3 {
-    if length > limit { vector * (limit / length) } else { vector }
+    let longer = if length > limit { length } else { limit };
+    vector * (limit / longer.max(f64::MIN_POSITIVE))
 }
