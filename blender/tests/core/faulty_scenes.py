@@ -315,6 +315,11 @@ def no_radius():
 
 
 @faulty
+def size_range():
+    return one("Sphere", radius=1e-31)
+
+
+@faulty
 def no_semi_axes():
     return one("Ellipsoid", semi_axes=(0.1, 0.0, 0.1))
 
