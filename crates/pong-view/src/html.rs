@@ -90,11 +90,28 @@ mod tests {
 
     #[test]
     fn names_cannot_break_out_of_the_page() {
-        let evil = "</script><script>alert(1)</script>{{data}}";
-        let page = super::page(evil, &json(&evil), "");
-        assert!(!page.contains("<script>alert"));
-        let read: String = serde_json::from_str(&json(&evil)).unwrap();
-        assert_eq!(read, evil);
+        let empty = super::page("", "\"\"", "");
+        for evil in [
+            "</script><script>alert(1)</script>{{data}}",
+            "</title><img src=x onerror='alert(1)'>",
+            "<!-- <script>",
+            "--> ]]>",
+            "\" onload=\"alert(1)\" ' & &lt; &amp;quot; \\\"",
+            "\u{2028}\u{2029}\u{0}\u{1b}[31m\u{202e}",
+            "{{run}}",
+        ] {
+            let page = super::page(evil, &json(&evil), "");
+            for mark in ["<script", "</script", "<!--", "<img", "<title", "</title"] {
+                assert_eq!(page.matches(mark).count(), empty.matches(mark).count(), "{evil:?}: {mark}");
+            }
+            assert!(!json(&evil).contains(['<', '\u{2028}', '\u{2029}']), "{evil:?}");
+            let text = page.split_once(r#"id="run">"#).unwrap().1.split_once("</script>").unwrap().0;
+            assert_eq!(serde_json::from_str::<String>(text).unwrap(), evil);
+            let shown = page.split_once("<title>").unwrap().1.split_once(" – pong view</title>").unwrap().0;
+            let escapes = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&amp;", "&")];
+            let read = escapes.iter().fold(shown.to_owned(), |text, (from, to)| text.replace(from, to));
+            assert_eq!(read, evil);
+        }
     }
 
     #[test]
@@ -106,6 +123,21 @@ mod tests {
                 assert!(names.contains(&name), "{name}");
             }
         }
+    }
+
+    /// What scripts show of names they set as text or as an attribute of its own, never as markup; the page forbids
+    /// scripts from anywhere else.
+    #[test]
+    fn no_module_makes_markup_of_text() {
+        let markup =
+            ["innerHTML", "outerHTML", "insertAdjacentHTML", "createContextualFragment", "DOMParser"];
+        let code = ["document.write", "eval(", "new Function", "srcdoc", "setAttribute(\"on", "javascript:"];
+        for (name, text) in MODULES.iter().copied().chain([("main.js", MAIN)]) {
+            for word in markup.iter().chain(&code) {
+                assert!(!text.contains(word), "{name}: {word}");
+            }
+        }
+        assert!(FRAME.contains("default-src 'none'"));
     }
 
     #[test]
