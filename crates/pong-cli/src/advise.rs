@@ -3,12 +3,12 @@
 mod contact;
 mod limits;
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell_lines};
 use crate::text::number;
 use pong_advise::{Accuracy, Coupling, StepPlan, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
 use pong_executive::scene::Scene;
-use pong_geometry::extension::Extensions;
 use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -58,6 +58,8 @@ pub(crate) struct Arguments {
     /// How near the rebound must come, %.
     #[arg(long, value_name = "%", default_value_t = 2.0)]
     rebound_within: f64,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 #[derive(Clone, Copy, clap::ValueEnum)]
@@ -153,7 +155,8 @@ fn wish_alone(arguments: &Arguments) -> Result<String, String> {
 }
 
 fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
-    let built = Scene::load(path).and_then(|scene| scene.build()).map_err(|errors| errors.to_string())?;
+    let scene = Scene::load(path).map(|scene| scene.with_extensions(arguments.allowed.extensions()));
+    let built = scene.and_then(|scene| scene.build()).map_err(|errors| errors.to_string())?;
     if !arguments.mass.is_empty() {
         return Err("--mass: a scene has masses of its own; leave it out".to_owned());
     }
@@ -195,7 +198,8 @@ fn scene(arguments: &Arguments, path: &Path) -> Result<String, String> {
 }
 
 fn model(arguments: &Arguments, path: &Path) -> Result<String, String> {
-    let model = pong_model::load(path, &Extensions::new()).map_err(|errors| errors.to_string())?;
+    let model =
+        pong_model::load(path, &arguments.allowed.extensions()).map_err(|errors| errors.to_string())?;
     let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED));
     let mut text = format!(
         "{}: effective mass {} kg, {}\n",

@@ -68,7 +68,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         pieces_max: arguments.pieces_max,
         within_m: arguments.within,
         samples: arguments.samples,
-        allowed: arguments.mesh.allow_files_below.clone(),
+        allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();
     let done = pong_import::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {

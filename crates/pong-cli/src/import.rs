@@ -1,5 +1,6 @@
 //! `pong import`: a mesh file becomes a model file.
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, show, tell, tell_lines};
 use crate::text::count;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -57,10 +58,8 @@ pub(crate) struct Mesh {
     /// Welds vertices within this distance of each other: 1e-6, 1um; only equal ones are welded unless given.
     #[arg(long, value_name = "LENGTH", value_parser = length_m)]
     pub(crate) weld: Option<f64>,
-    /// Lets files that the mesh file names (buffers of glTF) be read from this folder too; without it only from the mesh
-    /// file's own. May be given several times.
-    #[arg(long, value_name = "DIR")]
-    pub(crate) allow_files_below: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(crate) allowed: AllowedFolders,
 }
 
 /// The surface of whatever the file gives none.
@@ -155,7 +154,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
         hull: arguments.hull,
-        allowed: arguments.mesh.allow_files_below.clone(),
+        allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();
     let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {

@@ -10,6 +10,7 @@
 mod advise;
 mod check;
 mod decompose;
+mod folders;
 mod import;
 mod log;
 mod replay;

@@ -1,5 +1,6 @@
 //! `pong replay`: a response log goes through the engine again.
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell, tell_lines};
 use crate::text::count;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -28,6 +29,8 @@ pub(crate) struct Arguments {
     /// No progress bar and no summary; differences and errors stay.
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
@@ -64,6 +67,7 @@ fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
     let options = ReplayOptions {
         workers: (arguments.workers > 0).then_some(settings),
         tolerance: arguments.tolerance,
+        extensions: arguments.allowed.extensions(),
         ..ReplayOptions::default()
     };
     let bar = if arguments.quiet { ProgressBar::hidden() } else { ProgressBar::new(log.frame_count()) };

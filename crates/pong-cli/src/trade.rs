@@ -1,5 +1,6 @@
 //! `pong trade`: what speed costs in accuracy, measured on the user's scene.
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
@@ -63,6 +64,8 @@ pub(crate) struct Arguments {
     /// No progress bar and no page; errors stay.
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 fn share(text: &str) -> Result<f64, String> {
@@ -182,6 +185,7 @@ fn settings(arguments: &Arguments) -> Settings {
         rounds: arguments.rounds,
         refinements: arguments.refinements,
         fresh: arguments.fresh,
+        extensions: arguments.allowed.extensions(),
     }
 }
 

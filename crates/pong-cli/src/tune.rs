@@ -1,5 +1,6 @@
 //! `pong tune`: bounds and leaves that lower the frame time of a run, for the same bits.
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_tune::{Output, Progress, Settings, TuneError, Tuned, report, tune};
@@ -39,6 +40,8 @@ pub(crate) struct Arguments {
     /// No progress and no page; warnings and errors stay.
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
@@ -67,6 +70,7 @@ fn run(arguments: &Arguments) -> Result<Tuned, TuneError> {
         frames: arguments.frames,
         duration_s: arguments.duration,
         output: Output { folder: folder(arguments), force: arguments.force },
+        extensions: arguments.allowed.extensions(),
     };
     let bar = progress_bar(arguments.quiet);
     let mut watch = |progress: &Progress| match progress {

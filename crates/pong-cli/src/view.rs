@@ -1,8 +1,8 @@
 //! `pong view`: a response log as one web page.
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell, tell_lines};
 use crate::text::{count, number};
-use pong_geometry::extension::Extensions;
 use pong_record::Log;
 use pong_view::{Options, Page, ViewError};
 use std::path::{Path, PathBuf};
@@ -27,6 +27,8 @@ pub(crate) struct Arguments {
     /// Says nothing unless something is wrong.
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
@@ -54,7 +56,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
 fn page(arguments: &Arguments) -> Result<Page, ViewError> {
     let mut log = Log::open(&arguments.log)?;
     let options = Options { every: arguments.every, budget: arguments.budget * 1_000_000 };
-    pong_view::page(&mut log, &options, &Extensions::new())
+    pong_view::page(&mut log, &options, &arguments.allowed.extensions())
 }
 
 /// `runs/drop` and `runs/drop/` are shown by `runs/drop.html`.

@@ -170,6 +170,16 @@ fn check_does_not_refuse_what_nobody_pairs() {
         &out,
         &["`walls` cannot be paired with itself:\n  note: surfaces `walls/rigid` and `walls/rigid`: both"],
     );
+    std::fs::write(folder.join("floor.ron"), rigid.replace("walls", "floor")).unwrap();
+    let (code, out, err) = pong(&folder, &["check", "walls.ron", "floor.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert_holds(
+        &out,
+        &["`walls` and `floor` cannot be paired:\n  note: surfaces `walls/rigid` and `floor/rigid`: both"],
+    );
+    std::fs::write(folder.join("broken.ron"), rigid.replace("radius: 0.1", "radius: -0.1")).unwrap();
+    let (code, _, err) = pong(&folder, &["check", "walls.ron", "floor.ron", "broken.ron"]);
+    assert!(code == 1 && err.ends_with("1 fault\n"), "what is wrong with a model is still a fault: {err}");
     // Who pairs it is told.
     let scene = DROP
         .replace("\"ground.ron\"", "\"walls.ron\"")

@@ -49,6 +49,19 @@ pub struct Extensions {
     folders: Vec<PathBuf>,
 }
 
+/// Names alone: a function has nothing to show.
+impl std::fmt::Debug for Extensions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Extensions")
+            .field("primitives", &self.primitives.keys())
+            .field("volumes", &self.volumes.keys())
+            .field("volume_tests", &self.volume_tests.keys())
+            .field("contact_tests", &self.contact_tests.keys())
+            .field("folders", &self.folders)
+            .finish()
+    }
+}
+
 impl Extensions {
     /// No extensions.
     pub fn new() -> Self {

@@ -28,13 +28,18 @@ pub struct LogAlternative {
 pub(crate) struct LoggedRun {
     log: Log,
     alternatives: Vec<LogAlternative>,
+    extensions: Extensions,
     /// The greatest distance of the engine's wrenches from the log's own, over the greatest in the log; once it is known.
     apart: Option<f64>,
 }
 
 impl LoggedRun {
     /// Opens a log.
-    pub fn open(folder: &Path, alternatives: &[LogAlternative]) -> Result<Self, TradeError> {
+    pub fn open(
+        folder: &Path,
+        alternatives: &[LogAlternative],
+        extensions: &Extensions,
+    ) -> Result<Self, TradeError> {
         let log = Log::open(folder).map_err(|error| TradeError(error.to_string()))?;
         for alternative in alternatives {
             for (name, _) in &alternative.models {
@@ -48,7 +53,7 @@ impl LoggedRun {
                 }
             }
         }
-        Ok(Self { log, alternatives: alternatives.to_vec(), apart: None })
+        Ok(Self { log, alternatives: alternatives.to_vec(), extensions: extensions.clone(), apart: None })
     }
 
     pub fn name(&self) -> &str {
@@ -104,7 +109,10 @@ impl LoggedRun {
         hash.text(&format!("{:?}", self.log.events()));
         for alternative in &self.alternatives {
             hash.text(&format!("{alternative:?}"));
-            alternative.models.iter().try_for_each(|(_, file)| hash_model(&mut hash, file))?;
+            alternative
+                .models
+                .iter()
+                .try_for_each(|(_, file)| hash_model(&mut hash, file, &self.extensions))?;
         }
         Ok(hash)
     }
@@ -142,11 +150,12 @@ impl LoggedRun {
         let wanted = level.alternative.as_ref();
         let found = wanted.and_then(|name| self.alternatives.iter().find(|other| other.name == *name));
         let instead = found.map_or(Vec::new(), |alternative| alternative.models.clone());
+        let extensions = self.extensions.clone();
         let rewrite = |index: usize, model: Model| {
             let other = instead.iter().find(|(name, _)| *name == names[index]);
             let model = match other {
                 Some((_, file)) => {
-                    pong_model::load(file, &Extensions::new()).map_err(|errors| errors.to_string())?
+                    pong_model::load(file, &extensions).map_err(|errors| errors.to_string())?
                 }
                 None => model,
             };
@@ -157,6 +166,7 @@ impl LoggedRun {
             workers: (level.workers > 0).then_some(workers),
             rewrite: Some(&rewrite),
             every: u64::from(frames.instants / level.steps_per_frame),
+            extensions: extensions.clone(),
             ..RerunOptions::default()
         };
         let wanted = frames.count * u64::from(frames.instants);

@@ -14,6 +14,7 @@ use crate::store::Store;
 use crate::subject::{self, Subject};
 use pong_executive::scene::Scene;
 use pong_executive::{Integrator, Simulation};
+use pong_geometry::extension::Extensions;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -33,6 +34,8 @@ pub struct Settings {
     pub refinements: u32,
     /// Nothing that was kept earlier is used.
     pub fresh: bool,
+    /// What models may use beside what is built in, and where their files may lie.
+    pub extensions: Extensions,
 }
 
 impl Default for Settings {
@@ -44,6 +47,7 @@ impl Default for Settings {
             rounds: 3,
             refinements: 2,
             fresh: false,
+            extensions: Extensions::new(),
         }
     }
 }
@@ -222,6 +226,7 @@ pub fn study(
 ) -> Result<Study, TradeError> {
     let text = pong_model::files::read_text(scene).unwrap_or_default();
     let scene = Scene::load(scene).map_err(|errors| TradeError(errors.to_string()))?;
+    let scene = scene.with_extensions(settings.extensions.clone());
     let built = scene.build().map_err(|errors| TradeError(errors.to_string()))?;
     let plan = Plan::new(&scene, built.simulation.bodies().len(), &settings.plan)?;
     let hash = subject::hash_of_scene(&scene, &text)?;
@@ -263,7 +268,7 @@ pub fn study_log(
     settings: &Settings,
     watch: Watch<'_>,
 ) -> Result<Study, TradeError> {
-    let mut log = LoggedRun::open(log, alternatives)?;
+    let mut log = LoggedRun::open(log, alternatives, &settings.extensions)?;
     let mut settings = settings.clone();
     settings.of.retain(|quantity| !matches!(quantity, Quantity::Energy | Quantity::Pose));
     if settings.of.is_empty() {

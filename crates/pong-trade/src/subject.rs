@@ -6,6 +6,8 @@ use crate::level::Level;
 use crate::open_loop::LoggedRun;
 use crate::run::{self, Ended, Frames};
 use pong_executive::scene::Scene;
+use pong_geometry::extension::Extensions;
+use std::path::Path;
 
 /// A scene or a log.
 pub(crate) enum Subject {
@@ -51,17 +53,17 @@ pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, TradeError
     hash.text(env!("CARGO_PKG_VERSION"));
     hash.text(text);
     for file in scene.model_files() {
-        hash_model(&mut hash, &file)?;
+        hash_model(&mut hash, &file, scene.extensions())?;
     }
     Ok(hash)
 }
 
 /// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
 /// when it is run.
-pub(crate) fn hash_model(hash: &mut Fnv, file: &std::path::Path) -> Result<(), TradeError> {
+pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<(), TradeError> {
     let unreadable = |reason| TradeError::new(&file.display().to_string(), &format!("{reason}"));
     hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
-    let model = pong_model::load(file, &pong_geometry::extension::Extensions::new());
+    let model = pong_model::load(file, extensions);
     hash.word(model.map_or(0, |model| model.hash));
     Ok(())
 }

@@ -6,6 +6,7 @@ use crate::play::{Held, Player, bodies};
 use crate::subject::Subject;
 use pong_engine::EngineError;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
+use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use pong_record::{Event, FrameRow, Log, LogError, LoggedEvent, RerunOptions, rerun, world_of_log};
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ pub(crate) struct Run {
     models: Vec<(PathBuf, usize)>,
     /// Frames of it.
     pub frames: u64,
+    extensions: Extensions,
 }
 
 enum Source {
@@ -34,37 +36,47 @@ impl Run {
     pub fn load(
         path: &Path,
         duration_s: Option<f64>,
+        extensions: &Extensions,
         subjects: &mut Vec<Subject>,
     ) -> Result<Self, TuneError> {
         if path.is_dir() {
-            Self::of_log(path, duration_s, subjects)
+            Self::of_log(path, duration_s, extensions, subjects)
         } else {
-            Self::of_scene(path, duration_s, subjects)
+            Self::of_scene(path, duration_s, extensions, subjects)
         }
     }
 
     fn of_scene(
         path: &Path,
         duration_s: Option<f64>,
+        extensions: &Extensions,
         subjects: &mut Vec<Subject>,
     ) -> Result<Self, TuneError> {
         let scene = Scene::load(path).map_err(|errors| TuneError(errors.to_string()))?;
+        let scene = scene.with_extensions(extensions.clone());
         let built = scene.build().map_err(|errors| TuneError(errors.to_string()))?;
         let mut models = Vec::new();
         for file in &built.model_files {
-            models.push((file.clone(), subject(file, false, subjects)?));
+            models.push((file.clone(), subject(file, false, extensions, subjects)?));
         }
         let steps = duration_s.map_or(built.steps as f64, |duration| libm::round(duration / scene.step()));
         let name = scene.name().to_owned();
-        Ok(Self { name, source: Source::Scene(Box::new(scene)), models, frames: steps as u64 + 1 })
+        let extensions = extensions.clone();
+        let source = Source::Scene(Box::new(scene));
+        Ok(Self { name, source, models, frames: steps as u64 + 1, extensions })
     }
 
-    fn of_log(path: &Path, duration_s: Option<f64>, subjects: &mut Vec<Subject>) -> Result<Self, TuneError> {
+    fn of_log(
+        path: &Path,
+        duration_s: Option<f64>,
+        extensions: &Extensions,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, TuneError> {
         let mut log = open(path)?;
         let mut models = Vec::new();
         for index in 0..log.run().models.len() {
             let file = log.model_path(index).unwrap_or_default();
-            models.push((file.clone(), subject(&file, true, subjects)?));
+            models.push((file.clone(), subject(&file, true, extensions, subjects)?));
         }
         let mut frames = log.frame_count();
         if let Some(duration) = duration_s {
@@ -72,7 +84,8 @@ impl Run {
             let first = rows.first().map_or(0.0, |row| row.time);
             frames = rows.iter().take_while(|row| row.time - first <= duration).count() as u64;
         }
-        Ok(Self { name: log.run().name.clone(), source: Source::Log(path.to_owned()), models, frames })
+        let (name, source) = (log.run().name.clone(), Source::Log(path.to_owned()));
+        Ok(Self { name, source, models, frames, extensions: extensions.clone() })
     }
 
     /// Runs it as it is and keeps its motions: at most so many frames.
@@ -116,11 +129,17 @@ impl Run {
             Source::Scene(scene) => Held::Scene(Box::new(build(scene, Some((self, made)))?)),
             Source::Log(path) => {
                 let instead = |index: usize| Some(Arc::clone(&made[self.models[index].1]));
-                let options = RerunOptions { instead: Some(&instead), ..RerunOptions::default() };
+                let options = self.options(&instead);
                 Held::World(Box::new(world_of_log(&open(path)?, options).map_err(of_log)?))
             }
         };
         Player::new(held).map_err(|error| self.refused(&error))
+    }
+
+    /// A log run again, with these models in place of its own.
+    fn options<'a>(&self, instead: &'a dyn Fn(usize) -> Option<Arc<Model>>) -> RerunOptions<'a> {
+        let extensions = self.extensions.clone();
+        RerunOptions { instead: Some(instead), extensions, ..RerunOptions::default() }
     }
 
     pub fn refused(&self, error: &EngineError) -> TuneError {
@@ -156,7 +175,7 @@ impl Run {
         tick: Tick<'_>,
     ) -> Result<Motions, TuneError> {
         let instead = |index: usize| made.get(self.models[index].1).cloned();
-        let options = || RerunOptions { instead: Some(&instead), ..RerunOptions::default() };
+        let options = || self.options(&instead);
         let mut gatherer = Gatherer::new(rows);
         let fresh = world_of_log(&log, options()).map_err(of_log)?;
         gatherer.before(&fresh).map_err(|error| self.refused(&error))?;
@@ -202,8 +221,13 @@ fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>, TuneError> {
 }
 
 /// The subject of a model file: an earlier one if the file says the same.
-fn subject(file: &Path, in_log: bool, subjects: &mut Vec<Subject>) -> Result<usize, TuneError> {
-    let new = Subject::load(file, in_log)?;
+fn subject(
+    file: &Path,
+    in_log: bool,
+    extensions: &Extensions,
+    subjects: &mut Vec<Subject>,
+) -> Result<usize, TuneError> {
+    let new = Subject::load(file, in_log, extensions)?;
     let known = subjects.iter().position(|known| known.hash == new.hash && known.text == new.text);
     Ok(known.unwrap_or_else(|| {
         subjects.push(new);

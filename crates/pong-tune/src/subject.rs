@@ -36,6 +36,7 @@ pub(crate) struct Subject {
     pub text: String,
     pub hash: u64,
     pub shape: Shape,
+    pub extensions: Extensions,
 }
 
 /// A model made for a grouping.
@@ -73,16 +74,16 @@ impl Shape {
 
 impl Subject {
     /// Reads a model file.
-    pub fn load(file: &Path, in_log: bool) -> Result<Self, TuneError> {
+    pub fn load(file: &Path, in_log: bool, extensions: &Extensions) -> Result<Self, TuneError> {
         let text = pong_model::files::read_text(file).map_err(|reason| {
             TuneError::file(file, format!("{reason}; name a run whose models can be read"))
         })?;
-        let model =
-            pong_model::load(file, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
+        let model = pong_model::load(file, extensions).map_err(|errors| TuneError(errors.to_string()))?;
         let groups = grouping::groups(&text).map_err(|line| TuneError::file(file, line))?;
         let elements = elements(&model, &groups);
         let shape = Shape { name: model.name.clone(), groups, elements };
-        Ok(Self { file: file.to_owned(), in_log, text, hash: model.hash, shape })
+        let extensions = extensions.clone();
+        Ok(Self { file: file.to_owned(), in_log, text, hash: model.hash, shape, extensions })
     }
 
     /// The text of the file with a grouping.
@@ -106,7 +107,7 @@ impl Subject {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let text = self.text(grouping)?;
         let model =
-            pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &Extensions::new())
+            pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &self.extensions)
                 .map_err(|errors| TuneError(errors.to_string()))?;
         if model.hash != self.hash {
             let line = "its meshes were changed meanwhile; run it again and leave them as they are";

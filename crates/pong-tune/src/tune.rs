@@ -9,6 +9,7 @@ use crate::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, search};
 use crate::subject::{Shape, Subject};
 use crate::words;
 use crate::write::{Output, headed};
+use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
 /// How models are tuned.
@@ -22,11 +23,19 @@ pub struct Settings {
     pub duration_s: Option<f64>,
     /// Where files go.
     pub output: Output,
+    /// What models may use beside what is built in, and where their files may lie.
+    pub extensions: Extensions,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { rounds: 5, frames: 4096, duration_s: None, output: Output::default() }
+        Self {
+            rounds: 5,
+            frames: 4096,
+            duration_s: None,
+            output: Output::default(),
+            extensions: Extensions::new(),
+        }
     }
 }
 
@@ -105,7 +114,7 @@ pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tu
     let mut subjects = Vec::new();
     let mut runs = Vec::new();
     for path in paths {
-        runs.push(Run::load(path, settings.duration_s, &mut subjects)?);
+        runs.push(Run::load(path, settings.duration_s, &settings.extensions, &mut subjects)?);
     }
     settings.output.check(&subjects)?;
     let mut motions = Vec::new();

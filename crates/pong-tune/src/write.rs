@@ -2,7 +2,6 @@
 
 use crate::error::TuneError;
 use crate::subject::{Subject, hash_of_trees};
-use pong_geometry::extension::Extensions;
 use pong_model::grouping;
 use std::path::{Path, PathBuf};
 
@@ -98,7 +97,7 @@ impl Output {
 /// The file as it will be read: the same model in the trees that were measured.
 fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<(), TuneError> {
     let model =
-        pong_model::load(staged, &Extensions::new()).map_err(|errors| TuneError(errors.to_string()))?;
+        pong_model::load(staged, &subject.extensions).map_err(|errors| TuneError(errors.to_string()))?;
     if model.hash == subject.hash && hash_of_trees(&model) == trees {
         return Ok(());
     }

@@ -5,8 +5,8 @@ mod pairs;
 mod stiffness;
 mod tree;
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell, tell_lines};
-use pong_geometry::extension::Extensions;
 use pong_model::{Model, printable};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -21,10 +21,8 @@ pub(crate) struct Arguments {
     /// Checks each model by itself, not how they would meet.
     #[arg(long)]
     alone: bool,
-    /// Lets models read the meshes that they name from this folder too, through links; without it only from the model's own
-    /// folder. May be given several times.
-    #[arg(long, value_name = "DIR")]
-    allow_files_below: Vec<PathBuf>,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 /// A model and what it is called here.
@@ -36,8 +34,7 @@ struct Named {
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let mut named: Vec<Named> = Vec::new();
     let mut faults = 0;
-    let mut extensions = Extensions::new();
-    arguments.allow_files_below.iter().for_each(|folder| extensions.allow_files_below(folder));
+    let extensions = arguments.allowed.extensions();
     for path in &arguments.models {
         match pong_model::load(path, &extensions) {
             Ok(model) => named.push(name(&named, model)),
@@ -57,16 +54,13 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         for (a, b) in meetings(&named) {
             match pairs::description(a, b) {
                 Ok(meeting) => text += &meeting,
-                // Nobody has said that its groups are to meet.
-                Err(problems) if Arc::ptr_eq(&a.model, &b.model) => {
-                    text += &format!("`{}` cannot be paired with itself:\n", a.name);
-                    problems.iter().for_each(|problem| text += &format!("  note: {}\n", printable(problem)));
-                }
+                // Nobody has said that the two, or groups of the one, are to meet: a scene that pairs them is refused.
                 Err(problems) => {
-                    problems
-                        .iter()
-                        .for_each(|problem| tell(format!("`{}` and `{}`: {problem}", a.name, b.name)));
-                    faults += problems.len();
+                    text += &match Arc::ptr_eq(&a.model, &b.model) {
+                        true => format!("`{}` cannot be paired with itself:\n", a.name),
+                        false => format!("`{}` and `{}` cannot be paired:\n", a.name, b.name),
+                    };
+                    problems.iter().for_each(|problem| text += &format!("  note: {}\n", printable(problem)));
                 }
             }
         }

@@ -5,6 +5,7 @@ mod outputs;
 mod statistics;
 mod summary;
 
+use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell, tell_lines};
 use crate::text::number;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -45,6 +46,8 @@ pub(crate) struct Arguments {
     /// No progress bar, no notes and no summary; warnings and errors stay.
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    allowed: AllowedFolders,
 }
 
 /// Why a run ended early.
@@ -63,7 +66,9 @@ impl std::fmt::Display for Failure {
 }
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let mut built = match Scene::load(&arguments.scene).and_then(|scene| scene.build()) {
+    let scene =
+        Scene::load(&arguments.scene).map(|scene| scene.with_extensions(arguments.allowed.extensions()));
+    let mut built = match scene.and_then(|scene| scene.build()) {
         Ok(built) => built,
         Err(errors) => {
             tell_lines(&errors);

@@ -25,6 +25,7 @@ pub struct Scene {
     file: String,
     folder: PathBuf,
     document: Document,
+    extensions: Extensions,
 }
 
 /// A scene ready to run.
@@ -86,7 +87,12 @@ impl Scene {
         let options =
             ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME);
         match options.from_str(text) {
-            Ok(document) => Ok(Self { file: file.to_owned(), folder: folder.to_owned(), document }),
+            Ok(document) => Ok(Self {
+                file: file.to_owned(),
+                folder: folder.to_owned(),
+                document,
+                extensions: Extensions::new(),
+            }),
             Err(error) => Err(SceneErrors(vec![SceneError {
                 file: file.to_owned(),
                 at: Some((error.span.start.line, error.span.start.col)),
@@ -95,6 +101,17 @@ impl Scene {
                 cure: "docs/scene_format.md lists every field".to_owned(),
             }])),
         }
+    }
+
+    /// The same scene with models that may use these kinds, and read files from the folders allowed there.
+    #[must_use]
+    pub fn with_extensions(self, extensions: Extensions) -> Self {
+        Self { extensions, ..self }
+    }
+
+    /// What its models may use beside what is built in.
+    pub fn extensions(&self) -> &Extensions {
+        &self.extensions
     }
 
     /// Loads the models and sets everything up, or tells everything that is wrong.
@@ -114,8 +131,8 @@ impl Scene {
         let document = &variation.document(&self.document, &mut faults);
         check_head(document, &mut faults);
         variation::check_alternatives(document, &mut faults);
-        let extensions = Extensions::new();
-        let mut setting = setting::Setting::new(document, &self.folder, &extensions, variation, &mut faults);
+        let place = (self.folder.as_path(), &self.extensions);
+        let mut setting = setting::Setting::new(document, place, variation, &mut faults);
         let bodies = bodies::bodies(document, &setting, &mut faults);
         let loads = effects::loads(document, &setting, &bodies, &mut faults);
         let springs = effects::springs(document, &setting, &bodies, &mut faults);

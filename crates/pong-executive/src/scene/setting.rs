@@ -4,7 +4,7 @@ use super::document::Document;
 use super::effects::integrator;
 use super::error::Faults;
 use super::variation::Variation;
-use pong_engine::{Config, EngineError, InterfaceId, ObjectId, SealReport, World};
+use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::path::{Path, PathBuf};
@@ -27,8 +27,7 @@ type Named<'a> = (&'a str, Option<Arc<Model>>);
 impl Setting {
     pub fn new(
         document: &Document,
-        folder: &Path,
-        extensions: &Extensions,
+        (folder, extensions): (&Path, &Extensions),
         variation: &Variation<'_>,
         faults: &mut Faults<'_>,
     ) -> Self {
@@ -39,7 +38,7 @@ impl Setting {
             accounts: integrator(document).wrench_use().filter(|_| document.ledger),
         };
         let mut setting = Self {
-            world: World::new(config),
+            world: World::with_extensions(config, extensions.clone(), Laws::default()),
             objects: Vec::new(),
             models: Vec::new(),
             model_files: Vec::new(),

@@ -5,6 +5,7 @@ use crate::subject::Subject;
 use crate::words;
 use crate::write::{Output, headed};
 use crate::{Settings, tune};
+use pong_geometry::extension::Extensions;
 use std::path::PathBuf;
 
 fn best_of(ready: &Ready) -> (Vec<String>, crate::search::Proposal) {
@@ -25,7 +26,7 @@ fn a_tuned_file_reads_back() {
         let output = Output::default();
         let place = output.write(subject, &texts[index], trees).unwrap();
         assert_eq!(place, folder.0.join(format!("{}_tuned.ron", subject.shape.name)));
-        let again = Subject::load(&place, false).unwrap();
+        let again = Subject::load(&place, false, &Extensions::new()).unwrap();
         assert_eq!(again.hash, subject.hash);
         assert_eq!(again.shape.authored(), best[index]);
         assert_eq!(again.make(&best[index]).unwrap().trees, trees);
@@ -90,12 +91,12 @@ fn meshes_go_along_into_another_folder() {
         "sheet.ron",
         &model("sheet", "primitives: [TriangleMesh(name: \"floor\", file: \"parts/floor.obj\")]"),
     );
-    let subject = Subject::load(&file, false).unwrap();
+    let subject = Subject::load(&file, false, &Extensions::new()).unwrap();
     let authored = subject.shape.authored();
     let trees = subject.make(&authored).unwrap().trees;
     let output = |force| Output { folder: Some(folder.0.join("new/home")), force };
     let place = output(false).write(&subject, &subject.text, trees).unwrap();
-    assert_eq!(Subject::load(&place, false).unwrap().hash, subject.hash);
+    assert_eq!(Subject::load(&place, false, &Extensions::new()).unwrap().hash, subject.hash);
     folder.write("new/home/parts/floor.obj", "another");
     let refused = output(false).write(&subject, &subject.text, trees).unwrap_err().to_string();
     assert!(refused.contains("floor.obj") && refused.contains("--force"), "{refused}");

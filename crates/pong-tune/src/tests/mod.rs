@@ -14,6 +14,7 @@ use crate::motions::Motions;
 use crate::run::Run;
 use crate::search::{Judge, Proposal};
 use crate::subject::Subject;
+use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
 /// A folder of the test's own, gone afterwards.
@@ -86,7 +87,8 @@ struct Ready {
 impl Ready {
     fn new(path: &Path) -> Self {
         let mut subjects = Vec::new();
-        let run = Run::load(path, None, &mut subjects).unwrap_or_else(|error| panic!("{error}"));
+        let run = Run::load(path, None, &Extensions::new(), &mut subjects)
+            .unwrap_or_else(|error| panic!("{error}"));
         let motions = run.gather(1000, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
         Self { runs: [run], subjects, motions: [motions] }
     }
