@@ -107,8 +107,8 @@ fn halve(body: &Body, mut items: Vec<Item>, most: usize, into: usize, groups: &m
 /// The middle of an element's box, m; `None` if it is unbounded.
 fn center(body: &Body, item: Item) -> Option<Vec3> {
     let (low, high) = Element::new(body, item).extent();
-    let middle = 0.5 * (low + high);
-    middle.iter().all(|x| x.is_finite()).then_some(middle)
+    let is_bounded = low.iter().chain(&high).all(|x| x.is_finite());
+    is_bounded.then(|| 0.5 * (low + high))
 }
 
 impl GroupDraft {

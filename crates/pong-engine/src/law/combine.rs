@@ -273,7 +273,8 @@ fn default_tangential(stiffness: f64) -> f64 {
 }
 
 fn harmonic(mu_a: f64, mu_b: f64) -> f64 {
-    if mu_a == 0.0 || mu_b == 0.0 { 0.0 } else { 2.0 * mu_a * mu_b / (mu_a + mu_b) }
+    // Of two zeros zero, too.
+    2.0 * mu_a * mu_b / (mu_a + mu_b).max(f64::MIN_POSITIVE)
 }
 
 #[cfg(test)]

@@ -177,13 +177,16 @@ impl<const N: usize> Secular<N> {
     }
 
     /// `q` at `t = −a_min²` with the component along the shortest axis filled up to unit length with the given
-    /// sign; none if the others are longer than that.
+    /// sign; none if the others are longer than that, as along an axis that is as short as the shortest.
     #[inline]
     fn on_medial_plane(&self, sign: f64) -> Option<[f64; N]> {
         let mut q = [0.0; N];
         let mut rest = 0.0;
         for (i, (w, d)) in self.w.iter().zip(&self.d).enumerate() {
             if i != self.shortest && *w != 0.0 {
+                if *d <= 0.0 {
+                    return None;
+                }
                 q[i] = w / d;
                 rest += q[i] * q[i];
             }
@@ -204,7 +207,8 @@ impl<const N: usize> Secular<N> {
     #[inline]
     fn reciprocal(&self, sigma: f64, i: usize) -> f64 {
         let sum = sigma + self.d[i];
-        if sum > 0.0 { 1.0 / sum } else { 0.0 }
+        // What is not wanted may be computed all the same: it must not be infinite.
+        if sum > 0.0 { 1.0 / sum.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
 

@@ -112,8 +112,10 @@ impl Shadow {
     #[inline]
     pub(crate) fn new(e: &PreparedEllipsoid, u: &Vec3, v: &Vec3) -> Self {
         let (wide_u, wide_v) = (e.widened(u), e.widened(v));
+        /// 2⁵¹²: the square of a larger cotangent is no number any more, and its tangent turns nothing.
+        const LARGEST_COTANGENT: f64 = f64::from_bits((1023 + 512) << 52);
         let (uu, vv, uv) = (wide_u.norm_squared(), wide_v.norm_squared(), wide_u.dot(&wide_v));
-        if uv == 0.0 {
+        if 2.0 * uv.abs() * LARGEST_COTANGENT <= (vv - uu).abs() || uv == 0.0 {
             return Self { axes: [*u, *v], semi_axes: [uu.sqrt(), vv.sqrt()] };
         }
         let zeta = (vv - uu) / (2.0 * uv);

@@ -112,8 +112,9 @@ impl AtEnd<'_> {
         let (slope, exit_slope) = (face.normal.dot(&along), exit.normal.dot(&along));
         let across = (face.normal * exit_slope - exit.normal * slope) * exit_slope.signum();
         let length = across.norm();
-        let depth = -face.height(&self.leaving()) * exit_slope.abs() / length;
-        depth.is_finite().then_some(Crossing { leaves_by, depth, across, length })
+        let they_meet = length > 0.0;
+        let depth = -face.height(&self.leaving()) * exit_slope.abs() / if they_meet { length } else { 1.0 };
+        (they_meet && depth.is_finite()).then_some(Crossing { leaves_by, depth, across, length })
     }
 
     #[inline(always)]

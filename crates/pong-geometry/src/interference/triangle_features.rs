@@ -311,6 +311,8 @@ pub fn vertex_pushes(
     const CONE_COSINE_SLACK: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
+    // In the vertex itself there is no direction, and nothing is divided by its length.
+    let scale = if length > 0.0 { length } else { 1.0 };
     let (mut strictly, mut in_front) = (true, false);
     let mut turn = 0.0;
     // Most vertices fail at one of the first triangles.
@@ -322,13 +324,13 @@ pub fn vertex_pushes(
             let product = direction.dot(edge);
             let edge_length = edge.norm();
             strictly &= product < 0.0;
-            let nearly = product <= CONE_COSINE_SLACK * length * edge_length;
+            let nearly = product <= CONE_COSINE_SLACK * scale * edge_length;
             if !nearly || t < triangle {
                 return false;
             }
-            below *= edge_length * (-product / (length * edge_length)).max(CONE_COSINE_SLACK);
+            below *= edge_length * (-product / (scale * edge_length)).max(CONE_COSINE_SLACK);
         }
-        turn += direction.dot(&edges[0].cross(&edges[1])) / (length * below);
+        turn += direction.dot(&edges[0].cross(&edges[1])) / (scale * below);
         in_front |= center_in_front(&TriangleView::new(set, t));
         true
     })?;
@@ -346,6 +348,9 @@ pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize
     const COSINE_MIN: f64 = 1e-12;
     let apex = set.corners(triangle)[corner];
     let length = direction.norm();
+    if length == 0.0 {
+        return true;
+    }
     let mut turn = 0.0;
     walk_fan(set, triangle, corner, &mut |t, at| {
         let corners = set.corners(t);
@@ -353,7 +358,7 @@ pub fn vertex_is_seen_from_front(set: &TriangleSet, triangle: u32, corner: usize
         let below = edges.map(|edge| (-direction.dot(&edge)).max(COSINE_MIN * length * edge.norm()));
         turn += direction.dot(&edges[0].cross(&edges[1])) * (length / below[0]) * (length / below[1]);
     });
-    length == 0.0 || turn >= 0.0
+    turn >= 0.0
 }
 
 /// Whether a point is in front of one of the faces that meet at a feature of a triangle, or behind it by no more than

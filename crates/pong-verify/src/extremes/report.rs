@@ -18,13 +18,13 @@ impl Answer {
 fn margin(row: &Row) -> String {
     /// Beyond this the error is rounding, of which no digit is worth a change of the report.
     const ENOUGH: f64 = 1000.0;
-    let times = row.allowed() / row.error();
+    let times = || row.allowed() / row.error();
     match row.bound {
         _ if !row.passes() => "NONE".to_owned(),
         Bound::Absolute(0.0) => "exact".to_owned(),
-        _ if times > ENOUGH => format!("> {ENOUGH}"),
-        _ if times >= 100.0 => format!("{times:.0}"),
-        _ => format!("{times:.1}"),
+        _ if row.allowed() > ENOUGH * row.error() => format!("> {ENOUGH}"),
+        _ if times() >= 100.0 => format!("{:.0}", times()),
+        _ => format!("{:.1}", times()),
     }
 }
 

@@ -5,7 +5,8 @@ use std::fmt::Write as _;
 
 const FIELD_WIDTH: f64 = 220.0;
 const FIELD_HEIGHT: f64 = 300.0;
-const GAP: f64 = 24.0;
+/// Between two fields, with room for half a label of each axis.
+const GAP: f64 = 48.0;
 const LEFT: f64 = 70.0;
 const TOP: f64 = 40.0;
 const LEGEND: f64 = 20.0;

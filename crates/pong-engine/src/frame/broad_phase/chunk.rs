@@ -294,7 +294,7 @@ impl LaneBalls {
 /// A bound of a box of a tree; the greatest there is stands for no bound.
 #[inline(always)]
 fn widened(bound: f32) -> f64 {
-    if bound.abs() < f32::MAX { f64::from(bound) } else { f64::from(bound) * f64::INFINITY }
+    if bound.abs() < f32::MAX { f64::from(bound) } else { f64::INFINITY.copysign(f64::from(bound)) }
 }
 
 /// Square of how far `x` lies outside `low`…`high`.

@@ -11,7 +11,7 @@ use crate::frame::input::PairContext;
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::frame::worker_context::WorkerContext;
-use crate::law::friction::{FrictionInput, FrictionOutput, friction_force};
+use crate::law::friction::{FrictionInput, FrictionOutput, friction_force, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
@@ -201,6 +201,6 @@ impl PairContext<'_> {
         let approach = -contact.found.normal.dot(&displacement);
         let across = displacement + contact.found.normal * approach;
         let depth = contact.found.depth;
-        if earlier.is_none() && approach > depth { across * (depth / approach) } else { across }
+        if earlier.is_none() { shortened(across, approach, depth) } else { across }
     }
 }

@@ -14,6 +14,7 @@ use crate::frame::forces::bristle_share;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::PairContext;
 use crate::law::FrictionProps;
+use crate::law::friction::shortened;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactMemory, ContactRole};
@@ -146,7 +147,7 @@ impl Held<'_> {
         let normal = &self.contact.found.normal;
         let bristle = -(on_a - normal * normal.dot(&on_a)) / whole;
         let pull = self.stiffness * bristle.norm();
-        if pull > self.static_limit { bristle * (self.static_limit / pull) } else { bristle }
+        shortened(bristle, pull, self.static_limit)
     }
 }
 

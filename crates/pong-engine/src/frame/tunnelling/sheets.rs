@@ -15,7 +15,9 @@ pub(super) fn meet(set: &TriangleSet, triangle: u32, line: &Line) -> Option<Met>
 pub(super) fn along(from: &Vec3, to: &Vec3) -> Option<Ray> {
     let path = to - from;
     let length = path.norm();
+    if !(length > 0.0 && length.is_finite()) {
+        return None;
+    }
     let direction = path / length;
-    let is_line = length > 0.0 && length.is_finite();
-    is_line.then_some(Ray { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
+    Some(Ray { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
 }

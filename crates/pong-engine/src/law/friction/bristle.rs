@@ -44,7 +44,7 @@ impl Bristle {
         let pull = self.stiffness * trial.norm();
         let holds = input.stuck && pull <= self.static_limit * (1.0 + LIMIT_ROUNDING);
         let (bristle, limit) = if holds {
-            (cut(trial, pull, self.static_limit), self.static_limit)
+            (shortened(trial, pull, self.static_limit), self.static_limit)
         } else if !input.stuck && pull <= self.kinetic_limit {
             (trial, self.kinetic_limit)
         } else {
@@ -55,7 +55,7 @@ impl Bristle {
         let pushed = bristle * self.stiffness + input.slip_velocity * self.damping;
         let length = pushed.norm();
         FrictionOutput {
-            force: -cut(pushed, length, limit),
+            force: -shortened(pushed, length, limit),
             bristle,
             sticks: holds || (!input.stuck && self.sticks_again(&trial, pull, length, input)),
             stored: 0.5 * self.stiffness * bristle.norm_squared(),
@@ -75,7 +75,7 @@ impl Bristle {
 ///
 /// The quotient is 1, exactly, where nothing is cut, and is computed in any case: behind a branch a compiler may compute it
 /// before the branch, and then nothing over nothing would be an invalid operation.
-fn cut(vector: Vec3, length: f64, limit: f64) -> Vec3 {
+pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };
     vector * (limit / longer.max(f64::MIN_POSITIVE))
 }

@@ -5,6 +5,7 @@ mod coulomb;
 mod force;
 mod slip_path;
 
+pub(crate) use bristle::shortened;
 pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 
 use super::props::FrictionProps;

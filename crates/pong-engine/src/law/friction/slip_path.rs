@@ -37,7 +37,9 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
     if way.left <= 0.0 {
         return way.direction * radius;
     }
-    let ratio = way.left / radius;
+    // Far beyond where anything is left of the first direction: a load that has all but gone leaves all but no radius.
+    const LARGEST_RATIO: f64 = 1e300;
+    let ratio = way.left.min(radius * LARGEST_RATIO) / radius;
     let decay = libm::exp(-ratio);
     let turned = turned_towards(&way.direction, &along, decay);
     // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.

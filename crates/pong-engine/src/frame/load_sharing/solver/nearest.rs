@@ -179,7 +179,12 @@ impl HullPoint {
             1 => return Some(Self::of_one(*first)),
             2 => {
                 let edge = edge(1);
-                let second = gained(1, &edge) / edge.norm_squared();
+                let square = edge.norm_squared();
+                // Equal places decide nothing.
+                if square <= 0.0 {
+                    return None;
+                }
+                let second = gained(1, &edge) / square;
                 [1.0 - second, second, 0.0]
             }
             _ => {
@@ -187,12 +192,14 @@ impl HullPoint {
                 let gained = [gained(1, &edges[0]), gained(2, &edges[1])];
                 let across = edges[0].dot(&edges[1]);
                 let determinant = edges[0].cross(&edges[1]).norm_squared();
+                if determinant <= 0.0 {
+                    return None;
+                }
                 let second = (gained[0] * edges[1].norm_squared() - gained[1] * across) / determinant;
                 let third = (gained[1] * edges[0].norm_squared() - gained[0] * across) / determinant;
                 [1.0 - second - third, second, third]
             }
         };
-        // Of equal places the quotients are not numbers: they decide nothing.
         if !parts[..count].iter().all(|part| *part > 0.0) {
             return None;
         }

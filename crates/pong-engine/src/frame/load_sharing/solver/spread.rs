@@ -35,7 +35,7 @@ pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool
     if count <= shortest.count {
         return false;
     }
-    let factor = if widest > ROUNDING_MAX { 1.0 / widest } else { 0.0 };
+    let factor = if widest > ROUNDING_MAX { 1.0 / widest.max(ROUNDING_MAX) } else { 0.0 };
     let stretched = |normal: &Vec3| along * normal.dot(&along) + across(normal, &along) * factor;
     let mu = least(contacts, &shortest.t, stretched);
     let mut sum = Vec3::zeros();
