@@ -248,26 +248,55 @@ fn a_point_where_pieces_meet_has_one_contact() {
 
 /// The tip of a bar that stands upright on the line where four pieces meet, or beside it, is in one of them.
 #[test]
-fn a_tip_where_pieces_meet_is_not_doubled() {
+fn a_tip_where_pieces_meet_is_in_one_of_them() {
     let mut random = Random(54);
-    let mut carried = 0;
     for round in 0..200 {
         let turn = random.rotation();
-        let body = Cut::new(2, &mut random).model(&turn, false);
-        let (a, b) = (Vec3::zeros(), turn * Vec3::new(0.3, 0.2, 3.0));
+        let body = Cut::new(2, &mut random).model(&turn, round % 2 == 1);
+        // Upright along that line, or leaning into one of the pieces.
+        let lean = if round % 4 < 2 { Vec3::new(0.3, 0.2, 3.0) } else { Vec3::new(0.0, 0.0, 3.0) };
+        let (a, b) = (Vec3::zeros(), turn * lean);
         let bar = format!("LineSegment(name: \"b\", ends: ({},{}))", tuple(&a), tuple(&b));
         let mut rig = Rig::new(&model("bar", &steel(), &bar), &body);
         for pose in 0..20 {
             let beside = if pose % 2 == 0 { Vec3::zeros() } else { random.vector(2e-16) };
+            let height = random.between(0.5, 0.99);
             rig.world.forget(rig.objects[0]).unwrap();
-            rig.place_a(turn * (Vec3::z() * random.between(0.5, 0.99) + beside), Quat::identity());
+            rig.place_a(turn * (Vec3::z() * height + beside), Quat::identity());
             rig.world.evaluate().unwrap();
-            let at_tip = rig.world.contacts().iter().filter(|c| c.end == 0).count();
-            assert!(at_tip <= 1, "round {round}: {:?}", rig.world.contacts());
-            carried += at_tip;
+            let contacts = rig.world.contacts();
+            let [tip] = &contacts[..] else { panic!("round {round}, pose {pose}: {contacts:?}") };
+            let off = tip.depth - (1.0 - height);
+            assert!(tip.end == 0 && off.abs() < 1e-6 && tip.weight == 0.5, "round {round}: {tip:?}");
         }
     }
-    println!("{carried} of 4000 tips carried");
+}
+
+/// A bar that lies flat below the seams of pieces is carried by its two tips alone, also where single precision makes
+/// slight ridges of the seams.
+#[test]
+fn a_bar_below_seams_is_carried_by_its_tips() {
+    let mut random = Random(55);
+    for round in 0..300 {
+        let turn = random.rotation();
+        let body = Cut::new(1 + round % 2, &mut random).model(&turn, round % 3 != 0);
+        let half = Vec3::new(random.between(0.1, 0.6), random.between(-0.3, 0.3), 0.0);
+        let bar =
+            format!("LineSegment(name: \"b\", ends: ({},{}))", tuple(&(turn * -half)), tuple(&(turn * half)));
+        let mut rig = Rig::new(&model("bar", &steel(), &bar), &body);
+        for pose in 0..20 {
+            let depth = random.between(1e-3, 0.1);
+            let along = if pose % 2 == 0 { 0.0 } else { random.between(-0.05, 0.05) };
+            rig.world.forget(rig.objects[0]).unwrap();
+            rig.place_a(turn * Vec3::new(along, along, 1.0 - depth), Quat::identity());
+            rig.world.evaluate().unwrap();
+            let contacts = rig.world.contacts();
+            let [first, second] = &contacts[..] else { panic!("round {round}, pose {pose}: {contacts:?}") };
+            assert!((first.end, second.end) == (0, 1), "round {round}: {contacts:?}");
+            let off = (first.depth - depth).abs().max((second.depth - depth).abs());
+            assert!(off < 1e-6, "round {round}: {contacts:?}");
+        }
+    }
 }
 
 /// A roof whose ridge lies in the wall between its halves; on request each half cut once more, across the ridge.

@@ -373,6 +373,56 @@ fn a_bar_within_an_inner_wall_is_carried_once() {
     }
 }
 
+/// Both faces of an edge that a bar crosses claim the one crossing. The end that reaches farther out has it, in whatever order
+/// the faces are.
+#[test]
+fn an_edge_is_carried_by_the_end_that_reaches_farther_out() {
+    let mut random = Random(614);
+    let mut crossed = [0, 0];
+    for _ in 0..2000 {
+        let mut corners = cuboid_corners(Vec3::new(-1.0, -0.8, -0.6), Vec3::new(1.0, 0.8, 0.0));
+        let motion = random.motion(2.0);
+        // Over the edge between the top and the side at x = 1.
+        let depth = random.between(0.01, 0.1);
+        let place = Vec3::new(1.0 - depth, random.between(-0.3, 0.3), -depth);
+        let along = Vec3::new(1.0, random.between(-0.5, 0.5), -1.0).normalize();
+        let reach = [random.between(0.5, 0.8), random.between(0.5, 0.8)];
+        let segment = bar(place - along * reach[0], place + along * reach[1]).carried(&motion);
+        let farther = usize::from(reach[1] > reach[0]);
+        for _ in 0..4 {
+            for i in (1..corners.len()).rev() {
+                corners.swap(i, (random.bits() % (i as u64 + 1)) as usize);
+            }
+            let shape = moved(&hull(&corners), &motion);
+            let contacts = line_segment_polyhedron(&segment, &shape);
+            assert!(contacts[farther].is_some() && contacts[1 - farther].is_none(), "{contacts:?}");
+            let turned = bar(segment.ends[1], segment.ends[0]);
+            let contacts = line_segment_polyhedron(&turned, &shape);
+            assert!(contacts[farther].is_none() && contacts[1 - farther].is_some(), "{contacts:?}");
+            crossed[farther] += 1;
+        }
+    }
+    assert!(crossed.iter().all(|count| *count > 1000));
+}
+
+/// A bar in a face, or with a tip on an edge, touches: nothing carries it, whatever rounding says.
+#[test]
+fn a_bar_that_only_touches_is_not_carried() {
+    let mut random = Random(615);
+    for round in 0..3000 {
+        let motion = random.motion(2.0);
+        let shape = moved(&brick(), &motion);
+        let y = random.between(-0.5, 0.5);
+        let segment = match round % 3 {
+            0 => bar(Vec3::new(-0.5, y, 0.0), Vec3::new(0.5, y, 0.0)),
+            1 => bar(Vec3::new(-0.5, y, 0.0), Vec3::new(1.5, y, 0.0)),
+            _ => bar(Vec3::new(1.0, y, 0.0), Vec3::new(0.5, y, 0.5)),
+        };
+        let (wrench, _) = push(&segment.carried(&motion), &[shape]);
+        assert!(wrench.force.norm() < 1e-14, "round {round}: {wrench:?}");
+    }
+}
+
 /// A solid whose top slopes down beyond an edge at x = 0.
 fn roof(slope: f64) -> Polyhedron {
     let drop = 2.0 * slope.tan();

@@ -96,6 +96,26 @@ fn friction_among_nearly_equal_normals() {
 }
 
 #[test]
+fn points_where_pieces_meet() {
+    let are_points = |scene: &Scene| all_touch_as("Point", scene);
+    nothing_differs_where(&["turned", "group_frame", "reordered"], "junction", 4000, are_points);
+}
+
+#[test]
+fn rays_where_pieces_meet() {
+    let are_rays = |scene: &Scene| all_touch_as("Ray", scene);
+    nothing_differs_where(&["turned", "far"], "pieces", 2000, are_rays);
+    nothing_differs_where(&["cut"], "solid", 3000, are_rays);
+}
+
+#[test]
+fn bars_on_the_edges_of_hulls() {
+    let are_bars = |scene: &Scene| all_touch_as("LineSegment", scene);
+    nothing_differs_where(&["turned", "reordered"], "hull", 2000, are_bars);
+    nothing_differs_where(&["turned", "reordered"], "pieces", 2000, are_bars);
+}
+
+#[test]
 fn points_and_balls_in_pieces() {
     let are = |scene: &Scene| all_touch_as("Point", scene) || all_touch_as("Sphere", scene);
     nothing_differs_where(&["turned", "group_frame"], "pieces", 2000, are);

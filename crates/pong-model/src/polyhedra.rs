@@ -49,6 +49,8 @@ pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec
         for edge in 0..polyhedron.edges.len() {
             let key = edge_key(surface_of[index], polyhedron, edge);
             let faces = &edges[&key];
+            let convex = push(faces);
+            polyhedron.edges[edge].convex = convex;
             if faces.is_empty() || done.insert(key, ()).is_some() {
                 continue;
             }
@@ -56,7 +58,7 @@ pub(crate) fn build(hulls: &[Hull], surface_of: &[u32]) -> (Vec<Polyhedron>, Vec
                 tangled
                     .push((index, polyhedron.vertices[polyhedron.edges[edge].vertices[0] as usize].position));
             }
-            polyhedron.edges[edge].push = push(faces);
+            polyhedron.edges[edge].push = convex;
             note_edge(&mut stars, surface_of[index], polyhedron, edge);
         }
     }
@@ -109,7 +111,13 @@ fn rim(
     let direction = unit(&(position(second) - anchor));
     let edge = *numbers.entry((first, second)).or_insert_with(|| {
         let vertices = [first, second];
-        polyhedron.edges.push(PolyhedronEdge { vertices, faces: [face; 2], direction, push: None });
+        polyhedron.edges.push(PolyhedronEdge {
+            vertices,
+            faces: [face; 2],
+            direction,
+            push: None,
+            convex: None,
+        });
         polyhedron.edges.len() as u32 - 1
     });
     polyhedron.edges[edge as usize].faces[1] = face;

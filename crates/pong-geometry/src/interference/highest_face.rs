@@ -6,7 +6,6 @@ use crate::simd::{Finder, First, Found, LANES, LaneBits, Simd, Splat};
 
 /// Blocks whose heights are kept in registers at a time, if there are that many.
 const MANY: usize = 4;
-const FEW: usize = 2;
 
 /// The active face that a point is highest above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,31 +20,11 @@ pub(super) struct Highest {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Whereabouts {
     Anywhere,
-    /// In the solid.
-    Inside,
     /// Less than so high above every plane, m.
     Below(f64),
 }
 
-/// Whether [`highest_of_few`] does; else [`highest_of_many`].
-#[inline(always)]
-pub(super) fn has_few(planes: &FacePlanes) -> bool {
-    planes.blocks.len() <= FEW
-}
-
 /// `None` if the point is not where it is asked for, if no face is active, or no height is a number above −∞.
-#[inline(always)]
-pub(super) fn highest_of_few<S: Simd>(
-    simd: S,
-    p: &Vec3,
-    planes: &FacePlanes,
-    whereabouts: Whereabouts,
-) -> Option<Highest> {
-    let search = Search { simd, at: Splat::new(simd, p), planes, whereabouts };
-    search.highest_of_group::<FEW>(0)
-}
-
-/// As [`highest_of_few`], for any number of faces.
 #[inline(always)]
 pub(super) fn highest_of_many<S: Simd>(
     simd: S,
@@ -83,7 +62,7 @@ impl<S: Simd> Search<'_, S> {
         for (k, heights) in heights.iter_mut().enumerate() {
             let block = blocks.get((start + k).min(blocks.len() - 1))?;
             let all = block.heights(self.simd, &self.at);
-            passes &= self.passes(block, all);
+            passes &= self.passes(all);
             *heights = if self.planes.simple { all } else { self.active(block, all) };
         }
         if passes == LaneBits::MAX { Some(heights) } else { None }
@@ -91,12 +70,10 @@ impl<S: Simd> Search<'_, S> {
 
     /// For which planes the point is where it is asked for.
     #[inline(always)]
-    fn passes(&self, block: &PlaneBlock, heights: S::Eight) -> LaneBits {
+    fn passes(&self, heights: S::Eight) -> LaneBits {
         let simd = self.simd;
         match self.whereabouts {
             Whereabouts::Anywhere => LaneBits::MAX,
-            Whereabouts::Inside if self.planes.simple => simd.bits(simd.below(heights, simd.splat(0.0))),
-            Whereabouts::Inside => block.held(simd, heights),
             Whereabouts::Below(reach) => !simd.bits(simd.at_least(heights, simd.splat(reach))),
         }
     }

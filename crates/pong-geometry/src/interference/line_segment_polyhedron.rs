@@ -8,8 +8,10 @@
 //!   below the line in which the planes of f and h meet, and pushes along the common normal of both lines;
 //! * where it leaves through f itself the end carries nothing.
 //!
-//! The face that stores the least energy pushes. An obvious rule asks instead where
-//! the segment leaves the *polygon* of f. It was tried: on a box the two agree, except for a segment whose far endpoint
+//! The face that stores the least energy pushes. A segment that enters by f and leaves by h crosses their edge once, for
+//! either face: the end whose endpoint reaches farther out carries that crossing, whichever of the two faces is asked.
+//!
+//! An obvious rule asks instead where the segment leaves the *polygon* of f. It was tried: on a box the two agree, except for a segment whose far endpoint
 //! has risen above the top, which a side face then claims with half the force, so that closed paths gain energy; beside
 //! obtuse edges it halves the force of a segment that lies flat (docs/decisions/0001).
 //!
@@ -17,25 +19,51 @@
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
 use super::Interference;
+use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, tip_at_wall};
 use super::segment_bounds::{Bounds, SegmentPlanes};
-use super::segment_ends::{AtEnd, InsideEnd, Measured};
+use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
 use crate::primitive::{FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
 
 /// The contact at each end: 0 towards the segment's first end, 1 towards its second.
 pub type EndContacts = [Option<Interference>; 2];
 
-/// Energies this close are a tie. Of a segment that enters by f and leaves by h both claim the one crossing, and
-/// rounding must not decide which: the state key is the end.
+/// The same for one piece of a body, with what the pieces beside it have to do with each contact.
+pub type PieceContacts = [Option<(Interference, AtWall)>; 2];
+
+/// What the pieces beside a piece have to do with a contact of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AtWall {
+    /// Nothing, but for a tip that is exactly at a wall.
+    No,
+    /// The crossing of an edge in which a wall ends: the piece behind the wall may find it as well.
+    SharedEdge,
+    /// Of a tip beyond a wall by no more than rounding: counts if the tip is in no piece at all.
+    StandsIn,
+}
+
+/// Energies this close are a tie, so that rounding does not choose between equal faces.
 const TIE: f64 = 1.0 - 1e-12;
 
-/// Tests a segment against one convex piece. Each contact carries half of the pair's stiffness and damping.
+/// Tests a segment against one convex solid, or one piece alone: of an edge in which a wall ends the lowest piece has the
+/// crossing. Each contact carries half of the pair's stiffness and damping.
 #[inline]
 pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+    let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
+        AtWall::No => true,
+        AtWall::SharedEdge => polyhedron.edges[contact.feature.index()].push.is_some(),
+        AtWall::StandsIn => false,
+    };
+    line_segment_piece(segment, polyhedron).map(|found| found.filter(counts).map(|(contact, _)| contact))
+}
+
+/// Tests a segment against one piece of a body.
+#[inline]
+pub fn line_segment_piece(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     if polyhedron.planes().blocks.len() <= FEW {
-        run_at_level!(test_few(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts)
+        run_at_level!(test_few(segment: LineSegment, polyhedron: Polyhedron) -> PieceContacts)
     } else {
-        run_at_level!(test_many(segment: LineSegment, polyhedron: Polyhedron) -> EndContacts)
+        run_at_level!(test_many(segment: LineSegment, polyhedron: Polyhedron) -> PieceContacts)
     }
 }
 
@@ -45,12 +73,12 @@ const SOME: usize = FacePlanes::IN_REGISTERS;
 const MANY: usize = 16;
 
 #[inline(always)]
-fn test_few<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+fn test_few<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     test::<S, FirstOf<S, FEW>, FEW>(simd, segment, polyhedron)
 }
 
 #[inline(always)]
-fn test_many<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> EndContacts {
+fn test_many<S: Simd>(simd: S, segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
     if polyhedron.planes().blocks.len() <= SOME {
         test::<S, FirstOf<S, SOME>, SOME>(simd, segment, polyhedron)
     } else {
@@ -63,9 +91,11 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     simd: S,
     segment: &LineSegment,
     polyhedron: &Polyhedron,
-) -> EndContacts {
+) -> PieceContacts {
     let planes = SegmentPlanes::new(simd, segment, polyhedron);
-    let Some(inside) = planes.inside_part::<F, N>() else { return [None, None] };
+    let Some(inside) = planes.inside_part::<F, N>() else {
+        return if polyhedron.planes().all_active { [None, None] } else { along_walls(segment, polyhedron) };
+    };
     let mut search = Search { segment, polyhedron, inside: inside.ends, best: None };
     let moderate =
         polyhedron.planes().moderate && is_moderate(&segment.ends[0]) && is_moderate(&segment.ends[1]);
@@ -80,6 +110,20 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     };
     search.visit_likely(&planes.bounds::<N>(&inside, limit), limit);
     search.contacts()
+}
+
+/// A segment along the line where inner walls meet may lie in none of the pieces there, as each works out its own walls.
+/// Then each of them answers for its endpoints as if it held them; which one counts is decided for the whole body.
+#[cold]
+fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
+    let Some(inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
+    let mut search = Search { segment, polyhedron, inside, best: None };
+    search.visit_all();
+    let contacts = search.contacts();
+    [0, 1].map(|end: usize| {
+        let at_tip = contacts[end].filter(|(contact, _)| contact.point_a == segment.ends[end]);
+        at_tip.map(|(contact, _)| (contact, AtWall::StandsIn))
+    })
 }
 
 /// A face whose bound is so many times what another stores never decides. Far beyond rounding of the bounds, and beyond
@@ -137,7 +181,8 @@ impl Search<'_> {
     fn visit(&mut self, stored: Option<Stored>) {
         let Some(stored) = stored else { return };
         let least = self.best.map_or(f64::INFINITY, |best| best.energy);
-        if stored.energy > 0.0 && stored.energy < least * TIE {
+        // Nothing stored is the least as well: the segment lies in the face, or touches an edge of it.
+        if stored.energy < least * TIE {
             self.best = Some(stored);
         }
     }
@@ -159,17 +204,61 @@ impl Search<'_> {
     }
 
     /// What the best face carries.
-    fn contacts(&self) -> EndContacts {
-        match &self.best {
-            Some(best) => [self.carried(best, 0), self.carried(best, 1)],
-            None => [None, None],
+    fn contacts(&self) -> PieceContacts {
+        let Some(best) = &self.best else { return [None, None] };
+        match [self.carried(best, 0), self.carried(best, 1)] {
+            [None, Some((found, end))] | [Some((found, end)), None] => match end {
+                0 => [Some(found), None],
+                _ => [None, Some(found)],
+            },
+            // What belongs to an end that has a contact already is found by the piece behind the wall, at that end.
+            [first, second] => [first.filter(|(_, end)| *end == 0), second.filter(|(_, end)| *end == 1)]
+                .map(|at| at.map(|(found, _)| found)),
         }
     }
 
+    /// What is carried where the segment leaves at an end, and which end has it if there is nothing else.
     #[inline(always)]
-    fn carried(&self, best: &Stored, end: usize) -> Option<Interference> {
-        let contact = self.at_end(best.face, end).contact(&best.ends[end])?;
-        carries(self.polyhedron, &self.inside[end], &contact).then_some(contact)
+    fn carried(&self, best: &Stored, end: usize) -> Option<((Interference, AtWall), usize)> {
+        let contact = self.at_end(best.face, end).contact(&best.ends[end]);
+        let exit = self.inside[end].leaves_by;
+        if exit.is_some_and(|exit| !self.polyhedron.faces[exit].active) {
+            return self.carried_at_wall(best, end, contact);
+        }
+        let contact = contact?;
+        let end = match (&best.ends[end], exit) {
+            (Measured::Crossing(_), Some(exit)) if self.is_claimed_by_both(best, end, exit) => {
+                Wedge::of_faces(self.polyhedron, best.face, exit).farther_out(self.segment, end)
+            }
+            _ => end,
+        };
+        Some(((contact, AtWall::No), end))
+    }
+
+    /// Whether the segment enters by the best face and leaves by another at an end, and both measure the one crossing.
+    #[inline(always)]
+    fn is_claimed_by_both(&self, best: &Stored, end: usize, exit: usize) -> bool {
+        let of_exit = || self.at_end(exit, 1 - end).measured();
+        matches!(best.ends[1 - end], Measured::Leaves) && matches!(of_exit(), Some(Measured::Crossing(_)))
+    }
+
+    /// The piece behind the wall carries the end, unless the wall ends in an edge that pushes or there is no such piece.
+    #[cold]
+    fn carried_at_wall(
+        &self,
+        best: &Stored,
+        end: usize,
+        contact: Option<Interference>,
+    ) -> Option<((Interference, AtWall), usize)> {
+        let crossing = contact.filter(|contact| !contact.feature.is_face());
+        let carrier = |crossing: &Interference| {
+            end_that_crosses(self.segment, self.polyhedron, best.face, end, crossing)
+        };
+        match crossing.and_then(|crossing| Some((crossing, carrier(&crossing)?))) {
+            Some((crossing, carrier)) => Some(((crossing, AtWall::SharedEdge), carrier)),
+            None => tip_at_wall(self.polyhedron, best.face, &self.segment.ends[end])
+                .map(|contact| ((contact, AtWall::StandsIn), end)),
+        }
     }
 }
 
@@ -180,13 +269,4 @@ fn limit_of(stored: Option<&Stored>) -> f64 {
         Some(stored) if stored.energy > 0.0 => stored.energy * BEYOND_ROUNDING,
         _ => f64::INFINITY,
     }
-}
-
-/// Whether an end carries what it measures. One at an inner wall does not, the piece behind the wall does; but where
-/// the wall ends in a convex edge of the body, that edge pushes (2.1), once for all pieces that have it.
-#[inline]
-fn carries(polyhedron: &Polyhedron, end: &InsideEnd, measured: &Interference) -> bool {
-    let at_wall = end.leaves_by.is_some_and(|h| !polyhedron.faces[h].active);
-    let feature = measured.feature;
-    !at_wall || (!feature.is_face() && polyhedron.edges[feature.index()].push.is_some())
 }

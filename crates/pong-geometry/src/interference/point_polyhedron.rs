@@ -6,43 +6,17 @@
 //! Degenerate cases: a point on an active face is outside; one on an inner wall belongs to the piece whose face
 //! is `closed`. Ties go to the lower index.
 
-use super::highest_face::{Whereabouts, has_few, highest_of_few, highest_of_many};
+use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
+#[cfg(doc)]
+use crate::primitive::FacePlanes;
 use crate::primitive::Polyhedron;
 use crate::simd::{Simd, run_at_level};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
 /// across anything sharper it stays (docs/theory.md, 2.4).
 const FOLLOWED_COSINE_MIN: f64 = 0.3;
-
-/// The contact of a point that remembers no side: with the active face under which it lies least deep.
-///
-/// The same as [`Polyhedron::contains`], [`shallowest_face`] and [`point_below_face`], in one pass over the faces.
-#[inline]
-pub fn point_polyhedron(p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    run_at_level!(point_polyhedron_in(p: Vec3, polyhedron: Polyhedron) -> Option<Interference>)
-}
-
-/// [`point_polyhedron`] within a kernel.
-#[inline(always)]
-pub fn point_polyhedron_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Option<Interference> {
-    let planes = polyhedron.planes();
-    let highest = if has_few(planes) {
-        highest_of_few(simd, p, planes, Whereabouts::Inside)?
-    } else {
-        highest_of_many(simd, p, planes, Whereabouts::Inside)?
-    };
-    if highest.height >= 0.0 {
-        return None;
-    }
-    Some(Interference {
-        depth: -highest.height,
-        normal: polyhedron.faces[highest.face].normal,
-        point_a: *p,
-        feature: Feature::face(highest.face),
-    })
-}
 
 /// The active face under which the point lies least deep; `None` if no face is active. Heights above the faces must be
 /// finite, as those of numbers within 1e100 are.
@@ -56,13 +30,20 @@ fn shallowest_face_in<S: Simd>(simd: S, p: &Vec3, polyhedron: &Polyhedron) -> Op
     highest_of_many(simd, p, polyhedron.planes(), Whereabouts::Anywhere).map(|highest| highest.face)
 }
 
-/// The active face whose normal is nearest to a direction; `None` if no face is active.
-pub fn face_most_along(direction: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+/// Cosines this close to the largest are equal: single precision leaves two normals of one direction so far apart.
+const SAME_COSINE: f64 = 1e-6;
+
+/// The active face whose normal is nearest to a direction, of equal ones that below which the point is least deep: it is
+/// of faces all across the direction, as the sides of a piece that is entered through its floor. `None` if no face is active.
+pub fn face_most_along(direction: &Vec3, p: &Vec3, polyhedron: &Polyhedron) -> Option<usize> {
+    let active = || polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active);
+    let most = active().map(|(_, face)| face.normal.dot(direction)).fold(f64::NEG_INFINITY, f64::max);
+    let nearest = active().filter(|(_, face)| face.normal.dot(direction) >= most - SAME_COSINE);
     let mut best: Option<(usize, f64)> = None;
-    for (index, face) in polyhedron.faces.iter().enumerate().filter(|(_, face)| face.active) {
-        let cosine = face.normal.dot(direction);
-        if best.is_none_or(|(_, most)| cosine > most) {
-            best = Some((index, cosine));
+    for (index, face) in nearest {
+        let height = face.height(p);
+        if best.is_none_or(|(_, highest)| height > highest) {
+            best = Some((index, height));
         }
     }
     best.map(|(index, _)| index)
@@ -78,11 +59,16 @@ pub struct Entry {
 }
 
 /// The face through which a straight line enters; `None` if it starts inside or misses.
+///
+/// Inner walls count as if they stood out by what is within rounding of them ([`FacePlanes::WALL_TOLERANCE`]): a line that
+/// runs along a wall enters by the active face, and lines between abutting pieces miss neither.
 pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<Entry> {
     let mut entry: Option<Entry> = None;
     let mut leave = f64::INFINITY;
+    let slack = polyhedron.planes().wall_slack;
     for (index, face) in polyhedron.faces.iter().enumerate() {
-        let (start, end) = (face.height(from), face.height(to));
+        let room = if face.active { 0.0 } else { slack };
+        let (start, end) = (face.height(from) - room, face.height(to) - room);
         if start >= 0.0 && end >= 0.0 && !(face.closed && end == 0.0) {
             return None;
         }

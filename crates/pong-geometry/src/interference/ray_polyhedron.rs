@@ -1,17 +1,14 @@
 //! Ray (A) – polyhedron (B) (docs/theory.md, 2.5): the face through which the ray enters the solid.
 //!
-//! Degenerate cases: a ray along an active face is outside; one along an inner wall belongs to the piece that the
-//! wall is closed for. One through an edge takes the lower of the two faces. Where a ray enters at the very edge of
-//! an inner wall rounding may put the entry behind the wall for this piece and before it for the next; the piece it
-//! leaves by the wall then takes it, and if both do they agree.
+//! Degenerate cases: a ray along an active face is outside. One through an edge takes the lower of the two faces. Beside
+//! an inner wall rounding may put the entry behind the wall for this piece and before it for the next, and a ray along the
+//! line where several walls meet into none of the pieces. So walls count as if they stood out by what is within rounding
+//! of them: no piece misses such a ray, and of several that take it the engine keeps the nearest hit.
 
 use super::Feature;
 use super::ray_plane::RayHit;
 use crate::primitive::{FacePlanes, PlaneBlock, Polyhedron, Ray};
 use crate::simd::{Finder, First, FirstOf, LaneBits, Simd, Splat, run_at_level};
-
-/// Rounding in a distance along the ray, relative to the polyhedron's diameter.
-const WALL_SLACK: f64 = 1e-12;
 
 /// For how many blocks of faces distances are kept in registers.
 const FEW: usize = 2;
@@ -46,7 +43,7 @@ fn hit_many<S: Simd>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayH
 #[inline(always)]
 fn hit<S: Simd, F: Finder<S>, const N: usize>(simd: S, ray: &Ray, polyhedron: &Polyhedron) -> Option<RayHit> {
     let (origin, direction) = (Splat::new(simd, &ray.origin), Splat::new(simd, &ray.direction));
-    let mut passage = Passage::<S, F>::new(simd, polyhedron.diameter);
+    let mut passage = Passage::<S, F>::new(simd, polyhedron.planes().wall_slack);
     for index in 0..polyhedron.planes().count::<N>() {
         let block = polyhedron.planes().block(index);
         if !passage.clip(index, block, block.heights(simd, &origin), direction.dot(&block.normal)) {
@@ -66,19 +63,15 @@ struct Passage<S: Simd, F: Finder<S>> {
     entry: F,
     /// Minus the distance at which it first leaves, lane by lane.
     leave: S::Eight,
+    /// How far inner walls stand out, m.
     wall_slack: f64,
 }
 
 impl<S: Simd, F: Finder<S>> Passage<S, F> {
     #[inline(always)]
-    fn new(simd: S, diameter: f64) -> Self {
+    fn new(simd: S, wall_slack: f64) -> Self {
         let nowhere = f64::NEG_INFINITY;
-        Self {
-            simd,
-            entry: F::above(simd, nowhere),
-            leave: simd.splat(nowhere),
-            wall_slack: WALL_SLACK * diameter,
-        }
+        Self { simd, entry: F::above(simd, nowhere), leave: simd.splat(nowhere), wall_slack }
     }
 
     /// Whether the line leaves beyond a distance, and in front of the origin.
@@ -95,18 +88,19 @@ impl<S: Simd, F: Finder<S>> Passage<S, F> {
     fn clip(&mut self, index: usize, block: &PlaneBlock, heights: S::Eight, climbs: S::Eight) -> bool {
         let simd = self.simd;
         let (zero, nowhere) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
+        let heights = match block.active & block.own == block.own {
+            true => heights,
+            false => {
+                let room = simd.splat(self.wall_slack);
+                simd.select(simd.mask(block.active), heights, simd.sub(heights, room))
+            }
+        };
         // Minus the distances.
         let before = simd.ratio(heights, climbs);
         let entered = simd.select(simd.below(climbs, zero), simd.sub(zero, before), nowhere);
         self.entry.offer(index, entered);
-        let leave = match block.active & block.own == block.own {
-            true => before,
-            false => {
-                simd.select(simd.mask(block.active), before, simd.sub(before, simd.splat(self.wall_slack)))
-            }
-        };
         let rising = simd.below(zero, climbs);
-        self.leave = simd.larger(simd.select(rising, leave, nowhere), self.leave);
+        self.leave = simd.larger(simd.select(rising, before, nowhere), self.leave);
         let along = simd.bits(simd.equal(climbs, zero));
         along == 0 || !self.runs_outside(block, heights, along)
     }

@@ -48,6 +48,57 @@ pub(super) struct Crossing {
     length: f64,
 }
 
+/// Two planes of a body that meet in an edge, above which a segment may reach on both sides.
+#[derive(Clone, Copy)]
+pub(super) struct Wedge {
+    /// Outward unit normals and distances from the origin along them, m: of the face that pushes and of the other.
+    pub planes: [(Vec3, f64); 2],
+}
+
+impl Wedge {
+    /// Parameters along a segment this close are one, so that rounding does not choose between two tips that reach out
+    /// alike.
+    const TIE: f64 = 1e-9;
+
+    /// Of two faces of a piece.
+    pub fn of_faces(polyhedron: &Polyhedron, face: usize, other: usize) -> Self {
+        Self { planes: [face, other].map(|f| (polyhedron.faces[f].normal, polyhedron.faces[f].offset)) }
+    }
+
+    /// Of a face and the one behind an inner wall that ends in an edge of it; `None` if the two do not meet convexly.
+    pub fn of_edge(polyhedron: &Polyhedron, face: usize, edge: usize) -> Option<Self> {
+        let edge = &polyhedron.edges[edge];
+        let push = edge.convex.as_ref()?;
+        let own = &polyhedron.faces[face];
+        let place = polyhedron.vertices[edge.vertices[0] as usize].position;
+        let is_first = push.normals[0].dot(&own.normal) >= push.normals[1].dot(&own.normal);
+        let other = push.normals[usize::from(is_first)];
+        Some(Self { planes: [(own.normal, own.offset), (other, other.dot(&place))] })
+    }
+
+    /// Height of a point above one of the planes, m.
+    #[inline]
+    pub fn height(&self, plane: usize, p: &Vec3) -> f64 {
+        let (normal, offset) = &self.planes[plane];
+        normal.dot(p) - offset
+    }
+
+    /// Which end carries the crossing of the edge by a segment that enters below one plane and leaves above the other: the
+    /// end whose tip reaches farther out, the first if both reach out alike. `end` if it does not come in and go out.
+    ///
+    /// While a tip is inside, the crossing belongs to the other end; so nothing changes where a tip passes out.
+    pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
+        let heights = [0, 1].map(|plane| [0, 1].map(|tip: usize| self.height(plane, &segment.ends[tip])));
+        let [down, up] = [|[a, b]: [f64; 2]| b < a, |[a, b]: [f64; 2]| a < b];
+        if !(down(heights[0]) && up(heights[1]) || up(heights[0]) && down(heights[1])) {
+            return end;
+        }
+        let at = heights.map(|[first, second]| first / (first - second));
+        // Before the one and behind the other lies as much as the two parameters are apart from 0 and from 1.
+        usize::from(at[0] + at[1] < 1.0 - Self::TIE)
+    }
+}
+
 impl Measured {
     /// The depth, 0 if the end does not touch, m.
     #[inline(always)]

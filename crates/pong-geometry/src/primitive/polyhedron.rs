@@ -85,6 +85,8 @@ pub struct PolyhedronEdge {
     /// Whether the edge may push, and within which normals: two active faces of the surface (possibly of two
     /// pieces) meet here convexly, and this piece is the lowest that has the edge.
     pub push: Option<EdgePush>,
+    /// The same for every piece that has the edge: for what crosses it from one piece into another.
+    pub convex: Option<EdgePush>,
 }
 
 /// The normals between which a convex edge pushes.

@@ -152,6 +152,7 @@ fn push_rim(
             faces: [face as u32, neighbor as u32],
             direction: (points[second] - points[first]).normalize(),
             push: None,
+            convex: None,
         });
         polyhedron.edges.len() - 1
     });
@@ -176,10 +177,9 @@ fn set_edge_pushes(polyhedron: &mut PolyhedronParts) {
                     .expect("rim of the edge")
                     .outward
             };
-            polyhedron.edges[index].push = Some(EdgePush {
-                normals: faces.map(|f| polyhedron.faces[f].normal),
-                outwards: faces.map(outward),
-            });
+            let push =
+                EdgePush { normals: faces.map(|f| polyhedron.faces[f].normal), outwards: faces.map(outward) };
+            (polyhedron.edges[index].push, polyhedron.edges[index].convex) = (Some(push), Some(push));
         }
     }
 }

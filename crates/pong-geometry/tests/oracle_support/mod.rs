@@ -351,7 +351,7 @@ pub fn join_pieces(pieces: &mut [Polyhedron]) {
     let flat = |faces: &[(Vec3, Vec3)]| faces.len() == 2 && faces[0].0.dot(&faces[1].1).abs() <= 1e-9;
     for piece in pieces.iter_mut() {
         piece.change(|parts| {
-            parts.edges.iter_mut().for_each(|edge| edge.push = None);
+            parts.edges.iter_mut().for_each(|edge| (edge.push, edge.convex) = (None, None));
             parts.cone_edges.clear();
             for vertex in &mut parts.vertices {
                 (vertex.pushes, vertex.first_cone, vertex.cone_count) = (false, 0, 0);
@@ -363,6 +363,9 @@ pub fn join_pieces(pieces: &mut [Polyhedron]) {
             let (piece, number) = *owners.iter().min().expect("an owner");
             let push = EdgePush { normals: [faces[0].0, faces[1].0], outwards: [faces[0].1, faces[1].1] };
             pieces[piece].change(|parts| parts.edges[number].push = Some(push));
+            for &(piece, number) in owners {
+                pieces[piece].change(|parts| parts.edges[number].convex = Some(push));
+            }
         }
     }
     let mut done: Vec<Vec3> = Vec::new();

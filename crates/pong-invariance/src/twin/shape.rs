@@ -219,12 +219,14 @@ impl Cut<'_> {
                 let from = at(position);
                 touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth))
                     && self.comes_in(frame, position)
+                    && self.keeps_its_face(frame, index, position)
             }
             Shape::Sphere { center, radius } => {
                 let from = at(center);
                 is_outside(self.whole, &from, self.slack)
                     || touches.all(|touch| self.leaves(&from, &(back * touch.normal), touch.depth - radius))
                         && self.comes_in(frame, center)
+                        && self.keeps_its_face(frame, index, center)
             }
             Shape::Ellipsoid { semi_axes, .. } => touches.all(|touch| touch.depth < 0.05 * semi_axes.min()),
             Shape::Ray { origin, .. } => is_outside(self.whole, &at(origin), self.slack),
@@ -232,8 +234,9 @@ impl Cut<'_> {
                 let Some(first) = touches.next() else { return true };
                 let is_flat = touches.all(|touch| (touch.normal - first.normal).norm() < 1e-9);
                 let out = back * first.normal;
-                let mut ends = ends.iter().map(at);
-                is_flat && ends.all(|end| self.leaves(&end, &out, depth_along(self.whole, &end, &out)))
+                let mut ends = ends.iter().map(at).map(|end| (end, depth_along(self.whole, &end, &out)));
+                is_flat
+                    && ends.all(|(end, depth)| self.is_least(&end, depth) && self.leaves(&end, &out, depth))
             }
             Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
         }
@@ -257,6 +260,31 @@ impl Cut<'_> {
         self.holds(from).any(|piece| is_inside(piece, &foot, self.slack))
     }
 
+    /// Whether no face of the whole is nearer to a place inside than so much.
+    fn is_least(&self, place: &Vec3, depth: f64) -> bool {
+        self.whole.faces.iter().all(|face| {
+            let (normal, p) = plane_of(self.whole, face);
+            normal.dot(&(p - place)) >= depth - self.slack
+        })
+    }
+
+    /// Whether what is inside is pushed by the face by which it came in, or by the one that pushed it in the frame before.
+    /// From there memory walks over the edges of the faces, and a piece has not all of them.
+    fn keeps_its_face(&self, frame: usize, index: usize, place: &Vec3) -> bool {
+        let normal_in = |frame: usize| {
+            let back = self.base.scene.frames[frame][1].pose().orientation.inverse();
+            let mut touches = self.base.answers[frame].contacts.iter();
+            touches.find(|touch| touch.of[0] as usize == index).map(|touch| back * touch.normal)
+        };
+        let Some(now) = normal_in(frame).filter(|_| frame > 0) else { return true };
+        let before = self.seen(frame - 1, place);
+        let from = match is_outside(self.whole, &before, self.slack) {
+            true => entered_by(self.whole, &before, &self.seen(frame, place)),
+            false => normal_in(frame - 1),
+        };
+        from.is_some_and(|from| (from - now).norm() < 1e-9)
+    }
+
     /// Whether the straight way since the frame before leads from outside or from the same piece.
     fn comes_in(&self, frame: usize, place: &Vec3) -> bool {
         let now = self.seen(frame, place);
@@ -271,15 +299,27 @@ impl Cut<'_> {
 
 /// Where the straight way from one place to another comes into a solid; where it begins, if it begins inside.
 fn entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Vec3 {
-    let mut t = 0.0_f64;
+    let t = last_entry(solid, from, to).map_or(0.0, |(t, _)| t);
+    from + (to - from) * t.min(1.0)
+}
+
+/// The normal of the face by which the straight way from one place to another comes into a solid.
+fn entered_by(solid: &Solid, from: &Vec3, to: &Vec3) -> Option<Vec3> {
+    last_entry(solid, from, to).map(|(_, normal)| normal)
+}
+
+/// The last of the planes that a straight way comes below: how far along it, and the normal.
+fn last_entry(solid: &Solid, from: &Vec3, to: &Vec3) -> Option<(f64, Vec3)> {
+    let mut last: Option<(f64, Vec3)> = None;
     for face in &solid.faces {
         let (normal, p) = plane_of(solid, face);
         let [start, end] = [from, to].map(|x| normal.dot(&(x - p)));
         if start > 0.0 && end < start {
-            t = t.max(start / (start - end));
+            let at = start / (start - end);
+            last = last.filter(|(t, _)| *t >= at).or(Some((at, normal)));
         }
     }
-    from + (to - from) * t.min(1.0)
+    last
 }
 
 fn plane_of(solid: &Solid, face: &[usize]) -> (Vec3, Vec3) {

@@ -8,9 +8,10 @@ use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
 use pieces::{are_convex, are_one_place, drop_what_the_body_lacks, pushes_before, touch_convexly, touched};
 use pong_arena::{Arena, Full, List};
+use pong_geometry::Vec3;
 use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
-use pong_geometry::primitive::{Containment, PolyhedronFace, PrimitiveKind, TriangleSet};
+use pong_geometry::primitive::{Containment, Polyhedron, PolyhedronFace, PrimitiveKind, TriangleSet};
 use solver::{SharedContact, share_within};
 
 /// Relative: depths this close are as deep as each other.
@@ -38,14 +39,11 @@ pub(crate) fn assign_weights(
     found.sort_unstable_by_key(ContactCandidate::order);
     keep_first_ray_hits(found);
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
-        if group
-            .iter()
-            .any(|contact| matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall))
-        {
-            choose_piece_at_walls(group, context);
-        }
-        if group[0].half && group.len() > 1 {
-            keep_first_of_endpoints_at_walls(group, context);
+        if group.iter().any(is_at_wall) {
+            match group[0].half {
+                true => choose_piece_of_end_at_walls(group, context),
+                false => choose_piece_at_walls(group, context),
+            }
         }
         if group[0].shares && group.len() > 1 {
             let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
@@ -85,6 +83,10 @@ fn keep_first_ray_hits(found: &mut [ContactCandidate]) {
     }
 }
 
+fn is_at_wall(contact: &ContactCandidate) -> bool {
+    matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall)
+}
+
 /// A point (or a sphere's centre) at inner walls of a body is in one of its pieces, whatever rounding says: where several
 /// walls meet, each piece works out by itself on which side of its own walls the point is.
 ///
@@ -95,58 +97,74 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
     let in_piece = |contact: &ContactCandidate| {
         contact.entry_face != NO_FACE && contact.status != CandidateStatus::BeyondWall
     };
-    let first = match group.iter().position(in_piece) {
-        Some(first) => Some(first),
-        None => (0..group.len()).find(|&index| has_neighbors_at_walls(group, index, context)),
-    };
+    let first = group.iter().position(in_piece).or_else(|| {
+        let found = &group[0];
+        let (body_a, element) = (context.body_a, found.element_a as usize);
+        let local = match found.shares {
+            true => body_a.spheres[element].center,
+            false => body_a.points[element].position,
+        };
+        let point = context.motion.x_ba.point(&local);
+        group.iter().position(|contact| has_neighbors_at_walls(contact, &point, context))
+    });
     for (index, contact) in group.iter_mut().enumerate() {
-        let is_at_wall = matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall);
-        if is_at_wall && first != Some(index) {
+        if is_at_wall(contact) && first != Some(index) {
             contact.status = CandidateStatus::Culled;
         }
     }
 }
 
-/// The endpoint of a segment at inner walls of a body is in one of its pieces as well: of those that have it, the first counts.
-fn keep_first_of_endpoints_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
-    let polyhedra = &context.body_b.polyhedra;
+/// The endpoint of a segment at inner walls of a body is in one of its pieces as well, and decided alike. Where a segment crosses an
+/// edge differs from piece to piece and is another contact; its endpoint is the same to the bit.
+fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
+    keep_first_of_edges(group, &context.body_b.polyhedra);
+    let Some(endpoint) = group.iter().find(|found| is_at_wall(found) && found.feature.is_face()) else {
+        return;
+    };
+    let endpoint = endpoint.point_a;
+    let in_piece =
+        |found: &ContactCandidate| found.point_a == endpoint && found.status != CandidateStatus::BeyondWall;
+    let first = group
+        .iter()
+        .position(in_piece)
+        .or_else(|| group.iter().position(|found| has_neighbors_at_walls(found, &endpoint, context)));
+    for (index, found) in group.iter_mut().enumerate() {
+        if found.point_a == endpoint && first != Some(index) {
+            found.status = CandidateStatus::Culled;
+        }
+    }
+}
+
+/// An edge in which a wall ends is found by the pieces on both sides of the wall: the first counts.
+fn keep_first_of_edges(group: &mut [ContactCandidate], polyhedra: &[Polyhedron]) {
+    let is_edge =
+        |found: &ContactCandidate| found.status == CandidateStatus::AtWall && !found.feature.is_face();
+    let ends = |found: &ContactCandidate| {
+        let piece = &polyhedra[found.element_b as usize];
+        piece.edges[found.feature.index()].vertices.map(|vertex| piece.vertices[vertex as usize].position)
+    };
     for index in 1..group.len() {
-        let (before, endpoint) = (&group[..index], &group[index]);
-        // Where a segment leaves differs from piece to piece; its endpoint is the same to the bit.
-        let is_same_endpoint = |other: &ContactCandidate| {
-            other.point_a == endpoint.point_a && other.status != CandidateStatus::Culled
-        };
-        let is_at_wall = || match polyhedra[endpoint.element_b as usize].containment(&endpoint.point_a) {
-            Containment::AtWall | Containment::BeyondWall => true,
-            Containment::Inside | Containment::Outside => false,
-        };
-        if endpoint.kind_b == PrimitiveKind::Polyhedron && before.iter().any(is_same_endpoint) && is_at_wall()
-        {
+        let (before, found) = (&group[..index], &group[index]);
+        if is_edge(found) && before.iter().any(|other| is_edge(other) && ends(other) == ends(found)) {
             group[index].status = CandidateStatus::Culled;
         }
     }
 }
 
-/// Whether at each wall of a piece at which the point is there is one of the other pieces that it is in or at.
-fn has_neighbors_at_walls(group: &[ContactCandidate], index: usize, context: &PairContext<'_>) -> bool {
-    let found = &group[index];
+/// Whether at each wall of a piece at which a place is there is another piece that it is in or at.
+fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &PairContext<'_>) -> bool {
     if found.status != CandidateStatus::BeyondWall {
         return false;
     }
-    let (body_a, element) = (context.body_a, found.element_a as usize);
-    let local = match found.shares {
-        true => body_a.spheres[element].center,
-        false => body_a.points[element].position,
-    };
-    let point = context.motion.x_ba.point(&local);
-    let polyhedra = &context.body_b.polyhedra;
+    let body = context.body_b;
+    let holds = |piece: &Polyhedron| piece.containment(place) != Containment::Outside;
     // Twins have the same plane to the bit.
     let has_twin = |wall: &PolyhedronFace| {
         let is_twin = |face: &PolyhedronFace| face.normal == -wall.normal && face.offset == -wall.offset;
-        let pieces = group.iter().filter(|other| other.status == CandidateStatus::BeyondWall);
-        pieces.into_iter().any(|other| polyhedra[other.element_b as usize].faces.iter().any(is_twin))
+        let pieces = body.polyhedra.iter().filter(|piece| piece.faces.iter().any(is_twin));
+        pieces.into_iter().any(holds)
     };
-    polyhedra[found.element_b as usize].walls_at(&point).all(has_twin)
+    body.polyhedra[found.element_b as usize].walls_at(place).all(has_twin)
 }
 
 /// Contacts of one sphere or ellipsoid with one surface.

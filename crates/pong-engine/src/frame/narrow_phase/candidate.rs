@@ -47,9 +47,10 @@ pub(crate) enum CandidateStatus {
     BackFaceFallback,
     /// Stands in for what has lost its foot: counts only where nothing else is as deep.
     StandIn,
-    /// A point in a piece, at an inner wall: counts unless the point is in a piece of lower index as well.
+    /// A point or the endpoint of a segment in a piece, at an inner wall, or an edge in which the wall ends: counts unless a
+    /// piece of lower index has it as well.
     AtWall,
-    /// A point at an inner wall of a piece, but beyond: counts only where rounding leaves the point in no piece at all.
+    /// A point or endpoint at an inner wall of a piece, but beyond: counts only where rounding leaves it in no piece at all.
     BeyondWall,
     /// Turned out not to count.
     Culled,

@@ -74,7 +74,7 @@ impl PolyhedronEntry<'_> {
         match entry {
             // Out of the old piece and in again: leaving has ended the memory.
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
-            _ => face_most_along(&old.normal, polyhedron),
+            _ => face_most_along(&old.normal, &self.point, polyhedron),
         }
     }
 
@@ -110,7 +110,7 @@ impl PolyhedronEntry<'_> {
                 best = Some((entry.at, face.normal));
             }
         }
-        best.and_then(|(_, normal)| face_most_along(&normal, self.polyhedron()))
+        best.and_then(|(_, normal)| face_most_along(&normal, &self.point, self.polyhedron()))
     }
 }
 

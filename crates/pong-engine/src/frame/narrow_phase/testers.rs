@@ -17,16 +17,18 @@ use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::interference::{
     Feature, Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_piece,
     ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
-    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
-    point_plane::point_plane, point_polyhedron::point_below_face, point_sphere::point_sphere,
-    ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
-    ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
-    sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
-    sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
+    line_segment_polyhedron::AtWall, line_segment_polyhedron::line_segment_piece,
+    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
+    point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_contact, ray_plane::ray_plane,
+    ray_polyhedron::ray_polyhedron, ray_triangle::ray_triangle, sphere_plane::sphere_plane,
+    sphere_polyhedron::sphere_inside_polyhedron, sphere_polyhedron::sphere_outside_polyhedron,
+    sphere_sphere::sphere_sphere, sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs,
 };
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
-use pong_geometry::primitive::{Containment, Ellipsoid, LineSegment, Point, Ray, Sphere};
+use pong_geometry::primitive::{
+    Containment, Ellipsoid, LineSegment, Point, Polyhedron as Solid, Ray, Sphere,
+};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::box_tree::lanes;
 use pong_model::{Body, Item, PrimitiveInfo};
@@ -206,6 +208,19 @@ fn status_of(containment: Containment) -> CandidateStatus {
     }
 }
 
+/// How an end of a segment in a piece of a body stands among those of the same surface.
+fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Solid) -> CandidateStatus {
+    match at_wall {
+        AtWall::SharedEdge => CandidateStatus::AtWall,
+        AtWall::StandsIn => CandidateStatus::BeyondWall,
+        AtWall::No if piece.planes().all_active || !contact.feature.is_face() => CandidateStatus::Front,
+        AtWall::No => match piece.containment(&contact.point_a) {
+            Containment::AtWall | Containment::BeyondWall => CandidateStatus::AtWall,
+            Containment::Inside | Containment::Outside => CandidateStatus::Front,
+        },
+    }
+}
+
 /// One element as A against one element as B.
 struct Side<'a> {
     context: &'a PairContext<'a>,
@@ -273,14 +288,21 @@ impl<'a> Side<'a> {
     fn test_segment(&self, segment: &LineSegment, kind_b: PrimitiveKind, found: &mut Findings<'_>) {
         let (body, b) = (self.body_b(), self.item_b.element as usize);
         let ends = match kind_b {
-            Plane => line_segment_plane(segment, &body.planes[b]),
-            _ => line_segment_polyhedron(segment, &body.polyhedra[b]),
+            Plane => line_segment_plane(segment, &body.planes[b])
+                .map(|contact| contact.map(|contact| (contact, CandidateStatus::Front))),
+            _ => {
+                let polyhedron = &body.polyhedra[b];
+                line_segment_piece(segment, polyhedron).map(|found| {
+                    found.map(|(contact, at_wall)| (contact, status_of_end(&contact, at_wall, polyhedron)))
+                })
+            }
         };
-        for (end, contact) in ends.iter().enumerate() {
-            let Some(contact) = contact else { continue };
+        for (end, found_there) in ends.iter().enumerate() {
+            let Some((contact, status)) = found_there else { continue };
             self.emit(contact, found, |out| {
                 out.key.end = end as u32;
                 out.half = true;
+                out.status = *status;
             });
         }
     }
