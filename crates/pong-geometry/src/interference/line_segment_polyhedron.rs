@@ -19,10 +19,10 @@
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
 use super::Interference;
-use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, tip_at_wall};
+use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls};
 use super::segment_bounds::{Bounds, SegmentPlanes};
 use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
-use crate::primitive::{FacePlanes, LineSegment, Polyhedron};
+use crate::primitive::{Containment, FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
 
 /// The contact at each end: 0 towards the segment's first end, 1 towards its second.
@@ -256,8 +256,12 @@ impl Search<'_> {
         };
         match crossing.and_then(|crossing| Some((crossing, carrier(&crossing)?))) {
             Some((crossing, carrier)) => Some(((crossing, AtWall::SharedEdge), carrier)),
-            None => tip_at_wall(self.polyhedron, best.face, &self.segment.ends[end])
-                .map(|contact| ((contact, AtWall::StandsIn), end)),
+            // A tip that is at walls within rounding is asked for among all faces: along a wall, what is inside by rounding
+            // alone says nothing.
+            None if self.polyhedron.containment(&self.segment.ends[end]) != Containment::Outside => {
+                along_walls(self.segment, self.polyhedron)[end].map(|found| (found, end))
+            }
+            None => None,
         }
     }
 }

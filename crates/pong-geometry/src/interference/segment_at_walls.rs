@@ -3,10 +3,10 @@
 //! exceptions: a convex edge of the body in which the wall ends pushes, once for all pieces that have it, and a tip where
 //! several walls meet may lie in none of the pieces there.
 
+use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
-use super::{Feature, Interference};
 use crate::Vec3;
-use crate::primitive::{Containment, LineSegment, Polyhedron};
+use crate::primitive::{LineSegment, Polyhedron};
 
 /// The part of a segment inside a piece whose inner walls stand out by what is within rounding of them.
 pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
@@ -30,20 +30,6 @@ pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedro
     (ends[0].at < ends[1].at).then_some(ends)
 }
 
-/// The contact of a tip that lies beyond an inner wall, but so little that it is at it. It counts where rounding leaves the
-/// tip in no piece at all, which is decided for the whole body.
-#[cold]
-pub(super) fn tip_at_wall(polyhedron: &Polyhedron, face: usize, tip: &Vec3) -> Option<Interference> {
-    let depth = -polyhedron.height(face, tip);
-    let contact = Interference {
-        depth,
-        normal: polyhedron.faces[face].normal,
-        point_a: *tip,
-        feature: Feature::face(face),
-    };
-    (depth > 0.0 && polyhedron.containment(tip) != Containment::Outside).then_some(contact)
-}
-
 /// Which end carries the crossing of a convex edge in which an inner wall ends, as the whole body has it: where the segment
 /// leaves the body beyond that edge, and the face that it is measured for stores the less. `None` if neither does.
 ///
@@ -58,7 +44,10 @@ pub(super) fn end_that_crosses(
     let wedge = Wedge::of_edge(polyhedron, face, crossing.feature.index())?;
     let (beyond, before) = (&segment.ends[end], &segment.ends[1 - end]);
     let [leaves, enters] = [wedge.height(1, beyond) >= 0.0, wedge.height(0, before) >= 0.0];
-    let below = |plane: usize, tip: &Vec3| wedge.height(plane, tip).min(0.0).powi(2);
+    let below = |plane: usize, tip: &Vec3| {
+        let height = wedge.height(plane, tip).min(0.0);
+        height * height
+    };
     let crossed = crossing.depth * crossing.depth;
     let of_face =
         if enters { 0.0 } else { below(0, before) } + if leaves { crossed } else { below(0, beyond) };
