@@ -1,12 +1,12 @@
 //! Energy accounts.
 
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_pair_id};
 use crate::interfaces::too_small;
 use crate::names::{c_text, no_such};
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict};
 use std::ffi::c_char;
 

@@ -1,9 +1,9 @@
 //! Settings of a world.
 
+use crate::abi::PONG_ABI_VERSION;
 use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
-use crate::guard::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
-use crate::version::PONG_ABI_VERSION;
 use pong_engine::{Config, WorkerSettings, WrenchCoupling};
 use std::time::Duration;
 

@@ -1,10 +1,11 @@
 //! Saving and restoring the contact state.
 
-use crate::guard::{Failure, with_world};
+use crate::failure::Failure;
+use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::pong_pair_id;
 use crate::pointers::{Out, OutArray, array};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_engine::FrictionPreload;
 use pong_geometry::Vec3;
 use std::ffi::c_void;

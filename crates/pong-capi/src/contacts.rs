@@ -1,11 +1,11 @@
 //! Contacts of the last frame.
 
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id, pong_pair_id};
 use crate::interfaces::too_small;
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_engine::{Contact, ContactSide};
 
 /// `feature_kind` of a face, or of a surface as a whole.

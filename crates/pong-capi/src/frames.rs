@@ -1,24 +1,13 @@
 //! Frames: evaluate, commit, step.
 
-use crate::guard::{Outcome, with_world};
+use crate::failure::Outcome;
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::ids::pong_pair_id;
 use crate::pointers::array;
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
 use pong_record::Recorder;
 use std::time::Instant;
-
-/// What the C side counts.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counters {
-    /// Most contacts of a frame, fixed when the world is sealed.
-    pub contact_capacity: u64,
-    pub evaluations: u64,
-    pub commits: u64,
-    pub peak_contacts_wanted: u32,
-    pub evaluate_ns: u64,
-    pub commit_ns: u64,
-}
 
 /// Computes contacts and wrenches from the states and the committed contact state. Changes nothing that a later
 /// evaluate or commit can see: integrators call it any number of times, at times in any order. A frame that hit a

@@ -1,11 +1,12 @@
 //! Interfaces: where states go in and wrenches come out.
 
-use crate::guard::{Failure, with_world};
+use crate::failure::Failure;
+use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id};
 use crate::pointers::{Out, OutArray, apart, text};
 use crate::states::pong_state;
 use crate::status::pong_status;
-use crate::world::pong_world;
 use std::ffi::c_char;
 
 /// The Interface of a movable group: by its path in the model, "root/arm/latch"; by its bare name where only one
@@ -52,7 +53,7 @@ pub unsafe extern "C" fn pong_list_interfaces(
 }
 
 /// The refusal of a buffer that is too small, if it is.
-pub(crate) fn too_small(what: &str, capacity: usize, count: usize) -> crate::guard::Outcome {
+pub(crate) fn too_small(what: &str, capacity: usize, count: usize) -> crate::failure::Outcome {
     if count <= capacity {
         return Ok(());
     }

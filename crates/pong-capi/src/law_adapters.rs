@@ -1,7 +1,7 @@
 //! C functions as laws of the engine.
 
+use crate::failure::{Failure, Outcome};
 use crate::floating_point::lent;
-use crate::guard::{Failure, Outcome};
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input, pong_normal_law};
 use crate::status::pong_status;
 use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, NormalForce, NormalInput};

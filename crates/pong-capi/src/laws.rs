@@ -1,11 +1,12 @@
 //! Registration of force laws by callback.
 
-use crate::guard::{Failure, Outcome, setting_up};
+use crate::failure::{Failure, Outcome};
+use crate::guard::setting_up;
+use crate::handle::{Inner, pong_world};
 use crate::law_adapters::{FrictionCallback, NormalCallback, User};
 use crate::law_types::{pong_friction_law, pong_normal_law};
 use crate::pointers::text;
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
 use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 

@@ -13,7 +13,7 @@ use crate::status::pong_status;
 use crate::step_plan::{pong_mass, pong_step_check, pong_step_plan};
 use crate::surfaces::pong_surface_values;
 use crate::tally::pong_tally;
-use crate::workers::pong_worker;
+use crate::worker::pong_worker;
 use crate::wrenches::pong_wrench;
 use std::mem::offset_of;
 

@@ -30,15 +30,21 @@
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
 
+pub mod abi;
 pub mod accounts;
+mod advice;
 mod clock;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;
+mod counters;
 pub mod coupling;
+mod failure;
 mod floating_point;
 pub mod frames;
 mod guard;
+pub mod handle;
+mod host_data;
 pub mod ids;
 pub mod interfaces;
 mod law_adapters;
@@ -63,6 +69,7 @@ pub mod surfaces;
 pub mod tally;
 pub mod user_data;
 pub mod version;
+pub mod worker;
 pub mod workers;
 pub mod world;
 pub mod wrenches;

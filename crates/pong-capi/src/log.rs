@@ -1,10 +1,11 @@
 //! Response logs: what happened, frame by frame, written beside the frames.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::abi::PONG_ABI_VERSION;
+use crate::failure::{Failure, Outcome};
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
-use crate::version::PONG_ABI_VERSION;
-use crate::world::{Inner, pong_world};
 use pong_record::{LONGEST_WAIT, LogError, RecordOptions, RecordStatus, Recorder, WhenFull};
 use pong_threads::without_signals;
 use std::ffi::c_char;

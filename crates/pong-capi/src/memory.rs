@@ -4,7 +4,7 @@
 //! every call of set-up first asks the system for one block of all that the call can take, and gives it back. Another
 //! thread of the host's may take the memory between: that cannot be told.
 
-use crate::guard::Outcome;
+use crate::failure::Outcome;
 use pong_engine::require_memory;
 use std::ffi::OsStr;
 use std::path::Path;

@@ -1,13 +1,14 @@
 //! Models: from a file or from text.
 
-use crate::guard::Failure;
-use crate::guard::{Outcome, with_world};
+use crate::failure::Failure;
+use crate::failure::Outcome;
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::ids::pong_model_id;
 use crate::memory;
 use crate::names::no_such;
 use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
 use pong_model::Model;
 use pong_record::ModelSource;
 use std::ffi::c_char;

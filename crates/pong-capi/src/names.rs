@@ -1,6 +1,6 @@
 //! Names as C reads them, kept for the world's life.
 
-use crate::guard::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::ids::{pong_interface_id, pong_model_id, pong_object_id};
 use crate::status::pong_status;
 use pong_engine::{InterfaceId, ModelId, ObjectId};

@@ -1,11 +1,11 @@
 //! Objects: instances of models.
 
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::{pong_model_id, pong_object_id};
 use crate::memory::require_for_object;
 use crate::pointers::{Out, text};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use std::ffi::c_char;
 
 /// Creates an Object from a model, under a name of its own. Objects of one model are independent. Before sealing.

@@ -1,10 +1,11 @@
 //! Pairs of Objects that are tested.
 
-use crate::guard::{Failure, Outcome, setting_up, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{setting_up, with_world};
+use crate::handle::pong_world;
 use crate::ids::{pong_object_id, pong_pair_id};
 use crate::pointers::{Out, text};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use std::ffi::c_char;
 
 /// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against each

@@ -1,6 +1,6 @@
 //! Everything that C hands over by pointer, checked as far as that can be done.
 
-use crate::guard::{Failure, Outcome};
+use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
 use std::ffi::{CStr, c_char};
 use std::ops::Range;

@@ -1,11 +1,12 @@
 //! Primitives, as contacts name them: an Interface and an index.
 
-use crate::guard::{Failure, with_world};
+use crate::failure::Failure;
+use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::names::no_such;
 use crate::pointers::{Out, text};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use std::ffi::c_char;
 
 /// How many primitives a movable group has; a mesh is one.

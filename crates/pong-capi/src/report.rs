@@ -1,10 +1,10 @@
 //! Report and energies.
 
-use crate::frames::Counters;
+use crate::counters::Counters;
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_engine::{FrameReport, Stage, StageTimes, StatusBits, Work, WorkTimes};
 use std::ffi::{CStr, c_char};
 

@@ -1,10 +1,10 @@
 //! The end of set-up.
 
 use crate::guard::{setting_up, with_world};
+use crate::handle::pong_world;
 use crate::names::{c_text, no_such};
 use crate::pointers::Out;
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_advise::StepReport;
 use pong_model::printable;
 use std::ffi::c_char;

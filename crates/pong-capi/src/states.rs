@@ -1,10 +1,11 @@
 //! States in.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, array};
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
 use pong_engine::State;
 use pong_geometry::{Pose, Twist};
 

@@ -1,14 +1,13 @@
 //! What the step adviser is told before the seal: masses, and what the host does with the wrench.
 
 use crate::coupling::{PONG_COUPLING_SEMI_IMPLICIT, PONG_COUPLING_STAGES, PONG_COUPLING_ZERO_ORDER_HOLD};
-use crate::guard::{Failure, Outcome, setting_up, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{setting_up, with_world};
+use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
-use crate::world::pong_world;
-use pong_advise::{Accuracy, Coupling, GroupMass, StepPlan, StepReport};
-use pong_engine::{EngineError, InterfaceId, World};
-use std::collections::BTreeMap;
+use pong_advise::{Accuracy, Coupling, GroupMass, StepPlan};
 
 /// Mass properties of a movable group, for the step adviser alone: no frame reads them.
 #[repr(C)]
@@ -139,35 +138,6 @@ pub unsafe extern "C" fn pong_check_step(
             });
             Ok(())
         })
-    }
-}
-
-/// What the adviser was told before the seal.
-#[derive(Default)]
-pub(crate) struct Advice {
-    masses: BTreeMap<InterfaceId, GroupMass>,
-    pub plan: Option<StepPlan>,
-}
-
-impl Advice {
-    fn set_mass(
-        &mut self,
-        world: &World,
-        interface: InterfaceId,
-        mass: GroupMass,
-    ) -> Result<(), EngineError> {
-        mass.check(&world.interface_name(interface)?)?;
-        self.masses.insert(interface, mass);
-        Ok(())
-    }
-
-    fn masses(&self) -> Vec<(InterfaceId, GroupMass)> {
-        self.masses.iter().map(|(interface, mass)| (*interface, *mass)).collect()
-    }
-
-    /// What the planned step can hold in the sealed world; nothing without a plan.
-    pub fn report(&self, world: &World) -> Result<Option<StepReport>, EngineError> {
-        self.plan.as_ref().map(|plan| pong_advise::step_report(world, plan, &self.masses())).transpose()
     }
 }
 

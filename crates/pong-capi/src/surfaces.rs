@@ -1,11 +1,12 @@
 //! Surface values, changed between frames.
 
-use crate::guard::{Failure, Outcome, setting_up, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::{setting_up, with_world};
+use crate::handle::pong_world;
 use crate::ids::pong_model_id;
 use crate::names::no_such;
 use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
 use std::ffi::c_char;
 

@@ -1,10 +1,10 @@
 //! How often what was tested in the last frame, and what that found.
 
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::names::no_such;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use crate::world::pong_world;
 use pong_engine::{FrameCounts, Tally};
 use std::ffi::c_char;
 

@@ -1,19 +1,11 @@
 //! A number of the host's on Objects and primitives.
 
 use crate::guard::with_world;
+use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id};
 use crate::names::no_such;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use crate::world::pong_world;
-use std::collections::HashMap;
-
-/// What was set; everything else is 0.
-#[derive(Default)]
-pub(crate) struct UserData {
-    objects: HashMap<u64, u64>,
-    primitives: HashMap<(u64, u32), u64>,
-}
 
 /// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
 #[unsafe(no_mangle)]
@@ -88,8 +80,8 @@ pub unsafe extern "C" fn pong_get_primitive_user_data(
     }
 }
 
-impl crate::world::Inner {
-    fn check_primitive(&self, interface: pong_interface_id, primitive: u32) -> crate::guard::Outcome {
+impl crate::handle::Inner {
+    fn check_primitive(&self, interface: pong_interface_id, primitive: u32) -> crate::failure::Outcome {
         let count = self.names.primitives(interface)?.len();
         if (primitive as usize) < count {
             Ok(())

@@ -1,12 +1,11 @@
 //! Which library this is, and whether the header fits it.
 
-use crate::guard::{Failure, guarded};
+use crate::abi::PONG_ABI_VERSION;
+use crate::failure::Failure;
+use crate::guard::guarded;
 use crate::layout::layout_hash;
 use crate::status::pong_status;
 use std::ffi::c_char;
-
-/// Number of the binary interface: the N of libpong.so.N.
-pub const PONG_ABI_VERSION: u32 = 0;
 
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
 

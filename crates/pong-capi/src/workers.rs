@@ -1,14 +1,16 @@
 //! Workers: waking them, letting them sleep, what became of them and what they did.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::names::c_text;
 use crate::pointers::Out;
 use crate::report::by_work;
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
+use crate::worker::{Started, pong_worker};
 use pong_engine::{EngineError, LaneWork, WorkerStart};
 use pong_threads::Grant;
-use std::ffi::{CString, c_char};
+use std::ffi::c_char;
 use std::time::Duration;
 
 /// The configuration did not ask for it.
@@ -17,36 +19,6 @@ pub const PONG_GRANT_NOT_ASKED: u32 = 0;
 pub const PONG_GRANT_GRANTED: u32 = 1;
 /// It was asked for and refused; pong_worker_text() tells why.
 pub const PONG_GRANT_REFUSED: u32 = 2;
-
-/// What became of a worker, and what it did last.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct pong_worker {
-    /// 0 is the calling thread, 1 the first worker.
-    pub index: u32,
-    /// Whether it is bound to a core: PONG_GRANT_...
-    pub core_grant: u32,
-    /// The core that was asked for; 0 if none was.
-    pub core: u32,
-    /// Whether it runs under SCHED_FIFO as asked: PONG_GRANT_...
-    pub fifo_grant: u32,
-    /// The priority that was asked for; 0 if none was.
-    pub fifo_priority: u32,
-    /// Blocks of work that it did in the last round of work that was shared out. A frame with too little work to share
-    /// has none, and the number stays that of an earlier frame.
-    pub blocks: u32,
-    /// With report_times: time in them, ns; else 0.
-    pub busy_ns: u64,
-    /// With report_times: where the time of the last frame's contacts went on this thread, ns, at PONG_WORK_...; else 0. All
-    /// rounds of the frame together; of the calling thread also what it did by itself.
-    pub work_ns: [u64; 4],
-}
-
-/// Workers as they were started: what does not change.
-pub(crate) struct Started {
-    asked: pong_worker,
-    text: CString,
-}
 
 /// Wakes the workers shortly before a frame (some 100 us): they look for its work until it comes or `at_most_us` has
 /// passed. For hosts whose frames are further apart than the workers' spin_us. Does nothing without workers.

@@ -1,10 +1,11 @@
 //! Wrenches out.
 
-use crate::guard::{Failure, Outcome, with_world};
+use crate::failure::{Failure, Outcome};
+use crate::guard::with_world;
+use crate::handle::{Inner, pong_world};
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, OutArray, apart, array};
 use crate::status::pong_status;
-use crate::world::{Inner, pong_world};
 
 /// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
 pub type pong_reference_frame = i32;

@@ -175,15 +175,15 @@ fn place(volume: &Volume) -> usize {
 #[repr(usize)]
 pub enum Stage {
     /// States in, relative motion.
-    Relative = 0,
-    /// Bounding volumes, testers, sharing and forces, by all hands.
+    Input = 0,
+    /// Bounding volumes, contact testers, load sharing and forces, by all threads.
     Contacts = 1,
     /// The order of every sum; limits.
     Order = 2,
     /// Energies, if they are kept.
-    Ledger = 3,
+    Energy = 3,
     /// Wrenches.
-    Reduce = 4,
+    Output = 4,
     /// Contact state, when a frame is committed.
     Commit = 5,
 }
@@ -191,46 +191,46 @@ pub enum Stage {
 impl Stage {
     /// All stages in order.
     pub const ALL: [Self; 6] =
-        [Self::Relative, Self::Contacts, Self::Order, Self::Ledger, Self::Reduce, Self::Commit];
+        [Self::Input, Self::Contacts, Self::Order, Self::Energy, Self::Output, Self::Commit];
 
     /// A name for reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Relative => "relative",
+            Self::Input => "input",
             Self::Contacts => "contacts",
             Self::Order => "order",
-            Self::Ledger => "ledger",
-            Self::Reduce => "reduce",
+            Self::Energy => "energy",
+            Self::Output => "output",
             Self::Commit => "commit",
         }
     }
 }
 
-/// A part of the work of [`Stage::Contacts`], which all hands share. The engine asks the clock between groups of 64
+/// A part of the work of [`Stage::Contacts`], which all threads share. The engine asks the clock between groups of 64
 /// elements, not between tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(usize)]
 pub enum Work {
     /// Laying out the work, bounding volumes, boxes.
-    Bounding = 0,
+    BroadPhase = 0,
     /// Contact tests.
-    Testers = 1,
+    NarrowPhase = 1,
     /// Which contacts count, and their weights.
-    Sharing = 2,
+    LoadSharing = 2,
     /// Normal and friction forces.
     Forces = 3,
 }
 
 impl Work {
     /// All parts in order.
-    pub const ALL: [Self; 4] = [Self::Bounding, Self::Testers, Self::Sharing, Self::Forces];
+    pub const ALL: [Self; 4] = [Self::BroadPhase, Self::NarrowPhase, Self::LoadSharing, Self::Forces];
 
     /// A name for reports.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Bounding => "bounding",
-            Self::Testers => "testers",
-            Self::Sharing => "sharing",
+            Self::BroadPhase => "broad phase",
+            Self::NarrowPhase => "narrow phase",
+            Self::LoadSharing => "load sharing",
             Self::Forces => "forces",
         }
     }

@@ -5,14 +5,16 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 26] = [
+const FILES: [&str; 29] = [
     "status",
+    "abi",
     "version",
     "coupling",
     "config",
     "ids",
     "states",
     "wrenches",
+    "handle",
     "world",
     "law_types",
     "laws",
@@ -28,6 +30,7 @@ const FILES: [&str; 26] = [
     "report",
     "accounts",
     "tally",
+    "worker",
     "workers",
     "contact_state",
     "surfaces",

@@ -86,7 +86,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
             let alone = near & lone_chunk(batch_a, group);
             let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
             let near = if whole { candidates.chunks() | alone } else { near };
-            laps.lap(Work::Bounding, &mut out.times);
+            laps.lap(Work::BroadPhase, &mut out.times);
             for lane in lanes(near) {
                 let alone = alone >> lane & 1 == 1;
                 let traversal = (alone || !whole).then(|| Traversal::new(lane, alone));
@@ -116,14 +116,14 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                         scratch,
                     );
                     out.demand.unshared |= shared.is_err();
-                    laps.lap(Work::Sharing, &mut out.times);
+                    laps.lap(Work::LoadSharing, &mut out.times);
                     forces::compute_forces(&context, sealed, &found.list, law_state, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }
             }
         }
-        laps.lap(Work::Bounding, &mut out.times);
+        laps.lap(Work::BroadPhase, &mut out.times);
     }
 }
 
@@ -173,7 +173,7 @@ fn test_chunk<S: Simd, L: Laps>(
         let mut through = true;
         if let Some(traversal) = &mut traversal {
             through = candidates.go_on(simd, traversal, reach, &chunk, counts);
-            watch.laps.lap(Work::Bounding, watch.times);
+            watch.laps.lap(Work::BroadPhase, watch.times);
         }
         for number in candidates.of(of_a.lane) {
             let candidate = candidates.pair(number);
@@ -191,7 +191,7 @@ fn test_chunk<S: Simd, L: Laps>(
         if found.waits() {
             test_waiting(context, &chunk, found, counts);
         }
-        watch.laps.lap(Work::Testers, watch.times);
+        watch.laps.lap(Work::NarrowPhase, watch.times);
         if through {
             return;
         }

@@ -44,16 +44,16 @@ pub(crate) fn evaluate(
     let mut watch = clock.start();
     states::latch(sealed, states, frame);
     relative::relate(given, frame);
-    watch.lap(Stage::Relative, &mut frame.times);
+    watch.lap(Stage::Input, &mut frame.times);
     find_contacts(given, pool, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(scene, sealed, frame);
     tunnelling::watch(given, frame);
     watch.lap(Stage::Order, &mut frame.times);
     energy::balance(scene, sealed, memory, frame);
-    watch.lap(Stage::Ledger, &mut frame.times);
+    watch.lap(Stage::Energy, &mut frame.times);
     reduce::sum(sealed, frame);
-    watch.lap(Stage::Reduce, &mut frame.times);
+    watch.lap(Stage::Output, &mut frame.times);
 }
 
 /// Bounding, testers, sharing and forces: block by block, by all workers or by the caller alone.
@@ -71,7 +71,7 @@ fn find_contacts(
     // What is between the rounds is the caller's.
     let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
     blocks::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
-        laps.lap_work(Work::Bounding, &mut layout);
+        laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
         let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller));
         if !shared {
@@ -81,7 +81,7 @@ fn find_contacts(
         }
         laps = clock.start();
     });
-    laps.lap_work(Work::Bounding, &mut layout);
+    laps.lap_work(Work::BroadPhase, &mut layout);
     caller.out.times.add(&layout);
     counts.add(&caller.out.counts);
     times.work = caller.out.times;

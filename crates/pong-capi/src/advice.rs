@@ -1,0 +1,34 @@
+//! What the step adviser was told before the seal.
+
+use pong_advise::{GroupMass, StepPlan, StepReport};
+use pong_engine::{EngineError, InterfaceId, World};
+use std::collections::BTreeMap;
+
+/// What the adviser was told before the seal.
+#[derive(Default)]
+pub(crate) struct Advice {
+    masses: BTreeMap<InterfaceId, GroupMass>,
+    pub plan: Option<StepPlan>,
+}
+
+impl Advice {
+    pub fn set_mass(
+        &mut self,
+        world: &World,
+        interface: InterfaceId,
+        mass: GroupMass,
+    ) -> Result<(), EngineError> {
+        mass.check(&world.interface_name(interface)?)?;
+        self.masses.insert(interface, mass);
+        Ok(())
+    }
+
+    pub fn masses(&self) -> Vec<(InterfaceId, GroupMass)> {
+        self.masses.iter().map(|(interface, mass)| (*interface, *mass)).collect()
+    }
+
+    /// What the planned step can hold in the sealed world; nothing without a plan.
+    pub fn report(&self, world: &World) -> Result<Option<StepReport>, EngineError> {
+        self.plan.as_ref().map(|plan| pong_advise::step_report(world, plan, &self.masses())).transpose()
+    }
+}

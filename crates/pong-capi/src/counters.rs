@@ -1,0 +1,13 @@
+//! What the C side counts and times.
+
+/// What the C side counts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counters {
+    /// Most contacts of a frame, fixed when the world is sealed.
+    pub contact_capacity: u64,
+    pub evaluations: u64,
+    pub commits: u64,
+    pub peak_contacts_wanted: u32,
+    pub evaluate_ns: u64,
+    pub commit_ns: u64,
+}

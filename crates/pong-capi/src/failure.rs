@@ -1,0 +1,57 @@
+//! Why a call failed, and which status tells it.
+
+use crate::status::pong_status;
+use pong_engine::EngineError;
+use pong_model::ModelErrors;
+
+/// Why a call failed.
+#[derive(Debug)]
+pub(crate) struct Failure {
+    pub status: pong_status,
+    pub why: Why,
+}
+
+/// What the message will say.
+#[derive(Debug)]
+pub(crate) enum Why {
+    Text(String),
+    /// To be worded in memory that is there already: that of set-up has none.
+    Error(EngineError),
+}
+
+pub(crate) type Outcome<T = ()> = Result<T, Failure>;
+
+impl Failure {
+    pub fn new(status: pong_status, message: impl Into<String>) -> Self {
+        Self { status, why: Why::Text(message.into()) }
+    }
+}
+
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
+        let status = match &error {
+            EngineError::UnknownId { .. } => pong_status::UnknownId,
+            EngineError::UnknownName { .. } => pong_status::UnknownName,
+            EngineError::Duplicate { .. } => pong_status::Duplicate,
+            EngineError::WrongPhase { .. } => pong_status::WrongPhase,
+            EngineError::Seal { .. } => pong_status::SealFailed,
+            EngineError::BadState { .. } => pong_status::BadState,
+            EngineError::NotFinite { .. } => pong_status::BadState,
+            EngineError::UnsetState { .. } => pong_status::UnsetState,
+            EngineError::BadValue { .. } => pong_status::BadValue,
+            EngineError::State(_) => pong_status::BadStateBlock,
+            EngineError::Workers { .. } => pong_status::SealFailed,
+            EngineError::OutOfMemory { .. } => pong_status::OutOfMemory,
+        };
+        match error {
+            EngineError::OutOfMemory { .. } => Self { status, why: Why::Error(error) },
+            _ => Self::new(status, error.to_string()),
+        }
+    }
+}
+
+impl From<ModelErrors> for Failure {
+    fn from(errors: ModelErrors) -> Self {
+        Self::new(pong_status::ModelError, errors.to_string())
+    }
+}
