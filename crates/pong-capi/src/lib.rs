@@ -30,7 +30,7 @@
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
 
-pub mod abi;
+mod abi;
 pub mod accounts;
 mod advice;
 mod clock;
@@ -43,7 +43,7 @@ mod failure;
 mod floating_point;
 pub mod frames;
 mod guard;
-pub mod handle;
+mod handle;
 mod host_data;
 pub mod ids;
 pub mod interfaces;
@@ -69,7 +69,7 @@ pub mod surfaces;
 pub mod tally;
 pub mod user_data;
 pub mod version;
-pub mod worker;
+mod worker;
 pub mod workers;
 pub mod world;
 pub mod wrenches;

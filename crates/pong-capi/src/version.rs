@@ -1,6 +1,6 @@
 //! Which library this is, and whether the header fits it.
 
-use crate::abi::PONG_ABI_VERSION;
+pub use crate::abi::PONG_ABI_VERSION;
 use crate::failure::Failure;
 use crate::guard::guarded;
 use crate::layout::layout_hash;
