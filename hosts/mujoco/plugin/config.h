@@ -1,0 +1,45 @@
+/* The configuration of an instance, as its <config> elements give it. docs/mujoco.md describes every key. */
+#ifndef PONG_CONTACT_CONFIG_H
+#define PONG_CONTACT_CONFIG_H
+
+#include "message.h"
+
+#include <mujoco/mujoco.h>
+#include <stdint.h>
+
+/* Two texts: `first = second` or `first, second`. */
+typedef struct entry {
+    const char *first, *second;
+} entry;
+
+typedef struct entry_list {
+    char *text; /* what the entries point into */
+    entry *entries;
+    size_t count;
+} entry_list;
+
+enum { TEXT_COUNT = 4 };
+
+typedef struct contact_config {
+    entry_list objects; /* Object, model */
+    entry_list pairs;   /* Object, Object */
+    entry_list bodies;  /* movable group, MuJoCo body */
+    const char *folder, *prefix;
+    const char *texts[TEXT_COUNT]; /* models written into the MJCF; "" if there is none */
+    uint64_t capacity;
+    int checks_step;
+} contact_config;
+
+extern const char *const contact_attributes[];
+extern const int contact_attribute_count;
+
+/* Reads the configuration of an instance. The texts that are not entries stay the model's. Answers 1, or 0 with a message;
+ * call close_config() in either case. */
+int read_config(contact_config *config, const mjModel *m, int instance, message *why);
+
+void close_config(contact_config *config);
+
+/* The model text that `model` names (text1 to text4), or NULL if it names a file. */
+const char *inline_text(const contact_config *config, const char *model);
+
+#endif

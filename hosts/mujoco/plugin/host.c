@@ -1,0 +1,153 @@
+#include "host.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- making and deleting */
+
+static void close_host(contact_host *host)
+{
+    free(host->states);
+    free(host->wrenches);
+    free(host->bytes);
+    free(host->no_past);
+    free(host->contacts);
+    close_world(&host->at);
+    free(host);
+}
+
+/* Sleeping bodies are neither moved nor woken by forces of a plugin. */
+static int refuse_sleep(const contact_world *w, const mjModel *m, message *why)
+{
+    size_t i;
+    if (!(m->opt.enableflags & mjENBL_SLEEP))
+        return 1;
+    for (i = 0; i < w->group_count; i++) {
+        int tree = m->body_treeid[w->bodies[i]];
+        int policy = tree >= 0 ? m->tree_sleep_policy[tree] : mjSLEEP_NEVER;
+        if (policy != mjSLEEP_NEVER && policy != mjSLEEP_AUTO_NEVER)
+            return fail(why, "sleep is enabled and the body `%s` may fall asleep: contact would neither move nor wake it; write "
+                             "sleep=\"never\" on the body at the root of its tree, or disable sleep",
+                        mj_id2name(m, mjOBJ_BODY, w->bodies[i]));
+    }
+    return 1;
+}
+
+static int build_world(contact_world *w, const mjModel *m, int instance, message *why)
+{
+    contact_config config;
+    int done = read_config(&config, m, instance, why) && open_world(w, &config, why) && bind_bodies(w, &config, m, why) &&
+               refuse_double_pairs(&config, m, instance, why) && refuse_sleep(w, m, why) &&
+               (!config.checks_step || plan_step(w, m, why)) && seal_world(w, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
+    close_config(&config);
+    return done;
+}
+
+/* The memory that steps need, and the contact state without a past. */
+static int take_memory(contact_host *host, message *why)
+{
+    const size_t groups = host->at.group_count, room = host->at.state_size + sizeof(uint32_t);
+    host->states = malloc(groups * sizeof *host->states);
+    host->wrenches = malloc(groups * sizeof *host->wrenches);
+    host->bytes = malloc(room);
+    if (host->states == NULL || host->wrenches == NULL || host->bytes == NULL)
+        return fail(why, "no memory for %u bytes of contact state", (unsigned)room);
+    if (pong_contact_state_used(host->at.world, &host->no_past_size) != PONG_STATUS_OK)
+        return fail_by_library(why, "contact state");
+    host->no_past = malloc(host->no_past_size);
+    if (host->no_past == NULL)
+        return fail(why, "no memory for %u bytes of contact state", (unsigned)host->no_past_size);
+    if (pong_save_contact_state(host->at.world, host->no_past, host->no_past_size) != PONG_STATUS_OK)
+        return fail_by_library(why, "contact state");
+    return 1;
+}
+
+int measure_instance(const mjModel *m, int instance, int *state_numbers, int *groups)
+{
+    contact_config config;
+    contact_world w;
+    message ignored;
+    int done;
+    memset(&w, 0, sizeof w);
+    done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && seal_world(&w, NULL, &ignored);
+    *groups = (int)w.group_count;
+    *state_numbers = done ? state_length(w.group_count, w.state_size) : 0;
+    close_world(&w);
+    close_config(&config);
+    return done;
+}
+
+/* ---- the table of all worlds of the process */
+
+enum { BUCKETS = 256 };
+static contact_host *buckets[BUCKETS];
+static pthread_rwlock_t lock = PTHREAD_RWLOCK_INITIALIZER;
+
+static contact_host **bucket_of(const mjData *d, int instance)
+{
+    uintptr_t bits = (uintptr_t)d / 64 + (uintptr_t)instance;
+    return &buckets[(bits ^ bits >> 8 ^ bits >> 16) % BUCKETS];
+}
+
+static contact_host *look_up(const mjData *d, int instance)
+{
+    contact_host *host;
+    pthread_rwlock_rdlock(&lock);
+    for (host = *bucket_of(d, instance); host != NULL; host = host->next)
+        if (host->data == d && host->instance == instance)
+            break;
+    pthread_rwlock_unlock(&lock);
+    return host;
+}
+
+static contact_host *take_out(const mjData *d, int instance)
+{
+    contact_host **place, *host;
+    pthread_rwlock_wrlock(&lock);
+    for (place = bucket_of(d, instance); (host = *place) != NULL; place = &host->next)
+        if (host->data == d && host->instance == instance) {
+            *place = host->next;
+            break;
+        }
+    pthread_rwlock_unlock(&lock);
+    return host;
+}
+
+contact_host *make_host(const mjModel *m, const mjData *d, int instance)
+{
+    message why;
+    contact_host **place, *host = calloc(1, sizeof *host);
+    delete_host(d, instance);
+    if (host == NULL) {
+        warn(mj_id2name(m, mjOBJ_PLUGIN, instance), "no memory");
+        return NULL;
+    }
+    if (!build_world(&host->at, m, instance, &why) || !take_memory(host, &why)) {
+        warn(mj_id2name(m, mjOBJ_PLUGIN, instance), why.text);
+        close_host(host);
+        return NULL;
+    }
+    host->has_key = 1;
+    host->data = d;
+    host->instance = instance;
+    pthread_rwlock_wrlock(&lock);
+    place = bucket_of(d, instance);
+    host->next = *place;
+    *place = host;
+    pthread_rwlock_unlock(&lock);
+    return host;
+}
+
+contact_host *find_host(const mjModel *m, const mjData *d, int instance)
+{
+    contact_host *host = look_up(d, instance);
+    return host != NULL ? host : make_host(m, d, instance);
+}
+
+void delete_host(const mjData *d, int instance)
+{
+    contact_host *host = take_out(d, instance);
+    if (host != NULL)
+        close_host(host);
+}

@@ -1,0 +1,46 @@
+/* One contact world for each mjData and instance. */
+#ifndef PONG_CONTACT_HOST_H
+#define PONG_CONTACT_HOST_H
+
+#include "setup.h"
+#include "state.h"
+
+typedef struct contact_host {
+    const mjData *data;
+    int instance;
+    struct contact_host *next;
+
+    contact_world at;
+    pong_state *states;
+    unsigned char *bytes;         /* of one contact state */
+    unsigned char *no_past;       /* the contact state of a world that has just been sealed */
+    size_t no_past_size;
+    pong_contact *contacts;       /* of a picture */
+    size_t contact_capacity;
+
+    int has_key;                  /* 0 while nobody knows what the world holds */
+    uint64_t key;                 /* of the contact state that the world holds now */
+
+    /* What was computed last: for this key and these states. */
+    int has_result;
+    uint64_t result_key, result_seen;
+    pong_wrench *wrenches;
+    uint32_t contact_count, flags;
+    int status;                   /* PONG_STATUS_... of the last evaluation or commit */
+
+    int warned_limit, warned_tunnelling, warned_failure; /* in this run */
+} contact_host;
+
+/* Builds the world of an instance for an mjData, in place of one that is there. Answers NULL after a warning. */
+contact_host *make_host(const mjModel *m, const mjData *d, int instance);
+
+/* The world of an instance for an mjData; made if there is none yet. It is looked up by the address of the mjData, never by
+ * mjData.plugin_data: unpickling overwrites that with a pointer of another mjData or of another process. */
+contact_host *find_host(const mjModel *m, const mjData *d, int instance);
+
+void delete_host(const mjData *d, int instance);
+
+/* Numbers of the state and movable groups of an instance. Answers 0 if it cannot be built; making the mjData tells why. */
+int measure_instance(const mjModel *m, int instance, int *state_numbers, int *groups);
+
+#endif

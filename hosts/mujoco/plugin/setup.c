@@ -1,0 +1,326 @@
+#include "setup.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- models, Objects, pairs */
+
+static int load_model(contact_world *w, const contact_config *config, const char *model, pong_model_id *id, message *why)
+{
+    char path[1024], working_folder[1024];
+    const char *text = inline_text(config, model);
+    pong_status status;
+    if (text != NULL) {
+        if (*text == '\0')
+            return fail(why, "the key `objects` names the model `%s`, but the key `%s` is missing or empty", model, model);
+        status = pong_load_model_text(w->world, text, strlen(text), model, *config->folder != '\0' ? config->folder : NULL, id);
+    } else {
+        const char *slash = *config->folder != '\0' ? "/" : "";
+        const char *folder = *model == '/' ? "" : config->folder;
+        if (snprintf(path, sizeof path, "%s%s%s", folder, *model == '/' ? "" : slash, model) >= (int)sizeof path)
+            return fail(why, "the path of the model `%s` is longer than %u characters", model, (unsigned)sizeof path);
+        status = pong_load_model(w->world, path, id);
+    }
+    if (status == PONG_STATUS_OK)
+        return 1;
+    if (text == NULL && path[0] != '/' && getcwd(working_folder, sizeof working_folder) != NULL)
+        return fail(why, "%s (seen from the working folder `%s`; give the key `dir` as an absolute path)", pong_last_message(),
+                    working_folder);
+    return fail(why, "%s", pong_last_message());
+}
+
+static int add_groups(contact_world *w, const char *object_name, pong_object_id object, message *why)
+{
+    size_t count = 0, i, total;
+    void *interfaces, *names;
+    pong_list_interfaces(w->world, object, NULL, 0, &count);
+    total = w->group_count + count;
+    if ((interfaces = realloc(w->interfaces, total * sizeof *w->interfaces)) != NULL)
+        w->interfaces = interfaces;
+    if ((names = realloc(w->names, total * sizeof *w->names)) != NULL)
+        w->names = names;
+    if (interfaces == NULL || names == NULL)
+        return fail(why, "no memory for the movable groups of `%s`", object_name);
+    if (pong_list_interfaces(w->world, object, w->interfaces + w->group_count, count, &count) != PONG_STATUS_OK)
+        return fail_by_library(why, object_name);
+    for (i = 0; i < count; i++) {
+        const char *path = "", *below;
+        size_t length;
+        char *name;
+        pong_interface_path(w->world, w->interfaces[w->group_count], &path);
+        /* The root has the name of the Object, as in the tables of `pong run`. */
+        below = strchr(path, '/');
+        length = strlen(object_name) + (below != NULL ? strlen(below) : 0) + 1;
+        name = malloc(length);
+        if (name == NULL)
+            return fail(why, "no memory for the movable groups of `%s`", object_name);
+        snprintf(name, length, "%s%s", object_name, below != NULL ? below : "");
+        w->names[w->group_count++] = name;
+    }
+    return 1;
+}
+
+static int add_objects(contact_world *w, const contact_config *config, message *why)
+{
+    pong_model_id *models = malloc(config->objects.count * sizeof *models);
+    size_t i, earlier;
+    int done = models != NULL ? 1 : fail(why, "no memory for the models");
+    for (i = 0; i < config->objects.count && done; i++) {
+        const entry *object = &config->objects.entries[i];
+        pong_object_id id;
+        /* A model that several Objects have is loaded once. */
+        for (earlier = 0; earlier < i; earlier++)
+            if (strcmp(config->objects.entries[earlier].second, object->second) == 0)
+                break;
+        if (earlier < i)
+            models[i] = models[earlier];
+        else
+            done = load_model(w, config, object->second, &models[i], why);
+        if (done && pong_create_object(w->world, models[i], object->first, &id) != PONG_STATUS_OK)
+            done = fail_by_library(why, "key `objects`");
+        done = done && add_groups(w, object->first, id, why);
+    }
+    free(models);
+    return done;
+}
+
+/* The pairs that are given; of two Objects alone, those two. */
+static size_t pair_count(const contact_config *config) { return config->pairs.count > 0 ? config->pairs.count : 1; }
+
+static entry pair_at(const contact_config *config, size_t index)
+{
+    entry both;
+    if (config->pairs.count > 0)
+        return config->pairs.entries[index];
+    both.first = config->objects.entries[0].first;
+    both.second = config->objects.entries[1].first;
+    return both;
+}
+
+int open_world(contact_world *w, const contact_config *config, message *why)
+{
+    pong_config settings = pong_default_config();
+    size_t i;
+    memset(w, 0, sizeof *w);
+    settings.contact_capacity = config->capacity;
+    if (pong_create_world(&settings, &w->world) != PONG_STATUS_OK)
+        return fail_by_library(why, "creating the world");
+    if (!add_objects(w, config, why))
+        return 0;
+    for (i = 0; i < pair_count(config); i++) {
+        entry both = pair_at(config, i);
+        if (pong_pair_by_name(w->world, both.first, both.second, NULL) != PONG_STATUS_OK)
+            return fail_by_library(why, "key `pairs`");
+    }
+    w->bodies = malloc(w->group_count * sizeof *w->bodies);
+    if (w->bodies == NULL)
+        return fail(why, "no memory for the movable groups");
+    for (i = 0; i < w->group_count; i++)
+        w->bodies[i] = -1;
+    return 1;
+}
+
+/* ---- bodies */
+
+/* The MuJoCo body of a name of this plugin, or -1. `full` gets the name that was looked for. */
+static int find_body(const contact_config *config, const mjModel *m, const char *name, char *full, size_t size)
+{
+    if (strcmp(name, "world") == 0) {
+        snprintf(full, size, "world");
+        return 0;
+    }
+    snprintf(full, size, "%s%s", config->prefix, name);
+    return mj_name2id(m, mjOBJ_BODY, full);
+}
+
+static const char *body_name_of(const contact_config *config, const char *group)
+{
+    size_t i;
+    for (i = 0; i < config->bodies.count; i++)
+        if (strcmp(config->bodies.entries[i].first, group) == 0)
+            return config->bodies.entries[i].second;
+    return group;
+}
+
+/* Writes the names of the movable groups, as many as fit. */
+static const char *list_names(const contact_world *w, char *text, size_t size)
+{
+    size_t i, at = 0;
+    text[0] = '\0';
+    for (i = 0; i < w->group_count && at + 1 < size; i++)
+        at += (size_t)snprintf(text + at, size - at, "%s`%s`", i > 0 ? ", " : "", w->names[i]);
+    return text;
+}
+
+int bind_bodies(contact_world *w, const contact_config *config, const mjModel *m, message *why)
+{
+    char full[512], known[300];
+    size_t i, k;
+    for (i = 0; i < config->bodies.count; i++) {
+        for (k = 0; k < w->group_count; k++)
+            if (strcmp(w->names[k], config->bodies.entries[i].first) == 0)
+                break;
+        if (k == w->group_count)
+            return fail(why, "key `bodies`: there is no movable group `%s`; there are %s", config->bodies.entries[i].first,
+                        list_names(w, known, sizeof known));
+        for (k = 0; k < i; k++)
+            if (strcmp(config->bodies.entries[k].first, config->bodies.entries[i].first) == 0)
+                return fail(why, "key `bodies`: `%s` is there twice; leave one out", config->bodies.entries[i].first);
+    }
+    for (i = 0; i < w->group_count; i++) {
+        const char *name = body_name_of(config, w->names[i]);
+        w->bodies[i] = find_body(config, m, name, full, sizeof full);
+        if (w->bodies[i] < 0)
+            return fail(why, "the movable group `%s` belongs to the MuJoCo body `%s`, which is not in the model; give a body this "
+                             "name, or write `%s = BODY` in the key `bodies`%s",
+                        w->names[i], full, w->names[i],
+                        *config->prefix != '\0' ? " (the key `prefix` is put before the name)" : "");
+    }
+    return 1;
+}
+
+/* A pair as it must not be there twice: bodies of the roots and models. */
+typedef struct pair_signature {
+    int bodies[2];
+    const char *models[2];
+} pair_signature;
+
+static void sign_pair(pair_signature *signature, const contact_config *config, const mjModel *m, entry both)
+{
+    const char *names[2];
+    char full[512];
+    int side;
+    size_t i;
+    names[0] = both.first, names[1] = both.second;
+    for (side = 0; side < 2; side++) {
+        signature->bodies[side] = find_body(config, m, body_name_of(config, names[side]), full, sizeof full);
+        signature->models[side] = "";
+        for (i = 0; i < config->objects.count; i++)
+            if (strcmp(config->objects.entries[i].first, names[side]) == 0)
+                signature->models[side] = config->objects.entries[i].second;
+        if (inline_text(config, signature->models[side]) != NULL)
+            signature->models[side] = inline_text(config, signature->models[side]);
+    }
+}
+
+static int same_pair(const pair_signature *p, const pair_signature *q)
+{
+    int swapped;
+    for (swapped = 0; swapped < 2; swapped++)
+        if (p->bodies[0] == q->bodies[swapped] && p->bodies[1] == q->bodies[1 - swapped] &&
+            strcmp(p->models[0], q->models[swapped]) == 0 && strcmp(p->models[1], q->models[1 - swapped]) == 0)
+            return 1;
+    return 0;
+}
+
+static int refuse_double(const contact_config *mine, const contact_config *other, const char *other_name, int is_same_instance,
+                         const mjModel *m, message *why)
+{
+    size_t i, k;
+    for (i = 0; i < pair_count(mine); i++)
+        for (k = 0; k < (is_same_instance ? i : pair_count(other)); k++) {
+            pair_signature p, q;
+            sign_pair(&p, mine, m, pair_at(mine, i));
+            sign_pair(&q, other, m, pair_at(other, k));
+            if (same_pair(&p, &q))
+                return fail(why, "the pair `%s, %s` is the pair `%s, %s` of the instance `%s`: the same bodies with the same "
+                                 "models, so the contact force would act twice; leave one of the two out",
+                            pair_at(mine, i).first, pair_at(mine, i).second, pair_at(other, k).first, pair_at(other, k).second,
+                            other_name != NULL ? other_name : "");
+        }
+    return 1;
+}
+
+int refuse_double_pairs(const contact_config *config, const mjModel *m, int instance, message *why)
+{
+    int other, done = refuse_double(config, config, mj_id2name(m, mjOBJ_PLUGIN, instance), 1, m, why);
+    for (other = 0; other < instance && done; other++) {
+        contact_config theirs;
+        message ignored;
+        if (m->plugin[other] != m->plugin[instance])
+            continue;
+        if (read_config(&theirs, m, other, &ignored))
+            done = refuse_double(config, &theirs, mj_id2name(m, mjOBJ_PLUGIN, other), 0, m, why);
+        close_config(&theirs);
+    }
+    return done;
+}
+
+/* ---- step, seal */
+
+/* The mass that a body moves by itself. Bodies welded to it add theirs; then the inertia is left out, and lever arms with it. */
+static pong_mass mass_of(const mjModel *m, int body)
+{
+    pong_mass mass;
+    int other, welded = 0;
+    memset(&mass, 0, sizeof mass);
+    if (m->body_weldid[body] == 0) {
+        mass.mass = INFINITY;
+        return mass;
+    }
+    for (other = 1; other < m->nbody; other++)
+        if (m->body_weldid[other] == m->body_weldid[body]) {
+            mass.mass += m->body_mass[other];
+            welded++;
+        }
+    if (welded == 1) {
+        mjtNum axes[9];
+        const mjtNum *principal = m->body_inertia + 3 * body;
+        static const int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
+        int i, k;
+        mju_quat2Mat(axes, m->body_iquat + 4 * body);
+        for (i = 0; i < 6; i++)
+            for (k = 0; k < 3; k++)
+                mass.inertia[i] += axes[3 * rows[i] + k] * principal[k] * axes[3 * columns[i] + k];
+        mju_copy3(mass.mass_center, m->body_ipos + 3 * body);
+    }
+    return mass;
+}
+
+int plan_step(contact_world *w, const mjModel *m, message *why)
+{
+    pong_step_plan plan = pong_default_step_plan();
+    size_t i;
+    plan.step = m->opt.timestep;
+    plan.wrench_coupling = m->opt.integrator == mjINT_RK4 ? PONG_COUPLING_STAGES : PONG_COUPLING_SEMI_IMPLICIT;
+    /* Warn of contacts that gain energy alone; accuracy is the business of `pong advise`. */
+    plan.depth_within = plan.rebound_within = 0;
+    for (i = 0; i < w->group_count; i++) {
+        pong_mass mass = mass_of(m, w->bodies[i]);
+        if (pong_set_mass(w->world, w->interfaces[i], &mass) != PONG_STATUS_OK)
+            return fail_by_library(why, w->names[i]);
+    }
+    if (pong_plan_step(w->world, &plan) != PONG_STATUS_OK)
+        return fail_by_library(why, "option timestep");
+    return 1;
+}
+
+int seal_world(contact_world *w, const char *instance_name, message *why)
+{
+    pong_seal_report report;
+    size_t i;
+    if (pong_seal(w->world, &report) != PONG_STATUS_OK)
+        return fail(why, "%s", pong_last_message());
+    w->state_size = (size_t)report.contact_state_size;
+    for (i = 0; i < report.warning_count && instance_name != NULL; i++) {
+        const char *text;
+        if (pong_seal_warning(w->world, i, &text) == PONG_STATUS_OK)
+            warn_once(instance_name, text);
+    }
+    return 1;
+}
+
+void close_world(contact_world *w)
+{
+    size_t i;
+    for (i = 0; i < w->group_count; i++)
+        free(w->names[i]);
+    free(w->names);
+    free(w->interfaces);
+    free(w->bodies);
+    pong_destroy_world(w->world);
+    memset(w, 0, sizeof *w);
+}

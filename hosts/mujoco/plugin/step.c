@@ -1,0 +1,262 @@
+#include "step.h"
+
+#include "kinematics.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static mjtNum *state_of(const mjModel *m, const mjData *d, const contact_host *host)
+{
+    return d->plugin_state + m->plugin_stateadr[host->instance];
+}
+
+static const char *name_of(const mjModel *m, const contact_host *host) { return mj_id2name(m, mjOBJ_PLUGIN, host->instance); }
+
+/* ---- failures and limits, told once in a run */
+
+static int fail_step(contact_host *host, const mjModel *m, int status, const char *text)
+{
+    host->has_result = 0;
+    host->status = status;
+    host->contact_count = host->flags = 0;
+    memset(host->wrenches, 0, host->at.group_count * sizeof *host->wrenches);
+    if (!host->warned_failure)
+        warn(name_of(m, host), text);
+    host->warned_failure = 1;
+    return 0;
+}
+
+static int fail_step_by_library(contact_host *host, const mjModel *m, int status)
+{
+    message why;
+    fail(&why, "no contact force in this step: %s", pong_last_message());
+    return fail_step(host, m, status, why.text);
+}
+
+static void warn_of_limits(contact_host *host, const mjModel *m, const pong_report *report)
+{
+    message text;
+    if ((report->flags & (PONG_FLAG_CONTACT_LIMIT | PONG_FLAG_LOAD_SHARING_LIMIT)) != 0 && !host->warned_limit) {
+        host->warned_limit = 1;
+        fail(&text, "%u contacts at once are more than contact_capacity allows; the deepest act. Set contact_capacity to %u",
+             (unsigned)report->contacts_wanted, (unsigned)report->advised_capacity);
+        warn(name_of(m, host), text.text);
+    }
+    if ((report->flags & PONG_FLAG_TUNNELLED) != 0 && !host->warned_tunnelling) {
+        host->warned_tunnelling = 1;
+        warn(name_of(m, host), "something went right through something else in one step, and no contact acted; shorten the "
+                               "timestep, or call mj_resetData() before a jump that is meant");
+    }
+}
+
+/* ---- states in, contact state in and out */
+
+static void read_states(contact_host *host, const mjModel *m, const mjData *d)
+{
+    size_t i;
+    for (i = 0; i < host->at.group_count; i++) {
+        const int body = host->at.bodies[i];
+        pong_state *state = &host->states[i];
+        mjtNum velocity[6];
+        mj_objectVelocity(m, d, mjOBJ_XBODY, body, velocity, 0);
+        memcpy(state->position, d->xpos + 3 * body, sizeof state->position);
+        memcpy(state->orientation, d->xquat + 4 * body, sizeof state->orientation);
+        memcpy(state->angular_velocity, velocity, sizeof state->angular_velocity);
+        memcpy(state->linear_velocity, velocity + 3, sizeof state->linear_velocity);
+    }
+}
+
+/* Brings the world to the past that the state tells. Most often it is there already. */
+static int restore_past(contact_host *host, const mjModel *m, const contact_past *past, const mjtNum *state)
+{
+    const unsigned char *bytes = host->no_past;
+    size_t size = host->no_past_size;
+    pong_status status;
+    if (host->has_key && past->key == host->key)
+        return 1;
+    if (past->key != 0) {
+        if (!read_contact_state(host->bytes, past, state, host->at.group_count))
+            return fail_step(host, m, PONG_STATUS_BAD_STATE_BLOCK,
+                             "plugin_state holds no contact state of this instance; set a state that this model has saved, or "
+                             "call mj_resetData()");
+        bytes = host->bytes;
+        size = past->used;
+    }
+    status = pong_restore_contact_state(host->at.world, bytes, size);
+    if (status != PONG_STATUS_OK)
+        return fail_step_by_library(host, m, status);
+    host->has_key = 1;
+    host->key = past->key;
+    return 1;
+}
+
+static int read_known_past(contact_past *past, contact_host *host, const mjModel *m, const mjtNum *state)
+{
+    if (m->plugin_statenum[host->instance] == state_length(host->at.group_count, host->at.state_size) &&
+        read_past(past, state, host->at.state_size))
+        return 1;
+    return fail_step(host, m, PONG_STATUS_BAD_STATE_BLOCK,
+                     "plugin_state is not that of this instance: it was set from another model, or the model files have changed "
+                     "since the MJCF was compiled; compile it again, or call mj_resetData()");
+}
+
+/* Refuses sleep that was enabled after the model was compiled. */
+static int refuse_late_sleep(contact_host *host, const mjModel *m)
+{
+    size_t i;
+    if (!(m->opt.enableflags & mjENBL_SLEEP))
+        return 1;
+    for (i = 0; i < host->at.group_count; i++) {
+        int tree = m->body_treeid[host->at.bodies[i]];
+        if (tree >= 0 && m->tree_sleep_policy[tree] != mjSLEEP_NEVER && m->tree_sleep_policy[tree] != mjSLEEP_AUTO_NEVER)
+            return fail_step(host, m, PONG_STATUS_WRONG_PHASE,
+                             "no contact force: sleep was enabled, and bodies that touch may fall asleep; write sleep=\"never\" "
+                             "on the roots of their trees, or disable sleep");
+    }
+    return 1;
+}
+
+/* ---- evaluate and commit */
+
+/* Takes over what the world has just computed for host->states. */
+static int take_result(contact_host *host, const mjModel *m, pong_report *report)
+{
+    pong_status status = pong_get_wrenches(host->at.world, host->at.interfaces, PONG_REFERENCE_FRAME_COMMON, host->wrenches,
+                                           host->at.group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_get_report(host->at.world, report);
+    if (status != PONG_STATUS_OK)
+        return fail_step_by_library(host, m, status);
+    host->contact_count = report->contacts;
+    host->flags = report->flags;
+    host->status = PONG_STATUS_OK;
+    return 1;
+}
+
+static int compute_contacts(contact_host *host, const mjModel *m, const contact_past *past, const mjtNum *state)
+{
+    pong_report report;
+    pong_status status;
+    if (!restore_past(host, m, past, state))
+        return 0;
+    status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_evaluate(host->at.world);
+    if (status != PONG_STATUS_OK)
+        return fail_step_by_library(host, m, status);
+    return take_result(host, m, &report);
+}
+
+static void keep_result(contact_host *host, uint64_t key, uint64_t seen)
+{
+    host->has_result = 1;
+    host->result_key = key;
+    host->result_seen = seen;
+}
+
+int evaluate(contact_host *host, const mjModel *m, const mjData *d)
+{
+    const mjtNum *state = state_of(m, d, host);
+    contact_past past;
+    uint64_t seen;
+    if (!refuse_late_sleep(host, m) || !read_known_past(&past, host, m, state))
+        return 0;
+    read_states(host, m, d);
+    seen = hash_states(host->states, host->at.group_count);
+    if (host->has_result && host->result_key == past.key && host->result_seen == seen)
+        return 1;
+    if (past.key != 0 && past.seen == seen) {
+        /* The states are those of the last commit: its wrenches hold. They are also the better ones where friction has just
+         * slipped, and what `pong run` takes. */
+        read_wrenches(host->wrenches, state, host->at.group_count);
+        host->contact_count = past.contacts;
+        host->flags = past.flags;
+        host->status = PONG_STATUS_OK;
+    } else if (!compute_contacts(host, m, &past, state)) {
+        return 0;
+    }
+    keep_result(host, past.key, seen);
+    return 1;
+}
+
+/* Commits host->states and writes what the world now remembers. */
+static void commit_states(contact_host *host, const mjModel *m, mjtNum *state)
+{
+    contact_past past;
+    pong_report report;
+    pong_status status;
+    size_t used;
+
+    if (!read_known_past(&past, host, m, state) || !restore_past(host, m, &past, state))
+        return;
+    if (past.key == 0)
+        host->warned_limit = host->warned_tunnelling = host->warned_failure = 0;
+    status = pong_set_states(host->at.world, host->at.interfaces, host->states, host->at.group_count);
+    if (status == PONG_STATUS_OK)
+        status = pong_commit(host->at.world);
+    if (status != PONG_STATUS_OK) {
+        fail_step_by_library(host, m, status);
+        return;
+    }
+    host->has_key = 0;
+    if (take_result(host, m, &report) && pong_contact_state_used(host->at.world, &used) == PONG_STATUS_OK &&
+        pong_save_contact_state(host->at.world, host->bytes, used) == PONG_STATUS_OK) {
+        past.seen = hash_states(host->states, host->at.group_count);
+        past.key = next_key(past.key, past.seen);
+        past.used = (uint32_t)used;
+        past.contacts = host->contact_count;
+        past.flags = host->flags;
+        memset(host->bytes + used, 0, sizeof(uint32_t));
+        write_state(state, &past, host->wrenches, host->at.group_count, host->bytes, host->at.state_size);
+        host->has_key = 1;
+        host->key = past.key;
+        keep_result(host, past.key, past.seen);
+        warn_of_limits(host, m, &report);
+    }
+}
+
+void commit(contact_host *host, const mjModel *m, mjData *d)
+{
+    saved_kinematics saved;
+    if (!refuse_late_sleep(host, m))
+        return;
+    saved = update_kinematics(m, d);
+    read_states(host, m, d);
+    commit_states(host, m, state_of(m, d, host));
+    restore_kinematics(m, d, saved);
+}
+
+/* Makes room for contacts of a picture. */
+static int make_room(contact_host *host, size_t count)
+{
+    void *contacts;
+    if (count <= host->contact_capacity)
+        return 1;
+    contacts = realloc(host->contacts, count * sizeof *host->contacts);
+    if (contacts == NULL)
+        return 0;
+    host->contacts = contacts;
+    host->contact_capacity = count;
+    return 1;
+}
+
+size_t list_contacts(contact_host *host, const mjModel *m, mjData *d)
+{
+    const mjtNum *state = state_of(m, d, host);
+    saved_kinematics saved;
+    contact_past past;
+    size_t count = 0;
+    host->has_result = 0;
+    if (!refuse_late_sleep(host, m) || !read_known_past(&past, host, m, state))
+        return 0;
+    /* After a step the past is that of its end, and so must be the places: seen from the end, those of the beginning would look
+     * as if all bristles had just been relieved. */
+    saved = update_kinematics(m, d);
+    read_states(host, m, d);
+    restore_kinematics(m, d, saved);
+    if (!compute_contacts(host, m, &past, state) || pong_contact_count(host->at.world, &count) != PONG_STATUS_OK ||
+        !make_room(host, count))
+        return 0;
+    return pong_get_contacts(host->at.world, host->contacts, count, &count) == PONG_STATUS_OK ? count : 0;
+}
