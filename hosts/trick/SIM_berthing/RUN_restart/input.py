@@ -1,0 +1,5 @@
+# The second half of RUN_berthing, to the same bits: run RUN_berthing first.
+trick.TMM_hexfloat_checkpoint(1)
+trick.load_checkpoint("RUN_berthing/chkpnt_1.500000")
+trick.load_checkpoint_job()         # runs the restart jobs now, before anything else
+trick.stop(3.0)
