@@ -23,11 +23,13 @@ ARROWS = {
     "pong-trade": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-tune": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-import": {"pong-geometry", "pong-model"},
+    "pong-decompose": {"pong-geometry", "pong-import", "pong-model"},
     "pong-invariance": {"pong-geometry", "pong-model", "pong-engine"},
+    "pong-testkit": set(),
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
     "pong-capi": {"pong-advise", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {
-        "pong-advise", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
+        "pong-advise", "pong-decompose", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
         "pong-verify", "pong-trade", "pong-tune", "pong-view",
     },
 }

@@ -3,7 +3,8 @@
 use crate::import::{Mesh, length_m, spinner};
 use crate::terminal::{print, show, tell, tell_lines};
 use crate::text::{count, number, table};
-use pong_import::{DecomposeOptions, Decomposed, Method, Report, Up};
+use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
+use pong_import::Up;
 use std::process::ExitCode;
 
 /// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf), OBJ or STL.
@@ -71,7 +72,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();
-    let done = pong_import::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
+    let done = pong_decompose::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
         show(&bar, what)
     });
     bar.finish_and_clear();
@@ -108,7 +109,7 @@ fn summary(report: &Report) -> String {
         percent(report.volume_m3 / report.source_volume_m3),
         number(report.source_volume_m3)
     );
-    let row = |name: &str, side: &pong_import::Distances, inner_m: f64, share: f64| {
+    let row = |name: &str, side: &pong_decompose::Distances, inner_m: f64, share: f64| {
         vec![
             name.to_owned(),
             number(side.max_m.max(inner_m)),

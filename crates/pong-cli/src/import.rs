@@ -153,7 +153,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         weld_m: arguments.mesh.weld,
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
-        hull: arguments.hull,
+        hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
         allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();

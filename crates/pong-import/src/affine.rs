@@ -10,22 +10,22 @@ const SAME_SCALE: f64 = 1e-6;
 
 /// `x ↦ linear·x + translation`, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Affine {
-    pub(crate) linear: Matrix3<f64>,
-    pub(crate) translation: Vector3<f64>,
+pub struct Affine {
+    pub linear: Matrix3<f64>,
+    pub translation: Vector3<f64>,
 }
 
 /// A linear map as a turn after a stretch along the axes: `turn · diag(scale)`.
-pub(crate) struct Stretch {
-    pub(crate) turn: UnitQuaternion<f64>,
+pub struct Stretch {
+    pub turn: UnitQuaternion<f64>,
     /// All above zero unless `mirrored`; then the last one is negative.
-    pub(crate) scale: Vector3<f64>,
-    pub(crate) mirrored: bool,
+    pub scale: Vector3<f64>,
+    pub mirrored: bool,
 }
 
 /// Why a linear map is not a turn after a stretch.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Skew {
+pub enum Skew {
     /// It flattens everything.
     Flat,
     /// The largest cosine between two axes, which should be zero.
@@ -33,12 +33,12 @@ pub(crate) enum Skew {
 }
 
 impl Affine {
-    pub(crate) fn identity() -> Self {
+    pub fn identity() -> Self {
         Self { linear: Matrix3::identity(), translation: Vector3::zeros() }
     }
 
     /// From translation, rotation (x, y, z, w) and scale; `None` if the quaternion has no direction.
-    pub(crate) fn from_parts(
+    pub fn from_parts(
         translation: Vector3<f64>,
         rotation: [f64; 4],
         scale: Vector3<f64>,
@@ -52,24 +52,24 @@ impl Affine {
     }
 
     /// First `inner`, then `self`.
-    pub(crate) fn after(&self, inner: &Self) -> Self {
+    pub fn after(&self, inner: &Self) -> Self {
         Self { linear: self.linear * inner.linear, translation: self.point(&inner.translation) }
     }
 
-    pub(crate) fn point(&self, place: &Vector3<f64>) -> Vector3<f64> {
+    pub fn point(&self, place: &Vector3<f64>) -> Vector3<f64> {
         self.linear * place + self.translation
     }
 
-    pub(crate) fn is_identity(&self) -> bool {
+    pub fn is_identity(&self) -> bool {
         *self == Self::identity()
     }
 
     /// Whether it turns a surface inside out.
-    pub(crate) fn mirrors(&self) -> bool {
+    pub fn mirrors(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
-    pub(crate) fn stretch(&self) -> Result<Stretch, Skew> {
+    pub fn stretch(&self) -> Result<Stretch, Skew> {
         let axes: Vec<Vector3<f64>> = self.linear.column_iter().map(|axis| axis.into_owned()).collect();
         let lengths = Vector3::new(axes[0].norm(), axes[1].norm(), axes[2].norm());
         if lengths.min() <= 1e-12 * lengths.max() || !lengths.iter().all(|length| length.is_finite()) {
@@ -91,7 +91,7 @@ impl Affine {
 
 impl Stretch {
     /// The one scale of all axes, if they agree.
-    pub(crate) fn uniform(&self) -> Option<f64> {
+    pub fn uniform(&self) -> Option<f64> {
         let scale = self.scale.abs();
         (scale.max() - scale.min() <= SAME_SCALE * scale.max()).then_some(scale.x)
     }
@@ -108,7 +108,7 @@ pub enum Up {
 
 impl Up {
     /// A place or direction of the source in the axes of the model; exact.
-    pub(crate) fn turned(self, v: Vector3<f64>) -> Vector3<f64> {
+    pub fn turned(self, v: Vector3<f64>) -> Vector3<f64> {
         match self {
             Self::Y => Vector3::new(v.x, 0.0 - v.z, v.y),
             Self::Z => v,
@@ -116,7 +116,7 @@ impl Up {
     }
 
     /// A node's transform in the axes of the model: its local axes are turned with everything else.
-    pub(crate) fn turned_transform(self, transform: &Affine) -> Affine {
+    pub fn turned_transform(self, transform: &Affine) -> Affine {
         if self == Self::Z {
             return *transform;
         }

@@ -5,7 +5,7 @@ use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
 /// Writes the model and its mesh files once the engine's loader has accepted them; its faults and warnings are noted.
-pub(crate) fn write_checked(
+pub fn write_checked(
     output: &Path,
     text: String,
     mesh_files: Vec<(String, Vec<u8>)>,

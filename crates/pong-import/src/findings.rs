@@ -37,7 +37,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    pub(crate) fn fault(
+    pub fn fault(
         &mut self,
         path: &str,
         rule: &'static str,
@@ -47,7 +47,7 @@ impl Findings {
         self.faults.push(Finding { path: path.to_owned(), rule, cause: cause.into(), cure: cure.into() });
     }
 
-    pub(crate) fn note(
+    pub fn note(
         &mut self,
         path: &str,
         rule: &'static str,
@@ -58,7 +58,7 @@ impl Findings {
     }
 
     /// The value, or nothing after a fault was noted.
-    pub(crate) fn ok<T>(&mut self, result: Result<T, Finding>) -> Option<T> {
+    pub fn ok<T>(&mut self, result: Result<T, Finding>) -> Option<T> {
         result.map_err(|fault| self.faults.push(fault)).ok()
     }
 }

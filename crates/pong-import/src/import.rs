@@ -5,6 +5,7 @@ use crate::build::{self, Building};
 use crate::files;
 use crate::findings::Findings;
 use crate::laws::DefaultSurface;
+use crate::mesh::HullFinder;
 use crate::source::{self, Reading};
 use crate::write;
 use std::path::{Path, PathBuf};
@@ -30,8 +31,9 @@ pub struct Options {
     pub faces_max: usize,
     /// Meshes of more triangles or faces go to files beside the model.
     pub inline_max: usize,
-    /// Unmarked closed parts that are not convex become their convex hulls.
-    pub hull: bool,
+    /// What finds the convex hulls that unmarked closed parts become if they are not convex (`pong_decompose::hull_of_mesh`);
+    /// `None` leaves such parts as they are.
+    pub hull: Option<HullFinder>,
     /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
     pub allowed: Vec<PathBuf>,
 }
@@ -48,7 +50,7 @@ impl Default for Options {
             weld_m: None,
             faces_max: 1000,
             inline_max: usize::MAX,
-            hull: false,
+            hull: None,
             allowed: Vec::new(),
         }
     }

@@ -20,7 +20,7 @@ pub struct DefaultSurface {
 }
 
 impl DefaultSurface {
-    pub(crate) fn record(&self) -> Record {
+    pub fn record(&self) -> Record {
         let mut record = vec![field("stiffness", Field::Number(self.stiffness))];
         let law = |name: &str, key: &str, value: f64| {
             Field::Record(name.to_owned(), vec![field(key, Field::Number(value))])
@@ -39,7 +39,7 @@ impl DefaultSurface {
 const ORDER: [&str; 4] = ["surfaces", "stiffness", "normal", "friction"];
 
 /// The fields of a surface or pair; the error says what cannot be understood.
-pub(crate) fn record(value: &Value) -> Result<Record, String> {
+pub fn record(value: &Value) -> Result<Record, String> {
     let map = value.as_object().ok_or_else(|| format!("{value} is no JSON object"))?;
     let mut keys: Vec<&String> =
         map.keys().filter(|key| !map[*key].is_null() || *key == "friction").collect();

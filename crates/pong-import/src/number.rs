@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 /// The number of least digits that rounds to `value` in single precision: 0.1f32 becomes 0.1, not
 /// 0.10000000149011612. Equal numbers stay equal, different ones different, and their order stays.
-pub(crate) fn widened(value: f32) -> f64 {
+pub fn widened(value: f32) -> f64 {
     if value == value.trunc() && value.abs() < 1e7 {
         return f64::from(value);
     }
@@ -24,7 +24,7 @@ pub(crate) fn widened(value: f32) -> f64 {
 /// Products of transforms leave 0.30000000000000004 where 0.3 is meant; places that agree to the last digits but
 /// not to the last bit would not be one vertex.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grid {
+pub struct Grid {
     per_unit: f64,
 }
 
@@ -33,26 +33,26 @@ const DIGITS: i32 = 13;
 
 impl Grid {
     /// The grid for coordinates of at most this size.
-    pub(crate) fn of_size(size: f64) -> Self {
+    pub fn of_size(size: f64) -> Self {
         let leading = if size > 0.0 && size.is_finite() { size.log10().floor() as i32 } else { 0 };
         // Up to 1e22 powers of ten are exact; beyond, nothing need be rounded.
         Self { per_unit: 10f64.powi((DIGITS - leading).clamp(0, 22)) }
     }
 
-    pub(crate) fn round(self, value: f64) -> f64 {
+    pub fn round(self, value: f64) -> f64 {
         let scaled = value * self.per_unit;
         // Beyond 2^53 every number is whole already.
         if scaled.abs() < 9e15 { scaled.round_ties_even() / self.per_unit + 0.0 } else { value }
     }
 
-    pub(crate) fn round_place(self, place: &Vector3<f64>) -> Vector3<f64> {
+    pub fn round_place(self, place: &Vector3<f64>) -> Vector3<f64> {
         place.map(|x| self.round(x))
     }
 }
 
 /// As model files write it: shortest digits that give the same bits, never an integer; scientific notation outside
 /// of 1e-4 to 1e16.
-pub(crate) fn decimal(value: f64) -> String {
+pub fn decimal(value: f64) -> String {
     let value = value + 0.0;
     if value.is_infinite() {
         return if value > 0.0 { "inf" } else { "-inf" }.to_owned();

@@ -8,7 +8,7 @@ use layout::{Item, Shown, lay_out, quoted};
 use nalgebra::Vector3;
 
 /// The text of a model file.
-pub(crate) fn text(model: &Model) -> String {
+pub fn text(model: &Model) -> String {
     let mut items: Vec<Item> = vec![
         ("format: ".into(), Shown::Flat(quoted("pong-model"))),
         ("version: ".into(), Shown::Flat("1".to_owned())),

@@ -278,21 +278,6 @@ fn bent_faces_are_told_with_how_far() {
     assert!(note.cause.contains("a face is bent") && note.cause.contains("6.50e-3 m"), "{note}");
 }
 
-/// Hulls whose vertices were rounded to three decimals: not convex, but their hulls are as good.
-#[test]
-fn a_dented_part_becomes_its_hull_if_asked() {
-    let folder = folder("hull");
-    let dented: Vec<[Place; 3]> = torus(1.0, 0.3, 12, 8);
-    let path = write(&folder, "ring.obj", obj(&dented));
-    let (plain, _) = run(&path, &options()).unwrap();
-    assert!(plain.primitives[0].0 == "TriangleMesh" && note_rules(&plain).contains(&"not-convex"));
-    let (hulled, model) = run(&path, &Options { hull: true, ..options() }).unwrap();
-    assert_eq!(hulled.primitives, [("Polyhedron", 1)]);
-    let note = hulled.findings.notes.iter().find(|note| note.rule == "hull").expect("a note");
-    assert!(note.cause.contains("became the convex hull"), "{note}");
-    assert_eq!(model.bodies[0].polyhedra.len(), 1);
-}
-
 /// Thousands of nodes of one name are numbered one after the other.
 #[test]
 fn nodes_of_one_name_are_numbered() {

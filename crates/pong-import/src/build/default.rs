@@ -146,7 +146,10 @@ impl Build<'_, '_> {
             .iter()
             .map(|part| {
                 let found = mesh::polyhedron(part, self.building.faces_max);
-                if self.building.hull { hulled.instead(part, found) } else { found }
+                match self.building.hull {
+                    Some(find) => hulled.instead(find, part, found),
+                    None => found,
+                }
             })
             .collect();
         hulled.tell(naming, self.findings);
@@ -201,19 +204,16 @@ struct Hulled {
 
 impl Hulled {
     /// The hull of a part that bounds a volume but is not convex; of all else what was found.
-    fn instead(&mut self, part: &Mesh, found: Result<Polyhedron, Flaw>) -> Result<Polyhedron, Flaw> {
+    fn instead(
+        &mut self,
+        find: HullFinder,
+        part: &Mesh,
+        found: Result<Polyhedron, Flaw>,
+    ) -> Result<Polyhedron, Flaw> {
         if !matches!(found, Err(Flaw::Dented { .. } | Flaw::Tangled | Flaw::Open { .. })) {
             return found;
         }
-        // What finds hulls is built only where convex decomposition is.
-        #[cfg(feature = "decompose")]
-        let hulled = crate::decompose::hull_of_mesh(part);
-        #[cfg(not(feature = "decompose"))]
-        let hulled: Option<(Polyhedron, f64)> = {
-            let _ = part;
-            None
-        };
-        let Some((hull, deepest_m)) = hulled else { return found };
+        let Some((hull, deepest_m)) = find(part) else { return found };
         self.parts += 1;
         self.deepest_m = self.deepest_m.max(deepest_m);
         Ok(hull)

@@ -8,13 +8,13 @@ use crate::number::Grid;
 use crate::source::Shape;
 
 /// A mesh in the frame of its body.
-pub(crate) struct Placed {
-    pub(crate) mesh: Mesh,
-    pub(crate) two_sided: bool,
+pub struct Placed {
+    pub mesh: Mesh,
+    pub two_sided: bool,
 }
 
 /// Places a shape's vertices in the frame of its body, on the grid.
-pub(crate) fn place(shape: &mut Shape, to_body: &Affine, grid: Grid) {
+pub fn place(shape: &mut Shape, to_body: &Affine, grid: Grid) {
     let moved = !to_body.is_identity();
     for place in &mut shape.vertices {
         *place = grid.round_place(&if moved { to_body.point(place) } else { *place });
@@ -25,7 +25,7 @@ pub(crate) fn place(shape: &mut Shape, to_body: &Affine, grid: Grid) {
 }
 
 /// The triangles of a placed shape, without what no model takes.
-pub(crate) fn triangles(
+pub fn triangles(
     shape: Shape,
     building: &Building<'_>,
     path: &str,
@@ -73,7 +73,7 @@ pub(crate) fn triangles(
 }
 
 /// Tells of edges at which a surface of triangles does not run on.
-pub(crate) fn tell_oddities(mesh: &Mesh, path: &str, findings: &mut Findings) {
+pub fn tell_oddities(mesh: &Mesh, path: &str, findings: &mut Findings) {
     let adjacency = Adjacency::new(&mesh.triangles);
     let at = |triangle: u32| {
         let place = mesh.corners(triangle as usize)[0];

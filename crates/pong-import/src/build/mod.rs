@@ -5,7 +5,7 @@ mod frames;
 mod kinds;
 mod marked;
 mod mesh_files;
-pub(crate) mod meshes;
+pub mod meshes;
 mod names;
 
 use crate::findings::Findings;
@@ -14,41 +14,42 @@ use crate::marks::Settings;
 use crate::model::{Field, Group, Model};
 use crate::number::Grid;
 use crate::source::{Shape, Source};
+use crate::mesh::HullFinder;
 use std::collections::BTreeSet;
 
 /// Name of the surface that stands in when none is given.
 const PLACEHOLDER: &str = "placeholder";
 
 /// How a model is to be built.
-pub(crate) struct Building<'a> {
+pub struct Building<'a> {
     /// What messages call the file.
-    pub(crate) file: String,
+    pub file: String,
     /// Name of the model if the file gives none.
-    pub(crate) name: String,
+    pub name: String,
     /// Name of the root to take, if there are several.
-    pub(crate) root: Option<String>,
-    pub(crate) weld_m: Option<f64>,
+    pub root: Option<String>,
+    pub weld_m: Option<f64>,
     /// Metres in one unit of the file, for lengths in marks.
-    pub(crate) unit_m: f64,
-    pub(crate) surface: Option<DefaultSurface>,
-    pub(crate) faces_max: usize,
+    pub unit_m: f64,
+    pub surface: Option<DefaultSurface>,
+    pub faces_max: usize,
     /// Meshes of more triangles go to files beside the model.
-    pub(crate) inline_max: usize,
-    /// Unmarked parts that are not convex become their convex hulls.
-    pub(crate) hull: bool,
-    pub(crate) progress: &'a mut dyn FnMut(&str),
+    pub inline_max: usize,
+    /// What unmarked parts that are not convex become, if anything: their convex hulls.
+    pub hull: Option<HullFinder>,
+    pub progress: &'a mut dyn FnMut(&str),
 }
 
 /// A model and the mesh files beside it: name and contents.
-pub(crate) struct Built {
-    pub(crate) model: Model,
-    pub(crate) mesh_files: Vec<(String, Vec<u8>)>,
+pub struct Built {
+    pub model: Model,
+    pub mesh_files: Vec<(String, Vec<u8>)>,
     /// Vertices and triangles that were read.
-    pub(crate) vertices: usize,
-    pub(crate) triangles: usize,
+    pub vertices: usize,
+    pub triangles: usize,
 }
 
-pub(crate) fn build(source: Source, building: &mut Building<'_>, findings: &mut Findings) -> Option<Built> {
+pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Findings) -> Option<Built> {
     let shapes = || source.nodes.iter().filter_map(|node| node.mesh.as_ref());
     let (vertices, triangles) =
         (shapes().map(|shape| shape.vertices.len()).sum(), shapes().map(|shape| shape.triangles.len()).sum());
@@ -113,7 +114,7 @@ fn settle(model: &mut Model, settings: Settings, building: &Building<'_>, findin
 }
 
 /// Gives the root a surface if something below has none.
-pub(crate) fn default_surface(model: &mut Model, building: &Building<'_>, findings: &mut Findings) {
+pub fn default_surface(model: &mut Model, building: &Building<'_>, findings: &mut Findings) {
     if !lacks_surface(&model.root) {
         if let (Some(surface), true) = (&building.surface, findings.faults.is_empty()) {
             let cause =
@@ -179,6 +180,6 @@ fn unknown_surfaces(model: &Model, building: &Building<'_>, findings: &mut Findi
 }
 
 /// Whether a field is there under this name.
-pub(crate) fn value_of<'a>(record: &'a [(String, Field)], name: &str) -> Option<&'a Field> {
+pub fn value_of<'a>(record: &'a [(String, Field)], name: &str) -> Option<&'a Field> {
     record.iter().find(|(key, _)| key == name).map(|(_, value)| value)
 }

@@ -3,21 +3,21 @@
 use super::ring;
 
 /// No triangle.
-pub(crate) const NONE: u32 = u32::MAX;
+pub const NONE: u32 = u32::MAX;
 
 /// For each triangle its neighbours across the edges from corner 0, 1 and 2.
-pub(crate) struct Adjacency {
-    pub(crate) across: Vec<[u32; 3]>,
+pub struct Adjacency {
+    pub across: Vec<[u32; 3]>,
     /// Edges of one triangle alone: (triangle, corner where it starts).
-    pub(crate) free: Vec<(u32, u8)>,
+    pub free: Vec<(u32, u8)>,
     /// Triangles at edges that more than two share, one per edge.
-    pub(crate) crowded: Vec<u32>,
+    pub crowded: Vec<u32>,
     /// Triangles at edges along which both neighbours run the same way, one per edge.
-    pub(crate) wound_against: Vec<u32>,
+    pub wound_against: Vec<u32>,
 }
 
 impl Adjacency {
-    pub(crate) fn new(triangles: &[[u32; 3]]) -> Self {
+    pub fn new(triangles: &[[u32; 3]]) -> Self {
         let mut edges: Vec<(u64, u32)> = Vec::with_capacity(3 * triangles.len());
         for (index, triangle) in triangles.iter().enumerate() {
             for (corner, (a, b)) in ring(triangle).enumerate() {
@@ -49,7 +49,7 @@ impl Adjacency {
     }
 
     /// Whether every edge joins two triangles that run along it in opposite directions.
-    pub(crate) fn is_closed(&self) -> bool {
+    pub fn is_closed(&self) -> bool {
         self.free.is_empty() && self.crowded.is_empty() && self.wound_against.is_empty()
     }
 }

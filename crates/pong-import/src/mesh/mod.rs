@@ -8,38 +8,41 @@ mod parts;
 mod solid;
 mod weld;
 
-pub(crate) use adjacency::Adjacency;
-pub(crate) use clean::clean;
-pub(crate) use facets::{Facets, facets};
-pub(crate) use junctions::mend;
-pub(crate) use parts::parts;
-pub(crate) use solid::{Flaw, Polyhedron, polyhedron, volume_m3};
-pub(crate) use weld::{weld, weld_equal};
+pub use adjacency::Adjacency;
+pub use clean::clean;
+pub use facets::{Facets, facets};
+pub use junctions::mend;
+pub use parts::parts;
+pub use solid::{Flaw, Polyhedron, polyhedron, volume_m3};
+pub use weld::{weld, weld_equal};
 
 use nalgebra::Vector3;
 
 /// Vertices and triangles, counter-clockwise seen from the front.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Mesh {
-    pub(crate) vertices: Vec<Vector3<f64>>,
-    pub(crate) triangles: Vec<[u32; 3]>,
+pub struct Mesh {
+    pub vertices: Vec<Vector3<f64>>,
+    pub triangles: Vec<[u32; 3]>,
     /// What distinguishes triangles (an index into the looks of the source); as many as triangles.
-    pub(crate) look_of: Vec<u16>,
+    pub look_of: Vec<u16>,
 }
 
+/// Finds the convex hull of a mesh and how far its deepest vertex lies within it, m; `None` if it has no thickness.
+pub type HullFinder = fn(&Mesh) -> Option<(Polyhedron, f64)>;
+
 impl Mesh {
-    pub(crate) fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
+    pub fn corners(&self, triangle: usize) -> [Vector3<f64>; 3] {
         self.triangles[triangle].map(|vertex| self.vertices[vertex as usize])
     }
 
     /// Diagonal of the bounding box, m.
-    pub(crate) fn size_m(&self) -> f64 {
+    pub fn size_m(&self) -> f64 {
         let (low, high) = bounds(&self.vertices);
         (high - low).norm()
     }
 
     /// The same without vertices that no triangle uses, in the order of first use.
-    pub(crate) fn compact(mut self) -> Self {
+    pub fn compact(mut self) -> Self {
         let mut number = vec![u32::MAX; self.vertices.len()];
         let mut vertices = Vec::new();
         for vertex in self.triangles.iter_mut().flatten() {
@@ -55,7 +58,7 @@ impl Mesh {
     }
 
     /// The triangles of these numbers, with the vertices they use.
-    pub(crate) fn part(&self, triangles: &[u32]) -> Self {
+    pub fn part(&self, triangles: &[u32]) -> Self {
         let mut number: std::collections::HashMap<u32, u32> = std::collections::HashMap::new();
         let mut part = Self::default();
         for &triangle in triangles {
@@ -73,17 +76,17 @@ impl Mesh {
 }
 
 /// Lowest and highest coordinates; zeros for no places.
-pub(crate) fn bounds(places: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
+pub fn bounds(places: &[Vector3<f64>]) -> (Vector3<f64>, Vector3<f64>) {
     let first = places.first().copied().unwrap_or_default();
     places.iter().fold((first, first), |(low, high), place| (low.inf(place), high.sup(place)))
 }
 
 /// Twice the area along the normal.
-pub(crate) fn area_vector([a, b, c]: &[Vector3<f64>; 3]) -> Vector3<f64> {
+pub fn area_vector([a, b, c]: &[Vector3<f64>; 3]) -> Vector3<f64> {
     (b - a).cross(&(c - a))
 }
 
 /// Each corner of an outline with the next one.
-pub(crate) fn ring<T: Copy>(outline: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
+pub fn ring<T: Copy>(outline: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
     outline.iter().copied().zip(outline.iter().copied().cycle().skip(1))
 }

@@ -3,7 +3,7 @@
 use super::{Adjacency, Mesh, adjacency::NONE};
 
 /// The parts, each a mesh of its own, in the order of their first triangles.
-pub(crate) fn parts(mesh: &Mesh) -> Vec<Mesh> {
+pub fn parts(mesh: &Mesh) -> Vec<Mesh> {
     let adjacency = Adjacency::new(&mesh.triangles);
     let mut part_of = vec![NONE; mesh.triangles.len()];
     let mut lists: Vec<Vec<u32>> = Vec::new();

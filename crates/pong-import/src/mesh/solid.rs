@@ -11,16 +11,16 @@ const THIN: f64 = 2e-6;
 
 /// A convex solid with planar faces.
 #[derive(Debug)]
-pub(crate) struct Polyhedron {
-    pub(crate) vertices: Vec<Vector3<f64>>,
-    pub(crate) faces: Vec<Vec<u32>>,
+pub struct Polyhedron {
+    pub vertices: Vec<Vector3<f64>>,
+    pub faces: Vec<Vec<u32>>,
     /// The look of each face.
-    pub(crate) look_of: Vec<u16>,
+    pub look_of: Vec<u16>,
 }
 
 /// Why a part is no convex solid.
 #[derive(Debug, PartialEq)]
-pub(crate) enum Flaw {
+pub enum Flaw {
     /// Edges that do not join two triangles, and one of their ends.
     Open {
         edges: usize,
@@ -40,7 +40,7 @@ pub(crate) enum Flaw {
 }
 
 /// Signed volume, m³: above zero if the triangles face outwards.
-pub(crate) fn volume_m3(mesh: &Mesh) -> f64 {
+pub fn volume_m3(mesh: &Mesh) -> f64 {
     let (low, high) = bounds(&mesh.vertices);
     let centre = 0.5 * (low + high);
     let six = |triangle: usize| {
@@ -51,7 +51,7 @@ pub(crate) fn volume_m3(mesh: &Mesh) -> f64 {
 }
 
 /// The part as a convex polyhedron of at most `faces_max` faces, or what keeps it from being one.
-pub(crate) fn polyhedron(mesh: &Mesh, faces_max: usize) -> Result<Polyhedron, Flaw> {
+pub fn polyhedron(mesh: &Mesh, faces_max: usize) -> Result<Polyhedron, Flaw> {
     let adjacency = Adjacency::new(&mesh.triangles);
     closed(mesh, &adjacency)?;
     let size_m = mesh.size_m();

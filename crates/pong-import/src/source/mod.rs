@@ -12,64 +12,64 @@ use nalgebra::Vector3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-pub(crate) use welder::{Welder, WordMap};
+pub use welder::{Welder, WordMap};
 
 /// How a file is to be read.
-pub(crate) struct Reading {
+pub struct Reading {
     /// `None` for what the format is known for: y in glTF, z in OBJ and STL.
-    pub(crate) up: Option<Up>,
+    pub up: Option<Up>,
     /// Metres in one unit of the file.
-    pub(crate) unit_m: f64,
+    pub unit_m: f64,
     /// Name of the scene to read; glTF only.
-    pub(crate) scene: Option<String>,
+    pub scene: Option<String>,
     /// Folders beside the file's own that files which it names may lie in.
-    pub(crate) allowed: Vec<PathBuf>,
+    pub allowed: Vec<PathBuf>,
 }
 
 /// A file as a tree of nodes; lengths in metres, axes those of models.
 #[derive(Default)]
-pub(crate) struct Source {
+pub struct Source {
     /// Parents before their children.
-    pub(crate) nodes: Vec<Node>,
+    pub nodes: Vec<Node>,
     /// `extras.pong` of the scene.
-    pub(crate) settings: Option<Value>,
+    pub settings: Option<Value>,
 }
 
-pub(crate) struct Node {
-    pub(crate) name: String,
-    pub(crate) parent: Option<usize>,
+pub struct Node {
+    pub name: String,
+    pub parent: Option<usize>,
     /// Names from the top, with `/` between; for messages.
-    pub(crate) path: String,
+    pub path: String,
     /// To the parent.
-    pub(crate) local: Affine,
+    pub local: Affine,
     /// `extras.pong`.
-    pub(crate) mark: Option<Value>,
-    pub(crate) mesh: Option<Shape>,
+    pub mark: Option<Value>,
+    pub mesh: Option<Shape>,
 }
 
 /// Vertices in the node's frame and what they span.
 #[derive(Default)]
-pub(crate) struct Shape {
+pub struct Shape {
     /// Distinct places.
-    pub(crate) vertices: Vec<Vector3<f64>>,
+    pub vertices: Vec<Vector3<f64>>,
     /// Triangles, counter-clockwise seen from the front.
-    pub(crate) triangles: Vec<[u32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
     /// For each triangle an index into `looks`; empty if all have the first.
-    pub(crate) look_of: Vec<u16>,
-    pub(crate) looks: Vec<Look>,
-    pub(crate) lines: Vec<[u32; 2]>,
-    pub(crate) points: Vec<u32>,
+    pub look_of: Vec<u16>,
+    pub looks: Vec<Look>,
+    pub lines: Vec<[u32; 2]>,
+    pub points: Vec<u32>,
 }
 
 /// What a material says of its faces.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Look {
-    pub(crate) surface: Option<String>,
-    pub(crate) inactive: bool,
+pub struct Look {
+    pub surface: Option<String>,
+    pub inactive: bool,
 }
 
 /// Reads a file by the ending of its name.
-pub(crate) fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
+pub fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<Source> {
     let file = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !matches!(ending.as_str(), "glb" | "gltf" | "obj" | "stl") {
@@ -118,7 +118,7 @@ fn all_in_range(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
 }
 
 impl Shape {
-    pub(crate) fn is_empty(&self) -> bool {
+    pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.lines.is_empty() && self.points.is_empty()
     }
 }

@@ -1,8 +1,8 @@
 //! What of a solid lies in a box: the points whose hull holds it, and its volume.
 
-use super::inside::Solid;
-use super::polygon::{Plane, Polygon, clip, is_wide};
-use crate::mesh::{Mesh, area_vector, bounds};
+use crate::inside::Solid;
+use crate::polygon::{Plane, Polygon, clip, is_wide};
+use pong_import::parts::mesh::{Mesh, area_vector, bounds};
 use nalgebra::Vector3;
 
 /// What is narrower than this share of a cell's diagonal only touches the cell.
@@ -12,14 +12,14 @@ const PROBE_SHARE: f64 = 1e-7;
 
 /// A box with axes along those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cell {
-    pub(super) low: Vector3<f64>,
-    pub(super) high: Vector3<f64>,
+pub(crate) struct Cell {
+    pub(crate) low: Vector3<f64>,
+    pub(crate) high: Vector3<f64>,
 }
 
 impl Cell {
     /// Both sides of a plane across an axis.
-    pub(super) fn cut(&self, axis: usize, at: f64) -> [Self; 2] {
+    pub(crate) fn cut(&self, axis: usize, at: f64) -> [Self; 2] {
         let (mut lower, mut upper) = (*self, *self);
         lower.high[axis] = at;
         upper.low[axis] = at;
@@ -27,21 +27,21 @@ impl Cell {
     }
 
     /// What both have in common, if that has a volume.
-    pub(super) fn common(&self, other: &Self) -> Option<Self> {
+    pub(crate) fn common(&self, other: &Self) -> Option<Self> {
         let common = Self { low: self.low.sup(&other.low), high: self.high.inf(&other.high) };
         (0..3).all(|axis| common.low[axis] < common.high[axis]).then_some(common)
     }
 }
 
 /// The part of a solid in a cell.
-pub(super) struct Content {
+pub(crate) struct Content {
     /// Every corner of that part is among them.
-    pub(super) points: Vec<Vector3<f64>>,
-    pub(super) volume_m3: f64,
+    pub(crate) points: Vec<Vector3<f64>>,
+    pub(crate) volume_m3: f64,
 }
 
 /// Cuts a closed mesh by a cell.
-pub(super) fn content(mesh: &Mesh, solid: &Solid, cell: &Cell) -> Content {
+pub(crate) fn content(mesh: &Mesh, solid: &Solid, cell: &Cell) -> Content {
     let mut content = Content { points: Vec::new(), volume_m3: 0.0 };
     let strip_m = STRIP_SHARE * (cell.high - cell.low).norm();
     for triangle in 0..mesh.triangles.len() {
@@ -117,7 +117,7 @@ fn prism(polygon: &[Vector3<f64>], height: impl Fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decompose::piece::hull;
+    use crate::piece::hull;
 
     /// A tetrahedron with corners at the origin and at 1 along the axes.
     fn tetrahedron() -> Mesh {

@@ -1,24 +1,24 @@
 //! Decomposed shapes in the engine: cavities are empty, seams are not felt.
 
-mod common;
-
-use common::{blocks, folder, obj};
 use pong_engine::{Config, State, World};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
-use pong_import::{DecomposeOptions, DefaultSurface};
+use pong_decompose::DecomposeOptions;
+use pong_import::DefaultSurface;
 use std::sync::Arc;
+use pong_testkit::meshes::{blocks, obj};
+use pong_testkit::scratch;
 
 const STIFFNESS: f64 = 1e6;
 
 /// Force on a ball or point (radius 0) at places, from a decomposed set of cubes held at the origin, each place by
 /// itself.
 fn forces(test: &str, cubes: &[[i32; 3]], radius: f64, places: &[[f64; 3]]) -> Vec<Vec3> {
-    let path = folder(&format!("contact_{test}")).join("shape.obj");
+    let path = scratch(env!("CARGO_TARGET_TMPDIR"), &format!("contact_{test}")).join("shape.obj");
     std::fs::write(&path, obj(&blocks(cubes, 1.0))).unwrap();
     let surface = DefaultSurface { name: "s".to_owned(), stiffness: STIFFNESS, damping: 0.0, mu: 0.0 };
     let options = DecomposeOptions { surface: Some(surface), samples: 1000, ..DecomposeOptions::default() };
-    let done = pong_import::decompose(&path, &path.with_extension("ron"), &options, &mut |_| ());
+    let done = pong_decompose::decompose(&path, &path.with_extension("ron"), &options, &mut |_| ());
     assert!(done.findings.faults.is_empty() && done.findings.notes.is_empty(), "{}", done.findings);
     let shape = pong_model::load(&done.files[0], &Extensions::new()).unwrap();
     let probe = match radius {

@@ -1,8 +1,8 @@
 //! Pieces that meet get bit-equal vertices: the loader knows common edges by that.
 
-use super::piece::Piece;
-use super::polygon::{Polygon, lexicographic, plane_of};
-use crate::mesh::ring;
+use crate::piece::Piece;
+use crate::polygon::{Polygon, lexicographic, plane_of};
+use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -10,22 +10,22 @@ use std::collections::BTreeMap;
 const SAME_SHARE: f64 = 1e-9;
 
 /// Places seen so far, found again within a tolerance.
-pub(super) struct Pool {
+pub(crate) struct Pool {
     same_m: f64,
     cells: BTreeMap<[i64; 3], Vec<Vector3<f64>>>,
 }
 
 impl Pool {
-    pub(super) fn new(size_m: f64) -> Self {
+    pub(crate) fn new(size_m: f64) -> Self {
         Self::within(SAME_SHARE * size_m)
     }
 
-    pub(super) fn within(same_m: f64) -> Self {
+    pub(crate) fn within(same_m: f64) -> Self {
         Self { same_m, cells: BTreeMap::new() }
     }
 
     /// The vertices of all pieces.
-    pub(super) fn of(pieces: &[Piece], size_m: f64) -> Self {
+    pub(crate) fn of(pieces: &[Piece], size_m: f64) -> Self {
         let mut pool = Self::new(size_m);
         for place in pieces.iter().flat_map(|piece| &piece.vertices) {
             pool.place(*place);
@@ -34,7 +34,7 @@ impl Pool {
     }
 
     /// The nearest place seen so far, or else this one from now on.
-    pub(super) fn place(&mut self, place: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn place(&mut self, place: Vector3<f64>) -> Vector3<f64> {
         let home = self.home(&place);
         let near = (0..27).map(|k| [home[0] + k % 3 - 1, home[1] + k / 3 % 3 - 1, home[2] + k / 9 - 1]);
         let distance = |seen: &Vector3<f64>| (seen - place).norm();
@@ -48,7 +48,7 @@ impl Pool {
     }
 
     /// A place of its own, however near to others.
-    pub(super) fn add(&mut self, place: Vector3<f64>) {
+    pub(crate) fn add(&mut self, place: Vector3<f64>) {
         let home = self.home(&place);
         self.cells.entry(home).or_default().push(place);
     }
@@ -57,7 +57,7 @@ impl Pool {
         place.map(|x| (x / (4.0 * self.same_m)).floor() as i64).into()
     }
 
-    pub(super) fn polygon(&mut self, polygon: Polygon) -> Polygon {
+    pub(crate) fn polygon(&mut self, polygon: Polygon) -> Polygon {
         let mut polygon: Polygon = polygon.into_iter().map(|place| self.place(place)).collect();
         polygon.dedup();
         while polygon.len() > 1 && polygon.first() == polygon.last() {
@@ -66,7 +66,7 @@ impl Pool {
         polygon
     }
 
-    pub(super) fn canonical(&mut self, mut piece: Piece) -> Piece {
+    pub(crate) fn canonical(&mut self, mut piece: Piece) -> Piece {
         piece.vertices.iter_mut().for_each(|place| *place = self.place(*place));
         piece
     }
@@ -74,7 +74,7 @@ impl Pool {
 
 /// Gives the pieces these faces (outline, inactive), with the vertices of their neighbours in their rims. Returns the
 /// pieces that keep their own faces, because these would not close or are not `accepted`.
-pub(super) fn stitch(
+pub(crate) fn stitch(
     pieces: &mut [Piece],
     faces: &[Vec<(Polygon, bool)>],
     size_m: f64,
@@ -109,7 +109,7 @@ pub(super) fn stitch(
 }
 
 /// An outline with the places that lie within its edges; they are sorted.
-pub(super) fn with_vertices(polygon: &[Vector3<f64>], places: &[Vector3<f64>], same_m: f64) -> Polygon {
+pub(crate) fn with_vertices(polygon: &[Vector3<f64>], places: &[Vector3<f64>], same_m: f64) -> Polygon {
     let mut outline = Polygon::new();
     for (a, b) in ring(polygon) {
         outline.push(a);

@@ -1,34 +1,34 @@
 //! A closed mesh as a solid: what is inside, and how far away its surface is.
 
-use crate::mesh::Mesh;
+use pong_import::parts::mesh::Mesh;
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 
 /// A closed mesh under a tree of boxes, with normals that tell the inside.
-pub(super) struct Solid(TriMesh);
+pub(crate) struct Solid(TriMesh);
 
 impl Solid {
     /// `None` if the mesh is empty.
-    pub(super) fn new(mesh: &Mesh) -> Option<Self> {
+    pub(crate) fn new(mesh: &Mesh) -> Option<Self> {
         let vertices = mesh.vertices.iter().map(|p| Vector::new(p.x, p.y, p.z)).collect();
         TriMesh::with_flags(vertices, mesh.triangles.clone(), TriMeshFlags::ORIENTED).ok().map(Self)
     }
 
-    pub(super) fn holds(&self, place: &Vector3<f64>) -> bool {
+    pub(crate) fn holds(&self, place: &Vector3<f64>) -> bool {
         self.0.project_local_point(Vector::new(place.x, place.y, place.z), false).is_inside
     }
 
     /// Distance to the solid, 0 inside.
-    pub(super) fn outside_by_m(&self, place: &Vector3<f64>) -> f64 {
+    pub(crate) fn outside_by_m(&self, place: &Vector3<f64>) -> f64 {
         let place = Vector::new(place.x, place.y, place.z);
         let nearest = self.0.project_local_point(place, false);
         if nearest.is_inside { 0.0 } else { (place - nearest.point).length() }
     }
 
     /// Distance to its surface.
-    pub(super) fn surface_distance_m(&self, place: &Vector3<f64>) -> f64 {
+    pub(crate) fn surface_distance_m(&self, place: &Vector3<f64>) -> f64 {
         let place = Vector::new(place.x, place.y, place.z);
         (place - self.0.project_local_point(place, false).point).length()
     }

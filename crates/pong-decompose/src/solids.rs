@@ -1,11 +1,8 @@
 //! A mesh file as closed solids, or what keeps it from being some.
 
-use crate::affine::Affine;
-use crate::build::{Building, meshes};
-use crate::findings::Findings;
-use crate::mesh::{self, Adjacency, Mesh, area_vector, bounds, ring};
-use crate::number::Grid;
-use crate::source::{Shape, Source};
+use pong_import::parts::{Affine, Building, Grid, Shape, Source, meshes};
+use pong_import::Findings;
+use pong_import::parts::mesh::{self, Adjacency, Mesh, area_vector, bounds, ring};
 use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -14,13 +11,13 @@ use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
 const THIN: f64 = 2e-6;
 
 /// The closed surfaces of one solid: its outside, and around cavities.
-pub(super) struct SolidMesh {
-    pub(super) mesh: Mesh,
-    pub(super) hollow: bool,
+pub(crate) struct SolidMesh {
+    pub(crate) mesh: Mesh,
+    pub(crate) hollow: bool,
 }
 
 /// All triangles of a file in the frame of the model.
-pub(super) fn flatten(source: Source, building: &Building<'_>, findings: &mut Findings) -> Shape {
+pub(crate) fn flatten(source: Source, building: &Building<'_>, findings: &mut Findings) -> Shape {
     let marked = source.settings.is_some() || source.nodes.iter().any(|node| node.mark.is_some());
     if marked {
         let cause = "its marks (extras.pong) are not looked at: all triangles are one body";
@@ -51,7 +48,7 @@ pub(super) fn flatten(source: Source, building: &Building<'_>, findings: &mut Fi
 }
 
 /// The solids of a shape, in the order of their first triangles.
-pub(super) fn solids(
+pub(crate) fn solids(
     mut shape: Shape,
     building: &Building<'_>,
     findings: &mut Findings,
@@ -215,6 +212,6 @@ fn pierced(triangle: &[Vector3<f64>; 3], (from, to): (Vector3<f64>, Vector3<f64>
     inside.then_some(place)
 }
 
-pub(super) fn named(place: &Vector3<f64>) -> String {
+pub(crate) fn named(place: &Vector3<f64>) -> String {
     format!("({}, {}, {})", place.x, place.y, place.z)
 }

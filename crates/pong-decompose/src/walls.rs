@@ -5,10 +5,10 @@
 //! every face must be convex. Else the piece itself is cut in two along the rim of the covered part, while the number
 //! of pieces allows it. What is still covered in part then stays active as a whole.
 
-use super::piece::Piece;
-use super::polygon::{Plane, Polygon, area, clip, common, is_wide, sides, without};
-use super::regions::{faces_of, sum};
-use super::seams::{Pool, stitch};
+use crate::piece::Piece;
+use crate::polygon::{Plane, Polygon, area, clip, common, is_wide, sides, without};
+use crate::regions::{faces_of, sum};
+use crate::seams::{Pool, stitch};
 use nalgebra::Vector3;
 
 /// Opposite faces within this share of the larger piece's box are one plane; the loader allows four times as much.
@@ -20,11 +20,11 @@ const PROBE_SHARE: f64 = 1e-8;
 
 /// What was found and done.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Walls {
+pub(crate) struct Walls {
     /// Pieces that were cut in two along the rims of walls.
-    pub(super) cuts: usize,
+    pub(crate) cuts: usize,
     /// Faces of which a part is covered, and that stay active.
-    pub(super) part_covered: usize,
+    pub(crate) part_covered: usize,
 }
 
 /// Two opposite faces in one plane, and what they have in common, counter-clockwise seen along the first's normal.
@@ -44,7 +44,7 @@ enum Split {
 }
 
 /// Marks inner walls, cutting faces and pieces where that is needed; `accepted` tells whether the loader takes a piece.
-pub(super) fn mark(
+pub(crate) fn mark(
     pieces: &mut Vec<Piece>,
     pieces_max: usize,
     size_m: f64,
@@ -252,7 +252,7 @@ fn longest_line(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decompose::piece::hull;
+    use crate::piece::hull;
 
     fn box_between(low: [f64; 3], high: [f64; 3]) -> Piece {
         let corner =

@@ -3,10 +3,10 @@
 //! Distances from a solid change no faster than the place does. So a triangle is cut in halves until either it is
 //! small or it cannot hold a larger distance than one already found, and what is left over bounds the largest there is.
 
-use super::inside::Solid;
-use super::piece::Piece;
-use super::polygon::lexicographic;
-use crate::mesh::{Mesh, bounds};
+use crate::inside::Solid;
+use crate::piece::Piece;
+use crate::polygon::lexicographic;
+use pong_import::parts::mesh::{Mesh, bounds};
 use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
@@ -91,7 +91,7 @@ impl<'a> Union<'a> {
 }
 
 /// Measures pieces against the source with about `samples` places on each surface and in the volume.
-pub(super) fn deviation(source: &Mesh, solid: &Solid, pieces: &[Piece], samples: usize) -> Option<Deviation> {
+pub(crate) fn deviation(source: &Mesh, solid: &Solid, pieces: &[Piece], samples: usize) -> Option<Deviation> {
     let size_m = source.size_m();
     let nothing_m = NOTHING * size_m;
     let union = Union::new(pieces, nothing_m)?;
@@ -264,7 +264,7 @@ fn volumes(deviation: &mut Deviation, source: &Mesh, solid: &Solid, union: &Unio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decompose::piece::hull;
+    use crate::piece::hull;
 
     fn box_between(low: [f64; 3], high: [f64; 3]) -> Piece {
         let corner =

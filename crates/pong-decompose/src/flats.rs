@@ -3,11 +3,11 @@
 //! VHACD judges a cut by what it gains at once. Of a frame or a cup no single cut gains anything, so its first ones are
 //! arbitrary; a cut along a flat face that ends in the material is right even if the gain comes with the next one.
 
-use super::cells::Features;
-use super::content::{Cell, content};
-use super::inside::Solid;
-use super::piece::hull;
-use crate::mesh::{Mesh, bounds};
+use crate::cells::Features;
+use crate::content::{Cell, content};
+use crate::inside::Solid;
+use crate::piece::hull;
+use pong_import::parts::mesh::{Mesh, bounds};
 
 /// Most planes tried in a cell, those of the largest faces.
 const TRIED: usize = 12;
@@ -16,23 +16,23 @@ const CELLS_MAX: usize = 256;
 
 /// A cell, and the volume by which the hull of its content exceeds it.
 #[derive(Clone, Copy)]
-pub(super) struct Judged {
-    pub(super) cell: Cell,
+pub(crate) struct Judged {
+    pub(crate) cell: Cell,
     excess_m3: f64,
 }
 
 /// A solid with the planes to cut it by.
-pub(super) struct Cutting<'a> {
-    pub(super) mesh: &'a Mesh,
-    pub(super) solid: &'a Solid,
-    pub(super) features: &'a Features,
+pub(crate) struct Cutting<'a> {
+    pub(crate) mesh: &'a Mesh,
+    pub(crate) solid: &'a Solid,
+    pub(crate) features: &'a Features,
     /// An excess up to this is none, m³.
-    pub(super) allowed_m3: f64,
+    pub(crate) allowed_m3: f64,
 }
 
 impl Cutting<'_> {
     /// Cells whose walls are planes of flat faces, until what they hold is convex or has no such plane left.
-    pub(super) fn cells(&self) -> Vec<Judged> {
+    pub(crate) fn cells(&self) -> Vec<Judged> {
         let (low, high) = bounds(&self.mesh.vertices);
         let mut open = vec![self.judged(Cell { low, high })];
         let mut done = Vec::new();
@@ -47,7 +47,7 @@ impl Cutting<'_> {
     }
 
     /// Whether what it holds fills its hull.
-    pub(super) fn is_convex(&self, cell: &Judged) -> bool {
+    pub(crate) fn is_convex(&self, cell: &Judged) -> bool {
         cell.excess_m3 <= self.allowed_m3
     }
 

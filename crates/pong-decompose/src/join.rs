@@ -1,6 +1,6 @@
 //! Pieces joined again: those whose union is convex, and where there are too many those that add the least.
 
-use super::piece::{Piece, hull};
+use crate::piece::{Piece, hull};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ const CONVEX_SHARE: f64 = 1e-7;
 
 /// Joins pieces until no two have a convex union, and at most `pieces_max` are left if that is possible without
 /// overlaps. Returns how many joints added volume.
-pub(super) fn join(pieces: &mut Vec<Piece>, pieces_max: usize, margin_m: f64) -> usize {
+pub(crate) fn join(pieces: &mut Vec<Piece>, pieces_max: usize, margin_m: f64) -> usize {
     let mut pool: Vec<Option<Piece>> = std::mem::take(pieces).into_iter().map(Some).collect();
     let mut pairs: BTreeMap<(usize, usize), Piece> = BTreeMap::new();
     for index in 0..pool.len() {

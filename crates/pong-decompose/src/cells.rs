@@ -4,8 +4,8 @@
 //! The cells fill the whole bounding box and have no common parts. So the hulls of what is in them have none either,
 //! and leave nothing of the solid uncovered.
 
-use super::content::Cell;
-use crate::mesh::{Mesh, area_vector, bounds};
+use crate::content::Cell;
+use pong_import::parts::mesh::{Mesh, area_vector, bounds};
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
@@ -13,18 +13,18 @@ use parry3d_f64::transformation::voxelization::FillMode;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How finely to look.
-pub(super) struct Looking {
+pub(crate) struct Looking {
     /// Voxels along the longest side.
-    pub(super) resolution: u32,
+    pub(crate) resolution: u32,
     /// Share of the whole hull's volume that the hull of a piece may exceed its content by.
-    pub(super) concavity: f64,
-    pub(super) pieces_max: usize,
+    pub(crate) concavity: f64,
+    pub(crate) pieces_max: usize,
     /// Whether the solid has cavities inside.
-    pub(super) hollow: bool,
+    pub(crate) hollow: bool,
     /// How much VHACD favours parts of equal volume (its α).
-    pub(super) balance: f64,
+    pub(crate) balance: f64,
     /// How much VHACD favours cuts along the axis of revolution (its β).
-    pub(super) symmetry: f64,
+    pub(crate) symmetry: f64,
 }
 
 /// Cuts move onto flat faces of the mesh within this many voxels: VHACD weighs cuts near such a face nearly alike.
@@ -46,7 +46,7 @@ struct Lattice {
 }
 
 /// Coordinates worth cutting at, along each axis: (coordinate, area of flat faces there), rising.
-pub(super) struct Features(pub(super) [Vec<(f64, f64)>; 3]);
+pub(crate) struct Features(pub(crate) [Vec<(f64, f64)>; 3]);
 
 /// A cut between two sets of boxes.
 struct Cut {
@@ -57,7 +57,7 @@ struct Cut {
 }
 
 /// Cells whose contents are nearly convex; `None` if the decomposer gives up.
-pub(super) fn cells(mesh: &Mesh, features: &Features, looking: &Looking) -> Option<Vec<Cell>> {
+pub(crate) fn cells(mesh: &Mesh, features: &Features, looking: &Looking) -> Option<Vec<Cell>> {
     let (lattice, boxes) = catch_unwind(AssertUnwindSafe(|| voxel_boxes(mesh, looking))).ok()?;
     let (low, high) = bounds(&mesh.vertices);
     let mut cells = Vec::new();
@@ -167,7 +167,7 @@ impl Lattice {
 }
 
 impl Features {
-    pub(super) fn of(mesh: &Mesh) -> Self {
+    pub(crate) fn of(mesh: &Mesh) -> Self {
         Self([0, 1, 2].map(|axis| {
             let mut found: Vec<(f64, f64)> = mesh.vertices.iter().map(|place| (place[axis], 0.0)).collect();
             for triangle in 0..mesh.triangles.len() {

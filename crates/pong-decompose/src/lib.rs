@@ -3,6 +3,8 @@
 //! `solids` (a file to closed meshes), `by_vhacd` (cuts by `flats` and `cells`, `content` between them) or `coacd`,
 //! `piece` (hulls), `join`, `walls` with `regions` and `seams` (inner walls), `measure` (how far off it is).
 
+#![forbid(unsafe_code)]
+
 mod by_vhacd;
 mod cells;
 mod coacd;
@@ -21,15 +23,9 @@ mod walls;
 
 pub use measure::{Deviation, Distances};
 
-use crate::affine::Up;
-use crate::build::{self, Building};
-use crate::files;
-use crate::findings::{Finding, Findings};
-use crate::laws::DefaultSurface;
-use crate::mesh::{self, Mesh};
-use crate::model::{Field, Group, Model, Primitive, field};
-use crate::source::{self, Reading};
-use crate::write;
+use pong_import::parts::mesh::{self, Mesh};
+use pong_import::parts::{Building, Field, Group, Model, Primitive, Reading, field, text};
+use pong_import::{DefaultSurface, Finding, Findings, Up, parts};
 use inside::Solid;
 use nalgebra::Vector3;
 use piece::{NoHull, Piece, hull};
@@ -174,7 +170,7 @@ fn attempt(
         scene: options.scene.clone(),
         allowed: options.allowed.clone(),
     };
-    let source = source::read(input, &reading, findings)?;
+    let source = parts::read(input, &reading, findings)?;
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let building = Building {
         file,
@@ -185,7 +181,7 @@ fn attempt(
         surface: options.surface.clone(),
         faces_max: usize::MAX,
         inline_max: usize::MAX,
-        hull: false,
+        hull: None,
         progress,
     };
     let shape = solids::flatten(source, &building, findings);
@@ -213,8 +209,8 @@ fn attempt(
     within(&figures, options, &building.file, findings)?;
     (building.progress)("writing");
     let mut model = model(pieces, &building, &figures);
-    build::default_surface(&mut model, &building, findings);
-    files::write_checked(output, write::text(&model), Vec::new(), findings)
+    parts::default_surface(&mut model, &building, findings);
+    parts::write_checked(output, text(&model), Vec::new(), findings)
 }
 
 fn check_options(options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
@@ -336,7 +332,7 @@ fn pieces(
 }
 
 /// The convex hull of a mesh and how far its deepest vertex lies within it, m; `None` if it has no thickness.
-pub(crate) fn hull_of_mesh(mesh: &Mesh) -> Option<(mesh::Polyhedron, f64)> {
+pub fn hull_of_mesh(mesh: &Mesh) -> Option<(mesh::Polyhedron, f64)> {
     let piece = hull(&mesh.vertices).ok()?;
     let depth = |place: &Vector3<f64>| {
         piece.planes.iter().map(|plane| -plane.height(place)).fold(f64::INFINITY, f64::min).max(0.0)
@@ -493,5 +489,5 @@ fn is_accepted(piece: &Piece) -> bool {
     };
     let surfaces = vec![(surface.name.clone(), surface.record())];
     let model = Model { name: "piece".to_owned(), entry_memory: true, surfaces, root, ..Model::default() };
-    pong_model::parse(&write::text(&model), "piece", None, &Extensions::new()).is_ok()
+    pong_model::parse(&text(&model), "piece", None, &Extensions::new()).is_ok()
 }

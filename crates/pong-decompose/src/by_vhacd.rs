@@ -1,16 +1,16 @@
 //! Pieces of a solid by cuts along flat faces and by VHACD, whichever fits best.
 
-use super::cells::{Features, Looking, cells};
-use super::content::{Cell, content};
-use super::flats::{Cutting, Judged};
-use super::inside::Solid;
-use super::join::join;
-use super::piece::{Piece, hull};
-use super::seams::Pool;
-use super::solids::SolidMesh;
-use super::{DecomposeOptions, hulls_of, tell_flat};
-use crate::findings::{Finding, Findings};
-use crate::mesh;
+use crate::cells::{Features, Looking, cells};
+use crate::content::{Cell, content};
+use crate::flats::{Cutting, Judged};
+use crate::inside::Solid;
+use crate::join::join;
+use crate::piece::{Piece, hull};
+use crate::seams::Pool;
+use crate::solids::SolidMesh;
+use crate::{DecomposeOptions, hulls_of, tell_flat};
+use pong_import::{Finding, Findings};
+use pong_import::parts::mesh;
 
 /// Weights of balance and symmetry that VHACD is run with. Its own, then those that cut rings and cups well.
 const WEIGHTS: [(f64, f64); 3] = [(0.05, 0.05), (0.5, 0.05), (0.05, 0.5)];
@@ -24,7 +24,7 @@ struct Attempt {
 
 /// The pieces of the attempt that exceeds the solid by the least volume; of nearly equal ones that of the fewest
 /// pieces. With them how many joints added volume.
-pub(super) fn pieces(
+pub(crate) fn pieces(
     solid: &SolidMesh,
     options: &DecomposeOptions,
     pieces_max: usize,

@@ -4,9 +4,9 @@
 //! neighbours need not have a convex outline together; the face is refused then. Vertices that stand out from the
 //! rest by next to nothing are what makes such faces, so they are left out.
 
-use super::piece::{Piece, hull};
-use super::polygon::lexicographic;
-use super::seams::Pool;
+use crate::piece::{Piece, hull};
+use crate::polygon::lexicographic;
+use crate::seams::Pool;
 use nalgebra::Vector3;
 
 /// Vertices that stand out by less than this share of a piece's box may be left out.
@@ -14,17 +14,17 @@ const FLAT_SHARE: f64 = 1e-5;
 
 /// What was changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Changes {
+pub(crate) struct Changes {
     /// Vertices left out.
-    pub(super) flat: usize,
+    pub(crate) flat: usize,
     /// Pieces whose vertices within `welded_m` became one, because nothing less helped.
-    pub(super) welded: usize,
+    pub(crate) welded: usize,
     /// The largest such distance, m.
-    pub(super) welded_m: f64,
+    pub(crate) welded_m: f64,
 }
 
 /// Changes pieces as little as it takes to have them accepted.
-pub(super) fn make(pieces: &mut [Piece], size_m: f64, accepted: &dyn Fn(&Piece) -> bool) -> Changes {
+pub(crate) fn make(pieces: &mut [Piece], size_m: f64, accepted: &dyn Fn(&Piece) -> bool) -> Changes {
     let mut changes = Changes::default();
     let mut left_out: Vec<Vector3<f64>> = Vec::new();
     for piece in pieces.iter_mut() {

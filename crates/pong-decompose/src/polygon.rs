@@ -1,39 +1,39 @@
 //! Convex polygons in space: cutting, areas, what some leave of another.
 
-use crate::mesh::ring;
+use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
 
 /// The half space `normal·x ≤ offset`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plane {
-    pub(super) normal: Vector3<f64>,
-    pub(super) offset: f64,
+pub(crate) struct Plane {
+    pub(crate) normal: Vector3<f64>,
+    pub(crate) offset: f64,
 }
 
 /// A convex outline, counter-clockwise seen from where its normal points.
-pub(super) type Polygon = Vec<Vector3<f64>>;
+pub(crate) type Polygon = Vec<Vector3<f64>>;
 
 impl Plane {
     /// The half space below (or above) a coordinate.
-    pub(super) fn across(axis: usize, at: f64, above: bool) -> Self {
+    pub(crate) fn across(axis: usize, at: f64, above: bool) -> Self {
         let sign = if above { -1.0 } else { 1.0 };
         Self { normal: Vector3::ith(axis, sign), offset: sign * at }
     }
 
-    pub(super) fn height(&self, place: &Vector3<f64>) -> f64 {
+    pub(crate) fn height(&self, place: &Vector3<f64>) -> f64 {
         self.normal.dot(place) - self.offset
     }
 
-    pub(super) fn flipped(&self) -> Self {
+    pub(crate) fn flipped(&self) -> Self {
         Self { normal: -self.normal, offset: -self.offset }
     }
 
-    pub(super) fn shifted(&self, by: f64) -> Self {
+    pub(crate) fn shifted(&self, by: f64) -> Self {
         Self { offset: self.offset + by, ..*self }
     }
 
     /// Where the line from `a` to `b` passes; the same bits whichever end comes first.
-    pub(super) fn crossing(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn crossing(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> Vector3<f64> {
         let (a, b) = if lexicographic(a, b).is_le() { (a, b) } else { (b, a) };
         let (height_a, height_b) = (self.height(a), self.height(b));
         let mut place = a + (b - a) * (height_a / (height_a - height_b));
@@ -45,22 +45,22 @@ impl Plane {
     }
 }
 
-pub(super) fn lexicographic(a: &Vector3<f64>, b: &Vector3<f64>) -> std::cmp::Ordering {
+pub(crate) fn lexicographic(a: &Vector3<f64>, b: &Vector3<f64>) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// Area times normal.
-pub(super) fn area_vector(polygon: &[Vector3<f64>]) -> Vector3<f64> {
+pub(crate) fn area_vector(polygon: &[Vector3<f64>]) -> Vector3<f64> {
     let Some(first) = polygon.first() else { return Vector3::zeros() };
     0.5 * ring(polygon).map(|(a, b)| (a - first).cross(&(b - first))).sum::<Vector3<f64>>()
 }
 
-pub(super) fn area(polygon: &[Vector3<f64>]) -> f64 {
+pub(crate) fn area(polygon: &[Vector3<f64>]) -> f64 {
     area_vector(polygon).norm()
 }
 
 /// The plane of an outline, through the mean of its corners.
-pub(super) fn plane_of(polygon: &[Vector3<f64>]) -> Plane {
+pub(crate) fn plane_of(polygon: &[Vector3<f64>]) -> Plane {
     let normal = area_vector(polygon).normalize();
     let first = polygon[0];
     let mean = polygon.iter().map(|place| place - first).sum::<Vector3<f64>>() / polygon.len() as f64;
@@ -68,7 +68,7 @@ pub(super) fn plane_of(polygon: &[Vector3<f64>]) -> Plane {
 }
 
 /// Largest extent of the corners along any edge's direction across it: the least of these is the width.
-pub(super) fn width(polygon: &[Vector3<f64>]) -> f64 {
+pub(crate) fn width(polygon: &[Vector3<f64>]) -> f64 {
     let across = |(a, b): (Vector3<f64>, Vector3<f64>)| {
         let along = (b - a).normalize();
         polygon.iter().map(|place| (place - a).cross(&along).norm()).fold(0.0, f64::max)
@@ -77,7 +77,7 @@ pub(super) fn width(polygon: &[Vector3<f64>]) -> f64 {
 }
 
 /// The part of a polygon in a half space.
-pub(super) fn clip(polygon: &[Vector3<f64>], plane: &Plane) -> Polygon {
+pub(crate) fn clip(polygon: &[Vector3<f64>], plane: &Plane) -> Polygon {
     let mut inside = Polygon::with_capacity(polygon.len() + 1);
     for (a, b) in ring(polygon) {
         let (height_a, height_b) = (plane.height(&a), plane.height(&b));
@@ -92,7 +92,7 @@ pub(super) fn clip(polygon: &[Vector3<f64>], plane: &Plane) -> Polygon {
 }
 
 /// The half spaces whose common part is the prism over a polygon; they look outwards.
-pub(super) fn sides(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Plane> {
+pub(crate) fn sides(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Plane> {
     ring(polygon)
         .filter(|(a, b)| a != b)
         .map(|(a, b)| {
@@ -107,12 +107,12 @@ pub(super) fn sides(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Plan
 }
 
 /// The common part of two polygons of one plane.
-pub(super) fn common(one: &[Vector3<f64>], other: &[Vector3<f64>], normal: &Vector3<f64>) -> Polygon {
+pub(crate) fn common(one: &[Vector3<f64>], other: &[Vector3<f64>], normal: &Vector3<f64>) -> Polygon {
     sides(other, normal).iter().fold(one.to_vec(), |rest, side| clip(&rest, side))
 }
 
 /// What is left of convex polygons of one plane without another: convex polygons again, none narrower than `least_m`.
-pub(super) fn without(
+pub(crate) fn without(
     polygons: &[Polygon],
     taken: &[Vector3<f64>],
     normal: &Vector3<f64>,
@@ -142,7 +142,7 @@ pub(super) fn without(
     left
 }
 
-pub(super) fn is_wide(polygon: &[Vector3<f64>], least_m: f64) -> bool {
+pub(crate) fn is_wide(polygon: &[Vector3<f64>], least_m: f64) -> bool {
     polygon.len() > 2 && area(polygon) > 0.0 && width(polygon) > least_m
 }
 

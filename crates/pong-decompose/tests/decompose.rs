@@ -1,14 +1,14 @@
 //! `pong decompose`: shapes with known pieces, figures with known values, bad input.
 
-mod common;
-
-use common::{blocks, cube, folder, obj, torus};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{Polyhedron, RimEdge};
-use pong_import::{DecomposeOptions, Decomposed, DefaultSurface, Method, Report};
+use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
+use pong_import::DefaultSurface;
 use pong_model::Model;
 use std::path::PathBuf;
+use pong_testkit::meshes::{blocks, cube, obj, torus};
+use pong_testkit::scratch;
 
 type Triangles = Vec<[[f64; 3]; 3]>;
 
@@ -23,14 +23,14 @@ fn options() -> DecomposeOptions {
 }
 
 fn save(test: &str, triangles: &Triangles) -> PathBuf {
-    let path = folder(&format!("decompose_{test}")).join("shape.obj");
+    let path = scratch(env!("CARGO_TARGET_TMPDIR"), &format!("decompose_{test}")).join("shape.obj");
     std::fs::write(&path, obj(triangles)).unwrap();
     path
 }
 
 fn attempt(test: &str, triangles: &Triangles, options: &DecomposeOptions) -> Decomposed {
     let path = save(test, triangles);
-    pong_import::decompose(&path, &path.with_extension("ron"), options, &mut |_| ())
+    pong_decompose::decompose(&path, &path.with_extension("ron"), options, &mut |_| ())
 }
 
 /// The figures and the model as the engine reads it.
@@ -255,4 +255,25 @@ fn a_missing_coacd_is_named_with_its_cure() {
     let method = Method::Coacd("no-such-python-here".to_owned());
     let coacd = DecomposeOptions { method, resolution: None, ..options() };
     assert_eq!(faults("coacd", &ell(), &coacd), ["coacd-missing"]);
+}
+
+/// A dented part is imported as a TriangleMesh and, if asked for, as its hull.
+#[test]
+fn a_dented_part_becomes_its_hull_if_asked() {
+    let path = save("hull", &torus(1.0, 0.3, 12, 8));
+    let output = path.with_extension("ron");
+    let import = |hull| {
+        let surface = options().surface;
+        let options = pong_import::Options { surface, hull, ..pong_import::Options::default() };
+        pong_import::import(&path, &output, &options, &mut |_| ()).unwrap()
+    };
+    let plain = import(None);
+    let noted = plain.findings.notes.iter().any(|note| note.rule == "not-convex");
+    assert!(plain.primitives[0].0 == "TriangleMesh" && noted, "{}", plain.findings);
+    let hulled = import(Some(pong_decompose::hull_of_mesh));
+    assert_eq!(hulled.primitives, [("Polyhedron", 1)]);
+    let note = hulled.findings.notes.iter().find(|note| note.rule == "hull").expect("a note");
+    assert!(note.cause.contains("became the convex hull"), "{note}");
+    let model = pong_model::load(&output, &Extensions::new()).unwrap();
+    assert_eq!(model.bodies[0].polyhedra.len(), 1);
 }

@@ -1,7 +1,7 @@
 //! One convex piece, and the hull of points as one.
 
-use super::polygon::{Plane, Polygon, clip, is_wide, plane_of};
-use crate::mesh::{self, Flaw, Mesh, Polyhedron, bounds, ring};
+use crate::polygon::{Plane, Polygon, clip, is_wide, plane_of};
+use pong_import::parts::mesh::{self, Flaw, Mesh, Polyhedron, bounds, ring};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,20 +13,20 @@ const NO_SPREAD: f64 = 1e-7;
 
 /// A convex solid of polygons.
 #[derive(Clone, Debug)]
-pub(super) struct Piece {
-    pub(super) vertices: Vec<Vector3<f64>>,
-    pub(super) faces: Vec<Vec<u32>>,
+pub(crate) struct Piece {
+    pub(crate) vertices: Vec<Vector3<f64>>,
+    pub(crate) faces: Vec<Vec<u32>>,
     /// For each face whether it is an inner wall.
-    pub(super) inactive: Vec<bool>,
-    pub(super) planes: Vec<Plane>,
-    pub(super) low: Vector3<f64>,
-    pub(super) high: Vector3<f64>,
-    pub(super) volume_m3: f64,
+    pub(crate) inactive: Vec<bool>,
+    pub(crate) planes: Vec<Plane>,
+    pub(crate) low: Vector3<f64>,
+    pub(crate) high: Vector3<f64>,
+    pub(crate) volume_m3: f64,
 }
 
 /// Why points have no hull that is a solid.
 #[derive(Debug)]
-pub(super) enum NoHull {
+pub(crate) enum NoHull {
     /// They lie in a plane.
     Flat,
     /// The hull came out damaged.
@@ -34,7 +34,7 @@ pub(super) enum NoHull {
 }
 
 impl Piece {
-    pub(super) fn new(solid: Polyhedron) -> Self {
+    pub(crate) fn new(solid: Polyhedron) -> Self {
         let Polyhedron { vertices, faces, .. } = solid;
         let (low, high) = bounds(&vertices);
         let inactive = vec![false; faces.len()];
@@ -45,12 +45,12 @@ impl Piece {
     }
 
     /// The corners of a face, m.
-    pub(super) fn polygon(&self, face: usize) -> Polygon {
+    pub(crate) fn polygon(&self, face: usize) -> Polygon {
         self.faces[face].iter().map(|&vertex| self.vertices[vertex as usize]).collect()
     }
 
     /// Fans of triangles over all faces.
-    pub(super) fn triangles(&self) -> Mesh {
+    pub(crate) fn triangles(&self) -> Mesh {
         let fan = |face: &Vec<u32>| {
             let face = face.clone();
             (1..face.len() - 1).map(move |k| [face[0], face[k], face[k + 1]])
@@ -60,19 +60,19 @@ impl Piece {
     }
 
     /// Whether their boxes come within a distance.
-    pub(super) fn is_near(&self, other: &Self, margin_m: f64) -> bool {
+    pub(crate) fn is_near(&self, other: &Self, margin_m: f64) -> bool {
         (0..3).all(|axis| {
             self.low[axis] <= other.high[axis] + margin_m && other.low[axis] <= self.high[axis] + margin_m
         })
     }
 
     /// Whether a place is inside, or less than `margin_m` outside of every face's plane.
-    pub(super) fn holds(&self, place: &Vector3<f64>, margin_m: f64) -> bool {
+    pub(crate) fn holds(&self, place: &Vector3<f64>, margin_m: f64) -> bool {
         self.planes.iter().all(|plane| plane.height(place) <= margin_m)
     }
 
     /// Whether both have common parts deeper than `margin_m`.
-    pub(super) fn overlaps(&self, other: &Self, margin_m: f64) -> bool {
+    pub(crate) fn overlaps(&self, other: &Self, margin_m: f64) -> bool {
         if !self.is_near(other, -margin_m) {
             return false;
         }
@@ -90,7 +90,7 @@ impl Piece {
     }
 
     /// Both sides of a plane that passes through it.
-    pub(super) fn cut(&self, plane: &Plane) -> Option<[Self; 2]> {
+    pub(crate) fn cut(&self, plane: &Plane) -> Option<[Self; 2]> {
         let mut sides = [Vec::new(), Vec::new()];
         for face in 0..self.faces.len() {
             for (a, b) in ring(&self.polygon(face)) {
@@ -113,9 +113,9 @@ impl Piece {
 }
 
 /// The convex hull of points, its coplanar triangles merged; vertices are points, bit for bit.
-pub(super) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
+pub(crate) fn hull(points: &[Vector3<f64>]) -> Result<Piece, NoHull> {
     let mut points = points.to_vec();
-    points.sort_by(super::polygon::lexicographic);
+    points.sort_by(crate::polygon::lexicographic);
     points.dedup();
     if points.len() < 4 {
         return Err(NoHull::Flat);

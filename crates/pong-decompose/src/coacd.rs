@@ -1,7 +1,7 @@
 //! CoACD as an external tool: its Python package cuts the mesh, we read the pieces back.
 
-use crate::findings::Findings;
-use crate::mesh::Mesh;
+use pong_import::Findings;
+use pong_import::parts::mesh::Mesh;
 use nalgebra::Vector3;
 use std::fmt::Write as _;
 use std::io::Write;
@@ -33,16 +33,16 @@ out.close()
 ";
 
 /// How CoACD is called.
-pub(super) struct Calling<'a> {
+pub(crate) struct Calling<'a> {
     /// The Python interpreter.
-    pub(super) python: &'a str,
-    pub(super) threshold: f64,
-    pub(super) pieces_max: usize,
-    pub(super) resolution: u32,
+    pub(crate) python: &'a str,
+    pub(crate) threshold: f64,
+    pub(crate) pieces_max: usize,
+    pub(crate) resolution: u32,
 }
 
 /// The corners of the hulls CoACD finds; the fault says how to get it where it is not there.
-pub(super) fn hulls(
+pub(crate) fn hulls(
     mesh: &Mesh,
     calling: &Calling<'_>,
     file: &str,

@@ -1,19 +1,19 @@
 //! Unions of convex polygons in one plane.
 
-use super::polygon::{Polygon, area, lexicographic, sides};
-use super::seams::{Pool, with_vertices};
-use crate::mesh::ring;
+use crate::polygon::{Polygon, area, lexicographic, sides};
+use crate::seams::{Pool, with_vertices};
+use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The sum of areas.
-pub(super) fn sum(polygons: &[Polygon]) -> f64 {
+pub(crate) fn sum(polygons: &[Polygon]) -> f64 {
     polygons.iter().map(|polygon| area(polygon)).sum()
 }
 
 /// Polygons as the loader will see them: it makes one face of connected ones, which must then be convex, unless their
 /// outline is not one simple loop. `None` if it would refuse them.
-pub(super) fn faces_of(
+pub(crate) fn faces_of(
     polygons: &[Polygon],
     normal: &Vector3<f64>,
     strip_m: f64,

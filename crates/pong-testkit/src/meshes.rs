@@ -1,0 +1,77 @@
+//! Meshes written by code, as triangles whose corners stand counter-clockwise seen from outside.
+
+/// A place, m.
+pub type Place = [f64; 3];
+
+/// Corners of the cube from −1 to 1 and its sides, outwards.
+pub const CUBE: [Place; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+    [1.0, 1.0, 1.0],
+];
+/// The sides of the cube: indices of corners.
+pub const SIDES: [[usize; 4]; 6] =
+    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [1, 3, 7, 5], [0, 4, 6, 2]];
+
+/// The cube as triangles.
+pub fn cube() -> Vec<[Place; 3]> {
+    let cut = |[a, b, c, d]: [usize; 4]| [[a, b, c], [a, c, d]];
+    SIDES.into_iter().flat_map(cut).map(|triangle| triangle.map(|corner| CUBE[corner])).collect()
+}
+
+/// The surface of a set of unit cubes, scaled: triangles outwards, no walls between cubes.
+pub fn blocks(cubes: &[[i32; 3]], edge: f64) -> Vec<[Place; 3]> {
+    let mut triangles = Vec::new();
+    for cube in cubes {
+        for side in SIDES {
+            let corner =
+                |vertex: usize| [0, 1, 2].map(|axis| cube[axis] + i32::from(CUBE[vertex][axis] > 0.0));
+            let beyond = |axis: usize| {
+                let twice: i32 = side.iter().map(|&vertex| corner(vertex)[axis]).sum::<i32>() / 2;
+                cube[axis] + (twice - 2 * cube[axis] - 1)
+            };
+            if !cubes.contains(&[0, 1, 2].map(beyond)) {
+                let places = side.map(|vertex| corner(vertex).map(|x| f64::from(x) * edge));
+                triangles.extend([[0, 1, 2], [0, 2, 3]].map(|cut| cut.map(|k| places[k])));
+            }
+        }
+    }
+    triangles
+}
+
+/// A torus around z: rings of `sides` corners.
+pub fn torus(radius: f64, thickness: f64, rings: usize, sides: usize) -> Vec<[Place; 3]> {
+    let angle = |k: usize, of: usize| std::f64::consts::TAU * (k % of) as f64 / of as f64;
+    let place = |ring: usize, side: usize| {
+        let (across, around) = (angle(side, sides), angle(ring, rings));
+        let out = radius + thickness * across.cos();
+        [out * around.cos(), out * around.sin(), thickness * across.sin()]
+    };
+    let quads = (0..rings).flat_map(|ring| (0..sides).map(move |side| (ring, side)));
+    let cut = |(i, j): (usize, usize)| {
+        let [a, b, c, d] = [place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    };
+    quads.flat_map(cut).collect()
+}
+
+/// An OBJ file of triangles, all digits; equal places become one vertex.
+pub fn obj(triangles: &[[Place; 3]]) -> String {
+    let mut places: Vec<Place> = Vec::new();
+    let mut faces = String::new();
+    for triangle in triangles {
+        faces.push('f');
+        for corner in triangle {
+            let found = places.iter().position(|place| place == corner);
+            let number = found.unwrap_or_else(|| (places.push(*corner), places.len() - 1).1);
+            faces += &format!(" {}", number + 1);
+        }
+        faces.push('\n');
+    }
+    places.iter().map(|[x, y, z]| format!("v {x:?} {y:?} {z:?}\n")).collect::<String>() + &faces
+}
