@@ -19,9 +19,9 @@ ARROWS = {
     "pong-advise": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-executive": {"pong-advise", "pong-geometry", "pong-model", "pong-engine"},
     "pong-record": {"pong-geometry", "pong-model", "pong-engine"},
-    "pong-verify": {"pong-geometry", "pong-model", "pong-engine", "pong-executive"},
-    "pong-trade": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
-    "pong-tune": {"pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
+    "pong-verify": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive"},
+    "pong-report": {"pong-model"},
+    "pong-study": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-import": {"pong-geometry", "pong-model"},
     "pong-decompose": {"pong-geometry", "pong-import", "pong-model"},
     "pong-invariance": {"pong-geometry", "pong-model", "pong-engine"},
@@ -30,7 +30,7 @@ ARROWS = {
     "pong-capi": {"pong-advise", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {
         "pong-advise", "pong-decompose", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
-        "pong-verify", "pong-trade", "pong-tune", "pong-view",
+        "pong-verify", "pong-report", "pong-study", "pong-view",
     },
 }
 MAY_BE_UNSAFE = {"pong-capi", "pong-threads"}

@@ -15,6 +15,7 @@ use crate::surfaces::pong_surface_values;
 use crate::tally::pong_tally;
 use crate::worker::pong_worker;
 use crate::wrenches::pong_wrench;
+use pong_model::Fnv;
 use std::mem::offset_of;
 
 /// Layout of one struct.
@@ -104,35 +105,23 @@ layouts! {
 
 /// FNV-1a over names, sizes, offsets and status numbers.
 pub fn layout_hash() -> u64 {
-    let mut hash = Fnv(0xcbf2_9ce4_8422_2325);
+    let mut hash = Fnv::default();
+    let text = |hash: &mut Fnv, text: &str| {
+        hash.bytes(text.as_bytes());
+        hash.bytes(&[0]);
+    };
     for layout in LAYOUTS {
-        hash.text(layout.name);
-        hash.number(layout.size);
-        hash.number(layout.align);
+        text(&mut hash, layout.name);
+        hash.word(layout.size as u64);
+        hash.word(layout.align as u64);
         for (field, offset) in layout.fields {
-            hash.text(field);
-            hash.number(*offset);
+            text(&mut hash, field);
+            hash.word(*offset as u64);
         }
     }
     for status in pong_status::ALL {
-        hash.text(&format!("{status:?}"));
-        hash.number(status as usize);
+        text(&mut hash, &format!("{status:?}"));
+        hash.word(status as u64);
     }
-    hash.0
-}
-
-struct Fnv(u64);
-
-impl Fnv {
-    fn text(&mut self, text: &str) {
-        text.bytes().chain([0]).for_each(|byte| self.byte(byte));
-    }
-
-    fn number(&mut self, number: usize) {
-        (number as u64).to_le_bytes().into_iter().for_each(|byte| self.byte(byte));
-    }
-
-    fn byte(&mut self, byte: u8) {
-        self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    }
+    hash.value()
 }

@@ -2,9 +2,10 @@
 
 use crate::import::{Mesh, length_m, spinner};
 use crate::terminal::{print, show, tell, tell_lines};
-use crate::text::{count, number, table};
+use crate::text::{count, number};
 use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
 use pong_import::Up;
+use pong_report::table;
 use std::process::ExitCode;
 
 /// Makes a group of convex polyhedra of a closed mesh that need not be convex: glTF (.glb, .gltf), OBJ or STL.
@@ -72,9 +73,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();
-    let done = pong_decompose::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
-        show(&bar, what)
-    });
+    let done =
+        pong_decompose::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
+            show(&bar, what)
+        });
     bar.finish_and_clear();
     let Decomposed { report, files, findings } = done;
     if let Some(report) = &report {
@@ -123,5 +125,5 @@ fn summary(report: &Report) -> String {
         row("protrusion", &deviation.protrusion, 0.0, deviation.protruding_share),
         row("deficit", &deviation.deficit, deviation.inner_deficit_m, deviation.deficit_share),
     ];
-    counts + &volume + &table(&["", "max m", "at most m", "mean m", "of area", "of volume"], &rows)
+    counts + &volume + &table::aligned(&["", "max m", "at most m", "mean m", "of area", "of volume"], &rows)
 }

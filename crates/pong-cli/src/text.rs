@@ -1,6 +1,4 @@
-//! Text for terminals: numbers, tables, names.
-
-use pong_model::printable;
+//! Text for terminals: numbers, names.
 
 /// Six significant digits, without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
@@ -34,24 +32,6 @@ pub(crate) fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-/// Rows under a heading, the first column to the left, the others to the right; no name in a cell breaks its line.
-pub(crate) fn table(heading: &[&str], rows: &[Vec<String>]) -> String {
-    let rows: Vec<Vec<String>> =
-        rows.iter().map(|row| row.iter().map(|cell| printable(cell).into_owned()).collect()).collect();
-    let head: Vec<String> = heading.iter().map(|title| (*title).to_owned()).collect();
-    let all: Vec<&Vec<String>> = std::iter::once(&head).chain(&rows).collect();
-    let width = |column: usize| all.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..heading.len()).map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells = row.iter().zip(&widths).enumerate().map(|(column, (cell, &width))| match column {
-            0 => format!("{cell:<width$}"),
-            _ => format!("{cell:>width$}"),
-        });
-        format!("  {}\n", cells.collect::<Vec<_>>().join("   ").trim_end())
-    };
-    all.into_iter().map(line).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -73,13 +53,5 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(number(value), text);
         }
-    }
-
-    #[test]
-    fn tables_line_up() {
-        let text = table(&["a", "long"], &[vec!["é1".to_owned(), "2".to_owned()]]);
-        assert_eq!(text, "  a    long\n  é1      2\n");
-        let text = table(&["a", "b"], &[vec!["x\ny".to_owned(), "2".to_owned()]]);
-        assert_eq!(text, "  a      b\n  x\\ny   2\n");
     }
 }

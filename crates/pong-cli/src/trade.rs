@@ -4,7 +4,7 @@ use crate::folders::AllowedFolders;
 use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
-use pong_trade::{
+use pong_study::sweep::{
     Lever, LogAlternative, PlanSettings, Progress, Quantity, Settings, Study, report, study, study_log,
 };
 use std::ops::ControlFlow;
@@ -143,7 +143,7 @@ fn output(arguments: &Arguments) -> PathBuf {
     arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}_trade")))
 }
 
-fn run(arguments: &Arguments) -> Result<Study, pong_trade::TradeError> {
+fn run(arguments: &Arguments) -> Result<Study, pong_study::StudyError> {
     let bar = progress_bar(arguments.quiet);
     let mut watch = |progress: &Progress<'_>| {
         bar.set_length(progress.of);
@@ -158,7 +158,7 @@ fn run(arguments: &Arguments) -> Result<Study, pong_trade::TradeError> {
             bar.finish_and_clear();
             let line =
                 "--alternative: a scene names its own; write `alternatives` into it (docs/scene_format.md)";
-            return Err(pong_trade::TradeError(line.to_owned()));
+            return Err(pong_study::StudyError(line.to_owned()));
         }
         false => study(subject, &output, &settings(arguments), &mut watch),
     };

@@ -3,7 +3,8 @@
 use crate::folders::AllowedFolders;
 use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
-use pong_tune::{Output, Progress, Settings, TuneError, Tuned, report, tune};
+use pong_study::StudyError;
+use pong_study::tree_tuning::{Output, Progress, Settings, Tuned, report, tune};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -62,7 +63,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
 }
 
-fn run(arguments: &Arguments) -> Result<Tuned, TuneError> {
+fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
     let mut runs: Vec<&Path> = vec![&arguments.subject];
     runs.extend(arguments.also.iter().map(PathBuf::as_path));
     let settings = Settings {

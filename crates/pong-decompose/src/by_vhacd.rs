@@ -9,8 +9,8 @@ use crate::piece::{Piece, hull};
 use crate::seams::Pool;
 use crate::solids::SolidMesh;
 use crate::{DecomposeOptions, hulls_of, tell_flat};
+use pong_import::mesh;
 use pong_import::{Finding, Findings};
-use pong_import::parts::mesh;
 
 /// Weights of balance and symmetry that VHACD is run with. Its own, then those that cut rings and cups well.
 const WEIGHTS: [(f64, f64); 3] = [(0.05, 0.05), (0.5, 0.05), (0.05, 0.5)];

@@ -5,11 +5,11 @@
 //! and leave nothing of the solid uncovered.
 
 use crate::content::Cell;
-use pong_import::parts::mesh::{Mesh, area_vector, bounds};
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::vhacd::{VHACD, VHACDParameters};
 use parry3d_f64::transformation::voxelization::FillMode;
+use pong_import::mesh::{Mesh, area_vector, bounds};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// How finely to look.

@@ -1,8 +1,8 @@
 //! CoACD as an external tool: its Python package cuts the mesh, we read the pieces back.
 
-use pong_import::Findings;
-use pong_import::parts::mesh::Mesh;
 use nalgebra::Vector3;
+use pong_import::Findings;
+use pong_import::mesh::Mesh;
 use std::fmt::Write as _;
 use std::io::Write;
 use std::process::{Command, Stdio};

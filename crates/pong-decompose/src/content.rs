@@ -2,8 +2,8 @@
 
 use crate::inside::Solid;
 use crate::polygon::{Plane, Polygon, clip, is_wide};
-use pong_import::parts::mesh::{Mesh, area_vector, bounds};
 use nalgebra::Vector3;
+use pong_import::mesh::{Mesh, area_vector, bounds};
 
 /// What is narrower than this share of a cell's diagonal only touches the cell.
 const STRIP_SHARE: f64 = 1e-9;

@@ -7,7 +7,7 @@ use crate::cells::Features;
 use crate::content::{Cell, content};
 use crate::inside::Solid;
 use crate::piece::hull;
-use pong_import::parts::mesh::{Mesh, bounds};
+use pong_import::mesh::{Mesh, bounds};
 
 /// Most planes tried in a cell, those of the largest faces.
 const TRIED: usize = 12;

@@ -1,10 +1,10 @@
 //! A closed mesh as a solid: what is inside, and how far away its surface is.
 
-use pong_import::parts::mesh::Mesh;
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQuery;
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
+use pong_import::mesh::Mesh;
 
 /// A closed mesh under a tree of boxes, with normals that tell the inside.
 pub(crate) struct Solid(TriMesh);

@@ -23,13 +23,15 @@ mod walls;
 
 pub use measure::{Deviation, Distances};
 
-use pong_import::parts::mesh::{self, Mesh};
-use pong_import::parts::{Building, Field, Group, Model, Primitive, Reading, field, text};
-use pong_import::{DefaultSurface, Finding, Findings, Up, parts};
 use inside::Solid;
 use nalgebra::Vector3;
 use piece::{NoHull, Piece, hull};
 use pong_geometry::extension::Extensions;
+use pong_import::build::{self, Building};
+use pong_import::mesh::{self, Mesh};
+use pong_import::model::{Field, Group, Model, Primitive, field};
+use pong_import::source::{self, Reading};
+use pong_import::{DefaultSurface, Finding, Findings, Up, files, write};
 use seams::Pool;
 use solids::SolidMesh;
 use std::path::{Path, PathBuf};
@@ -170,7 +172,7 @@ fn attempt(
         scene: options.scene.clone(),
         allowed: options.allowed.clone(),
     };
-    let source = parts::read(input, &reading, findings)?;
+    let source = source::read(input, &reading, findings)?;
     let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let building = Building {
         file,
@@ -209,8 +211,8 @@ fn attempt(
     within(&figures, options, &building.file, findings)?;
     (building.progress)("writing");
     let mut model = model(pieces, &building, &figures);
-    parts::default_surface(&mut model, &building, findings);
-    parts::write_checked(output, text(&model), Vec::new(), findings)
+    build::default_surface(&mut model, &building, findings);
+    files::write_checked(output, write::text(&model), Vec::new(), findings)
 }
 
 fn check_options(options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
@@ -489,5 +491,5 @@ fn is_accepted(piece: &Piece) -> bool {
     };
     let surfaces = vec![(surface.name.clone(), surface.record())];
     let model = Model { name: "piece".to_owned(), entry_memory: true, surfaces, root, ..Model::default() };
-    pong_model::parse(&text(&model), "piece", None, &Extensions::new()).is_ok()
+    pong_model::parse(&write::text(&model), "piece", None, &Extensions::new()).is_ok()
 }

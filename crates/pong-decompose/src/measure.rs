@@ -6,10 +6,10 @@
 use crate::inside::Solid;
 use crate::piece::Piece;
 use crate::polygon::lexicographic;
-use pong_import::parts::mesh::{Mesh, bounds};
 use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use pong_import::mesh::{Mesh, bounds};
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 

@@ -1,8 +1,8 @@
 //! One convex piece, and the hull of points as one.
 
 use crate::polygon::{Plane, Polygon, clip, is_wide, plane_of};
-use pong_import::parts::mesh::{self, Flaw, Mesh, Polyhedron, bounds, ring};
 use nalgebra::{Matrix3, Vector3};
+use pong_import::mesh::{self, Flaw, Mesh, Polyhedron, bounds, ring};
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,7 +1,7 @@
 //! Convex polygons in space: cutting, areas, what some leave of another.
 
-use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
+use pong_import::mesh::ring;
 
 /// The half space `normal·x ≤ offset`.
 #[derive(Clone, Copy, Debug)]

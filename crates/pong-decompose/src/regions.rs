@@ -2,8 +2,8 @@
 
 use crate::polygon::{Polygon, area, lexicographic, sides};
 use crate::seams::{Pool, with_vertices};
-use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
+use pong_import::mesh::ring;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The sum of areas.

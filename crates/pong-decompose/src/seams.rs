@@ -2,8 +2,8 @@
 
 use crate::piece::Piece;
 use crate::polygon::{Polygon, lexicographic, plane_of};
-use pong_import::parts::mesh::ring;
 use nalgebra::Vector3;
+use pong_import::mesh::ring;
 use std::collections::BTreeMap;
 
 /// Places within this share of the whole's size are one.

@@ -1,11 +1,14 @@
 //! A mesh file as closed solids, or what keeps it from being some.
 
-use pong_import::parts::{Affine, Building, Grid, Shape, Source, meshes};
-use pong_import::Findings;
-use pong_import::parts::mesh::{self, Adjacency, Mesh, area_vector, bounds, ring};
 use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy};
+use pong_import::Findings;
+use pong_import::affine::Affine;
+use pong_import::build::{Building, meshes};
+use pong_import::mesh::{self, Adjacency, Mesh, area_vector, bounds, ring};
+use pong_import::number::Grid;
+use pong_import::source::{Shape, Source};
 
 /// A solid thinner than this share of its size is none.
 const THIN: f64 = 2e-6;

@@ -1,14 +1,14 @@
 //! `pong decompose`: shapes with known pieces, figures with known values, bad input.
 
+use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::{Polyhedron, RimEdge};
-use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
 use pong_import::DefaultSurface;
 use pong_model::Model;
-use std::path::PathBuf;
 use pong_testkit::meshes::{blocks, cube, obj, torus};
 use pong_testkit::scratch;
+use std::path::PathBuf;
 
 type Triangles = Vec<[[f64; 3]; 3]>;
 
@@ -76,7 +76,7 @@ fn assert_close(a: f64, b: f64, share: f64) {
 fn assert_exact(report: &Report, volume_m3: f64) {
     assert_close(report.volume_m3, volume_m3, 1e-12);
     assert_close(report.source_volume_m3, volume_m3, 1e-12);
-    let pong_import::Deviation {
+    let pong_decompose::Deviation {
         protrusion, deficit, inner_deficit_m, deficit_share, protruding_share, ..
     } = report.deviation;
     assert_eq!((protrusion.max_m, deficit.max_m, inner_deficit_m), (0.0, 0.0, 0.0));

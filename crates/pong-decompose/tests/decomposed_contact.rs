@@ -1,13 +1,13 @@
 //! Decomposed shapes in the engine: cavities are empty, seams are not felt.
 
+use pong_decompose::DecomposeOptions;
 use pong_engine::{Config, State, World};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
-use pong_decompose::DecomposeOptions;
 use pong_import::DefaultSurface;
-use std::sync::Arc;
 use pong_testkit::meshes::{blocks, obj};
 use pong_testkit::scratch;
+use std::sync::Arc;
 
 const STIFFNESS: f64 = 1e6;
 

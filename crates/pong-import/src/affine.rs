@@ -38,11 +38,7 @@ impl Affine {
     }
 
     /// From translation, rotation (x, y, z, w) and scale; `None` if the quaternion has no direction.
-    pub fn from_parts(
-        translation: Vector3<f64>,
-        rotation: [f64; 4],
-        scale: Vector3<f64>,
-    ) -> Option<Self> {
+    pub fn from_parts(translation: Vector3<f64>, rotation: [f64; 4], scale: Vector3<f64>) -> Option<Self> {
         let [x, y, z, w] = rotation;
         let turn = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-6)?;
         Some(Self {

@@ -37,6 +37,7 @@ pub struct Findings {
 }
 
 impl Findings {
+    /// Adds what keeps the file from being imported.
     pub fn fault(
         &mut self,
         path: &str,
@@ -47,6 +48,7 @@ impl Findings {
         self.faults.push(Finding { path: path.to_owned(), rule, cause: cause.into(), cure: cure.into() });
     }
 
+    /// Adds what the author should know.
     pub fn note(
         &mut self,
         path: &str,

@@ -20,6 +20,7 @@ pub struct DefaultSurface {
 }
 
 impl DefaultSurface {
+    /// What the model file says of it.
     pub fn record(&self) -> Record {
         let mut record = vec![field("stiffness", Field::Number(self.stiffness))];
         let law = |name: &str, key: &str, value: f64| {

@@ -5,6 +5,7 @@ use crate::text;
 use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Vec3, Wrench};
+use pong_model::Fnv;
 use std::sync::Arc;
 
 /// What one frame told.
@@ -118,19 +119,18 @@ impl Stage {
     fn answer(&self) -> Result<Answer, pong_engine::EngineError> {
         let [a, b] = self.groups;
         let wrenches = [self.world.wrench_common(a)?, self.world.wrench_common(b)?];
-        let mut bits = Bits::default();
+        let mut bits = Fnv::default();
         for wrench in [self.world.wrench(a)?, self.world.wrench(b)?] {
-            bits.vector(&wrench.force);
-            bits.vector(&wrench.moment);
+            bits.numbers(wrench.force.iter().chain(&wrench.moment).copied());
         }
         let (mut largest, mut contacts) = (0.0_f64, Vec::new());
         for contact in self.world.contacts_iter() {
             largest = largest.max(contact.force.norm());
             for vector in [&contact.point, &contact.normal, &contact.force, &contact.slip_velocity] {
-                bits.vector(vector);
+                bits.numbers(vector.iter().copied());
             }
             for number in [contact.depth, contact.rate, contact.weight, contact.stored] {
-                bits.word(number.to_bits());
+                bits.number(number);
             }
             bits.word(u64::from(contact.end) << 1 | u64::from(contact.sticks));
             contacts.push(Touch {
@@ -147,7 +147,7 @@ impl Stage {
             });
         }
         contacts.sort_by(|a, b| b.depth.total_cmp(&a.depth));
-        Ok(Answer { wrenches, largest, contacts, bits: bits.0 })
+        Ok(Answer { wrenches, largest, contacts, bits: bits.value() })
     }
 }
 
@@ -159,23 +159,4 @@ fn capacity(scene: &Scene) -> Option<usize> {
     };
     let [a, b] = [0, 1].map(|body| scene.bodies[body].shapes.iter().map(elements).sum::<usize>());
     (a * b <= 256).then_some(a * b + 8)
-}
-
-struct Bits(u64);
-
-impl Default for Bits {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Bits {
-    fn word(&mut self, word: u64) {
-        let mixed = (self.0 ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        self.0 = mixed ^ mixed >> 29;
-    }
-
-    fn vector(&mut self, vector: &Vec3) {
-        vector.iter().for_each(|number| self.word(number.to_bits()));
-    }
 }

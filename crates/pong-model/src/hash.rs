@@ -4,39 +4,39 @@
 //! are in, since tables of other models refer to them.
 
 use crate::draft::BodyDraft;
+use crate::fnv::Fnv;
 use crate::model::{Body, Model, PrimitiveInfo};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Polyhedron, RayResponse, TriangleSet};
 
-struct Fnv(u64);
+/// The hash on its way through a model.
+struct ModelHash(Fnv);
 
 /// The hash; `drafts` tell what custom primitives were made of.
 pub(crate) fn hash(model: &Model, drafts: &[BodyDraft]) -> u64 {
-    let mut fnv = Fnv(0xcbf2_9ce4_8422_2325);
-    fnv.word(u64::from(model.entry_memory));
-    fnv.list(&model.surfaces, Fnv::surface);
-    fnv.list(&model.pair_overrides, Fnv::pair);
-    fnv.word(model.bodies.len() as u64);
+    let mut hash = ModelHash(Fnv::default());
+    hash.word(u64::from(model.entry_memory));
+    hash.list(&model.surfaces, ModelHash::surface);
+    hash.list(&model.pair_overrides, ModelHash::pair);
+    hash.word(model.bodies.len() as u64);
     for (body, draft) in model.bodies.iter().zip(drafts) {
-        fnv.body(body);
-        fnv.list(&draft.custom_parameters, |fnv, (kind, parameters)| {
-            fnv.text(kind);
-            fnv.list(parameters, |fnv, &x| fnv.number(x));
+        hash.body(body);
+        hash.list(&draft.custom_parameters, |hash, (kind, parameters)| {
+            hash.text(kind);
+            hash.list(parameters, |hash, &x| hash.number(x));
         });
     }
-    fnv.0
+    hash.0.value()
 }
 
-impl Fnv {
+impl ModelHash {
     fn word(&mut self, word: u64) {
-        for byte in word.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
+        self.0.word(word);
     }
 
     fn number(&mut self, x: f64) {
-        self.word(x.to_bits());
+        self.0.number(x);
     }
 
     fn option(&mut self, x: Option<f64>) {
@@ -111,33 +111,33 @@ impl Fnv {
     fn custom_law(&mut self, kind: u64, name: &str, parameters: &[f64]) {
         self.word(kind);
         self.text(name);
-        self.list(parameters, |fnv, &x| fnv.number(x));
+        self.list(parameters, |hash, &x| hash.number(x));
     }
 
     fn body(&mut self, body: &Body) {
         self.word(body.parent.map_or(u64::MAX, u64::from));
         self.list(&body.primitives, Self::primitive);
-        self.list(&body.points, |fnv, point| fnv.vector(&point.position));
-        self.list(&body.segments, |fnv, segment| segment.ends.iter().for_each(|end| fnv.vector(end)));
-        self.list(&body.rays, |fnv, ray| {
-            fnv.vector(&ray.origin);
-            fnv.vector(&ray.direction);
-            fnv.number(ray.length);
-            fnv.option(ray.reach);
-            fnv.word(u64::from(ray.response == RayResponse::Axial));
+        self.list(&body.points, |hash, point| hash.vector(&point.position));
+        self.list(&body.segments, |hash, segment| segment.ends.iter().for_each(|end| hash.vector(end)));
+        self.list(&body.rays, |hash, ray| {
+            hash.vector(&ray.origin);
+            hash.vector(&ray.direction);
+            hash.number(ray.length);
+            hash.option(ray.reach);
+            hash.word(u64::from(ray.response == RayResponse::Axial));
         });
-        self.list(&body.spheres, |fnv, sphere| {
-            fnv.vector(&sphere.center);
-            fnv.number(sphere.radius);
+        self.list(&body.spheres, |hash, sphere| {
+            hash.vector(&sphere.center);
+            hash.number(sphere.radius);
         });
-        self.list(&body.ellipsoids, |fnv, ellipsoid| {
-            fnv.vector(&ellipsoid.center);
-            ellipsoid.axes.iter().for_each(|&x| fnv.number(x));
-            fnv.vector(&ellipsoid.semi_axes);
+        self.list(&body.ellipsoids, |hash, ellipsoid| {
+            hash.vector(&ellipsoid.center);
+            ellipsoid.axes.iter().for_each(|&x| hash.number(x));
+            hash.vector(&ellipsoid.semi_axes);
         });
-        self.list(&body.planes, |fnv, plane| {
-            fnv.vector(&plane.normal);
-            fnv.number(plane.offset);
+        self.list(&body.planes, |hash, plane| {
+            hash.vector(&plane.normal);
+            hash.number(plane.offset);
         });
         self.triangles(&body.triangles);
         self.list(&body.polyhedra, Self::polyhedron);
@@ -154,21 +154,21 @@ impl Fnv {
     /// Neighbours and shells follow from the vertices.
     fn triangles(&mut self, set: &TriangleSet) {
         self.list(&set.vertices, Self::vector);
-        self.list(&set.triangles, |fnv, triangle| {
+        self.list(&set.triangles, |hash, triangle| {
             let [a, b, c] = triangle.vertices;
-            fnv.word(u64::from(a) << 32 | u64::from(b));
-            fnv.word(u64::from(c));
+            hash.word(u64::from(a) << 32 | u64::from(b));
+            hash.word(u64::from(c));
         });
     }
 
     /// Edges follow from vertices, faces and outlines.
     fn polyhedron(&mut self, polyhedron: &Polyhedron) {
-        self.list(&polyhedron.vertices, |fnv, vertex| fnv.vector(&vertex.position));
-        self.list(&polyhedron.faces, |fnv, face| {
-            fnv.vector(&face.normal);
-            fnv.number(face.offset);
-            fnv.word(u64::from(face.active) | u64::from(face.closed) << 1 | u64::from(face.rim_count) << 32);
+        self.list(&polyhedron.vertices, |hash, vertex| hash.vector(&vertex.position));
+        self.list(&polyhedron.faces, |hash, face| {
+            hash.vector(&face.normal);
+            hash.number(face.offset);
+            hash.word(u64::from(face.active) | u64::from(face.closed) << 1 | u64::from(face.rim_count) << 32);
         });
-        self.list(&polyhedron.rims, |fnv, rim| fnv.word(u64::from(rim.start)));
+        self.list(&polyhedron.rims, |hash, rim| hash.word(u64::from(rim.start)));
     }
 }

@@ -14,6 +14,7 @@ mod draft;
 mod element;
 mod error;
 pub mod files;
+mod fnv;
 pub mod grouping;
 mod hash;
 mod hull;
@@ -33,6 +34,7 @@ mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
+pub use fnv::Fnv;
 pub use model::{Balls, Batch, Body, ChunkBoxes, Item, Model, Node, PrimitiveInfo, Tree};
 pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface, pair_entries};

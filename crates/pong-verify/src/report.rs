@@ -3,13 +3,14 @@
 //! The report holds no date, no duration and nothing about a machine: the same engine gives the same file.
 
 use crate::{Row, Verdict};
+use pong_report::table;
 use std::fmt::Write as _;
 
 const HEADS: [&str; 9] =
     ["case", "quantity", "unit", "expected", "got", "error", "tolerance", "order", "pass"];
 
-fn cells(id: &str, row: &Row) -> [String; 9] {
-    [
+fn cells(id: &str, row: &Row) -> Vec<String> {
+    vec![
         id.to_owned(),
         row.quantity.clone(),
         row.unit.to_owned(),
@@ -24,18 +25,10 @@ fn cells(id: &str, row: &Row) -> [String; 9] {
 
 /// The table as aligned text.
 pub fn text(verdicts: &[Verdict]) -> String {
-    let mut lines = vec![HEADS.map(str::to_owned)];
-    for verdict in verdicts {
-        lines.extend(verdict.rows.iter().map(|row| cells(verdict.case.id, row)));
-    }
-    let widths: [usize; 9] =
-        std::array::from_fn(|i| lines.iter().map(|line| line[i].chars().count()).max().unwrap_or(0));
-    let mut out = String::new();
-    for line in &lines {
-        let padded: Vec<String> =
-            line.iter().zip(widths).map(|(cell, width)| format!("{cell:<width$}")).collect();
-        let _ = writeln!(out, "{}", padded.join("  ").trim_end());
-    }
+    let of =
+        |verdict: &'_ Verdict| verdict.rows.iter().map(|row| cells(verdict.case.id, row)).collect::<Vec<_>>();
+    let rows: Vec<Vec<String>> = verdicts.iter().flat_map(of).collect();
+    let mut out = table::aligned_left(&HEADS, &rows);
     for verdict in verdicts {
         if let Some(failure) = &verdict.failure {
             let _ = writeln!(out, "{} could not be run: {failure}", verdict.case.id);
@@ -50,13 +43,14 @@ pub fn markdown(verdicts: &[Verdict]) -> String {
     let passed = verdicts.iter().filter(|verdict| verdict.passes()).count();
     let rows: usize = verdicts.iter().map(|verdict| verdict.rows.len()).sum();
     let _ = writeln!(out, "\n{passed} of {} cases pass ({rows} quantities).", verdicts.len());
-    out.push_str("\n| case | about | result |\n|---|---|---|\n");
-    for verdict in verdicts {
+    let of = |verdict: &Verdict| {
         let case = &verdict.case;
         let result = if verdict.passes() { "pass" } else { "**FAIL**" };
-        let anchor = case.id.to_lowercase();
-        let _ = writeln!(out, "| [{}](#{anchor}) | {} | {result} |", case.id, case.title);
-    }
+        vec![format!("[{}](#{})", case.id, case.id.to_lowercase()), case.title.to_owned(), result.to_owned()]
+    };
+    let rows: Vec<Vec<String>> = verdicts.iter().map(of).collect();
+    out.push('\n');
+    out += &table::markdown_of_prose(&["case", "about", "result"], &rows);
     for verdict in verdicts {
         section(&mut out, verdict);
     }
@@ -71,10 +65,8 @@ fn section(out: &mut String, verdict: &Verdict) {
         let _ = writeln!(out, "Could not be run: {failure}");
         return;
     }
-    let _ = writeln!(out, "| {} |\n|{}", HEADS[1..].join(" | "), "---|".repeat(8));
-    for row in &verdict.rows {
-        let _ = writeln!(out, "| {} |", cells(case.id, row)[1..].join(" | "));
-    }
+    let rows: Vec<Vec<String>> = verdict.rows.iter().map(|row| cells(case.id, row)[1..].to_vec()).collect();
+    *out += &table::markdown_of_prose(&HEADS[1..], &rows);
 }
 
 const HEADER: &str = "\

@@ -1,10 +1,11 @@
 //! What a step can hold: a table of contacts, and what goes wrong first.
 
-use crate::text::{count, number, table};
+use crate::text::{count, number};
 use pong_advise::{
     GroupLimits, PairLimits, SpringLimit, StepPlan, StepReport, critical_damping, longest_stable_step,
 };
 use pong_model::printable;
+use pong_report::table;
 
 /// The tables and the verdict. Along the surface a contact feels `friction_share` of its mass.
 pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) -> String {
@@ -23,7 +24,7 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) ->
             "rebound off",
         ];
         let rows: Vec<Vec<String>> = report.pairs.iter().map(|pair| row(pair, plan)).collect();
-        text += &table(&heading, &rows);
+        text += &table::aligned(&heading, &rows);
         text += &friction(report, plan, friction_share);
         text += &together(report);
         text += &first_to_fail(report, plan);
@@ -70,7 +71,7 @@ fn friction(report: &StepReport, plan: &StepPlan, share: f64) -> String {
     };
     let rows: Vec<Vec<String>> = springs.iter().map(row).collect();
     "What sticks, as a spring on the mass that it feels along the surface (docs/advise.md, Damping of friction):\n".to_owned()
-        + &table(&heading, &rows)
+        + &table::aligned(&heading, &rows)
 }
 
 /// What can act on one movable group at once.
@@ -93,7 +94,7 @@ fn together(report: &StepReport) -> String {
     let rows: Vec<Vec<String>> = report.groups.iter().map(row).collect();
     let scene = report.surely_stable_step();
     "A bound of their sums (levers and inertia counted; docs/advise.md):\n".to_owned()
-        + &table(&heading, &rows)
+        + &table::aligned(&heading, &rows)
         + &format!("  the scene is surely stable to {} s\n", number(scene))
 }
 

@@ -2,11 +2,12 @@
 
 use super::acting::Acting;
 use super::statistics::Statistics;
-use crate::text::{count, number, numbers, table};
+use crate::text::{count, number, numbers};
 use pong_engine::{PairEnergyAccount, Verdict};
 use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Simulation};
 use pong_model::printable;
+use pong_report::table;
 
 pub(super) fn summary(built: &BuiltScene, statistics: &Statistics) -> String {
     let simulation = &built.simulation;
@@ -54,7 +55,7 @@ fn ends(simulation: &Simulation) -> String {
     };
     let rows: Vec<Vec<String>> = names(simulation).map(row).collect();
     let heading = ["at the end", "position m", "orientation wxyz", "velocity m/s", "angular velocity rad/s"];
-    table(&heading, &rows)
+    table::aligned(&heading, &rows)
 }
 
 fn contacts(simulation: &Simulation, statistics: &Statistics) -> String {
@@ -72,7 +73,7 @@ fn contacts(simulation: &Simulation, statistics: &Statistics) -> String {
     let rows: Vec<Vec<String>> = names(simulation).map(row).collect();
     let heading =
         ["contact", "peak force N", "peak moment N·m", "peak depth m", "most contacts", "impulse N·s"];
-    table(&heading, &rows)
+    table::aligned(&heading, &rows)
 }
 
 fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
@@ -146,7 +147,7 @@ fn accounts(simulation: &Simulation) -> String {
         "returned more",
         "unresolved",
     ];
-    table(&heading, &rows)
+    table::aligned(&heading, &rows)
 }
 
 /// How many touches of a pair have a verdict, the one that lasts too.

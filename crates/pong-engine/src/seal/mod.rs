@@ -17,11 +17,10 @@ use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
 use crate::scene::{ObjectPair, Scene};
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
-use crate::state::fnv1a;
 use limits::{limits, too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
-use pong_model::Surface;
+use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
 use surfaces::{friction_lost, law_state_len};
@@ -208,5 +207,5 @@ fn scene_hash(scene: &Scene, capacity: usize, law_state_len: usize) -> u64 {
     for law in scene.laws.names() {
         text += &format!("law {law}\n");
     }
-    fnv1a(text.as_bytes())
+    Fnv::of(text.as_bytes())
 }

@@ -16,6 +16,7 @@ use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::{PairEnergies, PairEnergy};
 use pong_geometry::{Pose, Vec3, Wrench};
+use pong_model::Fnv;
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
 const VERSION: u32 = 2;
@@ -115,7 +116,7 @@ pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8
     let reached = out.len().min(most);
     out[needed..reached].fill(0);
     let used = write_used(memory, world_hash, &mut out[..needed]);
-    let checksum = fnv1a(&out[..used]);
+    let checksum = Fnv::of(&out[..used]);
     out[used..needed].copy_from_slice(&checksum.to_le_bytes());
     Ok(())
 }
@@ -198,7 +199,7 @@ fn check(
     }
     let (block, behind) = block.split_at(least);
     let (contents, checksum) = block.split_at(used);
-    if fnv1a(contents).to_le_bytes() != checksum || !is_zero(behind) {
+    if Fnv::of(contents).to_le_bytes() != checksum || !is_zero(behind) {
         return Err(StateError::Damaged);
     }
     reader.at = TOTALS_AT;
@@ -244,13 +245,6 @@ fn records_make_sense(
                 && exists(&record.key)
         })
     })
-}
-
-const FNV_PRIME: u64 = 0x0000_0100_0000_01b3;
-
-/// FNV-1a, 64 bit.
-pub(crate) fn fnv1a(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(FNV_PRIME))
 }
 
 /// Whether all bytes are zero. By pieces, since room for all contacts that there could be is a million bytes.

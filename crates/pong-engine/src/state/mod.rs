@@ -7,7 +7,7 @@ mod merge;
 mod tests;
 
 pub use block::StateError;
-pub(crate) use block::{block_len, fnv1a, needed_len, read_block, write_block};
+pub(crate) use block::{block_len, needed_len, read_block, write_block};
 pub(crate) use memory::{
     ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, PairPose, Remembered, SAME_WAY_COSINE_MIN,
 };

@@ -1,11 +1,12 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
-use super::block::{StateError, block_len, fnv1a, needed_len, write_block};
+use super::block::{StateError, block_len, needed_len, write_block};
 use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose, Remembered};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
+use pong_model::Fnv;
 
 /// How many frames late the wrench comes where energies are kept.
 const DELAY: u32 = 2;
@@ -284,13 +285,13 @@ fn the_contents_of_the_block_are_still_those_of_version_1() {
         let memory = random.memory(round % (CAPACITY + 1), round % 4);
         let mut block = block_of(&memory);
         let used = needed_len(&memory) - 8;
-        let (place, checksum) = (block.len() - 8, fnv1a(&block[..used]).to_le_bytes());
+        let (place, checksum) = (block.len() - 8, Fnv::of(&block[..used]).to_le_bytes());
         assert_eq!(block[used..used + 8], checksum);
         block[8] = 1;
         block[used..used + 8].fill(0);
-        let checksum = fnv1a(&block[..place]).to_le_bytes();
+        let checksum = Fnv::of(&block[..place]).to_le_bytes();
         block[place..].copy_from_slice(&checksum);
-        hash.rotate_left(7) ^ fnv1a(&block)
+        hash.rotate_left(7) ^ Fnv::of(&block)
     });
     assert_eq!(hash, 0x994a_14c4_76c4_2d22);
 }
@@ -377,7 +378,7 @@ fn forged(block: &[u8], at: usize, word: u32) -> Vec<u8> {
     let mut forged = block.to_vec();
     forged[at..at + 4].copy_from_slice(&word.to_le_bytes());
     let body = forged.len() - 8;
-    let checksum = fnv1a(&forged[..body]).to_le_bytes();
+    let checksum = Fnv::of(&forged[..body]).to_le_bytes();
     forged[body..].copy_from_slice(&checksum);
     forged
 }

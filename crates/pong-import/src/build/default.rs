@@ -6,7 +6,7 @@ use super::meshes::{self, Placed};
 use super::names::Names;
 use crate::affine::Affine;
 use crate::findings::Findings;
-use crate::mesh::{self, Flaw, Mesh, Polyhedron, bounds};
+use crate::mesh::{self, Flaw, HullFinder, Mesh, Polyhedron, bounds};
 use crate::model::{Group, Primitive};
 use crate::number::Grid;
 use crate::source::{Look, Node, Shape, Source};

@@ -25,12 +25,7 @@ pub fn place(shape: &mut Shape, to_body: &Affine, grid: Grid) {
 }
 
 /// The triangles of a placed shape, without what no model takes.
-pub fn triangles(
-    shape: Shape,
-    building: &Building<'_>,
-    path: &str,
-    findings: &mut Findings,
-) -> Placed {
+pub fn triangles(shape: Shape, building: &Building<'_>, path: &str, findings: &mut Findings) -> Placed {
     let Shape { vertices, triangles, mut look_of, .. } = shape;
     look_of.resize(triangles.len(), 0);
     let mut mesh = Mesh { vertices, triangles, look_of };

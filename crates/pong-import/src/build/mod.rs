@@ -11,10 +11,10 @@ mod names;
 use crate::findings::Findings;
 use crate::laws::{self, DefaultSurface};
 use crate::marks::Settings;
+use crate::mesh::HullFinder;
 use crate::model::{Field, Group, Model};
 use crate::number::Grid;
 use crate::source::{Shape, Source};
-use crate::mesh::HullFinder;
 use std::collections::BTreeSet;
 
 /// Name of the surface that stands in when none is given.

@@ -9,12 +9,12 @@ mod solid;
 mod weld;
 
 pub use adjacency::Adjacency;
-pub use clean::clean;
-pub use facets::{Facets, facets};
-pub use junctions::mend;
+pub(crate) use clean::clean;
+pub(crate) use facets::{Facets, facets};
+pub(crate) use junctions::mend;
 pub use parts::parts;
 pub use solid::{Flaw, Polyhedron, polyhedron, volume_m3};
-pub use weld::{weld, weld_equal};
+pub(crate) use weld::{weld, weld_equal};
 
 use nalgebra::Vector3;
 

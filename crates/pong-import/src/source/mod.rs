@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-pub use welder::{Welder, WordMap};
+pub(crate) use welder::{Welder, WordMap};
 
 /// How a file is to be read.
 pub struct Reading {

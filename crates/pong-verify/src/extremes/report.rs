@@ -2,6 +2,7 @@
 
 use super::{Answer, Finding};
 use crate::{Bound, Row};
+use pong_report::table;
 use std::fmt::Write as _;
 
 impl Answer {
@@ -57,23 +58,20 @@ pub fn text(findings: &[Finding]) -> String {
 /// `docs/extremes.md`.
 pub fn markdown(findings: &[Finding]) -> String {
     let mut out = String::from(HEADER);
-    out.push_str(
-        "\n| | extreme, and what is asked | engine | least margin | limit |\n|---|---|---|---|---|\n",
-    );
-    for Finding { extreme, rows } in findings {
+    let of = |Finding { extreme, rows }: &Finding| {
         let least = rows.as_ref().ok().and_then(|rows| {
             let share = |row: &Row| row.error() / row.allowed();
             rows.iter().filter(|row| row.allowed() > 0.0).max_by(|a, b| share(a).total_cmp(&share(b)))
         });
         let least = least.map_or("exact".to_owned(), margin);
-        let (id, anchor) = (extreme.id, extreme.id.to_lowercase());
+        let id = format!("[{}](#{})", extreme.id, extreme.id.to_lowercase());
         let answer = extreme.answer.word();
-        let _ = writeln!(
-            out,
-            "| [{id}](#{anchor}) | {} | {answer} | {least} | {} |",
-            extreme.asked, extreme.limit
-        );
-    }
+        vec![id, extreme.asked.to_string(), answer.to_owned(), least, extreme.limit.to_string()]
+    };
+    let rows: Vec<Vec<String>> = findings.iter().map(of).collect();
+    out.push('\n');
+    let heading = ["", "extreme, and what is asked", "engine", "least margin", "limit"];
+    out += &table::markdown_of_prose(&heading, &rows);
     findings.iter().for_each(|finding| section(&mut out, finding));
     out
 }
@@ -89,15 +87,14 @@ fn section(out: &mut String, Finding { extreme, rows }: &Finding) {
             let _ = writeln!(out, "\nCould not be run: {failure}");
         }
         Ok(rows) => {
-            out.push_str(
-                "\n| quantity | unit | got | error | allowed | margin |\n|---|---|---|---|---|---|\n",
-            );
-            for row in rows {
+            let of = |row: &Row| {
                 let (got, error, allowed) = (row.got_text(), row.error_text(), row.tolerance_text());
-                let (quantity, unit) = (&row.quantity, row.unit);
-                let _ =
-                    writeln!(out, "| {quantity} | {unit} | {got} | {error} | {allowed} | {} |", margin(row));
-            }
+                vec![row.quantity.clone(), row.unit.to_owned(), got, error, allowed, margin(row)]
+            };
+            let rows: Vec<Vec<String>> = rows.iter().map(of).collect();
+            let heading = ["quantity", "unit", "got", "error", "allowed", "margin"];
+            out.push('\n');
+            *out += &table::markdown_of_prose(&heading, &rows);
         }
     }
 }

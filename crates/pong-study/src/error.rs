@@ -1,0 +1,47 @@
+//! What can go wrong, told as thing, cause and cure.
+
+use pong_model::ModelErrors;
+use pong_record::LogError;
+use std::fmt::Display;
+use std::path::Path;
+
+/// An error of a study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StudyError(pub String);
+
+impl StudyError {
+    /// From the thing and a line that holds cause and cure.
+    pub(crate) fn new(thing: &str, line: impl Display) -> Self {
+        Self(format!("{thing}: {line}"))
+    }
+
+    /// From a file and a line that holds cause and cure.
+    pub(crate) fn file(path: &Path, line: impl Display) -> Self {
+        Self::new(&path.display().to_string(), line)
+    }
+
+    /// From a file of the output that cannot be written.
+    pub(crate) fn output(path: &Path, reason: impl Display) -> Self {
+        Self::file(path, format!("{reason}; name another folder with -o"))
+    }
+}
+
+impl Display for StudyError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for StudyError {}
+
+impl From<LogError> for StudyError {
+    fn from(error: LogError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl From<ModelErrors> for StudyError {
+    fn from(errors: ModelErrors) -> Self {
+        Self(errors.to_string())
+    }
+}

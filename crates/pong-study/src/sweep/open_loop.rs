@@ -1,0 +1,283 @@
+//! A log as the subject of a study: its motions through the engine, again and again.
+
+use crate::StudyError;
+use crate::sweep::level::Level;
+use crate::sweep::record::{Record, vector};
+use crate::sweep::rewrite;
+use crate::sweep::run::Frames;
+use crate::sweep::subject::hash_model;
+use pong_engine::{EngineError, WorkerSettings};
+use pong_geometry::Wrench;
+use pong_geometry::extension::Extensions;
+use pong_model::Fnv;
+use pong_model::Model;
+use pong_record::{Event, Log, LogError, RerunFrame, RerunOptions, rerun};
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// Other files for some models of a log.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LogAlternative {
+    /// What the alternative is called.
+    pub name: String,
+    /// Names of models of the log, and the files that they are read from instead.
+    pub models: Vec<(String, PathBuf)>,
+}
+
+/// A log that is run again and again.
+pub(crate) struct LoggedRun {
+    log: Log,
+    alternatives: Vec<LogAlternative>,
+    extensions: Extensions,
+    /// The greatest distance of the engine's wrenches from the log's own, over the greatest in the log; once it is known.
+    apart: Option<f64>,
+}
+
+impl LoggedRun {
+    /// Opens a log.
+    pub fn open(
+        folder: &Path,
+        alternatives: &[LogAlternative],
+        extensions: &Extensions,
+    ) -> Result<Self, StudyError> {
+        let log = Log::open(folder).map_err(|error| StudyError(error.to_string()))?;
+        for alternative in alternatives {
+            for (name, _) in &alternative.models {
+                if !log.run().models.iter().any(|model| model.name == *name) {
+                    let known: Vec<&str> = log.run().models.iter().map(|model| model.name.as_str()).collect();
+                    let line = format!(
+                        "the log has no model `{name}`; name one of those it has: {}",
+                        known.join(", ")
+                    );
+                    return Err(StudyError::new(&format!("alternative `{}`", alternative.name), line));
+                }
+            }
+        }
+        Ok(Self { log, alternatives: alternatives.to_vec(), extensions: extensions.clone(), apart: None })
+    }
+
+    pub fn name(&self) -> &str {
+        &self.log.run().name
+    }
+
+    pub fn alternatives(&self) -> Vec<String> {
+        self.alternatives.iter().map(|alternative| alternative.name.clone()).collect()
+    }
+
+    /// Whether a contact state was restored while the log was written: it fits no other models and no other laws.
+    pub fn restores(&self) -> bool {
+        self.log.events().iter().any(|event| matches!(event.event, Event::Restore { .. }))
+    }
+
+    pub fn bodies(&self) -> usize {
+        self.log.run().bodies.len()
+    }
+
+    /// Frames of so many frames of the log each; those left over are not run.
+    pub fn frames(&mut self, logged: u32) -> Result<Frames, StudyError> {
+        let count = self.log.frame_count() / u64::from(logged);
+        if count == 0 {
+            let line =
+                format!("it has {} frames, fewer than {logged}; record more of them", self.log.frame_count());
+            return Err(StudyError::new("log", line));
+        }
+        let last = count * u64::from(logged) - 1;
+        let mut rows = self.log.frame_rows(0, 1).map_err(of_log)?;
+        rows.extend(self.log.frame_rows(last, 1).map_err(of_log)?);
+        let mean = match rows[..] {
+            [first, .., last_row] if last > 0 => (last_row.time - first.time) / last as f64,
+            _ => 0.0,
+        };
+        Ok(Frames { frame_s: mean * f64::from(logged), count, instants: logged })
+    }
+
+    /// The greatest relative distance of the engine's wrenches from the log's own, if the log as it is was run.
+    pub fn apart(&self) -> Option<f64> {
+        self.apart
+    }
+
+    /// A hash of everything that decides the answers.
+    pub fn hash(&self) -> Result<Fnv, StudyError> {
+        let mut hash = Fnv::default();
+        hash.text(env!("CARGO_PKG_VERSION"));
+        let folder = self.log.folder();
+        let tables = ["frames", "states", "wrenches"].into_iter();
+        let tables = tables.filter_map(|name| Some(self.log.run().tables.get(name)?.file.as_str()));
+        for file in ["run.json"].into_iter().chain(tables) {
+            hash_file(&mut hash, &folder.join(file))?;
+        }
+        hash.text(&format!("{:?}", self.log.events()));
+        for alternative in &self.alternatives {
+            hash.text(&format!("{alternative:?}"));
+            alternative
+                .models
+                .iter()
+                .try_for_each(|(_, file)| hash_model(&mut hash, file, &self.extensions))?;
+        }
+        Ok(hash)
+    }
+
+    /// Records a level; frames that it passes over have the wrench of the last that it did not.
+    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Record, StudyError> {
+        let bodies = self.bodies();
+        let mut gathered = Gathered::new(bodies, frames);
+        self.run(level, frames, &mut |frame| gathered.take(frame))?;
+        if level.settings().is_empty() && level.steps_per_frame == frames.instants {
+            self.apart = Some(gathered.apart());
+        }
+        Ok(gathered.record)
+    }
+
+    /// Times a level: of each frame, all that was handed to the engine in it.
+    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>, StudyError> {
+        let mut times = vec![0; frames.count as usize];
+        let logged = u64::from(frames.instants);
+        self.run(level, frames, &mut |frame| {
+            times[(frame.index / logged) as usize] += frame.took_ns;
+            Ok(())
+        })?;
+        Ok(times)
+    }
+
+    fn run(
+        &mut self,
+        level: &Level,
+        frames: &Frames,
+        each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), LogError>,
+    ) -> Result<(), StudyError> {
+        let run = self.log.run();
+        let names: Vec<String> = run.models.iter().map(|model| model.name.clone()).collect();
+        let wanted = level.alternative.as_ref();
+        let found = wanted.and_then(|name| self.alternatives.iter().find(|other| other.name == *name));
+        let instead = found.map_or(Vec::new(), |alternative| alternative.models.clone());
+        let extensions = self.extensions.clone();
+        let rewrite = |index: usize, model: Model| {
+            let other = instead.iter().find(|(name, _)| *name == names[index]);
+            let model = match other {
+                Some((_, file)) => {
+                    pong_model::load(file, &extensions).map_err(|errors| errors.to_string())?
+                }
+                None => model,
+            };
+            rewrite::model(model, level)
+        };
+        let workers = WorkerSettings { workers: level.workers, ..WorkerSettings::default() };
+        let options = RerunOptions {
+            workers: (level.workers > 0).then_some(workers),
+            rewrite: Some(&rewrite),
+            every: u64::from(frames.instants / level.steps_per_frame),
+            extensions: extensions.clone(),
+            ..RerunOptions::default()
+        };
+        let wanted = frames.count * u64::from(frames.instants);
+        let name = level.name(frames.frame_s);
+        let result = rerun(&mut self.log, options, wanted, each);
+        result.map_err(|error| StudyError::new(&name, error))
+    }
+}
+
+/// A record of a log on its way.
+struct Gathered {
+    record: Record,
+    time: f64,
+    /// Largest distance from the log's wrenches, and their largest size: force, moment.
+    off: [f64; 2],
+    size: [f64; 2],
+}
+
+impl Gathered {
+    fn new(bodies: usize, frames: &Frames) -> Self {
+        let record = Record {
+            bodies,
+            per_frame: frames.instants,
+            impulses: vec![[0.0; 6]; bodies],
+            efforts: vec![[0.0; 2]; bodies],
+            peaks: vec![[0.0; 2]; bodies],
+            ..Record::default()
+        };
+        Self { record, time: f64::NAN, off: [0.0; 2], size: [0.0; 2] }
+    }
+
+    fn take(&mut self, frame: &RerunFrame<'_>) -> Result<(), LogError> {
+        let time = frame.logged.row.time;
+        // The first frame is no end of an interval.
+        let half = if self.time.is_nan() { 0.0 } else { 0.5 * (time - self.time) };
+        let last = self.record.rows.len().saturating_sub(self.record.bodies * crate::sweep::record::VALUES);
+        for (body, interface) in frame.bodies.iter().enumerate() {
+            let wrench = frame.world.wrench_common(*interface).map_err(refused)?;
+            let now = six(&wrench);
+            let before = if half == 0.0 { now } else { self.before(last, body) };
+            self.sums(body, &before, &now, half);
+            self.record.rows.extend(now);
+            let state = &frame.logged.states[body];
+            self.record.rows.extend(state.position);
+            self.record.rows.extend(state.orientation);
+            let logged = &frame.logged.wrenches[body];
+            for (place, (own, other)) in
+                [(now[..3].to_vec(), logged.force), (now[3..].to_vec(), logged.moment)]
+                    .into_iter()
+                    .enumerate()
+            {
+                self.off[place] = self.off[place].max((vector(&own) - vector(&other)).norm());
+                self.size[place] = self.size[place].max(vector(&other).norm());
+            }
+        }
+        self.record.incomplete += u64::from(!frame.world.report().status.is_complete());
+        self.time = time;
+        Ok(())
+    }
+
+    /// The wrench on a body at the instant before, whose rows begin at an index.
+    fn before(&self, rows: usize, body: usize) -> [f64; 6] {
+        let start = rows.min(self.record.rows.len()) + body * crate::sweep::record::VALUES;
+        let mut six = [0.0; 6];
+        six.copy_from_slice(&self.record.rows[start..start + 6]);
+        six
+    }
+
+    fn sums(&mut self, body: usize, before: &[f64; 6], now: &[f64; 6], half: f64) {
+        for (sum, (a, b)) in self.record.impulses[body].iter_mut().zip(before.iter().zip(now)) {
+            *sum += half * (a + b);
+        }
+        let size = |six: &[f64; 6], place: usize| vector(&six[3 * place..]).norm();
+        for place in 0..2 {
+            self.record.efforts[body][place] += half * (size(before, place) + size(now, place));
+            self.record.peaks[body][place] = self.record.peaks[body][place].max(size(now, place));
+        }
+    }
+
+    fn apart(&self) -> f64 {
+        let share = |place: usize| {
+            if self.off[place] == 0.0 { 0.0 } else { self.off[place] / self.size[place] }
+        };
+        share(0).max(share(1))
+    }
+}
+
+fn six(wrench: &Wrench) -> [f64; 6] {
+    let (f, m) = (wrench.force, wrench.moment);
+    [f.x, f.y, f.z, m.x, m.y, m.z]
+}
+
+fn refused(error: EngineError) -> LogError {
+    error.into()
+}
+
+fn of_log(error: LogError) -> StudyError {
+    StudyError(error.to_string())
+}
+
+/// The bytes of a file, a piece at a time.
+fn hash_file(hash: &mut Fnv, path: &Path) -> Result<(), StudyError> {
+    let unreadable =
+        |reason: std::io::Error| StudyError::new(&path.display().to_string(), &reason.to_string());
+    let mut file = std::fs::File::open(path).map_err(unreadable)?;
+    let mut piece = vec![0; 1 << 20];
+    loop {
+        let read = file.read(&mut piece).map_err(unreadable)?;
+        if read == 0 {
+            return Ok(());
+        }
+        hash.bytes(&piece[..read]);
+    }
+}

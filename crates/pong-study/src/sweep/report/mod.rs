@@ -1,0 +1,57 @@
+//! What a study found, as text: a table in Markdown and in CSV, and a plot.
+
+mod csv;
+mod effects;
+mod markdown;
+mod plot;
+
+pub use csv::{csv, errors_csv};
+pub use markdown::markdown;
+pub use plot::svg;
+
+use crate::StudyError;
+use crate::sweep::store::write_whole;
+use crate::sweep::study::Study;
+use std::path::Path;
+
+/// Writes `trade.md`, `trade.csv`, `errors.csv` and `trade.svg` into a folder.
+pub fn write(study: &Study, folder: &Path) -> Result<(), StudyError> {
+    let files = [
+        ("trade.md", markdown(study)),
+        ("trade.csv", csv(study)),
+        ("errors.csv", errors_csv(study)),
+        ("trade.svg", svg(study)),
+    ];
+    files.iter().try_for_each(|(name, text)| write_whole(&folder.join(name), text.as_bytes()))
+}
+
+/// A relative error as per cent, with three digits.
+pub(crate) fn percent(error: f64) -> String {
+    let value = 100.0 * error;
+    match value {
+        0.0 => "0".to_owned(),
+        v if !v.is_finite() => "–".to_owned(),
+        v if v < 1e-3 => format!("{v:.1e}"),
+        v if v == v.round() && v < 100.0 => format!("{v}"),
+        v => digits(v),
+    }
+}
+
+/// Three digits without an exponent where that is short.
+pub(crate) fn digits(value: f64) -> String {
+    match value.abs() {
+        v if v >= 1e5 => format!("{value:.1e}"),
+        v if v >= 100.0 => format!("{value:.0}"),
+        v if v >= 10.0 => format!("{value:.1}"),
+        v if v >= 1.0 => format!("{value:.2}"),
+        v if v >= 0.1 => format!("{value:.3}"),
+        v if v >= 0.01 => format!("{value:.4}"),
+        v if v >= 0.001 => format!("{value:.5}"),
+        _ => format!("{value:.1e}"),
+    }
+}
+
+/// Nanoseconds as microseconds.
+pub(crate) fn microseconds(ns: u64) -> String {
+    digits(ns as f64 / 1e3)
+}

@@ -1,0 +1,133 @@
+//! Proposals on the kept motions of all runs: made, compared, counted, timed.
+
+use crate::StudyError;
+use crate::tree_tuning::counts::Counts;
+use crate::tree_tuning::motions::Motions;
+use crate::tree_tuning::play::{Compared, Player};
+use crate::tree_tuning::run::Run;
+use crate::tree_tuning::search::{Judge, Proposal};
+use crate::tree_tuning::subject::{Grouping, Made, Subject};
+use pong_model::Fnv;
+use pong_model::Model;
+use std::sync::Arc;
+
+/// Runs, their motions, and the models that they use.
+pub(crate) struct Bench<'a> {
+    pub subjects: &'a [Subject],
+    pub runs: &'a [Run],
+    pub motions: &'a [Motions],
+    /// Every how many rows of frames are played.
+    pub stride: usize,
+    /// The model of each subject that was made last.
+    made: Vec<Option<(Grouping, Made)>>,
+}
+
+/// Times of a proposal in one run: the shortest of each frame, ns.
+pub(crate) type FrameTimes = Vec<u64>;
+
+/// A proposal that takes longer than the first by more than this after two rounds is timed no further.
+const HOPELESS: f64 = 1.05;
+
+impl<'a> Bench<'a> {
+    pub fn new(subjects: &'a [Subject], runs: &'a [Run], motions: &'a [Motions], stride: usize) -> Self {
+        let made = subjects.iter().map(|_| None).collect();
+        Self { subjects, runs, motions, stride, made }
+    }
+
+    /// The models of a proposal, and the hash of all their trees.
+    pub fn models(&mut self, proposal: &Proposal) -> Result<(Vec<Arc<Model>>, u64), StudyError> {
+        let mut trees = Fnv::default();
+        let mut models = Vec::new();
+        for ((subject, grouping), made) in self.subjects.iter().zip(proposal).zip(&mut self.made) {
+            if made.as_ref().is_none_or(|(known, _)| known != grouping) {
+                *made = Some((grouping.clone(), subject.make(grouping)?));
+            }
+            let (_, made) = made.as_ref().expect("made above");
+            trees.word(made.trees);
+            models.push(Arc::clone(&made.model));
+        }
+        Ok((models, trees.value()))
+    }
+
+    /// The hash of the trees of one subject in a proposal.
+    pub fn trees_of(&mut self, proposal: &Proposal, subject: usize) -> Result<u64, StudyError> {
+        self.models(proposal)?;
+        Ok(self.made[subject].as_ref().map_or(0, |(_, made)| made.trees))
+    }
+
+    fn players(&mut self, proposal: &Proposal) -> Result<Vec<Player>, StudyError> {
+        let models = self.models(proposal)?.0;
+        self.runs.iter().map(|run| run.player(&models)).collect()
+    }
+
+    /// What each run counts with a proposal, or why it is refused.
+    pub fn compare(&mut self, proposal: &Proposal) -> Result<Result<Vec<Counts>, String>, StudyError> {
+        let mut counts = Vec::new();
+        let players = match self.players(proposal) {
+            Ok(players) => players,
+            Err(error) => return Ok(Err(error.to_string())),
+        };
+        for ((mut player, run), motions) in players.into_iter().zip(self.runs).zip(self.motions) {
+            match player.compare(motions, self.stride).map_err(|error| run.refused(&error))? {
+                Compared::Same(counted) => counts.push(counted),
+                Compared::Differs(what) => {
+                    return Ok(Err(format!("{what} of `{}` would not be the same bits", run.name)));
+                }
+            }
+        }
+        Ok(Ok(counts))
+    }
+
+    /// Times of each proposal in each run, all in turn.
+    pub fn times(
+        &mut self,
+        proposals: &[&Proposal],
+        rounds: u32,
+    ) -> Result<Vec<Vec<FrameTimes>>, StudyError> {
+        let mut players = Vec::new();
+        for proposal in proposals {
+            players.push(self.players(proposal)?);
+        }
+        let mut times = vec![vec![FrameTimes::new(); self.runs.len()]; proposals.len()];
+        for round in 0..rounds {
+            let mut order: Vec<usize> = (0..players.len()).collect();
+            if round % 2 == 1 {
+                order.reverse();
+            }
+            let last = players.len() - 1;
+            for index in order {
+                let between = index > 0 && index < last;
+                if between && round >= 2 && relative(&times[index], &times[0]) > HOPELESS {
+                    continue;
+                }
+                for (run, player) in players[index].iter_mut().enumerate() {
+                    let refused = |error| self.runs[run].refused(&error);
+                    player.time(&self.motions[run], self.stride, &mut times[index][run]).map_err(refused)?;
+                }
+            }
+        }
+        Ok(times)
+    }
+}
+
+impl Judge for Bench<'_> {
+    fn trees(&mut self, proposal: &Proposal) -> Result<u64, String> {
+        self.models(proposal).map(|(_, trees)| trees).map_err(|error| error.to_string())
+    }
+
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError> {
+        Ok(Bench::compare(self, proposal)?.map(|counts| Counts::of_all(&counts)))
+    }
+
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, StudyError> {
+        let times = self.times(proposals, rounds)?;
+        Ok(times.iter().map(|own| relative(own, &times[0])).collect())
+    }
+}
+
+/// The mean over all runs of one time over the other.
+pub(crate) fn relative(own: &[FrameTimes], other: &[FrameTimes]) -> f64 {
+    let sum = |frames: &FrameTimes| frames.iter().map(|ns| *ns as f64).sum::<f64>();
+    let ratios = own.iter().zip(other).map(|(own, other)| sum(own) / sum(other).max(1.0));
+    ratios.sum::<f64>() / own.len() as f64
+}

@@ -1,0 +1,254 @@
+//! A run that models are tuned for: a scene, or the motions of a log.
+
+use crate::StudyError;
+use crate::tree_tuning::motions::{Commit, Gatherer, Motions, rows};
+use crate::tree_tuning::play::{Held, Player, bodies};
+use crate::tree_tuning::subject::Subject;
+use pong_engine::EngineError;
+use pong_executive::scene::{BuiltScene, Scene, Variation};
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+use pong_record::{Event, FrameRow, Log, LogError, LoggedEvent, RerunOptions, rerun, world_of_log};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A run.
+pub(crate) struct Run {
+    pub name: String,
+    source: Source,
+    /// The subject of each model, by the file it was read from (scene) or its place (log).
+    models: Vec<(PathBuf, usize)>,
+    /// Frames of it.
+    pub frames: u64,
+    extensions: Extensions,
+}
+
+enum Source {
+    Scene(Box<Scene>),
+    Log(PathBuf),
+}
+
+/// Told of the frames done.
+pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64);
+
+impl Run {
+    /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
+    pub fn load(
+        path: &Path,
+        duration_s: Option<f64>,
+        extensions: &Extensions,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, StudyError> {
+        if path.is_dir() {
+            Self::of_log(path, duration_s, extensions, subjects)
+        } else {
+            Self::of_scene(path, duration_s, extensions, subjects)
+        }
+    }
+
+    fn of_scene(
+        path: &Path,
+        duration_s: Option<f64>,
+        extensions: &Extensions,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, StudyError> {
+        let scene = Scene::load(path).map_err(|errors| StudyError(errors.to_string()))?;
+        let scene = scene.with_extensions(extensions.clone());
+        let built = scene.build().map_err(|errors| StudyError(errors.to_string()))?;
+        let mut models = Vec::new();
+        for file in &built.model_files {
+            models.push((file.clone(), subject(file, false, extensions, subjects)?));
+        }
+        let steps = duration_s.map_or(built.steps as f64, |duration| libm::round(duration / scene.step()));
+        let name = scene.name().to_owned();
+        let extensions = extensions.clone();
+        let source = Source::Scene(Box::new(scene));
+        Ok(Self { name, source, models, frames: steps as u64 + 1, extensions })
+    }
+
+    fn of_log(
+        path: &Path,
+        duration_s: Option<f64>,
+        extensions: &Extensions,
+        subjects: &mut Vec<Subject>,
+    ) -> Result<Self, StudyError> {
+        let mut log = open(path)?;
+        let mut models = Vec::new();
+        for index in 0..log.run().models.len() {
+            let file = log.model_path(index).unwrap_or_default();
+            models.push((file.clone(), subject(&file, true, extensions, subjects)?));
+        }
+        let mut frames = log.frame_count();
+        if let Some(duration) = duration_s {
+            let rows = log.frame_rows(0, frames).map_err(of_log)?;
+            let first = rows.first().map_or(0.0, |row| row.time);
+            frames = rows.iter().take_while(|row| row.time - first <= duration).count() as u64;
+        }
+        let (name, source) = (log.run().name.clone(), Source::Log(path.to_owned()));
+        Ok(Self { name, source, models, frames, extensions: extensions.clone() })
+    }
+
+    /// Runs it as it is and keeps its motions: at most so many frames.
+    pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions, StudyError> {
+        let motions = match &self.source {
+            Source::Scene(scene) => self.follow(build(scene, None)?, rows(self.frames, wanted, &[]), tick),
+            Source::Log(path) => {
+                let mut log = open(path)?;
+                let events = places_of_events(&mut log, self.frames)?;
+                self.rerun(log, &[], rows(self.frames, wanted, &events), tick)
+            }
+        }?;
+        if motions.windows.is_empty() {
+            return Err(StudyError::new(&self.name, "it has no frame to tune for; give a run that has some"));
+        }
+        Ok(motions)
+    }
+
+    /// Runs all of it again with other models, one for each subject, and tells the first frame whose answer is another.
+    pub fn differs(
+        &self,
+        made: &[Arc<Model>],
+        motions: &Motions,
+        tick: Tick<'_>,
+    ) -> Result<Option<String>, StudyError> {
+        let again = match &self.source {
+            Source::Scene(scene) => self.follow(build(scene, Some((self, made)))?, Vec::new(), tick),
+            Source::Log(path) => self.rerun(open(path)?, made, Vec::new(), tick),
+        };
+        let again = again?.answers;
+        if again.len() != motions.answers.len() {
+            return Ok(Some("the number of frames".to_owned()));
+        }
+        let mut pairs = again.iter().zip(&motions.answers).enumerate();
+        Ok(pairs.find_map(|(frame, (new, old))| Some(format!("{} of frame {frame}", new.difference(old)?))))
+    }
+
+    /// A world with a model for each subject, to play kept motions.
+    pub fn player(&self, made: &[Arc<Model>]) -> Result<Player, StudyError> {
+        let held = match &self.source {
+            Source::Scene(scene) => Held::Scene(Box::new(build(scene, Some((self, made)))?)),
+            Source::Log(path) => {
+                let instead = |index: usize| Some(Arc::clone(&made[self.models[index].1]));
+                let options = self.options(&instead);
+                Held::World(Box::new(world_of_log(&open(path)?, options).map_err(of_log)?))
+            }
+        };
+        Player::new(held).map_err(|error| self.refused(&error))
+    }
+
+    /// A log run again, with these models in place of its own.
+    fn options<'a>(&self, instead: &'a dyn Fn(usize) -> Option<Arc<Model>>) -> RerunOptions<'a> {
+        let extensions = self.extensions.clone();
+        RerunOptions { instead: Some(instead), extensions, ..RerunOptions::default() }
+    }
+
+    pub fn refused(&self, error: &EngineError) -> StudyError {
+        StudyError::new(&self.name, error)
+    }
+
+    /// The scene's own run; every answer is kept, and the frames of some rows.
+    fn follow(
+        &self,
+        mut built: BuiltScene,
+        rows: Vec<(u64, u64)>,
+        tick: Tick<'_>,
+    ) -> Result<Motions, StudyError> {
+        let refused = |error: EngineError| self.refused(&error);
+        let bodies = bodies(built.simulation.world()).map_err(refused)?;
+        let mut gatherer = Gatherer::new(rows);
+        for frame in 0..self.frames {
+            gatherer.before(built.simulation.world()).map_err(refused)?;
+            let moved = if frame == 0 { built.simulation.settle() } else { built.simulation.step() };
+            moved.map_err(|error| StudyError::new(&self.name, error))?;
+            gatherer.after(built.simulation.world(), &bodies, Commit::All).map_err(refused)?;
+            tick(frame + 1);
+        }
+        Ok(gatherer.finish())
+    }
+
+    /// The log's motions, event by event, likewise.
+    fn rerun(
+        &self,
+        mut log: Log,
+        made: &[Arc<Model>],
+        rows: Vec<(u64, u64)>,
+        tick: Tick<'_>,
+    ) -> Result<Motions, StudyError> {
+        let instead = |index: usize| made.get(self.models[index].1).cloned();
+        let options = || self.options(&instead);
+        let mut gatherer = Gatherer::new(rows);
+        let fresh = world_of_log(&log, options()).map_err(of_log)?;
+        gatherer.before(&fresh).map_err(|error| self.refused(&error))?;
+        drop(fresh);
+        let events = log.events().to_vec();
+        let ran = rerun(&mut log, options(), self.frames, &mut |frame| {
+            let commit = commit(&frame.logged.row, &events);
+            gatherer.after(frame.world, frame.bodies, commit)?;
+            gatherer.before(frame.world)?;
+            tick(frame.index + 1);
+            Ok(())
+        });
+        ran.map_err(of_log)?;
+        Ok(gatherer.finish())
+    }
+}
+
+/// What the host of a log did after a frame.
+fn commit(row: &FrameRow, events: &[LoggedEvent]) -> Commit {
+    let accepted = |event: &LoggedEvent| match &event.event {
+        Event::Commit { pairs } if event.frame == row.frame => Some(pairs.clone()),
+        _ => None,
+    };
+    match row.committed {
+        FrameRow::EVALUATED => Commit::Nothing,
+        FrameRow::COMMITTED_SOME => {
+            Commit::Pairs(events.iter().filter_map(accepted).flatten().map(|pair| pair as usize).collect())
+        }
+        _ => Commit::All,
+    }
+}
+
+/// Places of the log's frames before which its host did something else than to hand in states, in order.
+fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>, StudyError> {
+    let changes = log.events().iter().filter(|event| !matches!(event.event, Event::Commit { .. }));
+    let numbers: Vec<u64> = changes.map(|event| event.frame).collect();
+    let rows = log.frame_rows(0, frames).map_err(of_log)?;
+    let mut places: Vec<u64> =
+        numbers.iter().map(|number| rows.partition_point(|row| row.frame < *number) as u64).collect();
+    places.sort_unstable();
+    places.dedup();
+    Ok(places)
+}
+
+/// The subject of a model file: an earlier one if the file says the same.
+fn subject(
+    file: &Path,
+    in_log: bool,
+    extensions: &Extensions,
+    subjects: &mut Vec<Subject>,
+) -> Result<usize, StudyError> {
+    let new = Subject::load(file, in_log, extensions)?;
+    let known = subjects.iter().position(|known| known.hash == new.hash && known.text == new.text);
+    Ok(known.unwrap_or_else(|| {
+        subjects.push(new);
+        subjects.len() - 1
+    }))
+}
+
+fn build(scene: &Scene, made: Option<(&Run, &[Arc<Model>])>) -> Result<BuiltScene, StudyError> {
+    let instead = |file: &Path| {
+        let (run, made) = made?;
+        let (_, subject) = run.models.iter().find(|(other, _)| other == file)?;
+        Some(Arc::clone(&made[*subject]))
+    };
+    let variation = Variation { instead: Some(&instead), ..Variation::default() };
+    scene.build_varied(&variation).map_err(|errors| StudyError(errors.to_string()))
+}
+
+fn open(path: &Path) -> Result<Log, StudyError> {
+    Log::open(path).map_err(of_log)
+}
+
+fn of_log(error: LogError) -> StudyError {
+    StudyError(error.to_string())
+}

@@ -1,0 +1,201 @@
+//! The search: proposals from large to small, those that cannot be faster left out by what the engine counts, the others
+//! timed in turn with what is best so far, twice, so that noise is known and no chance is taken for a gain.
+
+use crate::StudyError;
+use crate::tree_tuning::counts::Counts;
+use crate::tree_tuning::moves::{Move, Reach, applied, moves};
+use crate::tree_tuning::subject::{Grouping, Shape};
+use std::collections::BTreeSet;
+
+/// A grouping for every model.
+pub(crate) type Proposal = Vec<Grouping>;
+
+/// Makes, compares, counts and times proposals.
+pub(crate) trait Judge {
+    /// A hash of all trees of a proposal; cause and cure if it cannot be made.
+    fn trees(&mut self, proposal: &Proposal) -> Result<u64, String>;
+    /// What the engine counts with it, or why it is refused: its answers are not the same bits.
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError>;
+    /// The time of each, in any unit, all in turn, so many rounds.
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, StudyError>;
+}
+
+/// What a search found.
+pub(crate) struct Found {
+    pub best: Proposal,
+    /// Proposals that were thrown away: the model, what was proposed, why.
+    pub refused: Vec<(usize, Grouping, String)>,
+    /// Proposals that were compared, and that were timed.
+    pub compared: usize,
+    pub timed: usize,
+}
+
+/// The least gain that is taken for one, whatever the noise: what is less is not worth another file.
+pub(crate) const LEAST_GAIN: f64 = 0.01;
+/// How many times the noise a gain must be.
+pub(crate) const OVER_NOISE: f64 = 2.0;
+/// Proposals that are timed in turn, beside the best so far.
+const TOGETHER: usize = 6;
+/// Times that all models are gone through.
+const CYCLES: usize = 2;
+/// Times that one reach of moves is tried again after it gained something.
+const REPEATS: usize = 4;
+
+/// Searches from a proposal; `tell` hears what is tried.
+pub(crate) fn search(
+    judge: &mut dyn Judge,
+    shapes: &[&Shape],
+    start: Proposal,
+    rounds: u32,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Found, StudyError> {
+    let found = Found { best: start, refused: Vec::new(), compared: 0, timed: 0 };
+    let mut search = Search { judge, shapes, rounds, tell, found };
+    for cycle in 0..CYCLES {
+        let before = search.found.best.clone();
+        for model in 0..shapes.len() {
+            search.model(model, cycle)?;
+        }
+        if search.found.best == before || shapes.len() == 1 {
+            break;
+        }
+    }
+    Ok(search.found)
+}
+
+struct Search<'a> {
+    judge: &'a mut dyn Judge,
+    shapes: &'a [&'a Shape],
+    rounds: u32,
+    tell: &'a mut dyn FnMut(&str),
+    found: Found,
+}
+
+impl Search<'_> {
+    fn model(&mut self, model: usize, cycle: usize) -> Result<(), StudyError> {
+        for reach in [Reach::Model, Reach::Family, Reach::Group] {
+            for repeat in 0..REPEATS {
+                let words = match reach {
+                    Reach::Model => "whole",
+                    Reach::Family => "families of groups",
+                    Reach::Group => "group by group",
+                };
+                let name = &self.shapes[model].name;
+                (self.tell)(&format!("{name}, {words}, pass {}.{}", cycle + 1, repeat + 1));
+                if !self.step(model, reach)? {
+                    break;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Tries all moves of a reach once; whether one was taken.
+    fn step(&mut self, model: usize, reach: Reach) -> Result<bool, StudyError> {
+        let shape = self.shapes[model];
+        let best = self.found.best.clone();
+        let (Ok(trees), Ok(counts)) = (self.judge.trees(&best), self.judge.compare(&best)?) else {
+            return Ok(false);
+        };
+        let mut seen = BTreeSet::from([trees]);
+        let mut ready = Vec::new();
+        for change in moves(shape, &best[model], reach) {
+            let proposal = with(&best, model, applied(shape, &best[model], &change));
+            if self.worth_timing(model, &proposal, &mut seen, &counts)? {
+                ready.push((change, proposal));
+            }
+        }
+        let gains = self.gains(ready.iter().map(|(_, proposal)| proposal).collect(), self.rounds)?;
+        let mut good: Vec<(f64, usize)> =
+            gains.into_iter().zip(0..).filter_map(|(gain, index)| Some((gain?, index))).collect();
+        // Equal gains keep the order of the moves.
+        good.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut finalists = Vec::new();
+        if let Some((_, first)) = good.first() {
+            finalists.push(ready[*first].1.clone());
+        }
+        for count in [good.len(), good.len() / 2] {
+            let union = joined(good.iter().take(count).map(|(_, index)| &ready[*index].0));
+            let proposal = with(&best, model, applied(shape, &best[model], &union));
+            if count > 1 && self.worth_timing(model, &proposal, &mut seen, &counts)? {
+                finalists.push(proposal);
+            }
+        }
+        let gains = self.gains(finalists.iter().collect(), 2 * self.rounds)?;
+        let winner = (0..gains.len()).filter(|index| gains[*index].is_some());
+        let winner = winner
+            .max_by(|a, b| gains[*a].partial_cmp(&gains[*b]).expect("gains are numbers").then(b.cmp(a)));
+        if let Some(winner) = winner {
+            self.found.best = finalists.swap_remove(winner);
+        }
+        Ok(winner.is_some())
+    }
+
+    /// Whether a proposal gives the same bits, has trees that none before it had, and may be faster by what is counted.
+    fn worth_timing(
+        &mut self,
+        model: usize,
+        proposal: &Proposal,
+        seen: &mut BTreeSet<u64>,
+        best: &Counts,
+    ) -> Result<bool, StudyError> {
+        let mut refuse = |why| self.found.refused.push((model, proposal[model].clone(), why));
+        match self.judge.trees(proposal) {
+            Ok(trees) if !seen.insert(trees) => return Ok(false),
+            Ok(_) => {}
+            Err(why) => {
+                refuse(why);
+                return Ok(false);
+            }
+        }
+        self.found.compared += 1;
+        Ok(match self.judge.compare(proposal)? {
+            Ok(counts) => !counts.is_no_less_than(best),
+            Err(why) => {
+                refuse(why);
+                false
+            }
+        })
+    }
+
+    /// By what part of the time of the best so far each proposal is shorter; `None` where that is not more than noise.
+    fn gains(&mut self, proposals: Vec<&Proposal>, rounds: u32) -> Result<Vec<Option<f64>>, StudyError> {
+        let mut gains = Vec::new();
+        for some in proposals.chunks(TOGETHER) {
+            let best = &self.found.best;
+            let mut all = vec![best];
+            all.extend(some);
+            all.push(best);
+            let times = self.judge.time(&all, rounds)?;
+            self.found.timed += some.len();
+            let (base, noise) = base(times[0], times[times.len() - 1]);
+            let gain = |time: &f64| 1.0 - time / base;
+            let enough = |gain: &f64| *gain > LEAST_GAIN.max(OVER_NOISE * noise);
+            gains.extend(times[1..times.len() - 1].iter().map(gain).map(|gain| Some(gain).filter(enough)));
+        }
+        Ok(gains)
+    }
+}
+
+/// The shorter of two times of the same thing, and the part of it by which they differ: noise.
+pub(crate) fn base(one: f64, other: f64) -> (f64, f64) {
+    let least = one.min(other);
+    (least, (one - other).abs() / least)
+}
+
+fn with(proposal: &Proposal, model: usize, grouping: Grouping) -> Proposal {
+    let mut proposal = proposal.clone();
+    proposal[model] = grouping;
+    proposal
+}
+
+/// Moves one after the other as one; what an earlier one has set stays.
+fn joined<'m>(moves: impl Iterator<Item = &'m Move>) -> Move {
+    let mut all: Vec<_> = Vec::new();
+    for (group, setting) in moves.flat_map(|one| &one.0) {
+        if !all.iter().any(|(known, _)| known == group) {
+            all.push((*group, setting.clone()));
+        }
+    }
+    Move(all)
+}

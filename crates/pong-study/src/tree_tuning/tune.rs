@@ -1,0 +1,272 @@
+//! All of it: runs in, motions kept, search, the whole run compared, before and after timed in turn, files out.
+
+use crate::tree_tuning::bench::{Bench, FrameTimes, relative};
+use crate::tree_tuning::counts::Counts;
+use crate::StudyError;
+use crate::tree_tuning::motions::Motions;
+use crate::tree_tuning::run::Run;
+use crate::tree_tuning::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, search};
+use crate::tree_tuning::subject::{Shape, Subject};
+use crate::tree_tuning::words;
+use crate::tree_tuning::write::{Output, headed};
+use pong_geometry::extension::Extensions;
+use std::path::{Path, PathBuf};
+
+/// How models are tuned.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// How often every proposal is timed; before and after three times as often.
+    pub rounds: u32,
+    /// Frames of each run that are timed in the end; the search has a quarter of them.
+    pub frames: u64,
+    /// Only so much of each run, s.
+    pub duration_s: Option<f64>,
+    /// Where files go.
+    pub output: Output,
+    /// What models may use beside what is built in, and where their files may lie.
+    pub extensions: Extensions,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            rounds: 5,
+            frames: 4096,
+            duration_s: None,
+            output: Output::default(),
+            extensions: Extensions::new(),
+        }
+    }
+}
+
+/// How far a tuning is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Progress {
+    /// Frames of a run, done and in all, while it is run from end to end.
+    Running {
+        /// What for.
+        doing: String,
+        /// Frames done.
+        done: u64,
+        /// Frames in all.
+        of: u64,
+    },
+    /// What the search tries now.
+    Searching(String),
+}
+
+/// Called now and then.
+type Watch<'a> = &'a mut dyn FnMut(&Progress);
+
+/// What came of a tuning.
+#[derive(Clone, Debug)]
+pub struct Tuned {
+    /// The runs, in the order they were given.
+    pub runs: Vec<RunTuned>,
+    /// The models, each once.
+    pub models: Vec<ModelTuned>,
+    /// Proposals that were thrown away because they would have changed an answer, or could not be made.
+    pub refused: Vec<String>,
+    /// Proposals that were compared bit by bit, and that were timed.
+    pub tried: [usize; 2],
+    /// The part by which the time is shorter, and by which the same thing timed twice differs.
+    pub gain: f64,
+    /// Noise of the last timing.
+    pub noise: f64,
+    /// Whether files were written.
+    pub taken: bool,
+}
+
+/// A run before and after.
+#[derive(Clone, Debug)]
+pub struct RunTuned {
+    /// Its name.
+    pub name: String,
+    /// Frames of the whole run, every one of which was compared.
+    pub frames: u64,
+    /// Frames in which the engine left contacts out because a limit was hit.
+    pub limited: u64,
+    /// Before, before once more, and after: the shortest time of each of the frames that were timed, ns.
+    pub times_ns: [Vec<u64>; 3],
+    /// What was counted over these frames before and after.
+    pub counts: [Counts; 2],
+}
+
+/// A model before and after.
+#[derive(Clone, Debug)]
+pub struct ModelTuned {
+    /// Its name.
+    pub name: String,
+    /// Its file.
+    pub file: PathBuf,
+    /// What is other, group by group; nothing if it stays as it is.
+    pub changes: Vec<String>,
+    /// The file that was written.
+    pub written: Option<PathBuf>,
+}
+
+/// Tunes the models of some runs, each a scene file or the folder of a log, for all of them together.
+///
+/// # Errors
+/// A run or a model at fault, a place that is taken or cannot be written.
+pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tuned, StudyError> {
+    check(settings)?;
+    let mut subjects = Vec::new();
+    let mut runs = Vec::new();
+    for path in paths {
+        runs.push(Run::load(path, settings.duration_s, &settings.extensions, &mut subjects)?);
+    }
+    settings.output.check(&subjects)?;
+    let mut motions = Vec::new();
+    for run in &runs {
+        motions.push(run.gather(settings.frames, &mut ticker(watch, "runs", run))?);
+    }
+    Job { subjects, runs, motions, settings }.tune(watch)
+}
+
+fn check(settings: &Settings) -> Result<(), StudyError> {
+    if let Some(duration) = settings.duration_s.filter(|duration| !(*duration > 0.0 && duration.is_finite()))
+    {
+        return Err(StudyError::new(
+            "--duration",
+            format!("it is {duration} s; give a finite time above zero"),
+        ));
+    }
+    if settings.rounds == 0 || settings.frames == 0 {
+        return Err(StudyError::new("settings", "nothing is timed; give at least 1 round and 1 frame"));
+    }
+    Ok(())
+}
+
+/// Tells the frames of a run that are done, now and then.
+fn ticker<'w>(watch: &'w mut dyn FnMut(&Progress), doing: &str, run: &Run) -> impl FnMut(u64) + use<'w> {
+    let (doing, of) = (format!("{doing} {}", run.name), run.frames);
+    move |done| {
+        if done.is_multiple_of(256) || done == of {
+            watch(&Progress::Running { doing: doing.clone(), done, of });
+        }
+    }
+}
+
+struct Job<'a> {
+    subjects: Vec<Subject>,
+    runs: Vec<Run>,
+    motions: Vec<Motions>,
+    settings: &'a Settings,
+}
+
+/// Every how many rows of frames the search plays.
+const STRIDE: usize = 4;
+
+impl Job<'_> {
+    fn tune(&self, watch: Watch<'_>) -> Result<Tuned, StudyError> {
+        let authored: Proposal = self.subjects.iter().map(|subject| subject.shape.authored()).collect();
+        self.check_player(&authored)?;
+        let shapes: Vec<&Shape> = self.subjects.iter().map(|subject| &subject.shape).collect();
+        let mut bench = self.bench(STRIDE);
+        let mut tell = |words: &str| watch(&Progress::Searching(words.to_owned()));
+        let mut found = search(&mut bench, &shapes, authored.clone(), self.settings.rounds, &mut tell)?;
+        if found.best != authored
+            && let Some(why) = self.whole_runs(&mut bench, &found.best, watch)?
+        {
+            let differing = (0..shapes.len()).filter(|model| found.best[*model] != authored[*model]);
+            found.refused.extend(differing.map(|model| (model, found.best[model].clone(), why.clone())));
+            found.best.clone_from(&authored);
+        }
+        watch(&Progress::Searching("before and after".to_owned()));
+        let mut tuned = self.timed(&authored, &found)?;
+        tuned.taken = found.best != authored && tuned.gain > LEAST_GAIN.max(OVER_NOISE * tuned.noise);
+        if tuned.taken {
+            self.write(&mut bench, &found.best, &mut tuned)?;
+        }
+        Ok(tuned)
+    }
+
+    fn bench(&self, stride: usize) -> Bench<'_> {
+        let fewest = self.motions.iter().map(|motions| motions.windows.len()).min().unwrap_or(1);
+        Bench::new(&self.subjects, &self.runs, &self.motions, stride.min(fewest.max(1)))
+    }
+
+    /// The models as they are must give the run's own bits when its motions are played.
+    fn check_player(&self, authored: &Proposal) -> Result<(), StudyError> {
+        match self.bench(1).compare(authored)? {
+            Ok(_) => Ok(()),
+            Err(why) => Err(StudyError::new(
+                "motions",
+                format!("played again, with nothing changed, {why}; the run cannot be tuned for"),
+            )),
+        }
+    }
+
+    /// Every frame of every run with other models; the first difference.
+    fn whole_runs(
+        &self,
+        bench: &mut Bench<'_>,
+        proposal: &Proposal,
+        watch: Watch<'_>,
+    ) -> Result<Option<String>, StudyError> {
+        let models = bench.models(proposal)?.0;
+        for (run, motions) in self.runs.iter().zip(&self.motions) {
+            let what = run.differs(&models, motions, &mut ticker(watch, "compares", run))?;
+            if let Some(what) = what {
+                return Ok(Some(format!("{what} of `{}` would not be the same bits", run.name)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Before, before once more and after, in turn, and all that is told of them.
+    fn timed(&self, authored: &Proposal, found: &Found) -> Result<Tuned, StudyError> {
+        let mut bench = self.bench(1);
+        let refused = |why: String| StudyError::new("compare", why);
+        let before = bench.compare(authored)?.map_err(refused)?;
+        let after = bench.compare(&found.best)?.map_err(refused)?;
+        let times = bench.times(&[authored, &found.best, authored], 3 * self.settings.rounds)?;
+        let [one, new, two]: [Vec<FrameTimes>; 3] = times.try_into().expect("three were timed");
+        let (least, noise) = base(1.0, relative(&two, &one));
+        let gain = 1.0 - relative(&new, &one) / least;
+        let mut runs = Vec::new();
+        for (index, (run, motions)) in self.runs.iter().zip(&self.motions).enumerate() {
+            runs.push(RunTuned {
+                name: run.name.clone(),
+                frames: run.frames,
+                limited: motions.limited,
+                times_ns: [one[index].clone(), two[index].clone(), new[index].clone()],
+                counts: [before[index].clone(), after[index].clone()],
+            });
+        }
+        let models = self.subjects.iter().zip(authored).zip(&found.best);
+        let models = models.map(|((subject, before), after)| ModelTuned {
+            name: subject.shape.name.clone(),
+            file: subject.file.clone(),
+            changes: words::changes(&subject.shape, before, after),
+            written: None,
+        });
+        let refused = found.refused.iter().map(|(model, grouping, why)| {
+            let shape = &self.subjects[*model].shape;
+            let changes = words::changes(shape, &authored[*model], grouping);
+            format!("{}: {why} ({})", shape.name, changes.join(", "))
+        });
+        Ok(Tuned {
+            models: models.collect(),
+            refused: refused.collect(),
+            runs,
+            tried: [found.compared, found.timed],
+            gain,
+            noise,
+            taken: false,
+        })
+    }
+
+    fn write(&self, bench: &mut Bench<'_>, best: &Proposal, tuned: &mut Tuned) -> Result<(), StudyError> {
+        let names: Vec<&str> = self.runs.iter().map(|run| run.name.as_str()).collect();
+        for (index, subject) in self.subjects.iter().enumerate() {
+            if best[index] != subject.shape.authored() {
+                let text = headed(&subject.text(&best[index])?, &names.join("`, `"));
+                let trees = bench.trees_of(best, index)?;
+                tuned.models[index].written = Some(self.settings.output.write(subject, &text, trees)?);
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,114 @@
+//! Tuned model files: written beside their place, read back, and only then put there.
+
+use crate::StudyError;
+use crate::tree_tuning::subject::{Subject, hash_of_trees};
+use pong_model::grouping;
+use std::path::{Path, PathBuf};
+
+/// Where tuned files go, and whether others there may be replaced.
+#[derive(Clone, Debug, Default)]
+pub struct Output {
+    /// A folder; beside the model unless given.
+    pub folder: Option<PathBuf>,
+    /// Whether files there are replaced.
+    pub force: bool,
+}
+
+impl Output {
+    /// The file for a model.
+    pub(crate) fn place(&self, subject: &Subject) -> PathBuf {
+        let stem = subject.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let home = subject.file.parent().unwrap_or(Path::new(""));
+        self.folder.as_deref().unwrap_or(home).join(format!("{stem}_tuned.ron"))
+    }
+
+    /// Refuses places that are taken, before anything is run.
+    pub(crate) fn check(&self, subjects: &[Subject]) -> Result<(), StudyError> {
+        let mut places: Vec<PathBuf> = Vec::new();
+        for subject in subjects {
+            let place = self.place(subject);
+            if subject.in_log && self.folder.is_none() {
+                let line =
+                    "it is the copy that a log keeps for itself; name a folder for tuned models with -o";
+                return Err(StudyError::file(&subject.file, line));
+            }
+            if !self.force && place.exists() {
+                let line = "it is there already; move it away, name another folder with -o, or replace it with --force";
+                return Err(StudyError::file(&place, line));
+            }
+            if places.contains(&place) {
+                let line = "two models of that name would be written there; leave -o out, so that each goes beside its file";
+                return Err(StudyError::file(&place, line));
+            }
+            places.push(place);
+        }
+        Ok(())
+    }
+
+    /// Writes a text as the tuned file of a model; `trees` is what its bounding trees must be.
+    pub(crate) fn write(&self, subject: &Subject, text: &str, trees: u64) -> Result<PathBuf, StudyError> {
+        let place = self.place(subject);
+        let folder = match place.parent() {
+            Some(folder) if folder != Path::new("") => folder.to_owned(),
+            _ => PathBuf::from("."),
+        };
+        let unwritable = |path: &Path, reason: std::io::Error| {
+            StudyError::file(path, format!("{reason}; name another folder with -o"))
+        };
+        std::fs::create_dir_all(&folder).map_err(|reason| unwritable(&folder, reason))?;
+        self.copy_meshes(subject, &folder)?;
+        let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let staged = folder.join(format!(".{name}.{}", std::process::id()));
+        std::fs::write(&staged, text).map_err(|reason| unwritable(&staged, reason))?;
+        let moved = check(&staged, subject, trees)
+            .and_then(|()| std::fs::rename(&staged, &place).map_err(|reason| unwritable(&place, reason)));
+        if moved.is_err() {
+            let _ = std::fs::remove_file(&staged);
+        }
+        moved.map(|()| place)
+    }
+
+    /// Meshes are found beside a model or below: in another folder they are needed as well.
+    fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<(), StudyError> {
+        let home = subject.file.parent().unwrap_or(Path::new(""));
+        let files =
+            grouping::mesh_files(&subject.text).map_err(|line| StudyError::file(&subject.file, line))?;
+        for file in files {
+            let (from, to) = (home.join(&file), folder.join(&file));
+            let fails = |reason: std::io::Error| {
+                StudyError::file(&to, format!("{reason}; name another folder with -o"))
+            };
+            let bytes = std::fs::read(&from).map_err(fails)?;
+            if std::fs::read(&to).is_ok_and(|there| there == bytes) {
+                continue;
+            }
+            if to.exists() && !self.force {
+                let line = "another mesh of that name is there; name another folder with -o, or replace it with --force";
+                return Err(StudyError::file(&to, line));
+            }
+            let written =
+                to.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| std::fs::write(&to, bytes));
+            written.map_err(fails)?;
+        }
+        Ok(())
+    }
+}
+
+/// The file as it will be read: the same model in the trees that were measured.
+fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<(), StudyError> {
+    let model =
+        pong_model::load(staged, &subject.extensions).map_err(|errors| StudyError(errors.to_string()))?;
+    if model.hash == subject.hash && hash_of_trees(&model) == trees {
+        return Ok(());
+    }
+    let line = "what was written does not read as what was measured; run it again and leave the model and its meshes as they are";
+    Err(StudyError::file(staged, line))
+}
+
+/// The text of a tuned file: a line at its head says where it came from.
+pub(crate) fn headed(text: &str, name: &str) -> String {
+    let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
+    let name: String = name.chars().filter(|c| !c.is_control()).collect();
+    let line = format!("// Bounds and leaves by `pong tune` for `{name}`; all else is as it was.\n");
+    if rest.starts_with(&line) { text.to_owned() } else { format!("{mark}{line}{rest}") }
+}
