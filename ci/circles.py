@@ -203,7 +203,7 @@ def shortest_circle(arrows, members):
 LEFT = {
     "pong-advise": 4, "pong-arena": 2, "pong-cli": 7, "pong-executive": 11,
     "pong-geometry": 14, "pong-import": 20, "pong-invariance": 4, "pong-model": 29, "pong-record": 9, "pong-study": 5,
-    "pong-threads": 2, "pong-trade": 5, "pong-verify": 46,
+    "pong-threads": 2, "pong-verify": 46,
 }
 
 

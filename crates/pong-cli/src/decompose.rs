@@ -4,7 +4,6 @@ use crate::import::{Mesh, length_m, spinner};
 use crate::terminal::{print, show, tell, tell_lines};
 use crate::text::{count, number};
 use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
-use pong_import::Up;
 use pong_report::table;
 use std::process::ExitCode;
 
@@ -55,12 +54,7 @@ fn at_least_one(text: &str) -> Result<usize, String> {
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let options = DecomposeOptions {
-        up: arguments.mesh.up.map(Up::from),
-        unit_m: arguments.mesh.unit,
-        scene: arguments.mesh.scene.clone(),
-        name: arguments.mesh.name.clone(),
-        surface: arguments.mesh.surface.chosen(),
-        weld_m: arguments.mesh.weld,
+        import: arguments.mesh.options(),
         method: match arguments.method {
             Finder::Vhacd => Method::Vhacd,
             Finder::Coacd => Method::Coacd(arguments.python.clone()),
@@ -70,7 +64,6 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         pieces_max: arguments.pieces_max,
         within_m: arguments.within,
         samples: arguments.samples,
-        allowed: arguments.mesh.allowed.folders.clone(),
     };
     let bar = spinner();
     let done =

@@ -142,19 +142,29 @@ fn not_negative(text: &str) -> Result<f64, String> {
     if value >= 0.0 && value.is_finite() { Ok(value) } else { Err("it must not be negative".to_owned()) }
 }
 
+impl Mesh {
+    /// What every command that reads a mesh is told.
+    pub fn options(&self) -> Options {
+        Options {
+            up: self.up.map(Up::from),
+            unit_m: self.unit,
+            scene: self.scene.clone(),
+            name: self.name.clone(),
+            surface: self.surface.chosen(),
+            weld_m: self.weld,
+            allowed: self.allowed.folders.clone(),
+            ..Options::default()
+        }
+    }
+}
+
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let options = Options {
-        up: arguments.mesh.up.map(Up::from),
-        unit_m: arguments.mesh.unit,
-        scene: arguments.mesh.scene.clone(),
         root: arguments.root.clone(),
-        name: arguments.mesh.name.clone(),
-        surface: arguments.mesh.surface.chosen(),
-        weld_m: arguments.mesh.weld,
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
         hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
-        allowed: arguments.mesh.allowed.folders.clone(),
+        ..arguments.mesh.options()
     };
     let bar = spinner();
     let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {

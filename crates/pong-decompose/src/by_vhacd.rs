@@ -3,12 +3,13 @@
 use crate::cells::{Features, Looking, cells};
 use crate::content::{Cell, content};
 use crate::flats::{Cutting, Judged};
+use crate::hulls::{hulls_of, tell_flat};
 use crate::inside::Solid;
 use crate::join::join;
+use crate::options::DecomposeOptions;
 use crate::piece::{Piece, hull};
 use crate::seams::Pool;
 use crate::solids::SolidMesh;
-use crate::{DecomposeOptions, hulls_of, tell_flat};
 use pong_import::mesh;
 use pong_import::{Finding, Findings};
 

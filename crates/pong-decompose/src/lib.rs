@@ -10,9 +10,11 @@ mod cells;
 mod coacd;
 mod content;
 mod flats;
+mod hulls;
 mod inside;
 mod join;
 mod measure;
+mod options;
 mod piece;
 mod polygon;
 mod regions;
@@ -22,16 +24,18 @@ mod sound;
 mod walls;
 
 pub use measure::{Deviation, Distances};
+pub use options::{DecomposeOptions, Method};
 
+use hulls::{hulls_of, tell_flat};
 use inside::Solid;
 use nalgebra::Vector3;
-use piece::{NoHull, Piece, hull};
+use piece::{Piece, hull};
 use pong_geometry::extension::Extensions;
 use pong_import::build::{self, Building};
 use pong_import::mesh::{self, Mesh};
 use pong_import::model::{Field, Group, Model, Primitive, field};
-use pong_import::source::{self, Reading};
-use pong_import::{DefaultSurface, Finding, Findings, Up, files, write};
+use pong_import::source;
+use pong_import::{DefaultSurface, Findings, files, write};
 use seams::Pool;
 use solids::SolidMesh;
 use std::path::{Path, PathBuf};
@@ -40,67 +44,6 @@ use std::path::{Path, PathBuf};
 const NEAR_SHARE: f64 = 1e-7;
 /// CoACD's vertices within this share of the size are one.
 const SETTLED_SHARE: f64 = 3e-4;
-
-/// Which program finds the cuts.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Method {
-    /// VHACD of the parry3d crate, built in.
-    Vhacd,
-    /// The Python package CoACD, run by this interpreter.
-    Coacd(String),
-}
-
-/// How a mesh is to be decomposed.
-#[derive(Clone, Debug)]
-pub struct DecomposeOptions {
-    /// Which axis points up; `None` for what the format is known for: y in glTF, z in OBJ and STL.
-    pub up: Option<Up>,
-    /// Metres in one unit of the file.
-    pub unit_m: f64,
-    /// glTF: name of the scene; `None` for the default one.
-    pub scene: Option<String>,
-    /// Name of the model; `None` for the file's own.
-    pub name: Option<String>,
-    /// Surface of the pieces; `None` puts a placeholder there.
-    pub surface: Option<DefaultSurface>,
-    /// Vertices within this distance of each other are one, m; `None` for bit-equal ones only.
-    pub weld_m: Option<f64>,
-    /// What finds the cuts.
-    pub method: Method,
-    /// VHACD: voxels along the longest side. CoACD: samples on the surface. `None` for 100 and 2000.
-    pub resolution: Option<u32>,
-    /// VHACD: share of the whole hull's volume by which a piece may exceed what it holds. CoACD: its threshold.
-    /// `None` for 0.005 and 0.05.
-    pub concavity: Option<f64>,
-    /// Most pieces.
-    pub pieces_max: usize,
-    /// Largest protrusion and deficit that are accepted, m.
-    pub within_m: Option<f64>,
-    /// Places measured on each surface and in the volume.
-    pub samples: usize,
-    /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
-    pub allowed: Vec<PathBuf>,
-}
-
-impl Default for DecomposeOptions {
-    fn default() -> Self {
-        Self {
-            up: None,
-            unit_m: 1.0,
-            scene: None,
-            name: None,
-            surface: None,
-            weld_m: None,
-            method: Method::Vhacd,
-            resolution: None,
-            concavity: None,
-            pieces_max: 64,
-            within_m: None,
-            samples: 30_000,
-            allowed: Vec::new(),
-        }
-    }
-}
 
 /// The figures of a decomposition.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,28 +107,10 @@ fn attempt(
     findings: &mut Findings,
 ) -> Option<Vec<PathBuf>> {
     let file = input.display().to_string();
-    check_options(options, &file, findings)?;
+    options.check(&file, findings)?;
     progress("reading");
-    let reading = Reading {
-        up: options.up,
-        unit_m: options.unit_m,
-        scene: options.scene.clone(),
-        allowed: options.allowed.clone(),
-    };
-    let source = source::read(input, &reading, findings)?;
-    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let building = Building {
-        file,
-        name: options.name.clone().unwrap_or(stem),
-        root: None,
-        weld_m: options.weld_m,
-        unit_m: options.unit_m,
-        surface: options.surface.clone(),
-        faces_max: usize::MAX,
-        inline_max: usize::MAX,
-        hull: None,
-        progress,
-    };
+    let source = source::read(input, &options.import.reading(), findings)?;
+    let building = options.import.building(input, progress);
     let shape = solids::flatten(source, &building, findings);
     let (vertices, triangles) = (shape.vertices.len(), shape.triangles.len());
     let solids = solids::solids(shape, &building, findings)?;
@@ -213,31 +138,6 @@ fn attempt(
     let mut model = model(pieces, &building, &figures);
     build::default_surface(&mut model, &building, findings);
     files::write_checked(output, write::text(&model), Vec::new(), findings)
-}
-
-fn check_options(options: &DecomposeOptions, file: &str, findings: &mut Findings) -> Option<()> {
-    let mut refuse = |bad: bool, what: String, cure: &str| {
-        if bad {
-            findings.fault(file, "option", what, cure);
-        }
-    };
-    let above_zero = |x: f64| x > 0.0 && x.is_finite();
-    refuse(!above_zero(options.unit_m), format!("a unit of {} m", options.unit_m), "give metres above zero");
-    if let Some(concavity) = options.concavity {
-        refuse(!(0.0..=1.0).contains(&concavity), format!("a concavity of {concavity}"), "give 0 to 1");
-    }
-    if let (Some(voxels), Method::Vhacd) = (options.resolution, &options.method) {
-        refuse(!(8..=1000).contains(&voxels), format!("a resolution of {voxels} voxels"), "give 8 to 1000");
-    }
-    if let (Some(concavity), Method::Coacd(_)) = (options.concavity, &options.method) {
-        refuse(concavity < 0.01, format!("a CoACD threshold of {concavity}"), "give 0.01 to 1");
-    }
-    refuse(options.pieces_max == 0, "no pieces at all".to_owned(), "allow one piece or more");
-    refuse(options.samples == 0, "no samples at all".to_owned(), "allow some thousands");
-    if let Some(within_m) = options.within_m {
-        refuse(!above_zero(within_m), format!("a limit of {within_m} m"), "give metres above zero");
-    }
-    findings.faults.is_empty().then_some(())
 }
 
 /// Protrusions of more than this share of the size are told.
@@ -350,43 +250,6 @@ fn settled(hulls: Vec<Vec<Vector3<f64>>>, mesh: &Mesh, size_m: f64) -> Vec<Vec<V
     let mut pool = Pool::within(SETTLED_SHARE * size_m);
     mesh.vertices.iter().for_each(|place| pool.add(*place));
     hulls.into_iter().map(|hull| hull.into_iter().map(|place| pool.place(place)).collect()).collect()
-}
-
-/// The hulls of sets of points, and how many sets have no thickness.
-fn hulls_of(
-    found: Vec<Vec<Vector3<f64>>>,
-    pool: &mut Pool,
-    file: &str,
-) -> Result<(Vec<Piece>, usize), Finding> {
-    let (mut parts, mut flat) = (Vec::new(), 0);
-    let failed = |cause: String| Finding {
-        path: file.to_owned(),
-        rule: "decomposer-failed",
-        cause,
-        cure: "try another --resolution or --concavity, or keep a TriangleMesh".to_owned(),
-    };
-    for points in found {
-        let points: Vec<Vector3<f64>> = points.into_iter().map(|place| pool.place(place)).collect();
-        match hull(&points) {
-            Ok(piece) => parts.push(piece),
-            Err(NoHull::Flat) => flat += 1,
-            Err(NoHull::Failed) => {
-                let at = solids::named(&points[0]);
-                return Err(failed(format!(
-                    "no hull was found around the {} points of the piece at {at}",
-                    points.len()
-                )));
-            }
-        }
-    }
-    if parts.is_empty() { Err(failed("no piece has a thickness".to_owned())) } else { Ok((parts, flat)) }
-}
-
-fn tell_flat(flat: usize, file: &str, findings: &mut Findings) {
-    if flat > 0 {
-        let cause = format!("{flat} pieces without thickness were left out");
-        findings.note(file, "thin-piece", cause, "what that leaves uncovered is in the deficit");
-    }
 }
 
 fn tell_changes(changes: sound::Changes, file: &str, findings: &mut Findings) {

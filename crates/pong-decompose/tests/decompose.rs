@@ -15,7 +15,7 @@ type Triangles = Vec<[[f64; 3]; 3]>;
 fn options() -> DecomposeOptions {
     let surface = DefaultSurface { name: "steel".to_owned(), stiffness: 1e6, damping: 0.0, mu: 0.0 };
     DecomposeOptions {
-        surface: Some(surface),
+        import: pong_import::Options { surface: Some(surface), ..pong_import::Options::default() },
         resolution: Some(40),
         samples: 5000,
         ..DecomposeOptions::default()
@@ -77,7 +77,12 @@ fn assert_exact(report: &Report, volume_m3: f64) {
     assert_close(report.volume_m3, volume_m3, 1e-12);
     assert_close(report.source_volume_m3, volume_m3, 1e-12);
     let pong_decompose::Deviation {
-        protrusion, deficit, inner_deficit_m, deficit_share, protruding_share, ..
+        protrusion,
+        deficit,
+        inner_deficit_m,
+        deficit_share,
+        protruding_share,
+        ..
     } = report.deviation;
     assert_eq!((protrusion.max_m, deficit.max_m, inner_deficit_m), (0.0, 0.0, 0.0));
     assert_eq!((deficit_share, protruding_share), (0.0, 0.0));
@@ -263,7 +268,7 @@ fn a_dented_part_becomes_its_hull_if_asked() {
     let path = save("hull", &torus(1.0, 0.3, 12, 8));
     let output = path.with_extension("ron");
     let import = |hull| {
-        let surface = options().surface;
+        let surface = options().import.surface;
         let options = pong_import::Options { surface, hull, ..pong_import::Options::default() };
         pong_import::import(&path, &output, &options, &mut |_| ()).unwrap()
     };

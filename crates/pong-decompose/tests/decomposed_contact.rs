@@ -17,7 +17,8 @@ fn forces(test: &str, cubes: &[[i32; 3]], radius: f64, places: &[[f64; 3]]) -> V
     let path = scratch(env!("CARGO_TARGET_TMPDIR"), &format!("contact_{test}")).join("shape.obj");
     std::fs::write(&path, obj(&blocks(cubes, 1.0))).unwrap();
     let surface = DefaultSurface { name: "s".to_owned(), stiffness: STIFFNESS, damping: 0.0, mu: 0.0 };
-    let options = DecomposeOptions { surface: Some(surface), samples: 1000, ..DecomposeOptions::default() };
+    let import = pong_import::Options { surface: Some(surface), ..pong_import::Options::default() };
+    let options = DecomposeOptions { import, samples: 1000, ..DecomposeOptions::default() };
     let done = pong_decompose::decompose(&path, &path.with_extension("ron"), &options, &mut |_| ());
     assert!(done.findings.faults.is_empty() && done.findings.notes.is_empty(), "{}", done.findings);
     let shape = pong_model::load(&done.files[0], &Extensions::new()).unwrap();

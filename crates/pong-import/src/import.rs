@@ -56,6 +56,24 @@ impl Default for Options {
     }
 }
 
+impl Options {
+    /// How the file is to be read.
+    #[doc(hidden)]
+    pub fn reading(&self) -> Reading {
+        let Self { up, unit_m, scene, allowed, .. } = self.clone();
+        Reading { up, unit_m, scene, allowed }
+    }
+
+    /// How a model is to be made of it.
+    #[doc(hidden)]
+    pub fn building<'a>(&self, input: &Path, progress: &'a mut dyn FnMut(&str)) -> Building<'a> {
+        let Self { root, name, surface, weld_m, unit_m, faces_max, inline_max, hull, .. } = self.clone();
+        let stem = || input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let (file, name) = (input.display().to_string(), name.unwrap_or_else(stem));
+        Building { file, name, root, weld_m, unit_m, surface, faces_max, inline_max, hull, progress }
+    }
+}
+
 /// What was written.
 #[derive(Clone, Debug)]
 pub struct Imported {
@@ -112,26 +130,8 @@ fn convert(
         return None;
     }
     progress("reading");
-    let reading = Reading {
-        up: options.up,
-        unit_m: options.unit_m,
-        scene: options.scene.clone(),
-        allowed: options.allowed.clone(),
-    };
-    let source = source::read(input, &reading, findings)?;
-    let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut building = Building {
-        file,
-        name: options.name.clone().unwrap_or(stem),
-        root: options.root.clone(),
-        weld_m: options.weld_m,
-        unit_m: options.unit_m,
-        surface: options.surface.clone(),
-        faces_max: options.faces_max,
-        inline_max: options.inline_max,
-        hull: options.hull,
-        progress,
-    };
+    let source = source::read(input, &options.reading(), findings)?;
+    let mut building = options.building(input, progress);
     let mut built = build::build(source, &mut building, findings)?;
     if let Some(name) = &options.name {
         built.model.name.clone_from(name);

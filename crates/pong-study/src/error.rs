@@ -1,5 +1,6 @@
 //! What can go wrong, told as thing, cause and cure.
 
+use pong_executive::scene::SceneErrors;
 use pong_model::ModelErrors;
 use pong_record::LogError;
 use std::fmt::Display;
@@ -34,14 +35,15 @@ impl Display for StudyError {
 
 impl std::error::Error for StudyError {}
 
-impl From<LogError> for StudyError {
-    fn from(error: LogError) -> Self {
-        Self(error.to_string())
-    }
+/// Errors that say thing, cause and cure themselves.
+macro_rules! told_already {
+    ($($error:ty),*) => {
+        $(impl From<$error> for StudyError {
+            fn from(error: $error) -> Self {
+                Self(error.to_string())
+            }
+        })*
+    };
 }
 
-impl From<ModelErrors> for StudyError {
-    fn from(errors: ModelErrors) -> Self {
-        Self(errors.to_string())
-    }
-}
+told_already!(LogError, ModelErrors, SceneErrors);

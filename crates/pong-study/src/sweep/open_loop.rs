@@ -40,7 +40,7 @@ impl LoggedRun {
         alternatives: &[LogAlternative],
         extensions: &Extensions,
     ) -> Result<Self, StudyError> {
-        let log = Log::open(folder).map_err(|error| StudyError(error.to_string()))?;
+        let log = Log::open(folder)?;
         for alternative in alternatives {
             for (name, _) in &alternative.models {
                 if !log.run().models.iter().any(|model| model.name == *name) {
@@ -82,8 +82,8 @@ impl LoggedRun {
             return Err(StudyError::new("log", line));
         }
         let last = count * u64::from(logged) - 1;
-        let mut rows = self.log.frame_rows(0, 1).map_err(of_log)?;
-        rows.extend(self.log.frame_rows(last, 1).map_err(of_log)?);
+        let mut rows = self.log.frame_rows(0, 1)?;
+        rows.extend(self.log.frame_rows(last, 1)?);
         let mean = match rows[..] {
             [first, .., last_row] if last > 0 => (last_row.time - first.time) / last as f64,
             _ => 0.0,
@@ -261,10 +261,6 @@ fn six(wrench: &Wrench) -> [f64; 6] {
 
 fn refused(error: EngineError) -> LogError {
     error.into()
-}
-
-fn of_log(error: LogError) -> StudyError {
-    StudyError(error.to_string())
 }
 
 /// The bytes of a file, a piece at a time.

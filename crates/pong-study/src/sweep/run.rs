@@ -88,5 +88,5 @@ pub(crate) fn build(scene: &Scene, level: &Level, frames: &Frames) -> Result<Bui
         rewrite: Some(&rewrite),
         ..Variation::default()
     };
-    scene.build_varied(&variation).map_err(|errors| StudyError(errors.to_string()))
+    Ok(scene.build_varied(&variation)?)
 }

@@ -225,9 +225,9 @@ pub fn study(
     watch: Watch<'_>,
 ) -> Result<Study, StudyError> {
     let text = pong_model::files::read_text(scene).unwrap_or_default();
-    let scene = Scene::load(scene).map_err(|errors| StudyError(errors.to_string()))?;
+    let scene = Scene::load(scene)?;
     let scene = scene.with_extensions(settings.extensions.clone());
-    let built = scene.build().map_err(|errors| StudyError(errors.to_string()))?;
+    let built = scene.build()?;
     let plan = Plan::new(&scene, built.simulation.bodies().len(), &settings.plan)?;
     let hash = subject::hash_of_scene(&scene, &text)?;
     let radii = radii(&built.simulation);

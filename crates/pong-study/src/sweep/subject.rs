@@ -6,8 +6,8 @@ use crate::sweep::open_loop::LoggedRun;
 use crate::sweep::run::{self, Ended, Frames};
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
-use std::path::Path;
 use pong_model::Fnv;
+use std::path::Path;
 
 /// A scene or a log.
 pub(crate) enum Subject {

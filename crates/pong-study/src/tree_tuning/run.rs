@@ -8,7 +8,7 @@ use pong_engine::EngineError;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
-use pong_record::{Event, FrameRow, Log, LogError, LoggedEvent, RerunOptions, rerun, world_of_log};
+use pong_record::{Event, FrameRow, Log, LoggedEvent, RerunOptions, rerun, world_of_log};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -52,9 +52,9 @@ impl Run {
         extensions: &Extensions,
         subjects: &mut Vec<Subject>,
     ) -> Result<Self, StudyError> {
-        let scene = Scene::load(path).map_err(|errors| StudyError(errors.to_string()))?;
+        let scene = Scene::load(path)?;
         let scene = scene.with_extensions(extensions.clone());
-        let built = scene.build().map_err(|errors| StudyError(errors.to_string()))?;
+        let built = scene.build()?;
         let mut models = Vec::new();
         for file in &built.model_files {
             models.push((file.clone(), subject(file, false, extensions, subjects)?));
@@ -80,7 +80,7 @@ impl Run {
         }
         let mut frames = log.frame_count();
         if let Some(duration) = duration_s {
-            let rows = log.frame_rows(0, frames).map_err(of_log)?;
+            let rows = log.frame_rows(0, frames)?;
             let first = rows.first().map_or(0.0, |row| row.time);
             frames = rows.iter().take_while(|row| row.time - first <= duration).count() as u64;
         }
@@ -130,7 +130,7 @@ impl Run {
             Source::Log(path) => {
                 let instead = |index: usize| Some(Arc::clone(&made[self.models[index].1]));
                 let options = self.options(&instead);
-                Held::World(Box::new(world_of_log(&open(path)?, options).map_err(of_log)?))
+                Held::World(Box::new(world_of_log(&open(path)?, options)?))
             }
         };
         Player::new(held).map_err(|error| self.refused(&error))
@@ -177,7 +177,7 @@ impl Run {
         let instead = |index: usize| made.get(self.models[index].1).cloned();
         let options = || self.options(&instead);
         let mut gatherer = Gatherer::new(rows);
-        let fresh = world_of_log(&log, options()).map_err(of_log)?;
+        let fresh = world_of_log(&log, options())?;
         gatherer.before(&fresh).map_err(|error| self.refused(&error))?;
         drop(fresh);
         let events = log.events().to_vec();
@@ -188,7 +188,7 @@ impl Run {
             tick(frame.index + 1);
             Ok(())
         });
-        ran.map_err(of_log)?;
+        ran?;
         Ok(gatherer.finish())
     }
 }
@@ -212,7 +212,7 @@ fn commit(row: &FrameRow, events: &[LoggedEvent]) -> Commit {
 fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>, StudyError> {
     let changes = log.events().iter().filter(|event| !matches!(event.event, Event::Commit { .. }));
     let numbers: Vec<u64> = changes.map(|event| event.frame).collect();
-    let rows = log.frame_rows(0, frames).map_err(of_log)?;
+    let rows = log.frame_rows(0, frames)?;
     let mut places: Vec<u64> =
         numbers.iter().map(|number| rows.partition_point(|row| row.frame < *number) as u64).collect();
     places.sort_unstable();
@@ -242,13 +242,9 @@ fn build(scene: &Scene, made: Option<(&Run, &[Arc<Model>])>) -> Result<BuiltScen
         Some(Arc::clone(&made[*subject]))
     };
     let variation = Variation { instead: Some(&instead), ..Variation::default() };
-    scene.build_varied(&variation).map_err(|errors| StudyError(errors.to_string()))
+    Ok(scene.build_varied(&variation)?)
 }
 
 fn open(path: &Path) -> Result<Log, StudyError> {
-    Log::open(path).map_err(of_log)
-}
-
-fn of_log(error: LogError) -> StudyError {
-    StudyError(error.to_string())
+    Ok(Log::open(path)?)
 }

@@ -78,7 +78,7 @@ impl Subject {
         let text = pong_model::files::read_text(file).map_err(|reason| {
             StudyError::file(file, format!("{reason}; name a run whose models can be read"))
         })?;
-        let model = pong_model::load(file, extensions).map_err(|errors| StudyError(errors.to_string()))?;
+        let model = pong_model::load(file, extensions)?;
         let groups = grouping::groups(&text).map_err(|line| StudyError::file(file, line))?;
         let elements = elements(&model, &groups);
         let shape = Shape { name: model.name.clone(), groups, elements };
@@ -107,8 +107,7 @@ impl Subject {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let text = self.text(grouping)?;
         let model =
-            pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &self.extensions)
-                .map_err(|errors| StudyError(errors.to_string()))?;
+            pong_model::parse(&text, &self.file.display().to_string(), Some(folder), &self.extensions)?;
         if model.hash != self.hash {
             let line = "its meshes were changed meanwhile; run it again and leave them as they are";
             return Err(StudyError::file(&self.file, line));

@@ -1,8 +1,8 @@
 //! All of it: runs in, motions kept, search, the whole run compared, before and after timed in turn, files out.
 
+use crate::StudyError;
 use crate::tree_tuning::bench::{Bench, FrameTimes, relative};
 use crate::tree_tuning::counts::Counts;
-use crate::StudyError;
 use crate::tree_tuning::motions::Motions;
 use crate::tree_tuning::run::Run;
 use crate::tree_tuning::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, search};

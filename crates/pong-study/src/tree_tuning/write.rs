@@ -96,8 +96,7 @@ impl Output {
 
 /// The file as it will be read: the same model in the trees that were measured.
 fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<(), StudyError> {
-    let model =
-        pong_model::load(staged, &subject.extensions).map_err(|errors| StudyError(errors.to_string()))?;
+    let model = pong_model::load(staged, &subject.extensions)?;
     if model.hash == subject.hash && hash_of_trees(&model) == trees {
         return Ok(());
     }

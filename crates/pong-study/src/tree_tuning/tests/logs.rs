@@ -122,6 +122,7 @@ fn what_is_not_restored_would_be_seen() {
 fn a_duration_cuts_a_log() {
     let folder = Folder::new("cut_log");
     let path = log(&folder);
-    let run = crate::tree_tuning::run::Run::load(&path, Some(0.995), &Extensions::new(), &mut Vec::new()).unwrap();
+    let run =
+        crate::tree_tuning::run::Run::load(&path, Some(0.995), &Extensions::new(), &mut Vec::new()).unwrap();
     assert_eq!(run.frames, 100);
 }

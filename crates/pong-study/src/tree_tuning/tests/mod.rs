@@ -7,9 +7,9 @@ mod logs;
 mod refusals;
 mod searches;
 
+use crate::StudyError;
 use crate::tree_tuning::bench::Bench;
 use crate::tree_tuning::counts::Counts;
-use crate::StudyError;
 use crate::tree_tuning::motions::Motions;
 use crate::tree_tuning::run::Run;
 use crate::tree_tuning::search::{Judge, Proposal};

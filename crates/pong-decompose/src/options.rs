@@ -1,0 +1,82 @@
+//! How a mesh is to be decomposed.
+
+use pong_import::Findings;
+
+/// Which program finds the cuts.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Method {
+    /// VHACD of the parry3d crate, built in.
+    Vhacd,
+    /// The Python package CoACD, run by this interpreter.
+    Coacd(String),
+}
+
+/// How a mesh is to be decomposed.
+#[derive(Clone, Debug)]
+pub struct DecomposeOptions {
+    /// How the mesh is read and what model is made of it; what concerns parts, roots and mesh files is not looked at.
+    pub import: pong_import::Options,
+    /// What finds the cuts.
+    pub method: Method,
+    /// VHACD: voxels along the longest side. CoACD: samples on the surface. `None` for 100 and 2000.
+    pub resolution: Option<u32>,
+    /// VHACD: share of the whole hull's volume by which a piece may exceed what it holds. CoACD: its threshold.
+    /// `None` for 0.005 and 0.05.
+    pub concavity: Option<f64>,
+    /// Most pieces.
+    pub pieces_max: usize,
+    /// Largest protrusion and deficit that are accepted, m.
+    pub within_m: Option<f64>,
+    /// Places measured on each surface and in the volume.
+    pub samples: usize,
+}
+
+impl Default for DecomposeOptions {
+    fn default() -> Self {
+        Self {
+            import: pong_import::Options::default(),
+            method: Method::Vhacd,
+            resolution: None,
+            concavity: None,
+            pieces_max: 64,
+            within_m: None,
+            samples: 30_000,
+        }
+    }
+}
+
+impl DecomposeOptions {
+    /// Tells of values that no decomposition can have.
+    pub(crate) fn check(&self, file: &str, findings: &mut Findings) -> Option<()> {
+        let mut refuse = |bad: bool, what: String, cure: &str| {
+            if bad {
+                findings.fault(file, "option", what, cure);
+            }
+        };
+        let above_zero = |x: f64| x > 0.0 && x.is_finite();
+        refuse(
+            !above_zero(self.import.unit_m),
+            format!("a unit of {} m", self.import.unit_m),
+            "give metres above zero",
+        );
+        if let Some(concavity) = self.concavity {
+            refuse(!(0.0..=1.0).contains(&concavity), format!("a concavity of {concavity}"), "give 0 to 1");
+        }
+        if let (Some(voxels), Method::Vhacd) = (self.resolution, &self.method) {
+            refuse(
+                !(8..=1000).contains(&voxels),
+                format!("a resolution of {voxels} voxels"),
+                "give 8 to 1000",
+            );
+        }
+        if let (Some(concavity), Method::Coacd(_)) = (self.concavity, &self.method) {
+            refuse(concavity < 0.01, format!("a CoACD threshold of {concavity}"), "give 0.01 to 1");
+        }
+        refuse(self.pieces_max == 0, "no pieces at all".to_owned(), "allow one piece or more");
+        refuse(self.samples == 0, "no samples at all".to_owned(), "allow some thousands");
+        if let Some(within_m) = self.within_m {
+            refuse(!above_zero(within_m), format!("a limit of {within_m} m"), "give metres above zero");
+        }
+        findings.faults.is_empty().then_some(())
+    }
+}
