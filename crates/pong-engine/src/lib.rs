@@ -24,7 +24,6 @@ mod frame;
 mod ids;
 pub mod inspect;
 mod law;
-mod pair_table;
 mod report;
 mod running;
 mod scene;
@@ -37,6 +36,7 @@ pub use contact::{Contact, ContactSide, Ledger};
 pub use energy::account::{EnergyAccount, PairEnergyAccount, Verdict, WrenchCoupling};
 pub use error::EngineError;
 pub use frame::FrictionPreload;
+pub use frame::narrow_phase::pair_table::has_tester;
 pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use law::registry::Laws;
@@ -44,7 +44,6 @@ pub use law::{
     CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, PairProps,
     combine as combine_surfaces,
 };
-pub use pair_table::has_tester;
 pub use pong_threads::{LaneWork, WorkerStart};
 pub use report::{
     FrameCounts, FrameReport, MemoryReport, Passage, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,

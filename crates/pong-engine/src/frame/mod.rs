@@ -7,7 +7,7 @@ mod energy;
 mod forces;
 mod input;
 pub(crate) mod load_sharing;
-mod narrow_phase;
+pub(crate) mod narrow_phase;
 mod output;
 mod tunnelling;
 mod worker_context;

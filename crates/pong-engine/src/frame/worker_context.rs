@@ -2,7 +2,7 @@
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::forces::contact_buffer::ContactBuffer;
-use crate::frame::narrow_phase::testers::Waiting;
+use crate::frame::narrow_phase::element_pair::Waiting;
 use crate::sealed::Sealed;
 use pong_arena::Arena;
 

@@ -2,11 +2,11 @@
 
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
+use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
 use crate::state::ContactRecord;
-use pong_geometry::primitive::PrimitiveKind;
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
@@ -86,18 +86,12 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     RECORDS * (remembered + lane + lane / 8 + found + shared)
 }
 
-/// Contacts if everything that can touch did: points and rays 1 per opposing shell, segments 2, balls 4.
+/// Contacts if everything that can touch did, by the table of pairs.
 pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
-    let contacts_of = |kind: PrimitiveKind| match kind {
-        PrimitiveKind::Point | PrimitiveKind::Ray | PrimitiveKind::Custom => 1,
-        PrimitiveKind::LineSegment => 2,
-        PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => 4,
-        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => 0,
-    };
     let mut total = 0_usize;
     for pair in group_pairs {
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            let movers: usize = scene.body(a).primitives.iter().map(|info| contacts_of(info.kind)).sum();
+            let movers: usize = scene.body(a).primitives.iter().map(|info| most_contacts(info.kind)).sum();
             total = total.saturating_add(movers.saturating_mul(scene.body(b).shell_count as usize));
         }
     }

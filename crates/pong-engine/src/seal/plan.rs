@@ -1,6 +1,7 @@
 //! Which kinds of which movable groups are tested against which.
 
 use super::testable::{can_be_tested, kind_name};
+use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
 use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Plan};
@@ -36,15 +37,9 @@ fn representatives(body: &Body) -> impl Iterator<Item = &PrimitiveInfo> {
     body.primitives.iter().filter(move |info| seen.insert(kind_name(body, info).to_owned()))
 }
 
-/// Time that an element of A takes against a body with elements of B, for cutting the work into blocks and for the
-/// choice to do it alone. It decides nothing else.
+/// What an element of A may cost against a body with elements of B, ns.
 fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
-    match (a, b) {
-        (PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => 1000,
-        (PrimitiveKind::Point | PrimitiveKind::Sphere, _) => 15,
-        (PrimitiveKind::LineSegment | PrimitiveKind::Ray, _) => 50,
-        _ => 200,
-    }
+    kind_pair(a, b).map_or(REGISTERED.0, |row| row.cost_ns)
 }
 
 /// All directions of all pairs in which something can be found.

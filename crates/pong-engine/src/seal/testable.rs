@@ -1,6 +1,6 @@
 //! Which primitives can be tested against which: by the table of pairs, or by a test that the host registered.
 
-use crate::pair_table::has_tester;
+use crate::frame::narrow_phase::pair_table::has_tester;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Body, PrimitiveInfo};

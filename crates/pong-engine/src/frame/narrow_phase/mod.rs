@@ -1,6 +1,10 @@
 //! Pairs of primitives: contacts as contact testers find them.
 
 pub(crate) mod candidate;
+pub(crate) mod element_pair;
 mod nearest_side;
+mod on_triangle;
+pub(crate) mod pair_table;
+mod registered;
 mod side_of_entry;
 pub(crate) mod testers;

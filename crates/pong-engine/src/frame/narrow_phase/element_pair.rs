@@ -1,0 +1,174 @@
+//! One element of A against one element of B, and what contact testers find for a chunk of A.
+
+use super::candidate::{CandidateStatus, ContactCandidate};
+use super::nearest_side::KnownSides;
+use super::side_of_entry::{EntryFace, PolyhedronEntry};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::input::PairContext;
+use crate::frame::input::motion::Motion;
+use crate::state::ContactKey;
+use pong_arena::List;
+use pong_geometry::Vec3;
+use pong_geometry::interference::Interference;
+use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
+use pong_geometry::primitive::{Containment, PrimitiveKind};
+use pong_geometry::simd::LANES;
+use pong_model::{Body, Item, PrimitiveInfo};
+
+/// What testers find for one chunk of A.
+pub(crate) struct Findings<'m> {
+    pub list: List<'m, ContactCandidate>,
+    /// How many there were, those without room included.
+    pub seen: u64,
+    /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
+    /// less than a frame may keep.
+    pub overflowed: bool,
+    pub waiting: &'m mut Waiting,
+    pub sides: KnownSides,
+}
+
+/// Spheres that may touch triangles, until eight are together or the batch of B ends.
+#[derive(Debug)]
+pub(crate) struct Waiting {
+    pub pairs: SphereTrianglePairs,
+    /// Of each pair the lane of A and the triangle.
+    pub from: [(u8, Item); LANES],
+}
+
+impl Default for Waiting {
+    fn default() -> Self {
+        let nobody = Item { primitive: 0, element: 0 };
+        Self { pairs: SphereTrianglePairs::default(), from: [(0, nobody); LANES] }
+    }
+}
+
+impl<'m> Findings<'m> {
+    pub fn new(list: List<'m, ContactCandidate>, waiting: &'m mut Waiting) -> Self {
+        // A panic may have left some.
+        waiting.pairs.clear();
+        Self { list, seen: 0, overflowed: false, waiting, sides: KnownSides::default() }
+    }
+
+    pub fn clear(&mut self) {
+        self.list.clear();
+        (self.seen, self.overflowed) = (0, false);
+    }
+
+    /// Whether anything waits to be tested.
+    #[inline]
+    pub fn waits(&self) -> bool {
+        self.waiting.pairs.count() > 0
+    }
+
+    /// One candidate more.
+    pub fn add(&mut self, found: ContactCandidate) {
+        self.seen += 1;
+        if self.list.len() == self.list.capacity() {
+            self.overflowed = true;
+            let half = self.list.capacity() / 2;
+            let deeper_first = |a: &ContactCandidate, b: &ContactCandidate| {
+                b.depth.total_cmp(&a.depth).then(a.order().cmp(&b.order()))
+            };
+            self.list.select_nth_unstable_by(half, deeper_first);
+            self.list.truncate(half);
+        }
+        self.list.push(found).expect("halving makes room");
+    }
+}
+
+/// One element as A against one element as B.
+pub(crate) struct ElementPair<'a> {
+    pub context: &'a PairContext<'a>,
+    pub item_a: Item,
+    pub item_b: Item,
+    pub kind_b: PrimitiveKind,
+}
+
+impl<'a> ElementPair<'a> {
+    pub fn body_a(&self) -> &'a Body {
+        self.context.body_a
+    }
+
+    pub fn body_b(&self) -> &'a Body {
+        self.context.body_b
+    }
+
+    pub fn motion(&self) -> &'a Motion {
+        self.context.motion
+    }
+
+    pub fn info_b(&self) -> &'a PrimitiveInfo {
+        &self.body_b().primitives[self.item_b.primitive as usize]
+    }
+
+    /// For a point inside B's polyhedron, the face that memory reaches and the one that pushes.
+    pub fn entry_face(&self, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
+        PolyhedronEntry {
+            memory: self.context.memory,
+            body: self.body_b(),
+            shell: self.info_b().shell,
+            piece: self.item_b.element,
+            point: *p,
+            earlier: self.motion().since_commit.map(|since| since.x_ba.point(local)),
+            remembers: self.context.remembers_entry,
+        }
+        .face(&self.key())
+    }
+
+    pub fn key(&self) -> ContactKey {
+        let info_b = self.info_b();
+        let shell_b = match info_b.kind {
+            PrimitiveKind::Triangle => self.body_b().triangles.triangles[self.item_b.element as usize].shell,
+            _ => info_b.shell,
+        };
+        ContactKey {
+            group_pair: self.context.group_pair,
+            flipped: self.context.flipped,
+            primitive_a: self.item_a.primitive,
+            shell_b,
+            end: 0,
+        }
+    }
+
+    pub fn whole(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
+        if let Some(contact) = contact {
+            self.emit(&contact, found, |_| ());
+        }
+    }
+
+    pub fn sharing(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
+        if let Some(contact) = contact {
+            self.emit(&contact, found, |out| out.shares = true);
+        }
+    }
+
+    pub fn emit(
+        &self,
+        contact: &Interference,
+        found: &mut Findings<'_>,
+        adjust: impl FnOnce(&mut ContactCandidate),
+    ) {
+        let mut out = ContactCandidate::new(self.key(), contact);
+        out.primitive_b = self.item_b.primitive;
+        out.element_a = self.item_a.element;
+        out.element_b = self.item_b.element;
+        out.kind_b = self.kind_b;
+        adjust(&mut out);
+        found.add(out);
+    }
+}
+
+/// How a point in a piece of a body stands among those of the same surface.
+pub(crate) fn status_of(containment: Containment) -> CandidateStatus {
+    match containment {
+        Containment::AtWall => CandidateStatus::AtWall,
+        Containment::BeyondWall => CandidateStatus::BeyondWall,
+        Containment::Inside | Containment::Outside => CandidateStatus::Front,
+    }
+}
+
+/// A test was handed a primitive of another kind than its row in the table of pairs says.
+#[cold]
+pub(crate) fn wrong_kind(a: &TransformedPrimitive) -> ! {
+    unreachable!("the row of this test in the table of pairs names another kind than that of {a:?}")
+}

@@ -1,0 +1,94 @@
+//! What a sphere and an ellipsoid have in common on a triangle: the side that they came from, and how deep they are pushed.
+
+use super::candidate::CandidateStatus;
+use super::element_pair::{ElementPair, Findings};
+use super::nearest_side::{KnownSides, Nearby};
+use super::side_of_entry::TriangleEntry;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::input::PairContext;
+use pong_geometry::Vec3;
+use pong_geometry::interference::Feature;
+use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
+use pong_geometry::interference::sphere_triangle::sphere_triangle;
+use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
+use pong_geometry::primitive::{Ellipsoid, Sphere};
+use pong_model::Item;
+
+/// A contact of one sphere's or ellipsoid's centre with one triangle, unless the centre came from behind.
+pub(crate) fn on_triangle(
+    pair: &ElementPair<'_>,
+    (local, center): (&Vec3, &Vec3),
+    contact: TriangleContact,
+    found: &mut Findings<'_>,
+) {
+    let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(local));
+    if earlier.is_none() && is_set_down_in_front(pair, center, &contact, &mut found.sides) {
+        return;
+    }
+    let entry = TriangleEntry {
+        memory: pair.context.memory,
+        body: pair.body_b(),
+        triangle: pair.item_b,
+        center: *center,
+        earlier,
+        touched_behind: &|feature| touched_triangle_behind(pair, feature),
+    };
+    let key = pair.key();
+    let Some(role) = entry.role(&key, &contact) else { return };
+    pair.emit(&contact.interference, found, |out| {
+        out.shares = true;
+        out.role = role;
+        out.status = match contact.standing {
+            Standing::Front => CandidateStatus::Front,
+            Standing::Behind => CandidateStatus::BackFace,
+            Standing::Spare => CandidateStatus::Fallback,
+            Standing::SpareBehind => CandidateStatus::BackFaceFallback,
+            Standing::StandIn => CandidateStatus::StandIn,
+        };
+    });
+}
+
+/// Whether the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last commit.
+fn touched_triangle_behind(pair: &ElementPair<'_>, feature: Feature) -> bool {
+    let Some(since) = pair.motion().since_commit else { return false };
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let mut touched = false;
+    let mut note = |contact: TriangleContact| {
+        touched |= contact.interference.feature == feature && contact.standing == Standing::Behind;
+    };
+    match TransformedPrimitive::new(pair.body_a(), pair.item_a, &since.x_ba) {
+        Some(TransformedPrimitive::Sphere(sphere)) => {
+            let thickness = thickness_for_sphere(pair.context, pair.item_b, &sphere);
+            sphere_triangle(&sphere, set, triangle, thickness, &mut note);
+        }
+        Some(TransformedPrimitive::Ellipsoid(ellipsoid)) => {
+            let thickness = thickness_for_ellipsoid(pair, &ellipsoid);
+            ellipsoid_triangle(&ellipsoid, set, triangle, thickness, &mut note);
+        }
+        _ => {}
+    }
+    touched
+}
+
+/// How far behind a triangle the centre of an ellipsoid is still pushed to the front, m.
+pub(crate) fn thickness_for_ellipsoid(pair: &ElementPair<'_>, ellipsoid: &Ellipsoid) -> f64 {
+    pair.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis())
+}
+
+/// Whether a contact would push a centre without an earlier place from behind, though the centre is in front of the
+/// surface at its nearest point.
+fn is_set_down_in_front(
+    pair: &ElementPair<'_>,
+    center: &Vec3,
+    contact: &TriangleContact,
+    sides: &mut KnownSides,
+) -> bool {
+    let nearby = Nearby { body: pair.body_b(), item: pair.item_b, center: *center };
+    nearby.is_behind(contact) && sides.in_front(pair.item_a, nearby.surface(), || nearby.is_in_front())
+}
+
+/// How far behind a triangle the centre of a sphere is still pushed to the front, m.
+#[inline]
+pub(crate) fn thickness_for_sphere(context: &PairContext<'_>, triangle: Item, sphere: &Sphere) -> f64 {
+    context.body_b.primitives[triangle.primitive as usize].thickness.unwrap_or(sphere.radius)
+}

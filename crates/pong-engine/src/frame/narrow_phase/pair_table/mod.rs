@@ -1,0 +1,130 @@
+//! The one table of pairs of kinds: which kind as A is tested against which as B, by what, and what that costs. Dispatch, the
+//! layout of the work, the default capacity and the seal read it; a new pair is a file beside this one and a row here.
+//! A blank is ignored, as the author may intend.
+//!
+//! ```text
+//!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane
+//!  Point           x         x                    x         x
+//!  LineSegment                                    x         x
+//!  Ray                                 x          x         x
+//!  Sphere          x                   x          x         x
+//!  Ellipsoid                           x          x         x
+//! ```
+//!
+//! Point–Triangle is blank on purpose: no depth can be defined.
+
+mod ellipsoid_plane;
+mod ellipsoid_polyhedron;
+mod ellipsoid_triangle;
+mod line_segment_plane;
+mod line_segment_polyhedron;
+mod point_ellipsoid;
+mod point_plane;
+mod point_polyhedron;
+mod point_sphere;
+mod ray_plane;
+mod ray_polyhedron;
+mod ray_triangle;
+mod sphere_plane;
+mod sphere_polyhedron;
+mod sphere_sphere;
+pub(crate) mod sphere_triangle;
+
+use super::element_pair::{ElementPair, Findings};
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use pong_geometry::primitive::PrimitiveKind::{self, *};
+
+/// A contact tester: one element of A, carried into B's frame, against one element of B.
+pub(crate) type Test = fn(&ElementPair<'_>, &TransformedPrimitive, &mut Findings<'_>);
+
+/// A pair of kinds that is tested.
+pub(crate) struct KindPair {
+    pub a: PrimitiveKind,
+    pub b: PrimitiveKind,
+    pub test: Test,
+    /// Time that an element of A takes against a body with elements of B, ns, roughly: for cutting the work into blocks, and for
+    /// the choice to do it on the calling thread alone. It decides nothing else.
+    pub cost_ns: u32,
+    /// Contacts of one primitive of A with one shell of B that the default capacity has room for.
+    pub contacts: usize,
+}
+
+/// What a test that the host has registered is taken to cost, ns, and how many contacts it is taken to find.
+pub(crate) const REGISTERED: (u32, usize) = (200, 1);
+
+#[rustfmt::skip]
+const ROWS: &[KindPair] = &[
+    KindPair { a: Point, b: Sphere, test: point_sphere::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: Point, b: Ellipsoid, test: point_ellipsoid::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: Point, b: Polyhedron, test: point_polyhedron::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: Point, b: Plane, test: point_plane::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: LineSegment, b: Polyhedron, test: line_segment_polyhedron::test, cost_ns: 50, contacts: 2 },
+    KindPair { a: LineSegment, b: Plane, test: line_segment_plane::test, cost_ns: 50, contacts: 2 },
+    KindPair { a: Ray, b: Triangle, test: ray_triangle::test, cost_ns: 50, contacts: 1 },
+    KindPair { a: Ray, b: Polyhedron, test: ray_polyhedron::test, cost_ns: 50, contacts: 1 },
+    KindPair { a: Ray, b: Plane, test: ray_plane::test, cost_ns: 50, contacts: 1 },
+    KindPair { a: Sphere, b: Sphere, test: sphere_sphere::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: Sphere, b: Triangle, test: sphere_triangle::test, cost_ns: 1000, contacts: 4 },
+    KindPair { a: Sphere, b: Polyhedron, test: sphere_polyhedron::test, cost_ns: 15, contacts: 4 },
+    KindPair { a: Sphere, b: Plane, test: sphere_plane::test, cost_ns: 15, contacts: 1 },
+    KindPair { a: Ellipsoid, b: Triangle, test: ellipsoid_triangle::test, cost_ns: 1000, contacts: 4 },
+    KindPair { a: Ellipsoid, b: Polyhedron, test: ellipsoid_polyhedron::test, cost_ns: 200, contacts: 4 },
+    KindPair { a: Ellipsoid, b: Plane, test: ellipsoid_plane::test, cost_ns: 200, contacts: 1 },
+];
+
+const KINDS: usize = PrimitiveKind::ALL.len();
+const NO_ROW: u8 = u8::MAX;
+
+/// Where the row of a pair stands, by the numbers of the two kinds. No pair has two rows.
+const PLACES: [[u8; KINDS]; KINDS] = {
+    let mut places = [[NO_ROW; KINDS]; KINDS];
+    let mut row = 0;
+    while row < ROWS.len() {
+        let place = &mut places[ROWS[row].a as usize][ROWS[row].b as usize];
+        assert!(*place == NO_ROW, "a pair of kinds has two rows");
+        *place = row as u8;
+        row += 1;
+    }
+    places
+};
+
+/// The row of a pair, if it is tested.
+#[inline]
+pub(crate) fn kind_pair(a: PrimitiveKind, b: PrimitiveKind) -> Option<&'static KindPair> {
+    ROWS.get(PLACES[a as usize][b as usize] as usize)
+}
+
+/// Most contacts of one primitive of a kind, as A, with one shell.
+pub(crate) fn most_contacts(a: PrimitiveKind) -> usize {
+    let registered = if a == Custom { REGISTERED.1 } else { 0 };
+    ROWS.iter().filter(|row| row.a == a).map(|row| row.contacts).fold(registered, usize::max)
+}
+
+/// Whether the engine tests primitives of kind `a` as A against primitives of kind `b` as B.
+pub fn has_tester(a: PrimitiveKind, b: PrimitiveKind) -> bool {
+    kind_pair(a, b).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table at the head of this file is what the rows say.
+    #[test]
+    fn the_written_table_shows_the_rows() {
+        let text = include_str!("mod.rs").lines().filter_map(|line| line.strip_prefix("//!  "));
+        let mut lines = text.filter(|line| line.starts_with(|c: char| c.is_ascii_uppercase()));
+        let head = lines.next().unwrap();
+        for line in lines {
+            let name = line.split_whitespace().next().unwrap();
+            let a = PrimitiveKind::ALL.into_iter().find(|kind| kind.name() == name).unwrap();
+            for b in PrimitiveKind::ALL.into_iter().filter(|kind| kind.name() != "Custom") {
+                let cross = head.find(&format!(" {}", b.name())).is_some_and(|column| {
+                    let end = (column + 1 + b.name().len()).min(line.len());
+                    line.get(column..end).is_some_and(|cell| cell.contains('x'))
+                });
+                assert_eq!(cross, has_tester(a, b), "{name} and {}", b.name());
+            }
+        }
+    }
+}
