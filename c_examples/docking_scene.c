@@ -70,7 +70,7 @@ void open_scene(contact_scene *scene, const pong_config *config, const char *mod
            (unsigned)sealed.group_pairs, (unsigned)sealed.contact_capacity);
 }
 
-static pong_state to_state(motion m)
+pong_state to_state(motion m)
 {
     pong_state s = pong_default_state();
     s.position[0] = m.position.x, s.position[1] = m.position.y, s.position[2] = m.position.z;
@@ -94,7 +94,7 @@ void send_states(contact_scene *scene, const docking *d)
     CHECK(pong_set_states(scene->world, scene->parts, states, PARTS));
 }
 
-static wrench from_wrench(const pong_wrench *w)
+wrench from_wrench(const pong_wrench *w)
 {
     wrench out;
     out.force = from_array(w->force);

@@ -20,6 +20,9 @@ typedef struct {
     pong_interface_id parts[PARTS]; /* where states go in and wrenches come out */
 } contact_scene;
 
+pong_state to_state(motion m);
+wrench from_wrench(const pong_wrench *w);
+
 /* Loads the models of a folder and makes the world; tells the dynamics where the latches are. */
 void open_scene(contact_scene *scene, const pong_config *config, const char *models, docking *d);
 void send_states(contact_scene *scene, const docking *d);

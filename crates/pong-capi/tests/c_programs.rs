@@ -22,8 +22,9 @@ fn the_programs_build_and_run() {
     }
 }
 
-const PROGRAMS: [&str; 9] = [
+const PROGRAMS: [&str; 10] = [
     "minimal",
+    "executive",
     "misuse",
     "laws",
     "calls",
