@@ -98,11 +98,12 @@ def docking():
   <option timestep="{scene["step"]:g}" integrator="RK4" gravity="0 0 0">
     <flag contact="disable"/>
   </option>
-  <statistic meansize="0.1" extent="1.5" center="0 0 -0.3" meanmass="2000"/>
+  <statistic meansize="0.1" extent="1.5" center="0 0 -0.3" meanmass="400"/>
   <visual>
     <global azimuth="150" elevation="-15" offwidth="1280" offheight="800"/>
-    <map znear="0.02" zfar="100" force="1"/>
-    <headlight ambient="0.3 0.3 0.3"/>
+    <map znear="0.02" zfar="100" force="3"/>
+    <headlight ambient="0.45 0.45 0.45" diffuse="0.6 0.6 0.6"/>
+    <rgba contactforce="1 0.9 0.2 1"/>
   </visual>
   <extension>
     <plugin plugin="pong.contact">
@@ -113,6 +114,7 @@ def docking():
     </plugin>
   </extension>
   <asset>
+    <texture type="skybox" builtin="gradient" rgb1="0.35 0.4 0.5" rgb2="0.1 0.1 0.15" width="64" height="384"/>
     {indent.join(assets + more_assets)}
   </asset>
   <worldbody>

@@ -118,6 +118,19 @@ class SameBits(unittest.TestCase):
             mujoco.mj_step(self.m, d)
             self.assertTrue(full_state(self.m, d).tobytes() + d.sensordata.tobytes() == expected, f"step {step}")
 
+    def test_the_same_states_with_another_past(self):
+        # Without their bristles the same places give other forces: those of data that never had a past.
+        fresh = mujoco.MjData(self.m)
+        d = self.at_middle()
+        mujoco.mj_forward(self.m, d)
+        with_past = d.sensordata.copy()
+        d.plugin_state[:] = 0
+        fresh.qpos[:], fresh.qvel[:] = d.qpos, d.qvel
+        for data in (d, fresh):
+            mujoco.mj_forward(self.m, data)
+        self.assertTrue((d.sensordata == fresh.sensordata).all())
+        self.assertFalse((d.sensordata == with_past).all())
+
     def test_rollout_in_threads(self):
         states = np.stack([full_state(self.m, self.at_middle(), FULLPHYSICS)] * 4)
         states[1:, 1] += 1e-3 * np.arange(1, 4)  # four runs that differ
