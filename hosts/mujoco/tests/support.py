@@ -73,6 +73,14 @@ def several_balls(count=6, integrator="Euler", timestep=1e-3):
     return mujoco.MjModel.from_xml_string(mjcf(bodies, inside, integrator, timestep, more=SENSOR))
 
 
+def docking():
+    """The docking, wherever the tests run."""
+    text = (ROOT / "hosts/mujoco/docking/docking.xml").read_text()
+    folder = 'value="models/idss_docking"'
+    assert text.count(folder) == 1
+    return mujoco.MjModel.from_xml_string(text.replace(folder, f'value="{ROOT}/models/idss_docking"'))
+
+
 FULL = mujoco.mjtState.mjSTATE_INTEGRATION
 
 

@@ -1,6 +1,5 @@
 """What docs/mujoco.md shows does what the page says."""
 
-import contextlib
 import pathlib
 import re
 import subprocess
@@ -8,8 +7,7 @@ import sys
 import tempfile
 import unittest
 
-import mujoco
-from support import PLUGIN, ROOT
+from support import PLUGIN, ROOT, docking
 
 PAGE = (ROOT / "docs/mujoco.md").read_text()
 
@@ -36,9 +34,7 @@ class Page(unittest.TestCase):
             self.assertIn(f"`{key}`", PAGE.replace("`text1` … `text4`", "`text1` `text2` `text3` `text4`"))
 
     def test_the_size_of_the_state(self):
-        with contextlib.chdir(ROOT):
-            m = mujoco.MjModel.from_xml_path("hosts/mujoco/docking/docking.xml")
-        self.assertIn(f"{m.npluginstate:,} numbers", PAGE)
+        self.assertIn(f"{docking().npluginstate:,} numbers", PAGE)
 
 
 if __name__ == "__main__":

@@ -1,14 +1,18 @@
 """Everything that continues from a saved state of MuJoCo continues to the same bits."""
 
+import os
 import pickle
 import subprocess
 import sys
+import tempfile
 import unittest
 
 import mujoco
+import mujoco.batch
 import mujoco.rollout
 import numpy as np
-from support import FULL, INTEGRATORS, assert_same_bits, ball_on_ground, full_state, run, several_balls
+from support import (FREE, FULL, GROUND, INTEGRATORS, assert_same_bits, ball_model, ball_on_ground, full_state, instance, mjcf, run,
+                     several_balls)
 
 MIDDLE, AFTER = 150, 300
 FULLPHYSICS = mujoco.mjtState.mjSTATE_FULLPHYSICS
@@ -147,10 +151,22 @@ class SameBits(unittest.TestCase):
         run(self.m, alone, 100)
         np.testing.assert_array_equal(state[2, -1], full_state(self.m, alone, FULLPHYSICS))
 
-    def test_saved_and_loaded_model(self):
-        import os
-        import tempfile
+    def test_batch_in_threads(self):
+        # An mjData serves many simulations in turn: what each remembers comes from its own state.
+        results = []
+        for threads, persistent in ((1, False), (2, False), (4, False), (2, True)):
+            batch = mujoco.batch.Batch(self.m, 6, threads, persistent=persistent)
+            batch.bind("qvel")[:, 0] = 0.1 * np.arange(6)
+            batch.step(nstep=250)
+            results.append(np.hstack([batch.bind("qpos"), batch.bind("qvel"), batch.bind("plugin_state")]).tobytes())
+        self.assertEqual(len(set(results)), 1)
+        alone = mujoco.MjData(self.m)
+        alone.qvel[0] = 0.1 * 4
+        run(self.m, alone, 250)
+        numbers = np.frombuffer(results[0]).reshape(6, -1)[4]
+        self.assertTrue((numbers == np.hstack([alone.qpos, alone.qvel, alone.plugin_state])).all())
 
+    def test_saved_and_loaded_model(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "balls.mjb")
             mujoco.mj_saveModel(self.m, path, None)
@@ -202,8 +218,6 @@ class RestOfData(unittest.TestCase):
         # body without the plugin, apart from everything.
         arm = "<body name='arm' pos='3 0 0'><joint type='hinge' axis='0 1 0'/><geom size='.1 .2' type='capsule' pos='.3 0 0'/>" \
                "<site name='tip' pos='.5 0 0'/><camera pos='.5 0 1'/><light pos='.5 0 2'/><body pos='.4 0 0'><joint type='ball' pos='0 .1 0'/><geom size='.05' pos='0 0 .3'/></body></body>"
-        from support import FREE, GROUND, ball_model, instance, mjcf
-
         inside = instance("ball = text1; ground = text2", bodies="ground = world", text1=ball_model(), text2=GROUND)
         body = FREE.format(place="0 0 9", mass=1.0, i=0.004) + arm
         for integrator in INTEGRATORS:
