@@ -94,7 +94,7 @@ fn good_log() -> Vec<(PathBuf, Vec<u8>)> {
         recorder.committed();
         let _ = recorder.record(&world, 0.01 * f64::from(k), 0, None);
         if k == 1 {
-            world.forget(objects[0]).expect("an Object of this world");
+            world.clear_contact_history(objects[0]).expect("an Object of this world");
             recorder.forgot(objects[0]);
             world.set_pair_enabled(pair, true).expect("a pair of this world");
             recorder.pair_switched(pair, true);

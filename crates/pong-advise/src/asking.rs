@@ -5,10 +5,11 @@
 //! left, both are named.
 
 use crate::check::Setting;
-use crate::coupling::{Coupling, longest_stable_step, surely_stable_step};
+use crate::coupling::{longest_stable_step, surely_stable_step};
 use crate::mass::StepPlan;
 use crate::spring::{ContactSprings, Spring};
 use crate::together::{Load, pair_load};
+use pong_engine::WrenchCoupling;
 
 /// A part of a contact that can limit a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +85,7 @@ pub(crate) struct Known {
 }
 
 /// Whether the stiffness or the damping of one spring on one mass asks for its longest stable step.
-pub(crate) fn of_spring(spring: &Spring, coupling: Coupling, mass: f64) -> &'static str {
+pub(crate) fn of_spring(spring: &Spring, coupling: WrenchCoupling, mass: f64) -> &'static str {
     let step = |k: f64, c: f64| longest_stable_step(coupling, k, c, mass);
     let (k, c) = (spring.stiffness, spring.damping);
     if step(FAINT * k, c) >= step(k, FAINT * c) { "stiffness" } else { "damping" }
@@ -144,10 +145,10 @@ fn least_damped(springs: &ContactSprings, without: &[Term]) -> f64 {
 }
 
 /// How much of a term there is; where the wrench is held, of a stiffness how much there is to its damping.
-fn size(springs: &ContactSprings, term: Term, coupling: Coupling) -> f64 {
+fn size(springs: &ContactSprings, term: Term, coupling: WrenchCoupling) -> f64 {
     let Some(spring) = springs.spring_of(term) else { return -1.0 };
     match (term, coupling) {
-        (Term::NormalStiffness | Term::FrictionStiffness, Coupling::Held { .. }) => {
+        (Term::NormalStiffness | Term::FrictionStiffness, WrenchCoupling::ZeroOrderHold { .. }) => {
             spring.stiffness / spring.damping
         }
         (Term::NormalStiffness | Term::FrictionStiffness, _) => spring.stiffness,

@@ -10,7 +10,7 @@
 //! Any step leaves these forms: touch falls between two evaluations, so the force begins up to a step late. How far is
 //! found by bouncing the mass at that step from several phases of touch. All is in units of ω and v.
 
-use crate::coupling::Coupling;
+use pong_engine::WrenchCoupling;
 use pong_model::restitution::restitution_of_zeta;
 use std::collections::VecDeque;
 
@@ -64,7 +64,7 @@ const PHASES: u32 = 24;
 
 /// Of a bounce at a step of ω·dt. The damping is that of ζ and what the lag of the coupling takes from it (see
 /// [`crate::advise_contact`]).
-pub fn bounce_error(coupling: Coupling, zeta: f64, omega_step: f64) -> BounceError {
+pub fn bounce_error(coupling: WrenchCoupling, zeta: f64, omega_step: f64) -> BounceError {
     let expected = (depth_factor(zeta), restitution_of_zeta(zeta));
     let gamma = (2.0 * zeta + omega_step * coupling.lag()) * omega_step;
     let mut worst = BounceError { depth: 0.0, rebound: 0.0 };
@@ -83,7 +83,7 @@ pub fn bounce_error(coupling: Coupling, zeta: f64, omega_step: f64) -> BounceErr
 const USED: f64 = 0.8;
 
 /// The longest step, as ω·dt, up to which every bounce keeps to an accuracy.
-pub fn resolved_step(coupling: Coupling, zeta: f64, accuracy: &Accuracy) -> f64 {
+pub fn resolved_step(coupling: WrenchCoupling, zeta: f64, accuracy: &Accuracy) -> f64 {
     /// From one step that is tried to the next.
     const LONGER: f64 = 1.1;
     let used = Accuracy { depth: USED * accuracy.depth, rebound: USED * accuracy.rebound };
@@ -103,7 +103,7 @@ pub fn resolved_step(coupling: Coupling, zeta: f64, accuracy: &Accuracy) -> f64 
 
 /// Greatest depth and rebound speed of one bounce from `depth` ≤ 0 at speed 1, γ = c·dt/m, κ = step²; `None` if it does
 /// not end.
-fn bounce(coupling: Coupling, step: f64, gamma: f64, depth: f64) -> Option<(f64, f64)> {
+fn bounce(coupling: WrenchCoupling, step: f64, gamma: f64, depth: f64) -> Option<(f64, f64)> {
     let mut mass = Mass { depth, speed: 1.0, coupling, step, gamma, waiting: VecDeque::new() };
     let mut deepest = 0.0_f64;
     let most = 200.0 * (1.0 + gamma / step) / step + 100.0;
@@ -123,7 +123,7 @@ fn bounce(coupling: Coupling, step: f64, gamma: f64, depth: f64) -> Option<(f64,
 struct Mass {
     depth: f64,
     speed: f64,
-    coupling: Coupling,
+    coupling: WrenchCoupling,
     step: f64,
     gamma: f64,
     /// Decelerations on their way.
@@ -139,12 +139,12 @@ impl Mass {
     fn advance(&mut self) {
         let (h, now) = (self.step, self.push(self.depth, self.speed));
         match self.coupling {
-            Coupling::StageWise => self.runge_kutta(),
-            Coupling::OncePerStep => {
+            WrenchCoupling::Stages => self.runge_kutta(),
+            WrenchCoupling::SemiImplicit => {
                 self.speed -= h * now;
                 self.depth += h * self.speed;
             }
-            Coupling::Held { late } => {
+            WrenchCoupling::ZeroOrderHold { delay_frames: late } => {
                 self.waiting.push_back(now);
                 let late = self.waiting.len() > late as usize;
                 let push = if late { self.waiting.pop_front().unwrap_or(0.0) } else { 0.0 };
@@ -173,8 +173,12 @@ impl Mass {
 mod tests {
     use super::*;
 
-    const ALL: [Coupling; 4] =
-        [Coupling::StageWise, Coupling::OncePerStep, Coupling::Held { late: 0 }, Coupling::Held { late: 2 }];
+    const ALL: [WrenchCoupling; 4] = [
+        WrenchCoupling::Stages,
+        WrenchCoupling::SemiImplicit,
+        WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
+        WrenchCoupling::ZeroOrderHold { delay_frames: 2 },
+    ];
 
     #[test]
     fn the_deepest_place_is_that_of_a_damped_oscillation() {

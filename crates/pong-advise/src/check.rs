@@ -2,11 +2,12 @@
 
 use crate::asking::{Known, of_group};
 use crate::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
-use crate::coupling::{Coupling, longest_stable_step, surely_stable_step};
+use crate::coupling::{longest_stable_step, surely_stable_step};
 use crate::mass::{GroupMass, StepPlan};
 use crate::spring::{ContactSprings, Spring, pressed_springs, springs};
 use crate::together::{Load, pair_load};
 use crate::warn::{StepNote, StepWarning, notes, warnings};
+use pong_engine::WrenchCoupling;
 use pong_engine::inspect::{GroupPair, Inspection, PushingContact};
 use pong_engine::{EngineError, InterfaceId, PairProps, World};
 use std::collections::{BTreeMap, BTreeSet};
@@ -62,7 +63,7 @@ pub struct GroupLimits {
     pub group: String,
     /// Its mass, kg.
     pub mass: f64,
-    /// Primitives that can press at once, at most.
+    /// Primitives that can be in contact at once, at most.
     pub contacts: usize,
     /// Of the stiffest mode: the stiffness and damping that a contact in line with the mass centre would need for it.
     pub spring: Spring,
@@ -326,7 +327,7 @@ fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimi
 
 impl BounceLimit {
     /// The longest step that keeps to an accuracy, s.
-    pub fn accurate_step(&self, coupling: Coupling, accuracy: &Accuracy) -> f64 {
+    pub fn accurate_step(&self, coupling: WrenchCoupling, accuracy: &Accuracy) -> f64 {
         resolved_step(coupling, self.damping_ratio.max(0.0), accuracy) / self.frequency
     }
 }

@@ -10,8 +10,9 @@
 //! −k·T(½ + n), so as much is added; friction is damped critically so that a contact that sticks does not ring.
 
 use crate::bounce::{Accuracy, depth_factor, resolved_step};
-use crate::coupling::{Coupling, longest_stable_step};
+use crate::coupling::longest_stable_step;
 use pong_engine::EngineError;
+use pong_engine::WrenchCoupling;
 use pong_model::restitution::{restitution_of_zeta, zeta_for_restitution};
 
 /// What a contact is to do.
@@ -26,7 +27,7 @@ pub struct ContactWish {
     /// Rebound speed over closing speed, above 0, at most 1.
     pub restitution: f64,
     /// How the wrench is used.
-    pub coupling: Coupling,
+    pub coupling: WrenchCoupling,
     /// The host's step or frame, s; `None` for one that the adviser chooses.
     pub step: Option<f64>,
     /// How near depth and rebound must come.
@@ -102,7 +103,7 @@ pub fn advise_contact(wish: &ContactWish) -> Result<ContactAdvice, EngineError> 
 
 /// The damping (N·s/m) at which a spring of `stiffness` (N/m) on `mass` (kg) stops ringing: 2√(k·m), and what a wrench takes
 /// that comes late.
-pub fn critical_damping(stiffness: f64, mass: f64, coupling: Coupling, step: f64) -> f64 {
+pub fn critical_damping(stiffness: f64, mass: f64, coupling: WrenchCoupling, step: f64) -> f64 {
     2.0 * (stiffness * mass).sqrt() + stiffness * step * coupling.lag()
 }
 
@@ -110,7 +111,7 @@ pub fn critical_damping(stiffness: f64, mass: f64, coupling: Coupling, step: f64
 /// an eighth of the accuracy keeps it off.
 fn most_elastic(wish: &ContactWish) -> f64 {
     match wish.coupling {
-        Coupling::Held { .. } => 1.0 - 0.125 * wish.accuracy.rebound.min(1.0),
+        WrenchCoupling::ZeroOrderHold { .. } => 1.0 - 0.125 * wish.accuracy.rebound.min(1.0),
         _ => 1.0,
     }
 }
@@ -167,7 +168,7 @@ mod tests {
             speed: 0.5,
             depth: 1e-3,
             restitution: 1.0,
-            coupling: Coupling::StageWise,
+            coupling: WrenchCoupling::Stages,
             step: None,
             accuracy: Accuracy::default(),
         }
@@ -211,7 +212,7 @@ mod tests {
     #[test]
     fn the_least_depth_of_a_step_has_it_as_its_accurate_step() {
         let held = ContactWish {
-            coupling: Coupling::Held { late: 0 },
+            coupling: WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
             restitution: 0.4,
             step: Some(5e-3),
             ..wish()

@@ -11,57 +11,24 @@
 //!
 //! The last polynomial is that of the exact motion of a mass under a force that changes once a frame.
 
-/// How a host uses the contact wrench.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coupling {
-    /// Evaluated at every stage of an integrator of higher order (Runge-Kutta 4 is meant).
-    StageWise,
-    /// Evaluated once a step: velocities from it, then places from the new velocities (semi-implicit Euler).
-    OncePerStep,
-    /// Held over a frame.
-    Held {
-        /// How many whole frames it comes late.
-        late: u32,
-    },
-}
-
-impl Coupling {
-    /// How late the force acts on average, in steps: holding it makes it half a frame old.
-    pub fn lag(self) -> f64 {
-        match self {
-            Self::StageWise | Self::OncePerStep => 0.0,
-            Self::Held { late } => 0.5 + f64::from(late),
-        }
-    }
-}
-
-impl std::fmt::Display for Coupling {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::StageWise => write!(f, "evaluated at every stage"),
-            Self::OncePerStep => write!(f, "evaluated once a step"),
-            Self::Held { late: 0 } => write!(f, "held over a frame"),
-            Self::Held { late } => write!(f, "held over a frame, {late} late"),
-        }
-    }
-}
+use pong_engine::WrenchCoupling;
 
 /// The longest step (s) at which a contact of stiffness `k` (N/m) and damping `c` (N·s/m) on an effective mass `m`
 /// (kg) is stable; 0 if no step is.
-pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
+pub fn longest_stable_step(coupling: WrenchCoupling, k: f64, c: f64, m: f64) -> f64 {
     match coupling {
-        Coupling::StageWise | Coupling::OncePerStep if k <= 0.0 && c <= 0.0 => f64::INFINITY,
+        WrenchCoupling::Stages | WrenchCoupling::SemiImplicit if k <= 0.0 && c <= 0.0 => f64::INFINITY,
         // Where |z| = dt·√(k/m) of underdamped roots is least, 2.62, and −γ of the faster real one. Of a frequency and a
         // damping rate one that is less than half the other does not count, and is raised to that: either may be zero.
-        Coupling::StageWise => {
+        WrenchCoupling::Stages => {
             let frequency = (k / m).sqrt();
             let surely = (2.6 / frequency.max(0.5 * c / m)).min(2.78 * m / c.max(0.5 * m * frequency));
             last_within(surely, 2.0, |step| stage_wise_holds(k * step * step / m, c * step / m))
         }
         // The positive root of k·dt² + 2c·dt − 4m.
-        Coupling::OncePerStep => 4.0 * m / ((c * c + 4.0 * k * m).sqrt() + c),
-        Coupling::Held { .. } if c <= 0.0 => 0.0,
-        Coupling::Held { late } => {
+        WrenchCoupling::SemiImplicit => 4.0 * m / ((c * c + 4.0 * k * m).sqrt() + c),
+        WrenchCoupling::ZeroOrderHold { .. } if c <= 0.0 => 0.0,
+        WrenchCoupling::ZeroOrderHold { delay_frames: late } => {
             // Where the second is the less, the first may be any that is more: k may be zero.
             let at_most = (c / (k * coupling.lag()).max(0.25 * c * c / m)).min(2.0 * m / c);
             if late == 0 {
@@ -76,15 +43,15 @@ pub fn longest_stable_step(coupling: Coupling, k: f64, c: f64, m: f64) -> f64 {
 /// over its mass (1/s², 1/s), nor less damping than `ratio` times its stiffness (s); 0 if there is none.
 ///
 /// A mode x of M·q'' + C·q' + K·q = 0 obeys the scalar equation with its own x*Kx and x*Cx, so a bound of both suffices.
-pub(crate) fn surely_stable_step(coupling: Coupling, k: f64, c: f64, ratio: f64) -> f64 {
+pub(crate) fn surely_stable_step(coupling: WrenchCoupling, k: f64, c: f64, ratio: f64) -> f64 {
     let most = longest_stable_step(coupling, k, c, 1.0);
     let least = || longest_stable_step(coupling, k, (k * ratio).min(c), 1.0);
     match coupling {
         // As the damping ratio ½c/√k rises to 0.54 the region's reach grows a little, then falls to its narrowest place: of
         // any stretch the ends are the least. Beyond, the real end of a mode with damping alone is nearer still.
-        Coupling::StageWise => most.min(least()).min(2.785 / c.max(0.5 * k.sqrt())),
-        Coupling::OncePerStep => most,
-        Coupling::Held { .. } => most.min(least()).min(ratio / coupling.lag()),
+        WrenchCoupling::Stages => most.min(least()).min(2.785 / c.max(0.5 * k.sqrt())),
+        WrenchCoupling::SemiImplicit => most,
+        WrenchCoupling::ZeroOrderHold { .. } => most.min(least()).min(ratio / coupling.lag()),
     }
 }
 
@@ -177,20 +144,20 @@ fn bisect(mut inside: f64, mut outside: f64, holds: impl Fn(f64) -> bool) -> f64
 mod tests {
     use super::*;
 
-    const HELD: Coupling = Coupling::Held { late: 0 };
+    const HELD: WrenchCoupling = WrenchCoupling::ZeroOrderHold { delay_frames: 0 };
 
     /// Known answers: dt = 2√(m/k) undamped; κ + 2γ = 4 with damping; kT/2 = c and c = 2m/T for a held wrench; 2√2 and
     /// 2.785293563 for Runge-Kutta.
     #[test]
     fn limits_are_those_of_the_stability_table() {
-        let euler = Coupling::OncePerStep;
+        let euler = WrenchCoupling::SemiImplicit;
         assert!((longest_stable_step(euler, 1e4, 0.0, 1.0) - 0.02).abs() < 1e-15);
         let step = longest_stable_step(euler, 3e4, 70.0, 2.0);
         assert!((3e4 * step * step / 2.0 + 2.0 * 70.0 * step / 2.0 - 4.0).abs() < 1e-12);
         assert_eq!(longest_stable_step(HELD, 1e4, 5.0, 1.0), 1e-3);
         assert_eq!(longest_stable_step(HELD, 1e-9, 5.0, 1.0), 0.4);
         assert_eq!(longest_stable_step(HELD, 1e4, 0.0, 1.0), 0.0);
-        let stages = |k, c| longest_stable_step(Coupling::StageWise, k, c, 1.0);
+        let stages = |k, c| longest_stable_step(WrenchCoupling::Stages, k, c, 1.0);
         assert!((stages(1e4, 0.0) * 100.0 - 8_f64.sqrt()).abs() < 1e-5);
         assert!((stages(1e-9, 10.0) * 10.0 - 2.785293563).abs() < 1e-6);
         // Half of critical damping: the region is narrower there than on either axis.
@@ -202,11 +169,11 @@ mod tests {
     #[test]
     fn nothing_to_hold_limits_no_step() {
         for m in [1e-6, 1.0, 1e9] {
-            let stages = |k, c| longest_stable_step(Coupling::StageWise, k, c, m);
+            let stages = |k, c| longest_stable_step(WrenchCoupling::Stages, k, c, m);
             assert!((stages(0.0, 10.0 * m) * 10.0 - 2.785293563).abs() < 1e-6);
             assert_eq!(stages(1e4 * m, 0.0), stages(1e4 * m, 1e-300));
             assert!((longest_stable_step(HELD, 0.0, 5.0 * m, m) - 0.4).abs() < 1e-15);
-            for coupling in [Coupling::StageWise, Coupling::OncePerStep] {
+            for coupling in [WrenchCoupling::Stages, WrenchCoupling::SemiImplicit] {
                 assert_eq!(longest_stable_step(coupling, 0.0, 0.0, m), f64::INFINITY);
             }
         }
@@ -221,10 +188,10 @@ mod tests {
         let any = |kappa, late| (1..2000).any(|i| stable(kappa, 1e-3 * f64::from(i), late));
         assert!(!any(0.5, 1) && any(0.05, 1));
         assert!(!any(0.1, 2) && any(0.02, 2));
-        let step = longest_stable_step(Coupling::Held { late: 1 }, 1e4, 15.0, 1.0);
+        let step = longest_stable_step(WrenchCoupling::ZeroOrderHold { delay_frames: 1 }, 1e4, 15.0, 1.0);
         assert!(step < 1e-3 && step > 0.97e-3, "{step}");
         // Damping alone, one frame late: z² − z + γ has its roots on the circle at γ = 1.
-        let step = longest_stable_step(Coupling::Held { late: 1 }, 1e-9, 10.0, 1.0);
+        let step = longest_stable_step(WrenchCoupling::ZeroOrderHold { delay_frames: 1 }, 1e-9, 10.0, 1.0);
         assert!((step * 10.0 - 1.0).abs() < 1e-6, "{step}");
     }
 
@@ -239,13 +206,13 @@ mod tests {
         }
     }
 
-    fn holds(coupling: Coupling, kappa: f64, gamma: f64) -> bool {
+    fn holds(coupling: WrenchCoupling, kappa: f64, gamma: f64) -> bool {
         match coupling {
-            Coupling::StageWise => stage_wise_holds(kappa, gamma),
-            Coupling::OncePerStep => kappa + 2.0 * gamma <= 4.0,
+            WrenchCoupling::Stages => stage_wise_holds(kappa, gamma),
+            WrenchCoupling::SemiImplicit => kappa + 2.0 * gamma <= 4.0,
             // The recursion cannot tell a part in 1e16 from one.
-            Coupling::Held { late: 0 } => 0.5 * kappa < gamma && gamma < 2.0,
-            Coupling::Held { late } => late_hold_is_stable(kappa, gamma, late),
+            WrenchCoupling::ZeroOrderHold { delay_frames: 0 } => 0.5 * kappa < gamma && gamma < 2.0,
+            WrenchCoupling::ZeroOrderHold { delay_frames: late } => late_hold_is_stable(kappa, gamma, late),
         }
     }
 
@@ -253,8 +220,8 @@ mod tests {
     /// little more than twice it.
     #[test]
     fn a_sure_step_holds_every_mode_within_the_bounds() {
-        let couplings = [0, 1, 2].map(|late| Coupling::Held { late });
-        for coupling in [Coupling::StageWise, Coupling::OncePerStep].into_iter().chain(couplings) {
+        let couplings = [0, 1, 2].map(|late| WrenchCoupling::ZeroOrderHold { delay_frames: late });
+        for coupling in [WrenchCoupling::Stages, WrenchCoupling::SemiImplicit].into_iter().chain(couplings) {
             for zeta in [0.05, 0.2, 0.4, 0.539, 0.541, 0.7, 1.0, 3.0, 20.0] {
                 let (k, c) = (4.0, 4.0 * zeta);
                 for ratio in [c / k, 0.3 * c / k] {
@@ -283,7 +250,7 @@ mod tests {
     /// The narrowest place of the region of Runge-Kutta, seen from zero: |z| = 2.6156 at a damping ratio of 0.54.
     #[test]
     fn the_narrowest_place_is_where_it_is_said() {
-        let reach = |zeta: f64| longest_stable_step(Coupling::StageWise, 1.0, 2.0 * zeta, 1.0);
+        let reach = |zeta: f64| longest_stable_step(WrenchCoupling::Stages, 1.0, 2.0 * zeta, 1.0);
         let all = (0..1000).map(|i| reach(1e-3 * f64::from(i)));
         let least = all.fold(f64::INFINITY, f64::min);
         assert!(

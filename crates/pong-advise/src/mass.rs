@@ -1,7 +1,7 @@
 //! What the adviser is told of a movable group and of the host's step.
 
 use crate::bounce::Accuracy;
-use crate::coupling::Coupling;
+use pong_engine::WrenchCoupling;
 use pong_engine::{EngineError, State};
 use pong_geometry::Mat3;
 
@@ -76,7 +76,7 @@ pub struct StepPlan {
     /// The step or frame, s.
     pub step: f64,
     /// How the wrench is used.
-    pub coupling: Coupling,
+    pub coupling: WrenchCoupling,
     /// Speed at which things touch, m/s; `None` if it is not known. Laws whose stiffness or damping follows the depth
     /// are judged at the depth that this speed makes, and not at all without it.
     pub closing_speed: Option<f64>,
@@ -86,7 +86,7 @@ pub struct StepPlan {
 
 impl StepPlan {
     /// A plan that asks for depth within 5 % and rebound within 2 %.
-    pub fn new(step: f64, coupling: Coupling) -> Self {
+    pub fn new(step: f64, coupling: WrenchCoupling) -> Self {
         Self { step, coupling, closing_speed: None, accuracy: Some(Accuracy::default()) }
     }
 
@@ -113,7 +113,7 @@ impl StepPlan {
             );
         }
         match self.coupling {
-            Coupling::Held { late } if late > DELAY_FRAMES_MAX => {
+            WrenchCoupling::ZeroOrderHold { delay_frames: late } if late > DELAY_FRAMES_MAX => {
                 bad(format!("the wrench comes {late} frames late; give at most {DELAY_FRAMES_MAX}"))
             }
             _ => Ok(()),

@@ -46,7 +46,7 @@ impl Mobility {
     }
 
     /// Largest inverse of the effective mass at any place no further than this from the mass centre, 1/kg.
-    pub fn softest(&self, reach: f64) -> f64 {
+    pub fn max_compliance(&self, reach: f64) -> f64 {
         let turn = self.turn.transpose() * self.turn;
         self.inverse_root * self.inverse_root
             + reach * reach * largest_eigenvalue(DMatrix::from_column_slice(3, 3, turn.as_slice()))
@@ -78,7 +78,7 @@ mod tests {
         let mut sum = Mat6::zeros();
         rod.add(&mut sum, 1.0, &Vec3::x(), &(2.0 * Vec3::z()));
         assert!((sum.symmetric_eigenvalues().max() - 4.0 / 3.0).abs() < 1e-14);
-        assert!((rod.softest(0.0) - 1.0 / 3.0).abs() < 1e-15);
+        assert!((rod.max_compliance(0.0) - 1.0 / 3.0).abs() < 1e-15);
         assert!(Mobility::new(&GroupMass::immovable()).is_none());
     }
 }

@@ -64,8 +64,8 @@ impl Load {
     }
 }
 
-/// A primitive that can press.
-struct Presser {
+/// A primitive that can be in contact.
+struct ContactSite {
     /// Where its normals pass, in its group's frame; of a segment the end that is farther from the mass centre.
     center: Vec3,
     /// How far from there it touches, m.
@@ -74,15 +74,15 @@ struct Presser {
     springs: ContactSprings,
 }
 
-impl Presser {
+impl ContactSite {
     fn friction(&self) -> (f64, f64) {
         self.springs.friction.map_or((0.0, 0.0), |friction| (friction.stiffness, friction.damping))
     }
 }
 
-/// The pressers of A and what they press on.
+/// The sites of A and what they are in contact with.
 struct Direction {
-    pressers: Vec<Presser>,
+    sites: Vec<ContactSite>,
     mobility_a: Option<Mobility>,
     /// Largest 1/m of B at a place where it can be touched.
     softness_b: f64,
@@ -127,7 +127,7 @@ impl Direction {
                 && setting.scene.can_be_tested((a, info_a), (b, info_b))
         };
         let partners = distinct(body_b);
-        let mut pressers = Vec::new();
+        let mut sites = Vec::new();
         let mut cached: Vec<(PrimitiveKind, u32, Option<ContactSprings>)> = Vec::new();
         for (index, info) in body_a.primitives.iter().enumerate() {
             let known =
@@ -144,7 +144,7 @@ impl Direction {
                     made
                 }
             };
-            pressers.extend(made.and_then(|springs| presser(body_a, index, springs, mobility_a.as_ref())));
+            sites.extend(made.and_then(|springs| site(body_a, index, springs, mobility_a.as_ref())));
         }
         let kinds: Vec<_> = body_a.primitives.iter().map(|info| info.kind).collect();
         let touched =
@@ -156,25 +156,25 @@ impl Direction {
             let far = |(low, high): &(Vec3, Vec3)| {
                 (low - mobility.center()).abs().sup(&(high - mobility.center()).abs()).norm()
             };
-            mobility.softest(boxes.iter().map(far).fold(0.0, f64::max))
+            mobility.max_compliance(boxes.iter().map(far).fold(0.0, f64::max))
         });
-        Self { pressers, mobility_a, softness_b, boxes, planes }
+        Self { sites, mobility_a, softness_b, boxes, planes }
     }
 
     /// On one plane at a time those that a supporting plane finds; three planes at once are as many as a corner has.
     fn on_planes(&self) -> Load {
         /// Planes that meet in a corner.
         const CORNER: usize = 3;
-        if self.planes == 0 || self.pressers.is_empty() {
+        if self.planes == 0 || self.sites.is_empty() {
             return Load::default();
         }
         let depth = SHALLOW * self.spread();
         let mut worst = Load::default();
-        for normal in supports(&self.pressers) {
-            let height = |presser: &Presser| normal.dot(&presser.center) - presser.radius;
-            let lowest = self.pressers.iter().map(height).fold(f64::INFINITY, f64::min);
-            let pressing = self.pressers.iter().filter(|presser| height(presser) <= lowest + depth);
-            worst = worst.or_larger(self.load(&pressing.collect::<Vec<_>>(), Some(&normal), &-normal));
+        for normal in supports(&self.sites) {
+            let height = |site: &ContactSite| normal.dot(&site.center) - site.radius;
+            let lowest = self.sites.iter().map(height).fold(f64::INFINITY, f64::min);
+            let active = self.sites.iter().filter(|site| height(site) <= lowest + depth);
+            worst = worst.or_larger(self.load(&active.collect::<Vec<_>>(), Some(&normal), &-normal));
         }
         worst.times(self.planes.min(CORNER))
     }
@@ -184,66 +184,66 @@ impl Direction {
         /// Places that are tried.
         const WINDOWS: usize = 16;
         let Some((low, high)) = self.boxes.iter().copied().reduce(around) else { return Load::default() };
-        if self.pressers.is_empty() {
+        if self.sites.is_empty() {
             return Load::default();
         }
         let diameter = (high - low).norm();
-        let near = |at: &Presser| -> Vec<&Presser> {
-            let reach = |other: &Presser| diameter + at.radius + other.radius;
-            let within = |other: &&Presser| (other.center - at.center).norm() <= reach(other);
-            self.pressers.iter().filter(within).collect()
+        let near = |at: &ContactSite| -> Vec<&ContactSite> {
+            let reach = |other: &ContactSite| diameter + at.radius + other.radius;
+            let within = |other: &&ContactSite| (other.center - at.center).norm() <= reach(other);
+            self.sites.iter().filter(within).collect()
         };
-        let mut windows: Vec<Vec<&Presser>> = if self.spread() <= diameter {
-            vec![self.pressers.iter().collect()]
+        let mut windows: Vec<Vec<&ContactSite>> = if self.spread() <= diameter {
+            vec![self.sites.iter().collect()]
         } else {
-            self.pressers.iter().step_by(1 + self.pressers.len() / 4096).map(near).collect()
+            self.sites.iter().step_by(1 + self.sites.len() / 4096).map(near).collect()
         };
         windows.sort_by(|x, y| total(y).total_cmp(&total(x)));
-        let widest = self.pressers.iter().map(|presser| presser.radius).fold(0.0, f64::max);
-        let crowd = crowd(&self.boxes, 2.0 * widest);
+        let widest = self.sites.iter().map(|site| site.radius).fold(0.0, f64::max);
+        let max_simultaneous_contacts = max_simultaneous_contacts(&self.boxes, 2.0 * widest);
         let mut worst = Load::default();
-        for pressing in windows.iter().take(WINDOWS) {
+        for active in windows.iter().take(WINDOWS) {
             // A tip has its skin at its centre, whichever way.
             let ways = if widest > 0.0 { grid().collect() } else { vec![Vec3::x()] };
             for toward in ways {
-                worst = worst.or_larger(self.load(pressing, None, &toward));
+                worst = worst.or_larger(self.load(active, None, &toward));
             }
         }
-        worst.times(crowd)
+        worst.times(max_simultaneous_contacts)
     }
 
-    /// Of these pressers at once: along a normal, or along any; friction acts at the skin towards a direction.
-    fn load(&self, pressing: &[&Presser], normal: Option<&Vec3>, toward: &Vec3) -> Load {
-        let rate = |values: fn(&Presser) -> (f64, f64)| {
+    /// Of these sites at once: along a normal, or along any; friction acts at the skin towards a direction.
+    fn load(&self, active: &[&ContactSite], normal: Option<&Vec3>, toward: &Vec3) -> Load {
+        let rate = |values: fn(&ContactSite) -> (f64, f64)| {
             let mut sum = Mat6::zeros();
             let mut whole = 0.0;
-            for presser in pressing {
-                let (along, across) = values(presser);
+            for site in active {
+                let (along, across) = values(site);
                 whole += along.max(across);
                 if let Some(mobility) = &self.mobility_a {
-                    let skin = presser.center + presser.radius * toward;
+                    let skin = site.center + site.radius * toward;
                     mobility.add_bushing(&mut sum, across, &skin);
                     match normal {
                         // The bushing above has some of it; what it has too much stays.
                         Some(normal) => mobility.add(&mut sum, (along - across).max(0.0), normal, &skin),
-                        None => mobility.add_bushing(&mut sum, (along - across).max(0.0), &presser.center),
+                        None => mobility.add_bushing(&mut sum, (along - across).max(0.0), &site.center),
                     }
                 }
             }
             largest_eigenvalue(DMatrix::from_column_slice(6, 6, sum.as_slice())) + whole * self.softness_b
         };
         Load {
-            contacts: pressing.len(),
-            stiffness_rate: rate(|presser| (presser.springs.normal.stiffness, presser.friction().0)),
-            damping_rate: rate(|presser| (presser.springs.normal.damping, presser.friction().1)),
+            contacts: active.len(),
+            stiffness_rate: rate(|site| (site.springs.normal.stiffness, site.friction().0)),
+            damping_rate: rate(|site| (site.springs.normal.damping, site.friction().1)),
         }
     }
 
-    /// Diameter of the box around all pressers, m.
+    /// Diameter of the box around all sites, m.
     fn spread(&self) -> f64 {
-        let own = self.pressers.iter().map(|presser| {
-            let radius = Vec3::repeat(presser.radius);
-            (presser.center - radius, presser.center + radius)
+        let own = self.sites.iter().map(|site| {
+            let radius = Vec3::repeat(site.radius);
+            (site.center - radius, site.center + radius)
         });
         own.reduce(around).map_or(0.0, |(low, high)| (high - low).norm())
     }
@@ -252,8 +252,8 @@ impl Direction {
 /// How far behind a supporting plane a group still touches, by its size.
 const SHALLOW: f64 = 0.02;
 
-fn total(pressing: &[&Presser]) -> f64 {
-    pressing.iter().map(|presser| presser.springs.normal.stiffness).sum()
+fn total(active: &[&ContactSite]) -> f64 {
+    active.iter().map(|site| site.springs.normal.stiffness).sum()
 }
 
 fn around(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> (Vec3, Vec3) {
@@ -285,12 +285,12 @@ fn distinct(body: &Body) -> Vec<&PrimitiveInfo> {
     body.primitives.iter().filter(new).collect()
 }
 
-fn presser(
+fn site(
     body: &Body,
     primitive: usize,
     springs: ContactSprings,
     mobility: Option<&Mobility>,
-) -> Option<Presser> {
+) -> Option<ContactSite> {
     let info = &body.primitives[primitive];
     let element = info.elements.start as usize;
     let (center, radius) = match info.kind {
@@ -309,7 +309,7 @@ fn presser(
         }
         PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => return None,
     };
-    (center.iter().all(|x| x.is_finite()) && radius.is_finite()).then_some(Presser {
+    (center.iter().all(|x| x.is_finite()) && radius.is_finite()).then_some(ContactSite {
         center,
         radius,
         springs,
@@ -336,7 +336,7 @@ fn boxes(body: &Body, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<(Vec3, V
 
 /// Surfaces that one body of a diameter can touch at once, at most: of any that it does, all are near to the smallest and
 /// none is smaller.
-fn crowd(boxes: &[(Vec3, Vec3)], diameter: f64) -> usize {
+fn max_simultaneous_contacts(boxes: &[(Vec3, Vec3)], diameter: f64) -> usize {
     /// Beyond this many the answer is theirs all.
     const COMPARED: usize = 4096;
     if boxes.len() > COMPARED {
@@ -359,21 +359,21 @@ fn grid() -> impl Iterator<Item = Vec3> {
     steps.filter_map(|step| step.try_normalize(0.5))
 }
 
-/// Normals of supporting planes: the grid, the way to every presser from their middle, and, of few pressers, the plane
+/// Normals of supporting planes: the grid, the way to every site from their middle, and, of few sites, the plane
 /// through every three.
-fn supports(pressers: &[Presser]) -> Vec<Vec3> {
+fn supports(sites: &[ContactSite]) -> Vec<Vec3> {
     /// Up to so many have every three of them tried.
     const FEW: usize = 16;
     /// Of more, so many show the way.
     const MANY: usize = 256;
-    let middle = pressers.iter().map(|presser| presser.center).sum::<Vec3>() / pressers.len() as f64;
+    let middle = sites.iter().map(|site| site.center).sum::<Vec3>() / sites.len() as f64;
     let mut normals: Vec<Vec3> = grid().collect();
-    let shown = pressers.iter().step_by(1 + pressers.len() / MANY);
-    normals.extend(shown.filter_map(|presser| (middle - presser.center).try_normalize(0.0)));
-    if pressers.len() <= FEW {
-        for (i, a) in pressers.iter().enumerate() {
-            for (j, b) in pressers.iter().enumerate().skip(i + 1) {
-                for c in &pressers[j + 1..] {
+    let shown = sites.iter().step_by(1 + sites.len() / MANY);
+    normals.extend(shown.filter_map(|site| (middle - site.center).try_normalize(0.0)));
+    if sites.len() <= FEW {
+        for (i, a) in sites.iter().enumerate() {
+            for (j, b) in sites.iter().enumerate().skip(i + 1) {
+                for c in &sites[j + 1..] {
                     let across = (b.center - a.center).cross(&(c.center - a.center));
                     normals.extend(across.try_normalize(0.0).into_iter().flat_map(|n| [n, -n]));
                 }
@@ -392,7 +392,7 @@ mod tests {
     fn a_ball_touches_the_sheet_and_one_stone() {
         let cube = |x: f64, half: f64| (Vec3::new(x - half, -half, -half), Vec3::new(x + half, half, half));
         let boxes = [cube(0.0, 50.0), cube(-20.0, 1.0), cube(0.0, 1.0), cube(20.0, 1.0)];
-        assert_eq!(crowd(&boxes, 1.0), 2);
-        assert_eq!(crowd(&boxes, 19.0), 4);
+        assert_eq!(max_simultaneous_contacts(&boxes, 1.0), 2);
+        assert_eq!(max_simultaneous_contacts(&boxes, 19.0), 4);
     }
 }

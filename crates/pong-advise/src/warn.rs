@@ -2,9 +2,9 @@
 
 use crate::asking::of_spring;
 use crate::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
-use crate::coupling::Coupling;
 use crate::mass::StepPlan;
 use crate::spring::Spring;
+use pong_engine::WrenchCoupling;
 
 /// Something that goes wrong at a step.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,7 +139,8 @@ fn grows(limit: &SpringLimit, mass: f64, plan: &StepPlan) -> bool {
         return false;
     }
     let frequency = (limit.spring.stiffness / mass).sqrt();
-    let held_undamped = matches!(plan.coupling, Coupling::Held { .. }) && limit.spring.damping == 0.0;
+    let held_undamped =
+        matches!(plan.coupling, WrenchCoupling::ZeroOrderHold { .. }) && limit.spring.damping == 0.0;
     !(held_undamped && plan.step * frequency < HELD_UNDAMPED)
 }
 

@@ -1,7 +1,7 @@
 //! The step check, before anything touches and of what acts: sums over contacts, levers, two bodies. Expectations are closed forms.
 
 use pong_advise::{
-    ActingReport, Coupling, GroupMass, StepNote, StepPlan, StepReport, StepWarning, acting_report,
+    ActingReport, GroupMass, StepNote, StepPlan, StepReport, StepWarning, WrenchCoupling, acting_report,
     pressed_report, step_report,
 };
 use pong_engine::{Config, InterfaceId, State, World};
@@ -89,7 +89,7 @@ fn points(places: &[[f64; 3]]) -> String {
 }
 
 fn plan(step: f64) -> StepPlan {
-    StepPlan { accuracy: None, ..StepPlan::new(step, Coupling::OncePerStep) }
+    StepPlan { accuracy: None, ..StepPlan::new(step, WrenchCoupling::SemiImplicit) }
 }
 
 /// n springs of k on one mass are one of n·k, however many of them; warned of by none, noted beyond 2√(m/(n·k)).
@@ -138,7 +138,7 @@ fn a_note_tells_which_term_asks_for_the_step() {
         let feet =
             points(&feet).replace("stiffness: 1000000.0, friction: None", &format!("{normal}{friction}"));
         let ground = floor().replace(", friction: None", "");
-        for coupling in [Coupling::OncePerStep, Coupling::StageWise] {
+        for coupling in [WrenchCoupling::SemiImplicit, WrenchCoupling::Stages] {
             let plan = |step| StepPlan { accuracy: None, ..StepPlan::new(step, coupling) };
             let sure = meet([&feet, &ground], masses, &plan(1e-9)).surely_stable_step();
             let report = meet([&feet, &ground], masses, &plan(1.01 * sure));
@@ -292,7 +292,10 @@ fn damping_adds_too() {
     };
     let masses = [GroupMass::point(3.0), GroupMass::immovable()];
     for (c, single, sum) in [(1e2, 2e-4, 2e-4), (1e4, 2.0 * 3.0 / 1e4, 3.0 / 1e4)] {
-        let held = StepPlan { accuracy: None, ..StepPlan::new(1e-5, Coupling::Held { late: 0 }) };
+        let held = StepPlan {
+            accuracy: None,
+            ..StepPlan::new(1e-5, WrenchCoupling::ZeroOrderHold { delay_frames: 0 })
+        };
         let report = meet([&damped(c), &floor()], masses, &held);
         assert!(close(report.stable_step(), single) && close(report.surely_stable_step(), sum), "{report:?}");
     }
@@ -305,7 +308,10 @@ fn undamped_held_wrenches_are_noted_from_the_same_step_on() {
     let masses = [GroupMass::point(4.0), GroupMass::immovable()];
     // ω is 1000 rad/s of all four, half that of one.
     for (step, warnings, notes) in [(0.99e-4, 0, 0), (1.01e-4, 0, 1), (1.99e-4, 0, 1), (2.01e-4, 1, 0)] {
-        let held = StepPlan { accuracy: None, ..StepPlan::new(step, Coupling::Held { late: 0 }) };
+        let held = StepPlan {
+            accuracy: None,
+            ..StepPlan::new(step, WrenchCoupling::ZeroOrderHold { delay_frames: 0 })
+        };
         let report = meet([&feet, &floor()], masses, &held);
         assert_eq!((report.warnings.len(), report.notes.len()), (warnings, notes), "{step}: {report:?}");
     }

@@ -156,7 +156,7 @@ impl pong_config {
         let workers =
             within("workers", self.workers.into(), 0, most, "0 for the calling thread alone")? as usize;
         let spin = within("spin_us", self.spin_us.into(), 0, MOST_US, "50 by default")?;
-        let patience =
+        let worker_timeout =
             within("worker_timeout_us", self.worker_timeout_us.into(), 1, MOST_US, "1000 by default")?;
         let priority = within("fifo_priority", self.fifo_priority.into(), 0, 99, "0 for no SCHED_FIFO")?;
         let pin = switch("pin_workers", self.pin_workers)?;
@@ -172,7 +172,7 @@ impl pong_config {
             workers,
             oversubscribe,
             spin: Duration::from_micros(spin),
-            patience: Duration::from_micros(patience),
+            worker_timeout: Duration::from_micros(worker_timeout),
             pin,
             cores: (0..64).filter(|core| self.worker_cores >> core & 1 == 1).collect(),
             fifo_priority: u8::try_from(priority).ok().filter(|priority| *priority > 0),

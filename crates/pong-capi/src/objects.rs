@@ -73,7 +73,7 @@ pub unsafe extern "C" fn pong_clear_contact_history(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            inner.world.forget(object.id())?;
+            inner.world.clear_contact_history(object.id())?;
             inner.tell_log(|log| log.forgot(object.id()));
             Ok(())
         })

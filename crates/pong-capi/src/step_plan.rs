@@ -7,7 +7,7 @@ use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
-use pong_advise::{Accuracy, Coupling, GroupMass, StepPlan};
+use pong_advise::{Accuracy, GroupMass, StepPlan, WrenchCoupling};
 
 /// Mass properties of a movable group, for the step adviser alone: no frame reads them.
 #[repr(C)]
@@ -145,9 +145,9 @@ impl pong_step_plan {
     fn check(&self) -> Outcome<StepPlan> {
         let bad = |message: String| Failure::new(pong_status::BadValue, message);
         let coupling = match (self.wrench_coupling, self.delay_frames) {
-            (PONG_COUPLING_STAGES, 0) => Coupling::StageWise,
-            (PONG_COUPLING_SEMI_IMPLICIT, 0) => Coupling::OncePerStep,
-            (PONG_COUPLING_ZERO_ORDER_HOLD, late) => Coupling::Held { late },
+            (PONG_COUPLING_STAGES, 0) => WrenchCoupling::Stages,
+            (PONG_COUPLING_SEMI_IMPLICIT, 0) => WrenchCoupling::SemiImplicit,
+            (PONG_COUPLING_ZERO_ORDER_HOLD, late) => WrenchCoupling::ZeroOrderHold { delay_frames: late },
             (PONG_COUPLING_STAGES | PONG_COUPLING_SEMI_IMPLICIT, late) => {
                 let cause =
                     "only a wrench that is held can be delayed; give 0, or PONG_COUPLING_ZERO_ORDER_HOLD";

@@ -6,7 +6,7 @@ mod limits;
 use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell_lines};
 use crate::text::number;
-use pong_advise::{Accuracy, Coupling, StepPlan, judge_contact};
+use pong_advise::{Accuracy, StepPlan, WrenchCoupling, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
 use pong_executive::scene::Scene;
 use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
@@ -96,12 +96,12 @@ fn is_scene(path: &Path) -> bool {
 }
 
 impl Arguments {
-    fn coupling(&self, otherwise: Coupling) -> Coupling {
+    fn coupling(&self, otherwise: WrenchCoupling) -> WrenchCoupling {
         match self.coupling {
             None => otherwise,
-            Some(CouplingName::Stages) => Coupling::StageWise,
-            Some(CouplingName::Step) => Coupling::OncePerStep,
-            Some(CouplingName::Held) => Coupling::Held { late: self.late },
+            Some(CouplingName::Stages) => WrenchCoupling::Stages,
+            Some(CouplingName::Step) => WrenchCoupling::SemiImplicit,
+            Some(CouplingName::Held) => WrenchCoupling::ZeroOrderHold { delay_frames: self.late },
         }
     }
 
@@ -136,7 +136,7 @@ impl Arguments {
     }
 
     /// How masses, frame and coupling are stated above every answer.
-    fn stated(&self, step: Option<f64>, coupling: Coupling) -> String {
+    fn stated(&self, step: Option<f64>, coupling: WrenchCoupling) -> String {
         let step = step.map_or("step of the adviser's choice".to_owned(), |step| {
             format!("step {} s ({} Hz)", number(step), number(1.0 / step))
         });
@@ -145,7 +145,7 @@ impl Arguments {
 }
 
 /// Any coupling that is not named: the most forgiving must not be assumed.
-const UNNAMED: Coupling = Coupling::Held { late: 0 };
+const UNNAMED: WrenchCoupling = WrenchCoupling::ZeroOrderHold { delay_frames: 0 };
 
 fn wish_alone(arguments: &Arguments) -> Result<String, String> {
     let (mass, coupling) = (arguments.effective_mass()?, arguments.coupling(UNNAMED));

@@ -51,7 +51,7 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = match Cli::try_parse() {
         Ok(arguments) => arguments,
-        Err(asked) => return terminal::settle(usage(&asked)),
+        Err(asked) => return terminal::exit_code_of(usage(&asked)),
     };
     let code = match arguments.command {
         Command::Advise(arguments) => advise::main(&arguments),
@@ -66,7 +66,7 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),
     };
-    terminal::settle(code)
+    terminal::exit_code_of(code)
 }
 
 /// Help and version are answers; wrong usage is told.

@@ -52,7 +52,7 @@ pub(crate) fn show(bar: &ProgressBar, doing: &str) {
 }
 
 /// The exit code of a command: success only if the answer could be written.
-pub(crate) fn settle(code: ExitCode) -> ExitCode {
+pub(crate) fn exit_code_of(code: ExitCode) -> ExitCode {
     match LOST.lock().ok().and_then(|mut lost| lost.take()) {
         None => code,
         Some(reason) => {

@@ -18,7 +18,7 @@ impl StatusBits {
 
     /// Something went right through something else since the last commit, or came out on the far side of what pushed it
     /// back: a contact was missed. [`World::passage`](crate::World::passage) names it. Make the frames shorter, the wall
-    /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::forget`](crate::World::forget) first.
+    /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::clear_contact_history`](crate::World::clear_contact_history) first.
     pub const TUNNELLED: Self = Self(4);
 
     /// Whether nothing was left out or missed.

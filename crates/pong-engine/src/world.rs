@@ -205,7 +205,7 @@ impl World {
     }
 
     /// Ends the workers, as dropping the world does, and tells how many the system did not run within a second, or as
-    /// long as the patience if one is stuck in a block: they end by themselves and keep what they read until then. Frames are
+    /// long as the worker timeout if one is stuck in a block: they end by themselves and keep what they read until then. Frames are
     /// computed by the caller alone from then on.
     pub fn end_workers(&mut self) -> usize {
         self.running.as_mut().map_or(0, Running::end)
@@ -284,7 +284,7 @@ impl World {
 
     /// Accepts the states presently set, as [`commit`](Self::commit), and then preloads the bristles between two paired
     /// Objects: a contact that is there when a run begins is not a new one, and its friction needs no way to build up.
-    /// For the first frame, and after [`forget`](Self::forget). Answers how many bristles were set; contacts without a bristle
+    /// For the first frame, and after [`clear_contact_history`](Self::clear_contact_history). Answers how many bristles were set; contacts without a bristle
     /// or without load have none. What the bristles store then, the host has put in. Allocates.
     pub fn preload_friction(
         &mut self,
@@ -481,7 +481,7 @@ impl World {
     }
 
     /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
-    pub fn forget(&mut self, object: ObjectId) -> Result<(), EngineError> {
+    pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.object_index(object)?;
         let running = self.running.as_mut().ok_or(not_sealed("forget an Object"))?;
         let bodies = &self.scene.bodies;

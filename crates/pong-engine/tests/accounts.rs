@@ -238,7 +238,7 @@ fn what_begins_inside_was_put_in() {
         let config = Config { accounts: Some(coupling), ..Config::default() };
         let mut other = Rig::with_config(config, &tip, &ground);
         stand(&mut other, -1e-3);
-        other.world.forget(other.objects[0]).unwrap();
+        other.world.clear_contact_history(other.objects[0]).unwrap();
         assert!(other.world.account().inserted.abs() < 1e-15);
         // Led out slowly: it returns what was put in, and no more than the rule of work can tell.
         for i in 0..200 {

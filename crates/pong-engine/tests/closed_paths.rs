@@ -128,7 +128,7 @@ fn check_closed_paths(
     for _ in 0..10 {
         let path = Loop::random(&mut random, center, size, turn);
         let object = rig.objects[0];
-        rig.world.forget(object).unwrap();
+        rig.world.clear_contact_history(object).unwrap();
         // The first lap settles what is remembered; the second starts and ends with the same past.
         Follower { rig: &mut rig, path: &path, tolerance: 1e-3, lap: Lap::default() }.lap();
         let tolerance = 1e-6;

@@ -199,7 +199,7 @@ fn a_state_takes_no_room_for_contacts_that_there_are_not() {
         assert_eq!(steps(&mut rig, 1..20), onward);
     }
     let object = rig.world.object("a").unwrap();
-    rig.world.forget(object).unwrap();
+    rig.world.clear_contact_history(object).unwrap();
     assert_eq!(rig.world.state_used().unwrap(), before);
 }
 
@@ -211,7 +211,7 @@ fn a_forgotten_object_has_no_past() {
         moved.world.step().unwrap();
     }
     let object = moved.objects[0];
-    moved.world.forget(object).unwrap();
+    moved.world.clear_contact_history(object).unwrap();
     for rig in [&mut moved, &mut fresh] {
         rig.place([path(0.3), State::identity()]);
         rig.world.step().unwrap();

@@ -195,8 +195,8 @@ fn set_down(mesh: &Mesh, semi_axes: Vec3, poses: usize, convex: bool, random: &m
         let base = at(shift, frame);
         let state = |center: &Vec3| at(frame * center + shift, frame * turn);
         match pose % 3 {
-            0 => rig.world.forget(rig.objects[0]).unwrap(),
-            1 => rig.world.forget(rig.objects[1]).unwrap(),
+            0 => rig.world.clear_contact_history(rig.objects[0]).unwrap(),
+            1 => rig.world.clear_contact_history(rig.objects[1]).unwrap(),
             _ => {
                 rig.world.set_pair_enabled(rig.pair, false).unwrap();
                 rig.world.step().unwrap();
@@ -280,7 +280,7 @@ fn a_centre_in_a_two_sided_sheet_is_pushed_to_the_front_alone() {
     for _ in 0..50 {
         let (frame, shift) = (random.rotation(), random.vector(2.0));
         let place = Vec3::new(random.between(-3.0, 3.0), random.between(-3.0, 3.0), 0.0);
-        rig.world.forget(rig.objects[0]).unwrap();
+        rig.world.clear_contact_history(rig.objects[0]).unwrap();
         for height in [0.0, 0.0, 1e-3, 0.1] {
             let center = frame * (place + Vec3::z() * height) + shift;
             rig.place([at(center, frame), at(shift, frame)]);
@@ -300,7 +300,7 @@ fn a_ball_set_down_inside_is_pushed_out() {
     let mut random = Random(23);
     for _ in 0..50 {
         let center = random.vector(0.95);
-        rig.world.forget(rig.objects[0]).unwrap();
+        rig.world.clear_contact_history(rig.objects[0]).unwrap();
         for _ in 0..2 {
             rig.place([at(center, Quat::identity()), State::identity()]);
             rig.world.step().unwrap();

@@ -62,9 +62,9 @@ fn run_alone(scene: Scene) -> Alone {
 }
 
 fn workers(count: usize) -> Option<WorkerSettings> {
-    // Patience without end: on a busy machine no frame may be done alone for want of it.
-    let patience = Duration::from_secs(60);
-    Some(WorkerSettings { workers: count, oversubscribe: true, patience, ..WorkerSettings::default() })
+    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
+    let worker_timeout = Duration::from_secs(60);
+    Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
 /// Runs frames and compares each with the caller's own.
@@ -186,7 +186,7 @@ fn evaluated_four_times_a_frame_the_series_is_the_same() {
 fn workers_that_stall_do_not_change_the_series() {
     let alone = alone().iter().find(|alone| alone.scene.own_kinds).unwrap();
     let settings =
-        workers(3).map(|settings| WorkerSettings { patience: Duration::from_millis(1), ..settings });
+        workers(3).map(|settings| WorkerSettings { worker_timeout: Duration::from_millis(1), ..settings });
     let mut stage = alone.scene.set_up(settings);
     let before = own_kinds::CALLS_ON_WORKERS.load(Ordering::Relaxed);
     own_kinds::STALL_EVERY.store(301, Ordering::Relaxed);

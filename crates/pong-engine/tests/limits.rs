@@ -15,8 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 fn workers(count: usize) -> Option<WorkerSettings> {
-    let patience = Duration::from_secs(60);
-    Some(WorkerSettings { workers: count, oversubscribe: true, patience, ..WorkerSettings::default() })
+    let worker_timeout = Duration::from_secs(60);
+    Some(WorkerSettings { workers: count, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
 fn rough(stiffness: f64) -> String {
@@ -85,7 +85,7 @@ fn the_deepest_are_kept() {
     for frame in 0..60 {
         // The same past for both: none.
         for stage in [&mut roomy, &mut tight] {
-            stage.world.forget(stage.objects[0]).unwrap();
+            stage.world.clear_contact_history(stage.objects[0]).unwrap();
         }
         let ((all_report, _), (report, _)) = (step(&mut roomy, frame), step(&mut tight, frame));
         assert_eq!(all_report.status, StatusBits::default());
@@ -321,7 +321,7 @@ fn ten_thousand_contacts_of_one_ball() {
         }
         // Lifted out of the shell by its own width the balls touch little; nothing of the limit is left.
         for stage in [&mut alone, &mut crew] {
-            stage.world.forget(stage.objects[0]).unwrap();
+            stage.world.clear_contact_history(stage.objects[0]).unwrap();
             let ball = stage.groups[0];
             stage.world.set_state(ball, &Path::still([0.0, 0.0, 0.01]).at(0)).unwrap();
             stage.world.evaluate().unwrap();

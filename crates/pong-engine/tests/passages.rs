@@ -188,7 +188,7 @@ fn pieces_are_one_solid() {
 fn a_jump_that_is_meant_a_pair_that_is_off_and_a_first_frame_are_not_told() {
     let mut rig = rig(POINT, &plate());
     assert_eq!(told(&mut rig, &[0.3]), [false]);
-    rig.world.forget(rig.objects[0]).unwrap();
+    rig.world.clear_contact_history(rig.objects[0]).unwrap();
     assert_eq!(told(&mut rig, &[-0.3]), [false]);
     rig.world.set_pair_enabled(rig.pair, false).unwrap();
     assert_eq!(told(&mut rig, &[0.3]), [false]);

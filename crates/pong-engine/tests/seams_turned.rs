@@ -60,7 +60,7 @@ fn balls() -> String {
 /// Both rest on the body with the centre this far from the origin, turned at random. The weights of either sum to one,
 /// but for the square of the angle between the normals that share; so does the force.
 fn must_weigh_one(rig: &mut Rig, random: &mut Random, center: Vec3, case: &str) -> usize {
-    rig.world.forget(rig.objects[0]).unwrap();
+    rig.world.clear_contact_history(rig.objects[0]).unwrap();
     let turn = random.rotation();
     rig.place_a(center, turn);
     rig.world.evaluate().unwrap();
@@ -226,7 +226,7 @@ fn a_point_where_pieces_meet_has_one_contact() {
             };
             let place = Vec3::from_fn(|axis, _| beside(axis, &mut random));
             let depth = 1.0 - place.amax();
-            rig.world.forget(rig.objects[0]).unwrap();
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(turn * place, random.rotation());
             rig.world.evaluate().unwrap();
             let contacts = rig.world.contacts();
@@ -261,7 +261,7 @@ fn a_tip_where_pieces_meet_is_in_one_of_them() {
         for pose in 0..20 {
             let beside = if pose % 2 == 0 { Vec3::zeros() } else { random.vector(2e-16) };
             let height = random.between(0.5, 0.99);
-            rig.world.forget(rig.objects[0]).unwrap();
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(turn * (Vec3::z() * height + beside), Quat::identity());
             rig.world.evaluate().unwrap();
             let contacts = rig.world.contacts();
@@ -287,7 +287,7 @@ fn a_bar_below_seams_is_carried_by_its_tips() {
         for pose in 0..20 {
             let depth = random.between(1e-3, 0.1);
             let along = if pose % 2 == 0 { 0.0 } else { random.between(-0.05, 0.05) };
-            rig.world.forget(rig.objects[0]).unwrap();
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(turn * Vec3::new(along, along, 1.0 - depth), Quat::identity());
             rig.world.evaluate().unwrap();
             let contacts = rig.world.contacts();
@@ -337,7 +337,7 @@ fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
         for (x, inside) in [(1e-7, false), (-1e-7, false), (1e-7, true), (-1e-7, true)] {
             // The slopes fall by half of what one goes sideways.
             let z = 0.5 - 0.5 * f64::abs(x) + if inside { -1e-8 } else { 1e-8 };
-            rig.world.forget(rig.objects[0]).unwrap();
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
             rig.world.evaluate().unwrap();
             assert_eq!(rig.world.contact_count(), usize::from(inside), "{cuts:?} {x:e} {inside}");

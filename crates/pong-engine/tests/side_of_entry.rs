@@ -73,7 +73,7 @@ fn what_has_no_past_came_in_by_the_nearest_face() {
             rig.world.step().unwrap();
             rig.world.set_pair_enabled(rig.pair, true).unwrap();
         } else {
-            rig.world.forget(rig.objects[0]).unwrap();
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
         }
         let force = push_at(&mut rig, 0.004);
         assert!((force.x - 0.5 * K * 1e-3).abs() < 1e-9, "{switch_off}: {force:?}");

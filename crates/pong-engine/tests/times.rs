@@ -62,13 +62,13 @@ fn must_add_up(scene: &stage::Scene, workers: Option<WorkerSettings>) {
 
 #[test]
 fn parts_of_the_work_add_up_over_lanes() {
-    // Patience without end: on a busy machine no frame may be done alone for want of it.
-    let patience = Duration::from_secs(60);
+    // WaitLimit without end: on a busy machine no frame may be done alone for want of it.
+    let worker_timeout = Duration::from_secs(60);
     let settings = WorkerSettings {
         workers: 2,
         oversubscribe: true,
-        patience,
-        spin: patience,
+        worker_timeout,
+        spin: worker_timeout,
         ..WorkerSettings::default()
     };
     for scene in all().iter().filter(|scene| ["stations", "crowd"].contains(&scene.name)) {

@@ -165,8 +165,8 @@ impl Brush {
     }
 }
 
-fn settings(workers: usize, patience: Duration) -> Option<WorkerSettings> {
-    Some(WorkerSettings { workers, oversubscribe: true, patience, ..WorkerSettings::default() })
+fn settings(workers: usize, worker_timeout: Duration) -> Option<WorkerSettings> {
+    Some(WorkerSettings { workers, oversubscribe: true, worker_timeout, ..WorkerSettings::default() })
 }
 
 const SHORT: Duration = Duration::from_millis(1);
@@ -280,7 +280,7 @@ fn contact_state_changes_around_a_held_worker() {
                 let object = brush.world.object("brush").unwrap();
                 match round % 4 {
                     0 => brush.world.save_state(block).unwrap(),
-                    1 => brush.world.forget(object).unwrap(),
+                    1 => brush.world.clear_contact_history(object).unwrap(),
                     2 => brush.world.restore_state(block).unwrap(),
                     _ => {
                         let mut surface = brush.world.surface(brush.model, "s").unwrap().clone();
@@ -346,7 +346,7 @@ fn a_panic_on_the_caller_leaves_the_world_usable() {
             // Contact state can still be changed, more than once.
             let object = brush.world.object("brush").unwrap();
             for _ in 0..3 {
-                brush.world.forget(object).unwrap();
+                brush.world.clear_contact_history(object).unwrap();
                 brush.world.restore_state(&block).unwrap();
             }
             for frame in 4..8 {

@@ -4,14 +4,16 @@
 use crate::body::{Motion, RigidBody};
 use crate::integrate::Integrator;
 use crate::mass::MassProperties;
-use pong_advise::{Coupling, GroupMass};
+use pong_advise::{GroupMass, WrenchCoupling};
 
 /// How an integrator uses the contact wrench.
-pub fn coupling(integrator: Integrator) -> Coupling {
+pub fn coupling(integrator: Integrator) -> WrenchCoupling {
     match integrator {
-        Integrator::SemiImplicitEuler => Coupling::OncePerStep,
-        Integrator::RungeKutta4 => Coupling::StageWise,
-        Integrator::ZeroOrderHold { delay_frames, .. } => Coupling::Held { late: delay_frames },
+        Integrator::SemiImplicitEuler => WrenchCoupling::SemiImplicit,
+        Integrator::RungeKutta4 => WrenchCoupling::Stages,
+        Integrator::ZeroOrderHold { delay_frames, .. } => {
+            WrenchCoupling::ZeroOrderHold { delay_frames: delay_frames }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The step adviser's promises, kept by the engine and the executive: a hundred random contacts, every coupling.
 
 use pong_advise::{
-    Accuracy, ContactAdvice, ContactWish, Coupling, GroupMass, StepPlan, StepWarning, advise_contact,
+    Accuracy, ContactAdvice, ContactWish, GroupMass, StepPlan, StepWarning, WrenchCoupling, advise_contact,
     step_report,
 };
 use pong_engine::{Config, World};
@@ -14,12 +14,12 @@ const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
     root: (name: "ground", surface: "rigid", primitives: [
         Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#;
 
-const COUPLINGS: [Coupling; 5] = [
-    Coupling::StageWise,
-    Coupling::OncePerStep,
-    Coupling::Held { late: 0 },
-    Coupling::Held { late: 1 },
-    Coupling::Held { late: 2 },
+const COUPLINGS: [WrenchCoupling; 5] = [
+    WrenchCoupling::Stages,
+    WrenchCoupling::SemiImplicit,
+    WrenchCoupling::ZeroOrderHold { delay_frames: 0 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 1 },
+    WrenchCoupling::ZeroOrderHold { delay_frames: 2 },
 ];
 
 /// Numbers that look random and are the same everywhere (Marsaglia's xorshift).
@@ -50,7 +50,7 @@ struct Case {
 
 impl Case {
     /// Mass, stiffness, restitution and speed at random; the depth that the stiffness makes, by the closed form.
-    fn new(random: &mut Random, coupling: Coupling) -> Self {
+    fn new(random: &mut Random, coupling: WrenchCoupling) -> Self {
         let mass = random.of_magnitudes(1e-2, 1e5);
         let stiffness = random.of_magnitudes(1e2, 1e9);
         let restitution = random.between(0.1, 1.0);
@@ -90,11 +90,13 @@ fn depth_over(zeta: f64) -> f64 {
     (-zeta * time).exp()
 }
 
-fn integrator(coupling: Coupling) -> Integrator {
+fn integrator(coupling: WrenchCoupling) -> Integrator {
     match coupling {
-        Coupling::StageWise => Integrator::RungeKutta4,
-        Coupling::OncePerStep => Integrator::SemiImplicitEuler,
-        Coupling::Held { late } => Integrator::ZeroOrderHold { substeps: 1, delay_frames: late },
+        WrenchCoupling::Stages => Integrator::RungeKutta4,
+        WrenchCoupling::SemiImplicit => Integrator::SemiImplicitEuler,
+        WrenchCoupling::ZeroOrderHold { delay_frames: late } => {
+            Integrator::ZeroOrderHold { substeps: 1, delay_frames: late }
+        }
     }
 }
 

@@ -87,7 +87,7 @@ fn an_elastic_ball_bounces_to_its_height_and_the_ledger_closes() {
 #[test]
 fn what_is_lost_in_contacts_is_what_the_mechanical_energy_lost() {
     let (mut simulation, _) = ball_on_plane(0.0, 0.05, Integrator::RungeKutta4, 1e-3);
-    simulation.settle().unwrap();
+    simulation.commit_initial_states().unwrap();
     let start = simulation.energy();
     let mut worst = 0.0_f64;
     for _ in 0..200 {
@@ -116,7 +116,7 @@ fn the_work_of_moments_is_taken_from_the_spin() {
         let twist = Twist { linear: Vec3::new(0.3, -0.2, 0.0), angular: Vec3::new(5.0, -20.0, 8.0) };
         let pose = simulation.pose(ball);
         simulation.set_motion(ball, pose, twist).unwrap();
-        simulation.settle().unwrap();
+        simulation.commit_initial_states().unwrap();
         let start = simulation.energy();
         simulation.run_for(0.4).unwrap();
         let end = simulation.energy();
@@ -179,7 +179,7 @@ fn a_host_that_holds_wrenches_is_told_what_that_made() {
         for (damping, warnings) in [(0.0, 1), (2.0 * needed, 0)] {
             let integrator = Integrator::ZeroOrderHold { substeps: 1, delay_frames };
             let (mut simulation, _) = ball_on_plane(damping, 0.02, integrator, step);
-            simulation.settle().unwrap();
+            simulation.commit_initial_states().unwrap();
             let start = simulation.energy();
             simulation.run_for(0.5).unwrap();
             let end = simulation.energy();

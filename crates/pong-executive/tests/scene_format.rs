@@ -73,7 +73,7 @@ fn preloaded_friction_is_there_at_the_start() {
     let folder = model_folder("preloaded");
     let text = blocks().into_iter().filter(|(head, _)| *head == "scene").nth(1).unwrap().1;
     let forces = |built: &mut BuiltScene| {
-        built.simulation.settle().unwrap();
+        built.simulation.commit_initial_states().unwrap();
         let contacts: Vec<_> = built.simulation.world().contacts_iter().collect();
         assert_eq!(contacts.len(), 2);
         contacts.into_iter().map(|contact| contact.friction_force).collect::<Vec<_>>()

@@ -99,7 +99,7 @@ impl Rig {
             let mut rig = make(factor * step);
             assert_eq!(rig.simulation.step_notes().len(), usize::from(unstable), "{:?}", rig.integrator);
             assert_eq!(rig.simulation.step_warnings(), [""; 0]);
-            rig.simulation.settle().unwrap();
+            rig.simulation.commit_initial_states().unwrap();
             let acting = rig.simulation.acting_report(&plan).unwrap();
             assert!((acting.stable_step / step - 1.0).abs() < 1e-5, "{:?}: {acting:?}", rig.integrator);
             assert_eq!(rig.grows(), unstable, "{:?} at {factor} of {step} s", rig.integrator);

@@ -113,7 +113,7 @@ impl Stage {
 
     /// Drops all contact state.
     pub fn forget(&mut self) -> Result<(), Refusal> {
-        self.world.forget(self.objects[0]).map_err(|error| error.to_string())
+        self.world.clear_contact_history(self.objects[0]).map_err(|error| error.to_string())
     }
 
     fn answer(&self) -> Result<Answer, pong_engine::EngineError> {

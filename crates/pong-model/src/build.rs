@@ -4,7 +4,7 @@ use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Body, Model};
 use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader};
-use crate::triangle_topology::{self, Findings, Oddity};
+use crate::triangle_topology::{self, Findings, MeshWarning};
 use crate::weld::Welder;
 use crate::weld::WordMap;
 use crate::{arrange, hash, polyhedra, tree};
@@ -61,36 +61,36 @@ fn knit_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Findings {
         reader.fault(draft.groups[0].at, &draft.body.path, "too-many-triangles", cause, cure);
         return Findings::default();
     }
-    let findings = triangle_topology::knit(&mut draft.body);
+    let findings = triangle_topology::build_adjacency(&mut draft.body);
     for &(repeated, earlier) in findings.duplicates.iter().take(LISTED_PER_MESH) {
         let (at, path) = draft.triangle_path(repeated);
         let (_, other) = draft.triangle_path(earlier);
         let cause = format!("the same triangle as {other}");
         reader.fault(at, &path, "duplicate-triangle", cause, "remove one of them");
     }
-    for oddity in findings.oddities.iter().take(LISTED_PER_MESH) {
-        tell(reader, draft, oddity);
+    for mesh_warning in findings.mesh_warnings.iter().take(LISTED_PER_MESH) {
+        tell(reader, draft, mesh_warning);
     }
-    if findings.oddities.len() > LISTED_PER_MESH {
-        let more = findings.oddities.len() - LISTED_PER_MESH;
+    if findings.mesh_warnings.len() > LISTED_PER_MESH {
+        let more = findings.mesh_warnings.len() - LISTED_PER_MESH;
         let what = format!("{more} more edges of this body's meshes do not fit together");
         reader.warn(draft.groups[0].at, &draft.body.path, &what);
     }
     findings
 }
 
-fn tell(reader: &mut Reader<'_>, draft: &BodyDraft, oddity: &Oddity) {
+fn tell(reader: &mut Reader<'_>, draft: &BodyDraft, mesh_warning: &MeshWarning) {
     let set = &draft.body.triangles;
-    let (triangle, what) = match *oddity {
-        Oddity::CrowdedEdge { triangle, count } => (
+    let (triangle, what) = match *mesh_warning {
+        MeshWarning::CrowdedEdge { triangle, count } => (
             triangle,
             format!("{count} triangles share an edge near {}; it counts as free", middle(set, triangle)),
         ),
-        Oddity::Winding { triangle, other } => {
+        MeshWarning::Winding { triangle, other } => {
             let other = draft.triangle_path(other).1;
             (triangle, format!("wound against its neighbour {other}; their common edge counts as free"))
         }
-        Oddity::TJunction { triangle, vertex } => {
+        MeshWarning::TJunction { triangle, vertex } => {
             let v = set.vertices[vertex as usize];
             (triangle, format!("T-junction: the vertex {} lies within a free edge", place(&v)))
         }

@@ -1,4 +1,4 @@
-//! What the reader hands to the builder: bodies with all their elements, not yet knit together.
+//! What the reader hands to the builder: bodies with all their elements, without adjacency.
 
 use crate::hull::Hull;
 use crate::model::{Body, Item};

@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 /// More T-junctions are not worth telling.
 const JUNCTIONS_TOLD: usize = 1000;
 
-/// An oddity of a mesh.
-pub(crate) enum Oddity {
+/// A warning of a mesh.
+pub(crate) enum MeshWarning {
     /// An edge shared by three or more triangles.
     CrowdedEdge { triangle: u32, count: usize },
     /// Two triangles that run along their common edge in the same direction.
@@ -25,7 +25,7 @@ pub(crate) enum Oddity {
 /// What was found while knitting.
 #[derive(Default)]
 pub(crate) struct Findings {
-    pub(crate) oddities: Vec<Oddity>,
+    pub(crate) mesh_warnings: Vec<MeshWarning>,
     /// Triangles that repeat an earlier one: (repeated, earlier).
     pub(crate) duplicates: Vec<(u32, u32)>,
     /// For each triangle the lowest triangle of its shell.
@@ -36,7 +36,7 @@ pub(crate) struct Findings {
 type HalfEdge = (u64, u32);
 
 /// Sets the neighbours of all triangles, and which of their features may push.
-pub(crate) fn knit(body: &mut Body) -> Findings {
+pub(crate) fn build_adjacency(body: &mut Body) -> Findings {
     let mut findings =
         Findings { shell_leader: vec![0; body.triangles.triangles.len()], ..Findings::default() };
     for mirrors in [false, true] {
@@ -46,11 +46,13 @@ pub(crate) fn knit(body: &mut Body) -> Findings {
         lead_shells(set, &part, &mut findings.shell_leader);
         if !mirrors {
             let junctions = t_junctions::find(&set.vertices, &found.free_edges, JUNCTIONS_TOLD);
-            let odd =
-                |(vertex, edge): (u32, usize)| Oddity::TJunction { triangle: found.free_owner[edge], vertex };
-            found.oddities.extend(junctions.into_iter().map(odd));
+            let odd = |(vertex, edge): (u32, usize)| MeshWarning::TJunction {
+                triangle: found.free_owner[edge],
+                vertex,
+            };
+            found.mesh_warnings.extend(junctions.into_iter().map(odd));
             findings.duplicates = duplicates(set, &found.suspects);
-            findings.oddities = found.oddities;
+            findings.mesh_warnings = found.mesh_warnings;
         }
     }
     mark_pushing(&mut body.triangles);
@@ -70,7 +72,7 @@ fn triangles_of(body: &Body, mirrors: bool) -> Vec<u32> {
 
 #[derive(Default)]
 struct Connections {
-    oddities: Vec<Oddity>,
+    mesh_warnings: Vec<MeshWarning>,
     /// Triangles at crowded or wrongly wound edges: only they can be duplicates.
     suspects: BTreeSet<u32>,
     free_edges: Vec<[u32; 2]>,
@@ -94,9 +96,9 @@ fn connect(set: &mut TriangleSet, part: &[u32]) -> Connections {
             crowd => {
                 found.suspects.extend(crowd.iter().map(triangle));
                 let first = triangle(&crowd[0]);
-                found.oddities.push(match crowd {
-                    [_, other] => Oddity::Winding { triangle: first, other: triangle(other) },
-                    _ => Oddity::CrowdedEdge { triangle: first, count: crowd.len() },
+                found.mesh_warnings.push(match crowd {
+                    [_, other] => MeshWarning::Winding { triangle: first, other: triangle(other) },
+                    _ => MeshWarning::CrowdedEdge { triangle: first, count: crowd.len() },
                 });
             }
         }

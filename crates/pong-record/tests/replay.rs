@@ -98,7 +98,7 @@ fn what_the_host_did_between_frames_is_done_again() {
     for n in 50..300 {
         match n {
             80 => {
-                scene.world.forget(scene.cart).unwrap();
+                scene.world.clear_contact_history(scene.cart).unwrap();
                 recorder.forgot(scene.cart);
             }
             100 | 120 => {

@@ -91,7 +91,7 @@ impl Caller {
         Ok(())
     }
 
-    /// Waits until workers have done `claimed` blocks, or patience ends. Tells also whether one of them panicked.
+    /// Waits until workers have done `claimed` blocks, or the worker timeout ends. Tells also whether one of them panicked.
     fn wait(&self, claimed: u32) -> (Outcome, bool) {
         let mut waited = None;
         loop {

@@ -76,7 +76,7 @@ pub trait Job: Send + Sync + 'static {
 pub enum Outcome {
     /// Each block has run, once.
     Complete,
-    /// A worker kept a block for longer than [`Settings::patience`](Settings). Blocks may still be running
+    /// A worker kept a block for longer than [`Settings::worker_timeout`](Settings). Blocks may still be running
     /// ([`Pool::is_quiet`] tells); what they write must not be used, and what they read must stay as it is or be
     /// safe to read while it changes.
     Abandoned,

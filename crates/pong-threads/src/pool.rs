@@ -23,7 +23,7 @@ pub struct Pool {
     start_report: Vec<WorkerStart>,
     /// Held to the end: the worker that let go of it last would free it, and in the first phases.
     muster: Arc<Muster>,
-    patience: Duration,
+    worker_timeout: Duration,
     /// Of the process that has the workers. A fork of it has none.
     process: u32,
 }
@@ -78,7 +78,7 @@ impl Pool {
             board: Board::new(cores.len()),
             job,
             spin_ns: in_ns(settings.spin),
-            worker_timeout_ns: in_ns(settings.patience),
+            worker_timeout_ns: in_ns(settings.worker_timeout),
             clock: settings.clock,
             origin: Watch::start(),
             panic: Mutex::new(None),
@@ -88,7 +88,7 @@ impl Pool {
             threads: Vec::with_capacity(cores.len()),
             start_report: Vec::new(),
             muster: Arc::new(Muster::new(cores.len())),
-            patience: settings.patience,
+            worker_timeout: settings.worker_timeout,
             process: std::process::id(),
         };
         for (worker, core) in cores.iter().enumerate() {
@@ -106,7 +106,7 @@ impl Pool {
     }
 
     /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
-    /// in time. A panic of a block goes on here, after the other blocks that were claimed have ended or patience has.
+    /// in time. A panic of a block goes on here, after the other blocks that were claimed have ended or the worker timeout has.
     ///
     /// # Panics
     ///
@@ -146,7 +146,7 @@ impl Pool {
     }
 
     /// Ends the workers; how many had not ended when the time was up. A worker inside a block of an abandoned phase
-    /// is waited for as long as [`Settings::patience`], any other for [`LONGEST_FAREWELL`]. One that is left behind ends by
+    /// is waited for as long as [`Settings::worker_timeout`], any other for [`LONGEST_FAREWELL`]. One that is left behind ends by
     /// itself when the system runs it, and keeps the job alive until then.
     pub fn end(&mut self) -> usize {
         if self.is_forked() {
@@ -155,7 +155,7 @@ impl Pool {
             return 0;
         }
         self.caller.end();
-        self.wait_for_the_end(if self.is_quiet() { LONGEST_FAREWELL } else { self.patience });
+        self.wait_for_the_end(if self.is_quiet() { LONGEST_FAREWELL } else { self.worker_timeout });
         let mut left = 0;
         for thread in self.threads.drain(..) {
             if thread.is_finished() {

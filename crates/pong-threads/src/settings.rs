@@ -15,7 +15,7 @@ pub struct Settings {
     pub spin: Duration,
     /// How long the caller waits for blocks that workers have claimed, once it has none to run itself; 1 ms by
     /// default. Then the phase is abandoned.
-    pub patience: Duration,
+    pub worker_timeout: Duration,
     /// Bind each worker to a core of its own. The first core of the mask is left to the caller, who should bind
     /// itself there after the pool has started. Off by default.
     pub pin: bool,
@@ -36,7 +36,7 @@ impl Default for Settings {
             workers: 1,
             oversubscribe: false,
             spin: Duration::from_micros(50),
-            patience: Duration::from_millis(1),
+            worker_timeout: Duration::from_millis(1),
             pin: false,
             cores: Vec::new(),
             fifo_priority: None,

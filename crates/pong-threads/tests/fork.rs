@@ -86,7 +86,7 @@ fn a_block_that_was_abandoned_before_the_fork_disturbs_nothing() {
         move || common::wait_until("the test lets go", || !held.load(SeqCst))
     };
     let meet = Meet::new(on_worker);
-    let settings = Settings { patience: Duration::from_millis(1), ..patient(1) };
+    let settings = Settings { worker_timeout: Duration::from_millis(1), ..patient(1) };
     let mut pool = start(&meet, &settings);
     assert_eq!(pool.run(2), Outcome::Abandoned);
     assert!(!pool.is_quiet());

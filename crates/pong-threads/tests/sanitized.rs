@@ -16,7 +16,7 @@ struct Plain {
     outputs: Vec<UnsafeCell<u64>>,
     /// All blocks write the first output.
     race: bool,
-    /// Blocks of workers take longer than the caller has patience.
+    /// Blocks of workers take longer than the worker timeout.
     slow: AtomicBool,
 }
 
@@ -55,8 +55,8 @@ impl Job for Plain {
     }
 }
 
-fn phases(plain: &Arc<Plain>, workers: usize, patience: Duration) -> (u32, u32) {
-    let settings = Settings { workers, oversubscribe: true, patience, ..Settings::default() };
+fn phases(plain: &Arc<Plain>, workers: usize, worker_timeout: Duration) -> (u32, u32) {
+    let settings = Settings { workers, oversubscribe: true, worker_timeout, ..Settings::default() };
     let mut pool = Pool::start(plain.clone(), &settings).unwrap();
     let (mut abandoned, mut of_workers) = (0, 0);
     for turn in 0..600 {
@@ -93,6 +93,6 @@ fn main() {
         println!("{workers} workers ran {of_workers} of {} blocks", 600 * BLOCKS);
         plain.slow.store(true, Ordering::Relaxed);
         let (abandoned, _) = phases(&plain, workers, Duration::ZERO);
-        println!("{workers} workers, no patience: {abandoned} of 600 phases abandoned");
+        println!("{workers} workers, a worker timeout of nothing: {abandoned} of 600 phases abandoned");
     }
 }

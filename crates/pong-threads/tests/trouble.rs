@@ -11,7 +11,7 @@ use common::{FOR_EVER, Meet, patient, start, wait_until};
 use pong_threads::{Job, Outcome, Settings};
 
 fn impatient(workers: usize) -> Settings {
-    Settings { patience: Duration::from_millis(1), ..patient(workers) }
+    Settings { worker_timeout: Duration::from_millis(1), ..patient(workers) }
 }
 
 /// While `held`, the first block that a worker gets hangs.

@@ -262,7 +262,7 @@ pub fn set_bristle(surface: &mut Surface, bristle: &Bristle) {
 }
 
 /// Sets the friction of both surfaces of a pair, so that the pair has these values: the ground's bristle is rigid.
-pub fn rub(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
+pub fn with_friction(duo: Duo, bristle: &Bristle) -> Result<Duo, Failure> {
     let (mu, excess) = (bristle.mu, bristle.excess);
     let ground = FrictionLaw::Bristle { mu, static_excess: excess, stiffness: None, damping: 0.0 };
     duo.mover(|s| set_bristle(s, bristle))?.ground(|s| s.friction = ground)

@@ -2,14 +2,14 @@
 
 use super::Arguments;
 use crate::text::number;
-use pong_advise::{ContactAdvice, ContactWish, Coupling, advise_contact};
+use pong_advise::{ContactAdvice, ContactWish, WrenchCoupling, advise_contact};
 
 /// The advice for the depth and restitution that were asked for.
 pub(super) fn advice(
     arguments: &Arguments,
     mass: f64,
     step: Option<f64>,
-    coupling: Coupling,
+    coupling: WrenchCoupling,
     speed: Option<f64>,
 ) -> Result<String, String> {
     let speed = speed.ok_or("--speed: a depth follows from the closing speed; give it")?;

@@ -124,7 +124,7 @@ fn advance(
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
     let bar = progress_bar(built.steps, arguments.quiet);
-    built.simulation.settle().map_err(Failure::Dynamics)?;
+    built.simulation.commit_initial_states().map_err(Failure::Dynamics)?;
     statistics.start(&built.simulation);
     for done in 0..=built.steps {
         if done > 0 {

@@ -40,11 +40,30 @@ impl WrenchCoupling {
         }
     }
 
+    /// How old the force is on average while it acts, in steps: holding it makes it half a step old.
+    pub fn lag(self) -> f64 {
+        match self {
+            Self::Stages | Self::SemiImplicit => 0.0,
+            Self::ZeroOrderHold { delay_frames } => 0.5 + f64::from(delay_frames),
+        }
+    }
+
     /// How many frames late.
     pub(crate) fn delay(self) -> usize {
         match self {
             Self::ZeroOrderHold { delay_frames } => delay_frames as usize,
             Self::Stages | Self::SemiImplicit => 0,
+        }
+    }
+}
+
+impl std::fmt::Display for WrenchCoupling {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Stages => write!(f, "evaluated at every stage"),
+            Self::SemiImplicit => write!(f, "evaluated once a step"),
+            Self::ZeroOrderHold { delay_frames: 0 } => write!(f, "held over a frame"),
+            Self::ZeroOrderHold { delay_frames } => write!(f, "held over a frame, {delay_frames} late"),
         }
     }
 }

@@ -14,7 +14,7 @@ use std::time::Duration;
 /// Every so many calls of the laws on a worker, that worker sleeps; never if 0.
 pub static STALL_EVERY: AtomicU64 = AtomicU64::new(0);
 
-/// How long a worker that stalls sleeps: longer than the patience of the tests.
+/// How long a worker that stalls sleeps: longer than the worker timeout of the tests.
 pub const STALL: Duration = Duration::from_millis(4);
 
 /// Calls on workers since the process began.

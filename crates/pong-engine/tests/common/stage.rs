@@ -162,7 +162,7 @@ impl Stage<'_> {
     pub fn prepare(&mut self, frame: usize) {
         self.switch(frame);
         if let Some(object) = (self.scene.forgets)(frame) {
-            self.world.forget(self.objects[object]).unwrap();
+            self.world.clear_contact_history(self.objects[object]).unwrap();
         }
         self.place(frame);
     }

@@ -104,13 +104,14 @@ fn no_frame_that_hits_a_limit_allocates() {
     assert!(0 < bench.seen.limited && bench.seen.limited < bench.seen.frames, "{}", bench.seen.limited);
 }
 
-/// With more workers than this machine may have cores, and little patience: some are late, some phases are abandoned.
+/// With more workers than this machine may have cores, and a short worker timeout: some are late, some phases are abandoned.
 #[test]
 fn no_frame_with_workers_allocates() {
     let _turn = my_turn();
     for workers in [1, 3] {
-        let patience = std::time::Duration::from_micros(100);
-        let settings = WorkerSettings { workers, oversubscribe: true, patience, ..WorkerSettings::default() };
+        let worker_timeout = std::time::Duration::from_micros(100);
+        let settings =
+            WorkerSettings { workers, oversubscribe: true, worker_timeout, ..WorkerSettings::default() };
         let config = Config { ledger: true, workers: Some(settings), ..Config::default() };
         let (bench, calls) = run(config, FRAMES / 10);
         assert_eq!(calls, []);

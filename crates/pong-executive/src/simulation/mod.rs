@@ -86,7 +86,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A state that the world refuses; a frame whose forces leave the range of numbers.
-    pub fn settle(&mut self) -> Result<(), ExecutiveError> {
+    pub fn commit_initial_states(&mut self) -> Result<(), ExecutiveError> {
         if !self.settled {
             self.system.place(self.time(), &self.states);
             self.system.touch_and_commit(self.time())?;
@@ -117,7 +117,7 @@ impl Simulation {
     /// # Errors
     /// The engine's, or a state that is no longer finite.
     pub fn step(&mut self) -> Result<(), ExecutiveError> {
-        self.settle()?;
+        self.commit_initial_states()?;
         let (time, h) = (self.time(), self.step);
         self.earlier.clone_from(&self.states);
         let Self { system, states, stages, held, .. } = self;
@@ -131,7 +131,7 @@ impl Simulation {
         self.steps += 1;
         let before = self.powers;
         self.settled = false;
-        self.settle()?;
+        self.commit_initial_states()?;
         self.spring_loss += 0.5 * h * (before.spring_heat + self.powers.spring_heat);
         self.work_in += 0.5 * h * (before.work_in + self.powers.work_in);
         match &mut self.contact_work {
@@ -148,7 +148,7 @@ impl Simulation {
     /// Advances by the whole number of steps nearest to a duration (s).
     ///
     /// # Errors
-    /// As a step: see [`settle`](Self::settle).
+    /// As a step: see [`commit_initial_states`](Self::commit_initial_states).
     pub fn run_for(&mut self, duration: f64) -> Result<(), ExecutiveError> {
         let steps = libm::round(duration / self.step).max(0.0) as u64;
         for _ in 0..steps {
@@ -160,14 +160,14 @@ impl Simulation {
     /// Advances by a number of steps; the observer sees the first instant and every `every`-th after it.
     ///
     /// # Errors
-    /// As a step: see [`settle`](Self::settle); also what the observer refuses.
+    /// As a step: see [`commit_initial_states`](Self::commit_initial_states); also what the observer refuses.
     pub fn observe(
         &mut self,
         steps: u64,
         every: u64,
         observer: &mut dyn Observer,
     ) -> Result<(), ExecutiveError> {
-        self.settle()?;
+        self.commit_initial_states()?;
         observer.observe(self)?;
         for done in 1..=steps {
             self.step()?;

@@ -86,7 +86,7 @@ impl Simulation {
         self.system.gravity = gravity;
     }
 
-    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::forget`](pong_engine::World::forget) if it should not.
+    /// Puts a free or fixed body elsewhere. The contacts' past stays: call [`World::clear_contact_history`](pong_engine::World::clear_contact_history) if it should not.
     ///
     /// # Errors
     /// A body that is not there or is on a prescribed path; a pose or twist that is not finite.

@@ -90,11 +90,11 @@ pub fn ellipsoid_piece(e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
 fn ellipsoid_piece_in<S: Simd>(simd: S, e: &Ellipsoid, p: &Polyhedron) -> Option<PieceContact> {
     let prepared = PreparedEllipsoid::new(e);
     let (lead, suspects) = Lead::find(simd, &prepared, p)?;
-    settle(e, &prepared, p, lead, &suspects)
+    choose(e, &prepared, p, lead, &suspects)
 }
 
 /// The contact, of the lead or of a feature of a suspect.
-fn settle(
+fn choose(
     e: &Ellipsoid,
     prepared: &PreparedEllipsoid,
     p: &Polyhedron,

@@ -66,7 +66,7 @@ pub fn build(source: Source, building: &mut Building<'_>, findings: &mut Finding
     };
     let mut model = Model { entry_memory: true, name: building.name.clone(), ..Model::default() };
     model.root = root?;
-    settle(&mut model, settings.unwrap_or_default(), building, findings);
+    apply_settings(&mut model, settings.unwrap_or_default(), building, findings);
     if !findings.faults.is_empty() {
         return None;
     }
@@ -85,7 +85,7 @@ fn size_m(source: &Source) -> f64 {
 }
 
 /// Name, surfaces and pairs of the model.
-fn settle(model: &mut Model, settings: Settings, building: &Building<'_>, findings: &mut Findings) {
+fn apply_settings(model: &mut Model, settings: Settings, building: &Building<'_>, findings: &mut Findings) {
     let scene = format!("{}: scene", building.file);
     if !settings.name.is_empty() {
         model.name = settings.name;

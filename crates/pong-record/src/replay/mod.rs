@@ -237,7 +237,7 @@ impl Replay {
                 self.world.set_pair_enabled(pair, *enabled)?;
             }
             Event::ClearContactHistory { object } => {
-                self.world.forget(find(&self.objects, *object, "object")?)?
+                self.world.clear_contact_history(find(&self.objects, *object, "object")?)?
             }
             Event::Surface { model, name, values } => {
                 let model = find(&self.models, *model, "model")?;

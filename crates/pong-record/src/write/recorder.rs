@@ -310,9 +310,9 @@ impl Recorder {
         self.producer = None;
         let Some(thread) = self.thread.take() else { return };
         thread.thread().unpark();
-        let mut patience = Patience::new(&self.shared, self.longest_wait);
+        let mut limit = WaitLimit::new(&self.shared, self.longest_wait);
         while !thread.is_finished() {
-            if patience.is_at_an_end(&self.shared) {
+            if limit.is_at_an_end(&self.shared) {
                 return self.give_up();
             }
             std::thread::sleep(LOOK);
@@ -439,7 +439,7 @@ impl Recorder {
     fn wait_for(&mut self, room: usize) -> bool {
         let forked = self.is_forked();
         let Some(producer) = self.producer.as_ref().filter(|_| !forked) else { return false };
-        let mut patience = None;
+        let mut limit = None;
         loop {
             if producer.slots() >= room {
                 return true;
@@ -451,8 +451,8 @@ impl Recorder {
                 return false;
             };
             thread.thread().unpark();
-            let patience = patience.get_or_insert_with(|| Patience::new(&self.shared, self.longest_wait));
-            if patience.is_at_an_end(&self.shared) {
+            let limit = limit.get_or_insert_with(|| WaitLimit::new(&self.shared, self.longest_wait));
+            if limit.is_at_an_end(&self.shared) {
                 self.give_up();
                 return false;
             }
@@ -462,13 +462,13 @@ impl Recorder {
 }
 
 /// Ends when the files have taken nothing for too long.
-struct Patience {
+struct WaitLimit {
     alive: u64,
     since: Instant,
     at_most: Duration,
 }
 
-impl Patience {
+impl WaitLimit {
     fn new(shared: &Shared, at_most: Duration) -> Self {
         Self { alive: shared.alive.load(Ordering::Relaxed), since: Instant::now(), at_most }
     }

@@ -45,7 +45,7 @@ fn follow(
     every: u64,
     steps: u64,
 ) -> Result<Record, ExecutiveError> {
-    simulation.settle()?;
+    simulation.commit_initial_states()?;
     let mut recorder = Recorder::new(simulation, per_frame);
     for done in 1..=steps {
         simulation.step()?;
@@ -61,7 +61,7 @@ fn follow(
 pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<u64>, StudyError> {
     let fails = |error: ExecutiveError| StudyError::new(&level.name(frames.frame_s), error);
     let mut simulation = build(scene, level, frames)?.simulation;
-    simulation.settle().map_err(fails)?;
+    simulation.commit_initial_states().map_err(fails)?;
     let mut times = Vec::with_capacity(frames.count as usize);
     for _ in 0..frames.count {
         let begin = Instant::now();

@@ -26,7 +26,7 @@ fn logged(test: &str) -> PathBuf {
     let models: Vec<_> = built.model_files.iter().cloned().map(ModelSource::File).collect();
     let world = built.simulation.world();
     let mut log = Recorder::start(world, &folder, &models, &RecordOptions::default()).unwrap();
-    built.simulation.settle().unwrap();
+    built.simulation.commit_initial_states().unwrap();
     for done in 0..=built.steps {
         if done > 0 {
             built.simulation.step().unwrap();

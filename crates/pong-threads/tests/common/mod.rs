@@ -18,9 +18,9 @@ pub fn wait_until(what: &str, condition: impl Fn() -> bool) {
     }
 }
 
-/// As many workers as asked for, wherever they find room, and a caller who does not lose patience.
+/// As many workers as asked for, wherever they find room, and a caller who waits without end.
 pub fn patient(workers: usize) -> Settings {
-    Settings { workers, oversubscribe: true, patience: FOR_EVER, ..Settings::default() }
+    Settings { workers, oversubscribe: true, worker_timeout: FOR_EVER, ..Settings::default() }
 }
 
 pub fn start(job: &Arc<impl Job>, settings: &Settings) -> Pool {

@@ -1,6 +1,6 @@
 //! V9: a block slides to a stop.
 
-use crate::scene::{Bristle, Duo, G, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
 use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
 
@@ -18,7 +18,7 @@ const SPEED: f64 = 5.0;
 
 fn rows() -> Outcome {
     let duo = Duo::new("block_rough", "ground_rough")?.mover(|s| set_damping(s, 200.0))?;
-    let duo = rub(duo, &Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 120.0 })?;
+    let duo = with_friction(duo, &Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 120.0 })?;
     let body = RigidBody::free("block", MassProperties::cuboid(MASS, [0.2, 0.2, 0.1]))
         .at(Pose { position: Vec3::z() * (0.05 - MASS * G / 4e5), ..Pose::identity() })
         .moving(Twist { linear: Vec3::new(0.6 * SPEED, 0.8 * SPEED, 0.0), angular: Vec3::zeros() });

@@ -1,7 +1,7 @@
 //! W7: friction survives the crossing from facet to facet.
 
 use super::rolling::{RADIUS, down_slope};
-use crate::scene::{Bristle, Duo, rub};
+use crate::scene::{Bristle, Duo, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_engine::State;
 use pong_executive::Vec3;
@@ -54,7 +54,8 @@ fn along_ridge(way: f64) -> (Vec3, Vec3) {
 
 fn over_the_ridge() -> Result<[Row; 3], Failure> {
     let bristle = Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 0.0 };
-    let duo = rub(Duo::new("ridge_rough", "ball_rough")?.mover(|s| s.stiffness = STIFFNESS)?, &bristle)?;
+    let duo =
+        with_friction(Duo::new("ridge_rough", "ball_rough")?.mover(|s| s.stiffness = STIFFNESS)?, &bristle)?;
     let (mut world, [ridge, ball]) = duo.world()?;
     world.set_state(ridge, &State::identity())?;
     let [mut depth_off, mut length_off, mut heading_off] = [0.0_f64; 3];

@@ -1,7 +1,7 @@
 //! V18: friction knows no axes.
 
 use crate::measure::{bisect, radians};
-use crate::scene::{Bristle, Duo, point_mass, rub};
+use crate::scene::{Bristle, Duo, point_mass, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_engine::{Contact, InterfaceId, State, World};
 use pong_executive::{Integrator, Load, Pose, RigidBody, Vec3};
@@ -26,7 +26,7 @@ const P_K: f64 = MU_K * PRESS / TANGENTIAL;
 
 fn duo(damping: f64) -> Result<Duo, Failure> {
     let excess = MU_S / MU_K - 1.0;
-    rub(
+    with_friction(
         Duo::new("point_rough", "ground_rough")?.mover(|s| s.stiffness = STIFFNESS)?,
         &Bristle { mu: MU_K, excess, stiffness: TANGENTIAL, damping },
     )

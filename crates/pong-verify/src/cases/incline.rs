@@ -1,7 +1,7 @@
 //! V8 and W4: a block on an incline, held by a bristle, and creeping under regularised friction.
 
 use crate::measure::{radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, point_mass, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
@@ -29,7 +29,7 @@ const STEP: f64 = 1e-3;
 
 fn block(ground: RigidBody, start: Pose) -> Result<Run, Failure> {
     let duo = Duo::new("block_rough", "ground_rough")?.mover(|s| set_damping(s, 200.0))?;
-    let duo = rub(duo, &Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 120.0 })?;
+    let duo = with_friction(duo, &Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 120.0 })?;
     let body = RigidBody::free("block", MassProperties::cuboid(MASS, [0.2, 0.2, 0.1])).at(start);
     duo.simulate((Integrator::RungeKutta4, STEP), body, ground)
 }

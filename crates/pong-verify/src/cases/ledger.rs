@@ -2,7 +2,7 @@
 
 use super::bounce::clamped_restitution;
 use crate::measure::order;
-use crate::scene::{Bristle, Duo, G, point_mass, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, point_mass, set_damping, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Twist, Vec3};
 
@@ -26,10 +26,10 @@ fn balance(step: f64) -> Result<[f64; 3], Failure> {
     let body = RigidBody::free("block", MassProperties::cuboid(MASS, [0.2, 0.2, 0.1]))
         .at(Pose { position: Vec3::z() * (rest - 2e-5), ..Pose::identity() })
         .moving(Twist { linear: Vec3::x(), angular: Vec3::zeros() });
-    let mut run = rub(duo, &bristle)?
+    let mut run = with_friction(duo, &bristle)?
         .simulate((Integrator::RungeKutta4, step), body, RigidBody::fixed("ground"))?
         .with_gravity();
-    run.sim.settle()?;
+    run.sim.commit_initial_states()?;
     let balances = |run: &crate::scene::Run| {
         let energy = run.sim.energy();
         [energy.mechanical() + run.sim.world().ledger().dissipated, energy.balance()]
@@ -66,7 +66,7 @@ fn held() -> Result<Row, Failure> {
     let (stiffness, pull) = (1e5, 3.0);
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 400.0 };
     let duo = Duo::with_ledger("point_rough", "ground_rough", true)?.mover(|s| set_damping(s, 600.0))?;
-    let mut run = rub(duo, &bristle)?
+    let mut run = with_friction(duo, &bristle)?
         .simulate((Integrator::RungeKutta4, 1e-3), point_mass(MASS), RigidBody::fixed("ground"))?
         .with_gravity();
     // The pull comes when the mass has settled.

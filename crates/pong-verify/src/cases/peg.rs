@@ -66,7 +66,7 @@ fn let_go(insertion: f64) -> Result<(f64, f64), Failure> {
     let peg = RigidBody::free("peg", mass)
         .at(Pose { position: tip(lean), orientation: rotation(Vec3::y() * lean) });
     let mut run = duo.simulate((Integrator::RungeKutta4, 1e-5), peg, RigidBody::fixed("hole"))?;
-    run.sim.settle()?;
+    run.sim.commit_initial_states()?;
     if run.contacts().len() != 4 {
         return Err(format!("{} contacts at the start instead of four", run.contacts().len()).into());
     }

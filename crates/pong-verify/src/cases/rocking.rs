@@ -5,7 +5,7 @@
 //! turns about the lowest point, where the radius of curvature is a²/c.
 
 use crate::measure::{Crossings, rotation};
-use crate::scene::{Bristle, Duo, G, Run, rub};
+use crate::scene::{Bristle, Duo, G, Run, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
@@ -50,10 +50,12 @@ fn rows() -> Outcome {
         .with_gravity();
     let free = (MASS * G * (a * a - c * c) / (c * inertia)).sqrt();
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 1e7, damping: 5000.0 };
-    let rough =
-        rub(Duo::new("ground_rough", "ellipsoid_rough")?.mover(|s| s.stiffness = STIFFNESS)?, &bristle)?
-            .simulate((Integrator::RungeKutta4, 2e-4), RigidBody::fixed("ground"), egg())?
-            .with_gravity();
+    let rough = with_friction(
+        Duo::new("ground_rough", "ellipsoid_rough")?.mover(|s| s.stiffness = STIFFNESS)?,
+        &bristle,
+    )?
+    .simulate((Integrator::RungeKutta4, 2e-4), RigidBody::fixed("ground"), egg())?
+    .with_gravity();
     let rolling = (MASS * G * (a * a / c - c) / (inertia + MASS * c * c)).sqrt();
     Ok(vec![
         Row::relative("without friction: circular frequency", "rad/s", free, frequency(smooth, true)?, 1e-6),

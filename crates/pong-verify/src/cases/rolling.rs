@@ -1,7 +1,7 @@
 //! V10, V11: a rigid ball on ground that yields, slipping and rolling.
 
 use crate::measure::{radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
 
@@ -45,7 +45,7 @@ pub fn ball_on(
     };
     // The ball's surface is rigid, so the ground's values are those of the pair.
     let duo = Duo::new(ground, "ball_rough")?;
-    let duo = rub(duo, &bristle)?.mover(|s| {
+    let duo = with_friction(duo, &bristle)?.mover(|s| {
         s.stiffness = stiffness;
         set_damping(s, 1.4 * (stiffness * MASS).sqrt());
     })?;

@@ -1,7 +1,7 @@
 //! V16, V17: one mass held by a spring on a moving belt, and held by friction for a long time.
 
 use crate::measure::{radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, point_mass, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Load, Path, Pose, RigidBody, Spring, SpringEnd, Twist, Vec3};
 
@@ -34,7 +34,7 @@ fn belt() -> Outcome {
     let belt = RigidBody::prescribed("belt", Path::ConstantTwist { pose: Pose::identity(), twist: along });
     let body =
         point_mass(MASS).at(Pose { position: Vec3::z() * (-press / 1e5), ..Pose::identity() }).moving(along);
-    let mut run = rub(duo, &bristle)?.simulate((Integrator::RungeKutta4, 1e-3), body, belt)?;
+    let mut run = with_friction(duo, &bristle)?.simulate((Integrator::RungeKutta4, 1e-3), body, belt)?;
     run.sim.add_load(Load::force(run.body, Vec3::z() * -press))?;
     let pull = [stiffness, 0.0, 0.0, 0.0, 0.0, 0.0];
     let (wall, hook) = (SpringEnd::ground(Pose::identity()), SpringEnd::on(run.body, Pose::identity()));
@@ -73,7 +73,8 @@ fn belt() -> Outcome {
 
 fn held(integrator: Integrator, slope: f64) -> Result<Run, Failure> {
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 240.0 };
-    let duo = rub(Duo::new("point_rough", "ground_rough")?.mover(|s| set_damping(s, 300.0))?, &bristle)?;
+    let duo =
+        with_friction(Duo::new("point_rough", "ground_rough")?.mover(|s| set_damping(s, 300.0))?, &bristle)?;
     let turn = rotation(Vec3::y() * slope);
     let ground = RigidBody::fixed("ground").at(Pose { position: Vec3::zeros(), orientation: turn });
     let depth = MASS * G * libm::cos(slope) / 1e5;

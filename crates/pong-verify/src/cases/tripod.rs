@@ -4,7 +4,7 @@
 //! N_i = N/3 + k·(r_i·θ) with the tilt θ from 1.5·k·R²·θ = M, M counted at the tilted place.
 
 use crate::measure::{Crossings, radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
 use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
@@ -74,7 +74,10 @@ fn tilted(degrees: f64) -> Result<Vec<Row>, Failure> {
     let slope = radians(degrees);
     let (sine, cosine) = libm::sincos(slope);
     let bristle = Bristle { mu: 0.8, excess: 0.0, stiffness: 1e6, damping: 2000.0 };
-    let duo = rub(Duo::new("tripod_rough", "ground_rough")?.mover(|s| set_damping(s, 2000.0))?, &bristle)?;
+    let duo = with_friction(
+        Duo::new("tripod_rough", "ground_rough")?.mover(|s| set_damping(s, 2000.0))?,
+        &bristle,
+    )?;
     // About y: the plane falls towards +x.
     let turn = rotation(Vec3::y() * slope);
     let ground = RigidBody::fixed("ground").at(Pose { position: Vec3::zeros(), orientation: turn });

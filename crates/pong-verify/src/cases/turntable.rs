@@ -2,7 +2,7 @@
 
 use super::rolling::{MASS, RADIUS};
 use crate::measure::Crossings;
-use crate::scene::{Bristle, Duo, G, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
 use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Path, Pose, RigidBody, Twist, Vec3};
 
@@ -22,7 +22,7 @@ const SPEED: f64 = 0.1;
 fn rows() -> Outcome {
     let stiffness = 1e5;
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 260.0 };
-    let duo = rub(Duo::new("ground_rough", "ball_rough")?, &bristle)?.mover(|s| {
+    let duo = with_friction(Duo::new("ground_rough", "ball_rough")?, &bristle)?.mover(|s| {
         s.stiffness = stiffness;
         set_damping(s, 440.0);
     })?;

@@ -102,7 +102,7 @@ impl Drop {
         let body = sim.add_body(RigidBody::free("mass", mass).at(start).touching(rig.sides[0]))?;
         sim.add_body(RigidBody::fixed("ground").touching(rig.sides[1]))?;
         sim.set_gravity(Vec3::new(0.0, 0.0, -GRAVITY));
-        sim.settle()?;
+        sim.commit_initial_states()?;
         Ok((sim, body))
     }
 

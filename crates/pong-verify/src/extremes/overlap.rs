@@ -45,7 +45,7 @@ fn let_go(ground: &str, depth: f64) -> Result<(f64, f64), Failure> {
     let mass = MassProperties::principal(1.0, [1e9; 3]);
     let body = sim.add_body(RigidBody::free("ball", mass).at(start).touching(rig.sides[0]))?;
     sim.add_body(RigidBody::fixed("ground").touching(rig.sides[1]))?;
-    sim.settle()?;
+    sim.commit_initial_states()?;
     // Off the middle of a ball it is less deep than it is low.
     let depth = sim.world().contacts_iter().map(|contact| contact.depth).fold(depth.min(0.0), f64::max);
     sim.run_for(4.0 / omega)?;

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::measure::{radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, point_mass, rub, set_damping};
+use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
 use pong_engine::State;
 use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 
@@ -110,7 +110,7 @@ fn duo(soft: &str, rigid: &str, damping: f64, bristle: &Bristle) -> Result<Duo, 
         s.stiffness = STIFFNESS;
         set_damping(s, damping);
     })?;
-    rub(duo, bristle)
+    with_friction(duo, bristle)
 }
 
 fn bristle(mu: f64, stiffness: f64) -> Bristle {

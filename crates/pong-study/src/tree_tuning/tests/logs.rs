@@ -29,7 +29,7 @@ fn log(folder: &Folder) -> PathBuf {
     for n in 0..300_u32 {
         match n {
             80 => {
-                world.forget(ball).unwrap();
+                world.clear_contact_history(ball).unwrap();
                 recorder.forgot(ball);
             }
             100 | 120 => {
