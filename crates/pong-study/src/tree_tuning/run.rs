@@ -158,7 +158,8 @@ impl Run {
         let mut gatherer = Gatherer::new(rows);
         for frame in 0..self.frames {
             gatherer.before(built.simulation.world()).map_err(refused)?;
-            let moved = if frame == 0 { built.simulation.commit_initial_states() } else { built.simulation.step() };
+            let moved =
+                if frame == 0 { built.simulation.commit_initial_states() } else { built.simulation.step() };
             moved.map_err(|error| StudyError::new(&self.name, error))?;
             gatherer.after(built.simulation.world(), &bodies, Commit::All).map_err(refused)?;
             tick(frame + 1);
