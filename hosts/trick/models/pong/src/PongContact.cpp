@@ -94,7 +94,7 @@ int PongContact::initialize() {
 int PongContact::evaluate() {
     return guarded("evaluate", [&] {
         /* The first stage of a step stands where the last step ended. Its wrench is that of the commit. To evaluate
-         * once more would give it again only to rounding: friction that slips is exactly at its limit then. */
+         * once more would give it again to rounding, but not always to the last bit, because bristles have moved. */
         if (at_committed_states()) {
             for (int i = 0; i < port_count; i++) {
                 std::memcpy(ports[i].force, committed_wrench[i], sizeof ports[i].force);
