@@ -48,13 +48,13 @@ SENSOR = "<sensor><plugin name='contact' instance='c'/></sensor>"
 
 
 def ball_on_ground(place="0 0 0.2", mass=1.0, capacity=64, more=SENSOR, integrator="Euler", timestep=1e-3, gravity="0 0 -9.81",
-                   joints=None, flags="", **surface):
+                   joints=None, flags="", check="true", **surface):
     """One ball above a plane. `joints` replaces the free joint."""
     body = FREE.format(place=place, mass=mass, i=0.4 * mass * 0.01)
     if joints is not None:
         body = body.replace("<freejoint/>", joints)
     inside = instance("ball = text1; ground = text2", bodies="ground = world", text1=ball_model(**surface), text2=GROUND,
-                      contact_capacity=capacity)
+                      contact_capacity=capacity, check_step=check)
     text = mjcf(body, inside, integrator, timestep, gravity, more, flags)
     return mujoco.MjModel.from_xml_string(text)
 

@@ -59,6 +59,31 @@ class ClosedForms(unittest.TestCase):
                 self.assertEqual(d.sensordata[0], 1)
                 np.testing.assert_allclose(d.sensordata[3:], [0, 0, 9.81, 0, 0, 0, 0, 0, -9.81, 0, 0, 0], atol=1e-7)
 
+    def settles(self, integrator, damping_number, stiffness_number):
+        """Whether a ball at rest comes to rest again when it is pushed a little: h·c/m and h·√(k/m) as given."""
+        h = 1e-3
+        m = ball_on_ground("0 0 0.09", integrator=integrator, timestep=h, stiffness=(stiffness_number / h) ** 2,
+                           damping=damping_number / h, gravity=f"0 0 {-0.01 * (stiffness_number / h) ** 2}", check="false")
+        d = mujoco.MjData(m)
+        d.qvel[2] = 1e-4
+        speeds = []
+        for _ in range(40):
+            mujoco.mj_step(m, d)
+            speeds.append(abs(d.qvel[2]))
+        return max(speeds[30:]) < 1e-4
+
+    def test_limits_of_stability(self):
+        # Contact is explicit: 2·h·c/m + h²·k/m < 4 with one evaluation a step, whatever is implicit in MuJoCo. RK4: |R(z)| < 1 at
+        # both roots z of z² + (h·c/m)·z + h²·k/m = 0.
+        def growth(c, k):
+            return max(abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24) for z in np.roots([1, c, k * k]))
+
+        for c, k in ((1.9, 0.1), (2.1, 0.1), (0.9, 1.3), (0.9, 1.6), (0.1, 1.9), (0.1, 2.05)):
+            for integrator in INTEGRATORS:
+                with self.subTest(integrator=integrator, damping=c, stiffness=k):
+                    expected = growth(c, k) < 1 if integrator == "RK4" else 2 * c + k * k < 4
+                    self.assertEqual(self.settles(integrator, c, k), expected)
+
     def test_bristle_holds_on_a_slope(self):
         # Gravity leans by atan 0.2, friction 0.5 holds: the bristle is deflected by m·g_x/k_t. Without a commit in each step
         # it would have no memory, and the ball would slide away.
