@@ -63,6 +63,20 @@ static int take_memory(contact_host *host, message *why)
     return 1;
 }
 
+int count_sensor_numbers(size_t groups) { return 3 + 6 * (int)groups; }
+
+/* MuJoCo sized its arrays when the model was compiled, perhaps long ago and into a binary file. */
+static int refuse_changed_files(const contact_host *host, const mjModel *m, int instance, message *why)
+{
+    int sensor, fits = m->plugin_statenum[instance] == state_length(host->at.group_count, host->at.state_size);
+    for (sensor = 0; sensor < m->nsensor; sensor++)
+        if (m->sensor_type[sensor] == mjSENS_PLUGIN && m->sensor_plugin[sensor] == instance)
+            fits = fits && m->sensor_dim[sensor] == count_sensor_numbers(host->at.group_count);
+    return fits ? 1
+                : fail(why, "the model files are not those that this mjModel was compiled with: they have other movable groups or "
+                            "surfaces now; compile the MJCF again");
+}
+
 int measure_instance(const mjModel *m, int instance, int *state_numbers, int *groups)
 {
     contact_config config;
@@ -123,7 +137,8 @@ contact_host *make_host(const mjModel *m, const mjData *d, int instance)
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), "no memory");
         return NULL;
     }
-    if (!build_world(&host->at, m, instance, &why) || !take_memory(host, &why)) {
+    if (!build_world(&host->at, m, instance, &why) || !take_memory(host, &why) ||
+        !refuse_changed_files(host, m, instance, &why)) {
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), why.text);
         close_host(host);
         return NULL;

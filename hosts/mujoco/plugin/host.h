@@ -40,6 +40,9 @@ contact_host *find_host(const mjModel *m, const mjData *d, int instance);
 
 void delete_host(const mjData *d, int instance);
 
+/* Numbers of a sensor: count of contacts, PONG_FLAG_..., PONG_STATUS_...; then force and moment on each movable group. */
+int count_sensor_numbers(size_t groups);
+
 /* Numbers of the state and movable groups of an instance. Answers 0 if it cannot be built; making the mjData tells why. */
 int measure_instance(const mjModel *m, int instance, int *state_numbers, int *groups);
 

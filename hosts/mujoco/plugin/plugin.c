@@ -4,9 +4,6 @@
 
 #include <string.h>
 
-/* Count of contacts, PONG_FLAG_..., PONG_STATUS_...; then force and moment on each movable group. */
-enum { SENSOR_HEAD = 3, SENSOR_GROUP = 6 };
-
 static int count_state(const mjModel *m, int instance)
 {
     int numbers, groups;
@@ -19,7 +16,7 @@ static int count_sensor_data(const mjModel *m, int instance, int sensor)
     int numbers, groups;
     (void)sensor;
     measure_instance(m, instance, &numbers, &groups);
-    return SENSOR_HEAD + SENSOR_GROUP * groups;
+    return count_sensor_numbers((size_t)groups);
 }
 
 static int init(const mjModel *m, mjData *d, int instance) { return make_host(m, d, instance) != NULL ? 0 : -1; }
@@ -57,12 +54,12 @@ static void write_sensors(const contact_host *host, const mjModel *m, mjData *d)
         mjtNum *numbers = d->sensordata + m->sensor_adr[sensor];
         if (m->sensor_type[sensor] != mjSENS_PLUGIN || m->sensor_plugin[sensor] != host->instance)
             continue;
-        numbers[0] = host->contact_count;
-        numbers[1] = host->flags;
-        numbers[2] = host->status;
-        for (i = 0; i < host->at.group_count; i++) {
-            mju_copy3(numbers + SENSOR_HEAD + SENSOR_GROUP * i, host->wrenches[i].force);
-            mju_copy3(numbers + SENSOR_HEAD + SENSOR_GROUP * i + 3, host->wrenches[i].moment);
+        *numbers++ = host->contact_count;
+        *numbers++ = host->flags;
+        *numbers++ = host->status;
+        for (i = 0; i < host->at.group_count; i++, numbers += 6) {
+            mju_copy3(numbers, host->wrenches[i].force);
+            mju_copy3(numbers + 3, host->wrenches[i].moment);
         }
     }
 }

@@ -8,28 +8,36 @@
 
 /* ---- models, Objects, pairs */
 
-static int load_model(contact_world *w, const contact_config *config, const char *model, pong_model_id *id, message *why)
+static int load_text(contact_world *w, const contact_config *config, const char *name, const char *text, pong_model_id *id,
+                     message *why)
+{
+    if (*text == '\0')
+        return fail(why, "the key `objects` names the model `%s`, but the key `%s` is missing or empty", name, name);
+    if (pong_load_model_text(w->world, text, strlen(text), name, *config->folder != '\0' ? config->folder : NULL, id) !=
+        PONG_STATUS_OK)
+        return fail(why, "%s", pong_last_message());
+    return 1;
+}
+
+static int load_file(contact_world *w, const contact_config *config, const char *file, pong_model_id *id, message *why)
 {
     char path[1024], working_folder[1024];
-    const char *text = inline_text(config, model);
-    pong_status status;
-    if (text != NULL) {
-        if (*text == '\0')
-            return fail(why, "the key `objects` names the model `%s`, but the key `%s` is missing or empty", model, model);
-        status = pong_load_model_text(w->world, text, strlen(text), model, *config->folder != '\0' ? config->folder : NULL, id);
-    } else {
-        const char *slash = *config->folder != '\0' ? "/" : "";
-        const char *folder = *model == '/' ? "" : config->folder;
-        if (snprintf(path, sizeof path, "%s%s%s", folder, *model == '/' ? "" : slash, model) >= (int)sizeof path)
-            return fail(why, "the path of the model `%s` is longer than %u characters", model, (unsigned)sizeof path);
-        status = pong_load_model(w->world, path, id);
-    }
-    if (status == PONG_STATUS_OK)
+    const int is_below = *file != '/' && *config->folder != '\0';
+    if (snprintf(path, sizeof path, "%s%s%s", is_below ? config->folder : "", is_below ? "/" : "", file) >= (int)sizeof path)
+        return fail(why, "the path of the model `%s` is longer than %u characters", file, (unsigned)sizeof path);
+    if (pong_load_model(w->world, path, id) == PONG_STATUS_OK)
         return 1;
-    if (text == NULL && path[0] != '/' && getcwd(working_folder, sizeof working_folder) != NULL)
+    /* The plugin cannot know where the MJCF file is, so this is the mistake to expect. */
+    if (*path != '/' && access(path, F_OK) != 0 && getcwd(working_folder, sizeof working_folder) != NULL)
         return fail(why, "%s (seen from the working folder `%s`; give the key `dir` as an absolute path)", pong_last_message(),
                     working_folder);
     return fail(why, "%s", pong_last_message());
+}
+
+static int load_model(contact_world *w, const contact_config *config, const char *model, pong_model_id *id, message *why)
+{
+    const char *text = inline_text(config, model);
+    return text != NULL ? load_text(w, config, model, text, id, why) : load_file(w, config, model, id, why);
 }
 
 static int add_groups(contact_world *w, const char *object_name, pong_object_id object, message *why)

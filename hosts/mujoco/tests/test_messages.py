@@ -185,6 +185,26 @@ for bad in (np.nan, -1.0, 0.5, 1e300, 2.0**40):
 """
         self.assertEqual(self.warnings_of(program).count("mj_resetData()"), 10)
 
+    def test_more_movable_groups_than_were_compiled(self):
+        program = """
+import pathlib
+pathlib.Path("ball.ron").write_text(ball_model())
+with_arm = ball_model().replace("primitives: [", 'groups: [(name: "arm", movable: true, primitives: '
+    '[Sphere(name: "s", center: (0, 0, 0), radius: 0.1)]), (name: "skin", primitives: [')[:-2] + ")]))"
+inside = instance("ball = ball.ron; ground = text1", bodies="ground = world", text1=GROUND)
+bodies = FREE.format(place="0 0 .3", mass=1, i=.004)
+m = mujoco.MjModel.from_xml_string(mjcf(bodies + bodies.replace("'ball'", "'ball/arm'"), inside, more=SENSOR))
+mujoco.MjData(m)
+pathlib.Path("ball.ron").write_text(with_arm)
+try:
+    mujoco.MjData(m)
+except mujoco.FatalError:
+    print("refused")
+"""
+        said = self.warnings_of(program)
+        self.assertIn("the model files are not those that this mjModel was compiled with", said)
+        self.assertIn("refused", said)
+
     def test_sleep(self):
         # MuJoCo compiles as if sleep were disabled; making an mjData is what fails.
         program = """
