@@ -265,16 +265,15 @@ static pong_mass mass_of(const mjModel *m, int body)
     pong_mass mass;
     int other, welded = 0;
     memset(&mass, 0, sizeof mass);
-    if (m->body_weldid[body] == 0) {
-        mass.mass = INFINITY;
-        return mass;
-    }
     for (other = 1; other < m->nbody; other++)
         if (m->body_weldid[other] == m->body_weldid[body]) {
             mass.mass += m->body_mass[other];
             welded++;
         }
-    if (welded == 1) {
+    /* The world and what the host prescribes do not yield. */
+    if (m->body_weldid[body] == 0 || m->body_mocapid[m->body_weldid[body]] >= 0) {
+        mass.mass = INFINITY;
+    } else if (welded == 1) {
         mjtNum axes[9];
         const mjtNum *principal = m->body_inertia + 3 * body;
         static const int rows[6] = {0, 1, 2, 0, 0, 1}, columns[6] = {0, 1, 2, 1, 2, 2};
@@ -299,10 +298,10 @@ int plan_step(contact_world *w, const mjModel *m, message *why)
     for (i = 0; i < w->group_count; i++) {
         pong_mass mass = mass_of(m, w->bodies[i]);
         if (pong_set_mass(w->world, w->interfaces[i], &mass) != PONG_STATUS_OK)
-            return fail_by_library(why, w->names[i]);
+            return fail(why, "%s; or leave the check out: key `check_step`, value `false`", pong_last_message());
     }
     if (pong_plan_step(w->world, &plan) != PONG_STATUS_OK)
-        return fail_by_library(why, "option timestep");
+        return fail(why, "%s; or leave the check out: key `check_step`, value `false`", pong_last_message());
     return 1;
 }
 
