@@ -26,7 +26,7 @@ pub struct pong_energy_account {
     /// What the bodies got back: work of the wrench on them, where it was positive.
     pub work_out: f64,
     /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
-    /// began while its pair touched already: what it may have taken over from another.
+    /// began while its pair was in contact already: what it may have taken over from another.
     pub inserted: f64,
     /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
     pub hold_error: f64,
@@ -44,8 +44,8 @@ pub struct pong_energy_account {
     pub reserved: u32,
 }
 
-/// Accounts of two movable groups. A touch lasts from their first contact until nothing of them touches any more, and no
-/// late wrench is on its way.
+/// Accounts of two movable groups. A contact episode lasts from their first contact until nothing of them touches any
+/// more, and no delayed wrench is on its way.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct pong_pair_energy_account {
@@ -55,21 +55,21 @@ pub struct pong_pair_energy_account {
     pub interfaces: [pong_interface_id; 2],
     /// Since the world began.
     pub total: pong_energy_account,
-    /// Of the touch that lasts; zero if none does.
+    /// Of the contact episode that lasts; zero if none does.
     pub episode: pong_energy_account,
-    /// 1 if a touch lasts.
+    /// 1 if an episode lasts.
     pub in_contact: i32,
-    /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
+    /// 1 if an episode, over or not, has gained energy. What to do: pong_pair_remedy().
     pub gains_energy: i32,
-    /// Touches that have ended.
+    /// Episodes that have ended.
     pub episodes: u64,
-    /// Of those, the ones that returned more than they took.
+    /// Of those, the ones that gained energy.
     pub episodes_gained: u64,
     /// Of those, the ones of which the accounts cannot tell.
     pub episodes_unresolved: u64,
-    /// What touches returned too much, all together, J.
+    /// Energy that the episodes gained, all together, J.
     pub excess: f64,
-    /// What one touch returned too much at most, J.
+    /// Energy that one episode gained, at most, J.
     pub worst_excess: f64,
     /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
     pub stiffness: f64,

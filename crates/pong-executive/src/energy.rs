@@ -156,13 +156,12 @@ impl Simulation {
         let mut text = format!("`{first}` and `{second}`: ");
         if pair.episodes_gained > 0 {
             text += &format!(
-                "{} of {} touches returned more energy than they took, {:.3e} J in all and {:.3e} J at most; ",
+                "{} of {} contact episodes gained energy, {:.3e} J in all and {:.3e} J at most; ",
                 pair.episodes_gained, pair.episodes, pair.excess, pair.worst_excess
             );
         }
         if pair.episode.verdict() == Verdict::Gained {
-            text +=
-                &format!("the contact that lasts has returned {:.3e} J too much; ", pair.episode.excess());
+            text += &format!("the contact that lasts has gained {:.3e} J; ", pair.episode.excess());
         }
         text += &pair.remedy();
         if let (WrenchCoupling::ZeroOrderHold { delay_frames }, Some((k, _))) = (pair.coupling, pair.stiffest)

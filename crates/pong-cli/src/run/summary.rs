@@ -137,14 +137,14 @@ fn accounts(simulation: &Simulation) -> String {
     }
     let heading = [
         "contact energy",
-        "taken J",
-        "returned J",
+        "work in J",
+        "work out J",
         "stored J",
         "damping J",
         "friction J",
-        "made by holding J",
-        "touches",
-        "returned more",
+        "hold error J",
+        "episodes",
+        "gained",
         "unresolved",
     ];
     table::aligned(&heading, &rows)
