@@ -102,8 +102,8 @@ def docking():
   <visual>
     <global azimuth="150" elevation="-15" offwidth="1280" offheight="800"/>
     <map znear="0.02" zfar="100" force="3"/>
-    <headlight ambient="0.45 0.45 0.45" diffuse="0.6 0.6 0.6"/>
-    <rgba contactforce="1 0.9 0.2 1"/>
+    <headlight ambient="0.5 0.5 0.5" diffuse="0.7 0.7 0.7"/>
+    <rgba contactforce="0.8 0.1 0.5 1"/>
   </visual>
   <extension>
     <plugin plugin="pong.contact">
@@ -114,7 +114,7 @@ def docking():
     </plugin>
   </extension>
   <asset>
-    <texture type="skybox" builtin="gradient" rgb1="0.35 0.4 0.5" rgb2="0.1 0.1 0.15" width="64" height="384"/>
+    <texture type="skybox" builtin="gradient" rgb1="1 1 1" rgb2="0.75 0.8 0.85" width="64" height="384"/>
     {indent.join(assets + more_assets)}
   </asset>
   <worldbody>
