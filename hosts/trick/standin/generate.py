@@ -89,6 +89,9 @@ def simulation(define, headers):
             call = "v.allocated" if star else "each"
             print(f'    {call}({"" if star else "v, "}name + ".{field}", x.{field});')
         print("}")
+    # Trick's Python interface assigns members as a whole.
+    for name in tables:
+        print(f"void assigned({name} &to, const {name} &from) {{ to = from; }}")
     print("template <class Visitor> void everything(Visitor &v) {")
     for kind, name in objects:
         for member_kind, member in members:

@@ -33,10 +33,23 @@ class PongPort {
 #define PONG_STATE_NUMBERS 13
 #define PONG_WRENCH_NUMBERS 6
 
+/* Owner of a world. Trick's Python interface assigns members of simulation objects as a whole; an assignment does not
+ * copy the world, which the owner keeps for itself. */
+class PongContactOwner {
+  public:
+    PongContactOwner() : world(0) {}
+    PongContactOwner(const PongContactOwner &) : world(0) {}
+    PongContactOwner &operator=(const PongContactOwner &) { return *this; }
+    ~PongContactOwner() { destroy(); }
+
+    void destroy();
+
+    PongContactWorld *world;    /* ** (--) Not part of a checkpoint: the restart job builds it again */
+};
+
 class PongContact {
   public:
     PongContact();
-    ~PongContact();
 
     /* Jobs: which job class each belongs to is in SIM_berthing/S_define. */
     int initialize();
@@ -72,15 +85,12 @@ class PongContact {
     unsigned int contact_state_bytes;  /* (--) Size of contact_state */
 
   private:
-    PongContactWorld *world;           /* ** (--) Not part of a checkpoint: the restart job builds it again */
+    PongContactOwner owner;            /* ** (--) Of the world */
 
     void build();
     void send_states();
     void fetch_wrenches();
     bool at_committed_states() const;
-
-    PongContact(const PongContact &);
-    PongContact &operator=(const PongContact &);
 };
 
 #endif

@@ -58,9 +58,12 @@ PongPort::PongPort() : position(), orientation(), linear_velocity(), angular_vel
 PongContact::PongContact()
     : models("."), port_count(0), pair_count(0), workers(0), fifo_priority(0), contacts(0), flags(0),
       flagged_frames(0), committed(0), committed_state(), committed_wrench(), contact_state(NULL),
-      contact_state_bytes(0), world(NULL) {}
+      contact_state_bytes(0) {}
 
-PongContact::~PongContact() { delete world; }
+void PongContactOwner::destroy() {
+    delete world;
+    world = NULL;
+}
 
 int PongContact::add_port(const std::string &object, const std::string &model, const std::string &group) {
     return guarded("add_port", [&] {
@@ -103,7 +106,7 @@ int PongContact::evaluate() {
             return;
         }
         send_states();
-        world->world.evaluate();
+        owner.world->world.evaluate();
         fetch_wrenches();
     });
 }
@@ -112,7 +115,7 @@ int PongContact::evaluate() {
 int PongContact::commit() {
     return guarded("commit", [&] {
         send_states();
-        world->world.commit();
+        owner.world->world.commit();
         fetch_wrenches();
         for (int i = 0; i < port_count; i++) {
             copy_state(ports[i], committed_state[i]);
@@ -127,7 +130,7 @@ int PongContact::commit() {
 /* The contact state becomes an array in Trick's memory, so that Trick writes it with everything else. */
 int PongContact::checkpoint() {
     return guarded("checkpoint", [&] {
-        const std::vector<unsigned char> bytes = world->world.save_contact_state();
+        const std::vector<unsigned char> bytes = owner.world->world.save_contact_state();
         if (contact_state != NULL) {
             TMM_delete_var_a(contact_state);
         }
@@ -146,30 +149,29 @@ int PongContact::restart() {
         build();
         if (contact_state != NULL) {
             const std::vector<unsigned char> bytes(contact_state, contact_state + contact_state_bytes);
-            world->world.restore_contact_state(bytes);
+            owner.world->world.restore_contact_state(bytes);
         }
     });
 }
 
 int PongContact::freeze() {
     return guarded("freeze", [&] {
-        if (world != NULL) {
-            world->world.quiesce();
+        if (owner.world != NULL) {
+            owner.world->world.quiesce();
         }
     });
 }
 
 int PongContact::unfreeze() {
     return guarded("unfreeze", [&] {
-        if (world != NULL) {
-            world->world.prewake(UNFREEZE_PREWAKE);
+        if (owner.world != NULL) {
+            owner.world->world.prewake(UNFREEZE_PREWAKE);
         }
     });
 }
 
 int PongContact::shutdown() {
-    delete world;
-    world = NULL;
+    owner.destroy();
     return 0;
 }
 
@@ -181,58 +183,59 @@ void PongContact::build() {
     config.workers = workers;
     config.pin_workers = workers > 0;
     config.fifo_priority = fifo_priority;
-    world = new PongContactWorld(config);
+    owner.world = new PongContactWorld(config);
 
     std::map<std::string, pong_model_id> loaded;
     std::map<std::string, pong_object_id> objects;
     for (int i = 0; i < port_count; i++) {
         const PongPort &port = ports[i];
         if (loaded.count(port.model) == 0) {
-            loaded[port.model] = world->world.load_model(models + "/" + port.model);
+            loaded[port.model] = owner.world->world.load_model(models + "/" + port.model);
         }
         if (objects.count(port.object) == 0) {
-            objects[port.object] = world->world.create_object(loaded[port.model], port.object);
+            objects[port.object] = owner.world->world.create_object(loaded[port.model], port.object);
         }
-        world->interfaces.push_back(world->world.interface(objects[port.object], port.group));
+        owner.world->interfaces.push_back(owner.world->world.interface(objects[port.object], port.group));
     }
     for (int i = 0; i < pair_count; i++) {
-        world->world.pair(first[i], second[i]);
+        owner.world->world.pair(first[i], second[i]);
     }
-    const pong::SealReport sealed = world->world.seal();
+    const pong::SealReport sealed = owner.world->world.seal();
     for (size_t i = 0; i < sealed.warning_count; i++) {
-        message_publish(MSG_WARNING, "PongContact: %s\n", world->world.seal_warning(i));
+        message_publish(MSG_WARNING, "PongContact: %s\n", owner.world->world.seal_warning(i));
     }
     for (size_t i = 1; i <= sealed.workers; i++) {
-        message_publish(MSG_INFO, "PongContact: %s\n", world->world.worker_text(i));
+        message_publish(MSG_INFO, "PongContact: %s\n", owner.world->world.worker_text(i));
     }
-    world->states.resize(port_count, pong_default_state());
-    world->wrenches.resize(port_count);
+    owner.world->states.resize(port_count, pong_default_state());
+    owner.world->wrenches.resize(port_count);
 }
 
 void PongContact::send_states() {
-    if (world == NULL) {
+    if (owner.world == NULL) {
         throw std::runtime_error("there is no world; call initialize() in an initialization job of the S_define, and "
                                  "restart() in a restart job");
     }
     for (int i = 0; i < port_count; i++) {
         const PongPort &port = ports[i];
-        pong_state &state = world->states[i];
+        pong_state &state = owner.world->states[i];
         std::memcpy(state.position, port.position, sizeof state.position);
         std::memcpy(state.orientation, port.orientation, sizeof state.orientation);
         std::memcpy(state.linear_velocity, port.linear_velocity, sizeof state.linear_velocity);
         std::memcpy(state.angular_velocity, port.angular_velocity, sizeof state.angular_velocity);
     }
-    world->world.set_states(world->interfaces.data(), world->states.data(), world->states.size());
+    const std::vector<pong_state> &states = owner.world->states;
+    owner.world->world.set_states(owner.world->interfaces.data(), states.data(), states.size());
 }
 
 void PongContact::fetch_wrenches() {
-    std::vector<pong_wrench> &wrenches = world->wrenches;
-    world->world.wrenches(world->interfaces.data(), pong::Frame::common, wrenches.data(), wrenches.size());
+    std::vector<pong_wrench> &wrenches = owner.world->wrenches;
+    owner.world->world.wrenches(owner.world->interfaces.data(), pong::Frame::common, wrenches.data(), wrenches.size());
     for (int i = 0; i < port_count; i++) {
         std::memcpy(ports[i].force, wrenches[i].force, sizeof ports[i].force);
         std::memcpy(ports[i].moment, wrenches[i].moment, sizeof ports[i].moment);
     }
-    const pong::Report report = world->world.report();
+    const pong::Report report = owner.world->world.report();
     contacts = report.contacts;
     flags = report.flags;
 }
