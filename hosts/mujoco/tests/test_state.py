@@ -1,5 +1,6 @@
 """Everything that continues from a saved state of MuJoCo continues to the same bits."""
 
+import concurrent.futures
 import os
 import pickle
 import subprocess
@@ -165,6 +166,15 @@ class SameBits(unittest.TestCase):
         run(self.m, alone, 250)
         numbers = np.frombuffer(results[0]).reshape(6, -1)[4]
         self.assertTrue((numbers == np.hstack([alone.qpos, alone.qvel, alone.plugin_state])).all())
+
+    def test_data_made_and_deleted_in_threads(self):
+        # Worlds come and go while others step; each mjData finds its own.
+        def work(_):
+            return [hash(b"".join(run(self.m, self.at_middle(), 60))) for _ in range(5)]
+
+        with concurrent.futures.ThreadPoolExecutor(6) as pool:
+            hashes = {number for numbers in pool.map(work, range(6)) for number in numbers}
+        self.assertEqual(hashes, {hash(b"".join(self.whole[:60]))})
 
     def test_saved_and_loaded_model(self):
         with tempfile.TemporaryDirectory() as folder:
