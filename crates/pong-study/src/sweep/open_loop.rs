@@ -265,8 +265,7 @@ fn refused(error: EngineError) -> LogError {
 
 /// The bytes of a file, a piece at a time.
 fn hash_file(hash: &mut Fnv, path: &Path) -> Result<(), StudyError> {
-    let unreadable =
-        |reason: std::io::Error| StudyError::new(&path.display().to_string(), &reason.to_string());
+    let unreadable = |reason: std::io::Error| StudyError::file(path, reason);
     let mut file = std::fs::File::open(path).map_err(unreadable)?;
     let mut piece = vec![0; 1 << 20];
     loop {

@@ -143,7 +143,7 @@ fn check(name: &str, time_s: f64) -> Result<(), StudyError> {
     if time_s > 0.0 && time_s.is_finite() {
         return Ok(());
     }
-    Err(StudyError::new(name, &format!("it is {time_s} s; give a finite time above zero")))
+    Err(StudyError::new(name, format!("it is {time_s} s; give a finite time above zero")))
 }
 
 /// Sixteen steps, or fewer so that a run has sixty-four frames.

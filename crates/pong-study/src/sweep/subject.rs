@@ -61,7 +61,7 @@ pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, StudyError
 /// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
 /// when it is run.
 pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<(), StudyError> {
-    let unreadable = |reason| StudyError::new(&file.display().to_string(), &format!("{reason}"));
+    let unreadable = |reason| StudyError::file(file, reason);
     hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
     let model = pong_model::load(file, extensions);
     hash.word(model.map_or(0, |model| model.hash));
