@@ -51,7 +51,7 @@ static void configurations(void)
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "delay_frames is 17; give 0 to 16");
     config.energy_accounts = PONG_COUPLING_STAGES;
     config.delay_frames = 1;
-    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "only wrenches that are held come late");
+    REFUSED(pong_create_world(&config, &world), BAD_VALUE, "only a wrench that is held can be delayed");
     config = pong_default_config();
     config.report_times = 7;
     REFUSED(pong_create_world(&config, &world), BAD_VALUE, "report_times is 7; give 0 or 1");
