@@ -20,9 +20,12 @@ impl Pose {
 
     /// Pose from a position (m) and a quaternion (w, x, y, z) that is normalised here.
     ///
-    /// The quaternion must not be zero.
+    /// The quaternion must not be zero. It and its negative are one orientation and give the same bits: the first component
+    /// that is not zero is made positive, and no zero keeps a sign, which products would carry on into the answers.
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
-        let [w, x, y, z] = wxyz;
+        let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
+        let sign = 1.0_f64.copysign(first);
+        let [w, x, y, z] = wxyz.map(|part| sign * part + 0.0);
         Self { position, orientation: Quat::new_normalize(Quaternion::new(w, x, y, z)) }
     }
 
@@ -204,8 +207,32 @@ mod tests {
     fn rotation_vector_inverts_the_exponential() {
         let axis = nalgebra::Unit::new_normalize(Vec3::new(0.3, -0.8, 0.5));
         for angle in [0.0, 1e-9, 1e-3, 0.4, 1.5, 2.9, std::f64::consts::PI - 1e-9] {
-            let vector = rotation_vector(&Quat::from_axis_angle(&axis, angle));
+            let turn = Quat::from_axis_angle(&axis, angle);
+            let vector = rotation_vector(&turn);
             assert!((vector - axis.into_inner() * angle).norm() <= 4e-15 * (1.0 + angle), "angle {angle}");
+            // The product of two quaternions may come out as either of the two that are this rotation.
+            assert_eq!(rotation_vector(&Quat::new_unchecked(-turn.into_inner())), vector, "angle {angle}");
+        }
+    }
+
+    #[test]
+    fn a_quaternion_and_its_negative_are_one_pose_to_the_bit() {
+        let half_turn = 6.123233995736766e-17;
+        for wxyz in [
+            [1.0, 0.0, 0.0, 0.0],
+            [half_turn, 0.0, -1.0, 0.0],
+            [0.0, 0.0, -1.0, 0.0],
+            [-0.0, 0.6, -0.0, -0.8],
+            [-0.5, 0.5, -0.5, 0.5],
+        ] {
+            let [one, other] = [wxyz, wxyz.map(|part: f64| -part)].map(|wxyz| {
+                let pose = Pose::new(Vec3::zeros(), wxyz);
+                let turned = pose.orientation * Vec3::new(0.0, 0.0, -1.0);
+                let matrix = pose.transform().rotation;
+                let numbers = pose.orientation.coords.iter().chain(&turned).chain(&matrix);
+                numbers.map(|number| number.to_bits()).collect::<Vec<_>>()
+            });
+            assert_eq!(one, other, "{wxyz:?}");
         }
     }
 
