@@ -344,3 +344,54 @@ fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
         }
     }
 }
+
+/// A ray through the fold of a two-sided sheet whose faces both lie on one side of it meets the face that hides the other, as
+/// rays beside it do, however the sheet is turned and whichever triangle is named first.
+#[test]
+fn a_ray_through_a_fold_meets_the_face_in_front() {
+    let probe =
+        model("probe", &steel(), "Ray(name: \"r\", origin: (-0.3,0.1,0), direction: (1,0,0), length: 0.5)");
+    let mut random = Random(31);
+    let mut hits = 0;
+    for case in 0..100 {
+        // The one that leans towards the origin of the ray is in front.
+        let (behind, between) = (random.between(0.2, 1.5), random.between(0.2, 1.4));
+        let leans = [behind + between, behind];
+        let turn = if case % 2 == 0 { Quat::identity() } else { random.rotation() };
+        let faces = leans.map(|angle| Vec3::new(angle.cos(), 0.0, angle.sin()));
+        let ends = [Vec3::new(0.0, -1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
+        let places = [
+            ends[0],
+            ends[1],
+            ends[0] + faces[0],
+            ends[1] + faces[0],
+            ends[0] + faces[1],
+            ends[1] + faces[1],
+        ];
+        let places = places.map(|place| turn * place);
+        let normal = Vec3::new(-leans[0].sin(), 0.0, leans[0].cos());
+        for order in ["(0,1,2),(1,3,2),(0,5,1),(0,4,5)", "(0,4,5),(0,5,1),(0,1,2),(1,3,2)"] {
+            let mesh = format!(
+                "TriangleMesh(name: \"m\", vertices: [{}], triangles: [{order}], two_sided: true)",
+                list(&places)
+            );
+            let mut rig = Rig::new(&probe, &model("sheet", &steel(), &mesh));
+            rig.place_a(Vec3::zeros(), turn);
+            rig.world.evaluate().unwrap();
+            let contacts = rig.world.contacts();
+            // Rounding may let it pass on the side where there is nothing.
+            assert!(contacts.len() <= 1, "{case} {leans:?}: {contacts:?}");
+            for contact in contacts {
+                let off = (contact.normal - turn * normal).norm();
+                assert!(off < 1e-9, "{case} {leans:?} {order}: {:?}", contact.normal);
+                assert!(
+                    (contact.depth - 0.2 * leans[0].sin()).abs() < 1e-9,
+                    "{case} {leans:?}: {}",
+                    contact.depth
+                );
+                hits += 1;
+            }
+        }
+    }
+    assert!(hits > 100, "only {hits} rays meet the fold");
+}

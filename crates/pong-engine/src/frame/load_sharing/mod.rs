@@ -1,6 +1,7 @@
 //! Which of the interferences found for a chunk of A count, and with what weight.
 
 mod pieces;
+mod ray_hits;
 pub(crate) mod solver;
 
 use crate::frame::input::PairContext;
@@ -12,6 +13,7 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, Polyhedron, PolyhedronFace, PrimitiveKind, TriangleSet};
+use ray_hits::keep_first_ray_hits;
 use solver::{SharedContact, share_within};
 
 /// Relative: depths this close are as deep as each other.
@@ -37,7 +39,7 @@ pub(crate) fn assign_weights(
     }
     let mut outcome = Ok(());
     found.sort_unstable_by_key(ContactCandidate::order);
-    keep_first_ray_hits(found);
+    keep_first_ray_hits(found, context);
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
         if group.iter().any(is_at_wall) {
             match group[0].half {
@@ -60,27 +62,6 @@ pub(crate) fn assign_weights(
         }
     }
     outcome
-}
-
-/// One contact per ray: the least distance, ties in key order. Rays that also hit other movable groups of the same
-/// Object are judged when all are known.
-fn keep_first_ray_hits(found: &mut [ContactCandidate]) {
-    for hits in found.chunk_by_mut(|a, b| a.key.primitive_a == b.key.primitive_a) {
-        let mut first: Option<usize> = None;
-        for other in 0..hits.len() {
-            // What a registered test finds for a ray has no distance and takes no part.
-            if hits[other].ray_distance == f64::INFINITY {
-                continue;
-            }
-            let Some(before) = first else {
-                first = Some(other);
-                continue;
-            };
-            let nearer = hits[other].ray_distance < hits[before].ray_distance;
-            hits[if nearer { before } else { other }].status = CandidateStatus::Culled;
-            first = Some(if nearer { other } else { before });
-        }
-    }
 }
 
 fn is_at_wall(contact: &ContactCandidate) -> bool {
