@@ -1,4 +1,4 @@
-"""House rules that a program can check: arrows between crates, circles of files, where unsafe lives, file lengths, dead links."""
+"""House rules that a program can check: arrows between crates, circles of files, where unsafe lives, words, lines, links."""
 
 import pathlib
 import re
@@ -116,12 +116,40 @@ def theory_citations():
                         yield f"{path}:{number}: docs/theory.md has no section {section}"
 
 
+def retired_words():
+    """The last table of the glossary: words that stood for something once."""
+    table = (ROOT / "docs/glossary.md").read_text().split("## Retired words")[1]
+    rows = re.findall(r"^\| (`.+?) \| (.+?) \|$", table, re.M)
+    instead = {word: now for words, now in rows for word in re.findall(r"`([^`]+)`", words)}
+    any_word = re.compile(rf"(?<![A-Za-z0-9])(?:{'|'.join(map(re.escape, instead))})(?![A-Za-z0-9_])")
+    tells = {ROOT / "docs/glossary.md", ROOT / "CHANGELOG.md"}
+    for path in tracked("*.rs", "*.py", "*.c", "*.cpp", "*.h", "*.hpp", "*.js", "*.md", "*.toml", "*.ron"):
+        text = "" if path in tells else path.read_text()
+        for found in any_word.finditer(text):
+            number = text.count("\n", 0, found.start()) + 1
+            yield f"{path}:{number}: `{found[0]}` is retired, say {instead[found[0]]} (docs/glossary.md)"
+
+
+def long_lines():
+    """Prose is wrapped at 120 characters. A row of a table, a link and code may be longer."""
+    written_by_programs = {ROOT / "THIRD_PARTY_LICENSES.md", ROOT / "docs/verification.md"}
+    for path in set(tracked("*.md")) - written_by_programs:
+        code = False
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            code ^= line.lstrip().startswith("```")
+            if len(line) > 120 and not (code or line.lstrip().startswith(("|", "!", "[")) or line.startswith("    ")):
+                yield f"{path}:{number}: {len(line)} characters, at most 120"
+
+
 def circles_of_files():
     yield from circles.check(ROOT)
 
 
 def main():
-    checks = (theory_citations, arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links)
+    checks = (
+        arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links, theory_citations, retired_words,
+        long_lines,
+    )
     problems = [problem for check in checks for problem in check()]
     for problem in problems:
         print(problem.replace(str(ROOT) + "/", ""))

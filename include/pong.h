@@ -560,7 +560,7 @@ typedef struct pong_energy_account {
     /// What the bodies got back: work of the wrench on them, where it was positive.
     double work_out;
     /// Stored without work: where the host put bodies into each other, less what it let be forgotten. Of a contact that
-    /// began while its pair touched already: what it may have taken over from another.
+    /// began while its pair was in contact already: what it may have taken over from another.
     double inserted;
     /// Made by holding the wrench: its work less that of the force as it would have followed the motion.
     double hold_error;
@@ -578,8 +578,8 @@ typedef struct pong_energy_account {
     uint32_t reserved;
 } pong_energy_account;
 
-/// Accounts of two movable groups. A touch lasts from their first contact until nothing of them touches any more, and no
-/// late wrench is on its way.
+/// Accounts of two movable groups. A contact episode lasts from their first contact until nothing of them touches any
+/// more, and no delayed wrench is on its way.
 typedef struct pong_pair_energy_account {
     /// The pair of Objects.
     struct pong_pair_id pair;
@@ -587,21 +587,21 @@ typedef struct pong_pair_energy_account {
     struct pong_interface_id interfaces[2];
     /// Since the world began.
     struct pong_energy_account total;
-    /// Of the touch that lasts; zero if none does.
+    /// Of the contact episode that lasts; zero if none does.
     struct pong_energy_account episode;
-    /// 1 if a touch lasts.
+    /// 1 if an episode lasts.
     int32_t in_contact;
-    /// 1 if a touch, over or not, has returned more than it took. What to do: pong_pair_remedy().
+    /// 1 if an episode, over or not, has gained energy. What to do: pong_pair_remedy().
     int32_t gains_energy;
-    /// Touches that have ended.
+    /// Episodes that have ended.
     uint64_t episodes;
-    /// Of those, the ones that returned more than they took.
+    /// Of those, the ones that gained energy.
     uint64_t episodes_gained;
     /// Of those, the ones of which the accounts cannot tell.
     uint64_t episodes_unresolved;
-    /// What touches returned too much, all together, J.
+    /// Energy that the episodes gained, all together, J.
     double excess;
-    /// What one touch returned too much at most, J.
+    /// Energy that one episode gained, at most, J.
     double worst_excess;
     /// Stiffness of the stiffest contact that the two can have, N/m; 0 if it depends on the depth.
     double stiffness;

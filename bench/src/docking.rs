@@ -30,7 +30,7 @@ pub fn models() -> Result<[Arc<Model>; 2], ModelErrors> {
 /// States of all movable groups in every frame: the active side's at rest where its author placed them, then the
 /// passive side's.
 pub fn states(active: &Model) -> Vec<Vec<State>> {
-    let at_rest = |body: &pong_model::Body| {
+    let at_rest = |body: &pong_model::MovableGroup| {
         State::from_motion(&body.initial_pose.unwrap_or_else(Pose::identity), &Twist::zero())
     };
     let active: Vec<State> = active.bodies.iter().map(at_rest).collect();

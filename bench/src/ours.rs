@@ -19,7 +19,7 @@ use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, T
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
-use pong_model::{Body, Model};
+use pong_model::{MovableGroup, Model};
 
 /// The testers on one pair.
 pub struct Ours {
@@ -60,7 +60,7 @@ impl Ours {
     }
 
     /// The movable group that holds the target.
-    pub fn body(&self) -> &Body {
+    pub fn body(&self) -> &MovableGroup {
         &self.model.bodies[0]
     }
 
@@ -205,7 +205,7 @@ impl Movers for Elements {
 struct Pass<'a, M> {
     mover: Mover,
     kind: PrimitiveKind,
-    body: &'a Body,
+    body: &'a MovableGroup,
     movers: &'a M,
     answers: &'a mut [Answer],
 }

@@ -69,7 +69,7 @@ pub fn run(model: Model, input: &mut Input<'_>) {
 }
 
 fn elements(model: &Model) -> usize {
-    let of_body = |body: &pong_model::Body| body.primitives.len() + body.triangles.triangles.len();
+    let of_body = |body: &pong_model::MovableGroup| body.primitives.len() + body.triangles.triangles.len();
     model.bodies.iter().map(of_body).sum()
 }
 

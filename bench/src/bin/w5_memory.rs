@@ -13,7 +13,7 @@ use pong_bench::table::{Table, at_most, or_dash};
 use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{Config, World};
 use pong_geometry::extension::Extensions;
-use pong_model::Body;
+use pong_model::MovableGroup;
 use std::error::Error;
 use std::time::Instant;
 
@@ -94,7 +94,7 @@ fn load(folder: &Folder, terrain: Terrain, source: Source) -> Result<[String; 7]
 }
 
 /// Corners and what is known of each triangle: all but what finds them.
-fn without_tree(body: &Body) -> usize {
+fn without_tree(body: &MovableGroup) -> usize {
     size_of_val(&*body.triangles.vertices) + size_of_val(&*body.triangles.triangles)
 }
 

@@ -23,7 +23,7 @@ use nalgebra::DMatrix;
 use pong_engine::inspect::GroupPair;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Element, Item, PrimitiveInfo};
+use pong_model::{Element, Item, MovableGroup, PrimitiveInfo};
 
 /// What acts on one movable group at once, at most.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -278,7 +278,7 @@ fn stiffest(a: ContactSprings, b: ContactSprings) -> ContactSprings {
 }
 
 /// One primitive for each kind and surface; every one of the host's own kinds.
-fn distinct(body: &Body) -> Vec<&PrimitiveInfo> {
+fn distinct(body: &MovableGroup) -> Vec<&PrimitiveInfo> {
     let mut seen = std::collections::BTreeSet::new();
     let new =
         |info: &&PrimitiveInfo| info.kind == PrimitiveKind::Custom || seen.insert((info.kind, info.surface));
@@ -286,7 +286,7 @@ fn distinct(body: &Body) -> Vec<&PrimitiveInfo> {
 }
 
 fn site(
-    body: &Body,
+    body: &MovableGroup,
     primitive: usize,
     springs: ContactSprings,
     mobility: Option<&Mobility>,
@@ -318,7 +318,7 @@ fn site(
 
 /// Boxes around the surfaces of a body that can be touched, planes left out: convex pieces of one shell are one surface, a
 /// mesh is one.
-fn boxes(body: &Body, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<(Vec3, Vec3)> {
+fn boxes(body: &MovableGroup, touched: impl Fn(&&PrimitiveInfo) -> bool) -> Vec<(Vec3, Vec3)> {
     let mut by_surface = std::collections::BTreeMap::new();
     for (index, info) in body.primitives.iter().enumerate() {
         if info.kind == PrimitiveKind::Plane || !touched(&info) {

@@ -351,12 +351,12 @@ fn what_touches_is_judged_as_it_is() {
         let law = format!("normal: HuntCrossley(dissipation: 0, exponent: 1.5), friction: {friction}");
         text.replace("friction: None", &law)
     };
-    let rub = "Coulomb(mu: 0.5, slip_speed: 1e-3)";
+    let slides = "Coulomb(mu: 0.5, slip_speed: 1e-3)";
     let bar = model("bar", r#"LineSegment(name: "s", ends: ((-1, 0, 0), (1, 0, 0)))"#, K, "None");
     let tip = model("tip", r#"Point(name: "p", position: (0, 0, 0))"#, K, "None");
     let rigid = floor();
     for (mover, weight) in [(tip, 1.0), (bar, 0.5)] {
-        for (friction, depth) in [("None", 1e-3_f64), ("None", 4e-3), (rub, 1e-3)] {
+        for (friction, depth) in [("None", 1e-3_f64), ("None", 4e-3), (slides, 1e-3)] {
             let texts = [hertz(&mover, friction), hertz(&rigid, friction)];
             let stiffness = weight * 1.5 * K * depth.sqrt();
             let load = weight * K * depth * depth.sqrt();

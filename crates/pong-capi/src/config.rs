@@ -133,8 +133,8 @@ impl pong_config {
     fn accounts(&self) -> Outcome<Option<WrenchCoupling>> {
         let most = WrenchCoupling::DELAY_FRAMES_MAX.into();
         let late = within("delay_frames", self.delay_frames.into(), 0, most, "0 by default")? as u32;
-        let wrench_use = coupling::of_accounts(self.energy_accounts, late);
-        if wrench_use.is_none() && self.energy_accounts != 0 {
+        let wrench_coupling = coupling::of_accounts(self.energy_accounts, late);
+        if wrench_coupling.is_none() && self.energy_accounts != 0 {
             let given = self.energy_accounts;
             let message =
                 format!("config: energy_accounts is {given}; give PONG_COUPLING_..., or 0 for none");
@@ -147,7 +147,7 @@ impl pong_config {
             );
             return Err(Failure::new(pong_status::BadValue, message));
         }
-        Ok(wrench_use)
+        Ok(wrench_coupling)
     }
 
     /// Checked whether there will be workers or not: a wrong value must not wait for the day that asks for one.

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 use crate::seal::can_be_tested;
 pub use crate::sealed::GroupPair;
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Body, PrimitiveInfo};
+use pong_model::{MovableGroup, PrimitiveInfo};
 
 /// A view into a sealed world; see [`World::inspect`](crate::World::inspect).
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ impl<'w> Inspection<'w> {
     }
 
     /// What the model holds of a movable group.
-    pub fn body(&self, group: usize) -> &'w Body {
+    pub fn body(&self, group: usize) -> &'w MovableGroup {
         self.scene.body(group)
     }
 

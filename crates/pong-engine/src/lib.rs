@@ -46,7 +46,8 @@ pub use law::{
 };
 pub use pong_threads::{LaneWork, WorkerStart};
 pub use report::{
-    FrameCounts, FrameReport, MemoryReport, Passage, Stage, StageTimes, StatusBits, Tally, Work, WorkTimes,
+    FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,
+    WorkTimes,
 };
 pub use scene::{Config, State, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};

@@ -17,7 +17,7 @@ impl StatusBits {
     pub const LOAD_SHARING_LIMIT: Self = Self(2);
 
     /// Something went right through something else since the last commit, or came out on the far side of what pushed it
-    /// back: a contact was missed. [`World::passage`](crate::World::passage) names it. Make the frames shorter, the wall
+    /// back: a contact was missed. [`World::tunnelling`](crate::World::tunnelling) names it. Make the frames shorter, the wall
     /// thicker or the surfaces stiffer; after a jump that is meant, call [`World::clear_contact_history`](crate::World::clear_contact_history) first.
     pub const TUNNELLED: Self = Self(4);
 
@@ -48,7 +48,7 @@ impl StatusBits {
 
 /// What went right through something between two commits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Passage {
+pub struct TunnellingReport {
     /// The movable group that moved through the other, by which of the two is A.
     pub interface: InterfaceId,
     /// Its primitive: index into the movable group's list (see
@@ -56,7 +56,7 @@ pub struct Passage {
     pub primitive: u32,
     /// The movable group it went through.
     pub through: InterfaceId,
-    /// How many passages the frame has; this is the first.
+    /// How many events of tunnelling the frame has; this is the first.
     pub count: u32,
 }
 

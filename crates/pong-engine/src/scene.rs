@@ -4,7 +4,7 @@ use crate::energy::account::WrenchCoupling;
 use crate::law::registry::Laws;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Vec3};
-use pong_model::{Body, Model};
+use pong_model::{Model, MovableGroup};
 pub use pong_threads::Settings as WorkerSettings;
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub(crate) struct Object {
 
 /// One movable group of one Object.
 #[derive(Clone, Debug)]
-pub(crate) struct BodyInstance {
+pub(crate) struct GroupInstance {
     pub object: usize,
     /// Index into the model's bodies.
     pub body: usize,
@@ -65,7 +65,7 @@ pub(crate) struct Scene {
     pub laws: Laws,
     pub models: Vec<Arc<Model>>,
     pub objects: Vec<Object>,
-    pub bodies: Vec<BodyInstance>,
+    pub bodies: Vec<GroupInstance>,
     pub pairs: Vec<ObjectPair>,
     /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
     pub room_per_pair: usize,
@@ -73,7 +73,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     /// The model's body behind a movable group.
-    pub fn body(&self, instance: usize) -> &Body {
+    pub fn body(&self, instance: usize) -> &MovableGroup {
         let instance = &self.bodies[instance];
         &self.models[self.objects[instance.object].model].bodies[instance.body]
     }

@@ -7,9 +7,9 @@ use crate::frame::{FrictionPreload, TunnellingEvent};
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId, WorldStamp};
 use crate::inspect::Inspection;
 use crate::law::registry::Laws;
-use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, Passage, StageTimes, WorkTimes};
+use crate::report::{Clock, FrameCounts, FrameReport, MemoryReport, StageTimes, TunnellingReport, WorkTimes};
 use crate::running::Running;
-use crate::scene::{BodyInstance, Config, Object, ObjectPair, Scene, State, States, check_state};
+use crate::scene::{Config, GroupInstance, Object, ObjectPair, Scene, State, States, check_state};
 use crate::seal::{self, SealReport};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Twist, Wrench};
@@ -102,7 +102,7 @@ impl World {
         let first_body = scene.bodies.len();
         scene.objects.push(Object { name: name.to_owned(), model, first_body });
         let bodies = scene.models[model].bodies.len();
-        scene.bodies.extend((0..bodies).map(|body| BodyInstance { object, body }));
+        scene.bodies.extend((0..bodies).map(|body| GroupInstance { object, body }));
         self.states.bodies.resize(first_body + bodies, None);
         Ok(ObjectId::new(self.stamp, object))
     }
@@ -346,12 +346,12 @@ impl World {
     /// ([`StatusBits::TUNNELLED`](crate::StatusBits)). A point, the centre of a ball, the origin of a ray, the ends and
     /// the middle of a segment are followed along straight lines; what is shorter than half of the thinnest part of the
     /// other movable group is taken to have gone through none.
-    pub fn passage(&self) -> Option<Passage> {
+    pub fn tunnelling(&self) -> Option<TunnellingReport> {
         let frame = &self.running.as_ref()?.frame;
         let TunnellingEvent { body_a, primitive_a, body_b } = frame.tunnelling.first?;
         let interface = |body| InterfaceId::new(self.stamp, body);
         let count = frame.tunnelling.count;
-        Some(Passage {
+        Some(TunnellingReport {
             interface: interface(body_a),
             primitive: primitive_a,
             through: interface(body_b),

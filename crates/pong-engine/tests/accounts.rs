@@ -93,11 +93,11 @@ fn damping_beyond_the_remedy_loses_and_below_it_gains() {
         let coupling = WrenchCoupling::ZeroOrderHold { delay_frames };
         let omega_step = 0.01;
         let needed = 1e4 * (omega_step / 100.0) * (0.5 + f64::from(delay_frames));
-        for (factor, returned_more) in [(2.0, 0), (0.5, 1)] {
+        for (factor, gained) in [(2.0, 0), (0.5, 1)] {
             for drop in drops(coupling, omega_step, factor * needed) {
                 let account = drop.run(2000).account;
-                assert_eq!(account.episodes_gained, returned_more, "{drop:?}");
-                assert_eq!(account.gains_energy(), returned_more == 1);
+                assert_eq!(account.episodes_gained, gained, "{drop:?}");
+                assert_eq!(account.gains_energy(), gained == 1);
                 assert_eq!((account.episodes, account.episodes_unresolved), (1, 0));
                 let limit = drop.damping / (1e4 * (0.5 + f64::from(delay_frames)));
                 let told = account.remedy();
@@ -221,7 +221,7 @@ fn closed_paths_return_nothing() {
 
 /// What the host puts inside another body was put in, not made; what is forgotten is taken out again.
 #[test]
-fn what_begins_inside_was_put_in() {
+fn what_begins_inside_was_inserted() {
     for coupling in USES {
         let config = Config { accounts: Some(coupling), ..Config::default() };
         let [tip, ground] = point_and_ground(0.4);
@@ -231,9 +231,9 @@ fn what_begins_inside_was_put_in() {
             rig.world.step().unwrap();
         };
         stand(&mut rig, -1e-3);
-        let put_in = 0.05;
+        let inserted = 0.05;
         let account = rig.world.pair_accounts().next().unwrap();
-        assert!((account.total.inserted - put_in).abs() < 1e-15 && account.in_contact, "{account:?}");
+        assert!((account.total.inserted - inserted).abs() < 1e-15 && account.in_contact, "{account:?}");
         assert_eq!((account.total.stored, account.total.work_in), (account.total.inserted, 0.0));
         let config = Config { accounts: Some(coupling), ..Config::default() };
         let mut other = Rig::with_config(config, &tip, &ground);
@@ -245,11 +245,11 @@ fn what_begins_inside_was_put_in() {
             stand(&mut rig, -1e-3 + 1.001e-5 * f64::from(i));
         }
         let account = rig.world.pair_accounts().next().unwrap();
-        assert!((account.total.work_out / put_in - 1.0).abs() < 0.1, "{account:?}");
+        assert!((account.total.work_out / inserted - 1.0).abs() < 0.1, "{account:?}");
         assert!(account.total.imbalance().abs() < 1e-12);
         assert_eq!(account.episodes, 1);
         // What was put in was not made; and the touch is over.
-        assert!(account.worst_excess < 0.1 * put_in, "{account:?}");
+        assert!(account.worst_excess < 0.1 * inserted, "{account:?}");
         assert_eq!(account.episode, EnergyAccount::default());
     }
 }

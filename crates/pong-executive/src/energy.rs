@@ -141,7 +141,7 @@ impl System {
 
 impl Simulation {
     /// Warnings about pairs of bodies whose contact has returned more energy than it took, each with the remedy. Empty if none
-    /// has, or if the world keeps no accounts ([`Integrator::wrench_use`](crate::Integrator::wrench_use)).
+    /// has, or if the world keeps no accounts ([`Integrator::wrench_coupling`](crate::Integrator::wrench_coupling)).
     pub fn energy_warnings(&self) -> Vec<String> {
         let pairs = self.world().pair_accounts().filter(PairEnergyAccount::gains_energy);
         pairs.map(|pair| self.energy_warning(&pair)).collect()

@@ -34,7 +34,7 @@ pub enum Integrator {
 impl Integrator {
     /// What the integrator does with contact wrenches, for a world that keeps accounts of their work
     /// ([`Config::accounts`](pong_engine::Config)); `None` if they come later than accounts can be kept for.
-    pub fn wrench_use(self) -> Option<WrenchCoupling> {
+    pub fn wrench_coupling(self) -> Option<WrenchCoupling> {
         match self {
             Self::SemiImplicitEuler => Some(WrenchCoupling::SemiImplicit),
             Self::RungeKutta4 => Some(WrenchCoupling::Stages),

@@ -32,7 +32,7 @@ fn ball_of(
             root: (name: "ground", surface: "rigid", primitives: [
                 Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#
     );
-    let mut world = World::new(Config { accounts: integrator.wrench_use(), ..Config::default() });
+    let mut world = World::new(Config { accounts: integrator.wrench_coupling(), ..Config::default() });
     let mut touching = Vec::new();
     for (name, text) in [("ball", ball.as_str()), ("ground", ground.as_str())] {
         let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));

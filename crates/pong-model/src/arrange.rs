@@ -3,13 +3,13 @@
 
 use crate::draft::GroupDraft;
 use crate::element::Element;
-use crate::model::{Body, Item};
+use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::BoundKind;
 use std::sync::Arc;
 
 /// The groups of a body's tree; 0 is the movable one.
-pub(crate) fn arranged(body: &Body, authored: &[GroupDraft]) -> Vec<GroupDraft> {
+pub(crate) fn arranged(body: &MovableGroup, authored: &[GroupDraft]) -> Vec<GroupDraft> {
     let mut groups = Vec::with_capacity(authored.len());
     arrange(body, authored, 0, &mut groups);
     groups
@@ -22,7 +22,12 @@ pub(crate) fn without_leaf(authored: &[GroupDraft]) -> Vec<usize> {
 }
 
 /// Adds a group and all below it; answers its index.
-fn arrange(body: &Body, authored: &[GroupDraft], index: usize, groups: &mut Vec<GroupDraft>) -> usize {
+fn arrange(
+    body: &MovableGroup,
+    authored: &[GroupDraft],
+    index: usize,
+    groups: &mut Vec<GroupDraft>,
+) -> usize {
     let from = &authored[index];
     let (items, children) = contents(authored, index);
     groups.push(GroupDraft { at: from.at, bound: from.bound.clone(), ..GroupDraft::new(&from.path) });
@@ -69,7 +74,13 @@ pub(crate) fn push(groups: &mut Vec<GroupDraft>, above: usize) -> usize {
 }
 
 /// Puts items into a group, in leaves of at most so many; unbounded ones get a leaf of their own.
-pub(crate) fn cut(body: &Body, items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
+pub(crate) fn cut(
+    body: &MovableGroup,
+    items: Vec<Item>,
+    most: usize,
+    into: usize,
+    groups: &mut Vec<GroupDraft>,
+) {
     let (bounded, unbounded): (Vec<Item>, Vec<Item>) =
         items.into_iter().partition(|item| center(body, *item).is_some());
     match (bounded.is_empty(), unbounded.is_empty()) {
@@ -85,7 +96,7 @@ pub(crate) fn cut(body: &Body, items: Vec<Item>, most: usize, into: usize, group
 }
 
 /// Puts bounded items into a group, or halves of them into two below it.
-fn halve(body: &Body, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
+fn halve(body: &MovableGroup, mut items: Vec<Item>, most: usize, into: usize, groups: &mut Vec<GroupDraft>) {
     if items.len() <= most {
         groups[into].items = items;
         return;
@@ -105,7 +116,7 @@ fn halve(body: &Body, mut items: Vec<Item>, most: usize, into: usize, groups: &m
 }
 
 /// The middle of an element's box, m; `None` if it is unbounded.
-fn center(body: &Body, item: Item) -> Option<Vec3> {
+fn center(body: &MovableGroup, item: Item) -> Option<Vec3> {
     let (low, high) = Element::new(body, item).extent();
     let is_bounded = low.iter().chain(&high).all(|x| x.is_finite());
     is_bounded.then(|| 0.5 * (low + high))

@@ -1,7 +1,7 @@
 //! From drafts of bodies to the finished model.
 
 use crate::draft::{BodyDraft, ModelDraft};
-use crate::model::{Body, Model};
+use crate::model::{Model, MovableGroup};
 use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader};
 use crate::triangle_topology::{self, Findings, MeshWarning};
@@ -139,7 +139,7 @@ fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
 }
 
 /// Numbers the shells in the order of their first element.
-fn set_shells(body: &mut Body, findings: &Findings, surface_of: &[u32]) {
+fn set_shells(body: &mut MovableGroup, findings: &Findings, surface_of: &[u32]) {
     let mut count = 0;
     let mut next = || {
         count += 1;

@@ -1,7 +1,7 @@
 //! What the reader hands to the builder: bodies with all their elements, without adjacency.
 
 use crate::hull::Hull;
-use crate::model::{Body, Item};
+use crate::model::{Item, MovableGroup};
 use crate::surface::{PairOverride, Surface};
 use crate::weld::Welder;
 use pong_geometry::bounding::BoundKind;
@@ -19,13 +19,13 @@ pub(crate) struct ModelDraft {
 /// A body as read: its elements are in place, its topology, polyhedra, shells and tree are not.
 #[derive(Default)]
 pub(crate) struct BodyDraft {
-    pub(crate) body: Body,
+    pub(crate) body: MovableGroup,
     /// Where each primitive begins in the file.
     pub(crate) primitive_at: Vec<u32>,
     /// Whether each primitive is a `Triangle`: it is named by its path alone, not by an index.
     pub(crate) lone_triangle: Vec<bool>,
     pub(crate) welder: Welder,
-    /// Checked shapes, in the order of [`Body::polyhedra`].
+    /// Checked shapes, in the order of [`MovableGroup::polyhedra`].
     pub(crate) hulls: Vec<Hull>,
     /// What the file says of each custom primitive, for the hash.
     pub(crate) custom_parameters: Vec<(String, Vec<f64>)>,

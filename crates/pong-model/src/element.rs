@@ -1,6 +1,6 @@
 //! What bounding volumes must know of the elements of a body.
 
-use crate::model::{Body, Item};
+use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{Bounded, CustomBounds, PointCloud};
 use pong_geometry::primitive::PrimitiveKind;
@@ -8,7 +8,7 @@ use pong_geometry::primitive::PrimitiveKind;
 /// One element of a body, as a thing to fit volumes around.
 #[derive(Clone, Copy)]
 pub struct Element<'b> {
-    body: &'b Body,
+    body: &'b MovableGroup,
     item: Item,
 }
 
@@ -22,7 +22,7 @@ struct ThickTriangle {
 
 impl<'b> Element<'b> {
     /// The element that an item of the body's tree names.
-    pub fn new(body: &'b Body, item: Item) -> Self {
+    pub fn new(body: &'b MovableGroup, item: Item) -> Self {
         Self { body, item }
     }
 

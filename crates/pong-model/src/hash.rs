@@ -5,7 +5,7 @@
 
 use crate::draft::BodyDraft;
 use crate::fnv::Fnv;
-use crate::model::{Body, Model, PrimitiveInfo};
+use crate::model::{Model, MovableGroup, PrimitiveInfo};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{Polyhedron, RayResponse, TriangleSet};
@@ -114,7 +114,7 @@ impl ModelHash {
         self.list(parameters, |hash, &x| hash.number(x));
     }
 
-    fn body(&mut self, body: &Body) {
+    fn body(&mut self, body: &MovableGroup) {
         self.word(body.parent.map_or(u64::MAX, u64::from));
         self.list(&body.primitives, Self::primitive);
         self.list(&body.points, |hash, point| hash.vector(&point.position));

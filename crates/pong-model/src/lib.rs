@@ -35,7 +35,7 @@ mod weld;
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
 pub use fnv::Fnv;
-pub use model::{Balls, Batch, Body, ChunkBoxes, Item, Model, Node, PrimitiveInfo, Tree};
+pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Tree};
 pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface, pair_entries};
 

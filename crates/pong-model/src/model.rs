@@ -28,14 +28,14 @@ pub struct Model {
     /// Table of values for pairs of surfaces.
     pub pair_overrides: Vec<PairOverride>,
     /// The movable groups; 0 is the root.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<MovableGroup>,
     /// What the author should know though the model is valid.
     pub warnings: Vec<String>,
 }
 
 /// A movable group with everything that hangs below it down to the next movable groups: one rigid body.
 #[derive(Clone, Debug, Default)]
-pub struct Body {
+pub struct MovableGroup {
     /// Name of the movable group.
     pub name: String,
     /// Path in the tree, `root/arm/latch`.
@@ -184,7 +184,7 @@ pub struct Balls {
 
 impl Balls {
     /// The lanes of some elements; `None` for kinds that are no balls.
-    pub(crate) fn new(body: &Body, kind: PrimitiveKind, items: &[Item]) -> Option<Self> {
+    pub(crate) fn new(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Option<Self> {
         let ball = |item: &Item| match kind {
             PrimitiveKind::Point => Some((body.points[item.element as usize].position, 0.0)),
             PrimitiveKind::Sphere => {
@@ -211,7 +211,7 @@ impl Balls {
 /// One element of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
-    /// Index into [`Body::primitives`].
+    /// Index into [`MovableGroup::primitives`].
     pub primitive: u32,
     /// Index into the array of the primitive's kind.
     pub element: u32,

@@ -1,7 +1,7 @@
 //! The same model with other bounding volumes or other leaves: other times, the same answers.
 
 use crate::draft::GroupDraft;
-use crate::model::{Body, Model};
+use crate::model::{Model, MovableGroup};
 use crate::{arrange, tree};
 use pong_geometry::bounding::{BoundKind, Volume};
 use pong_geometry::extension::Extensions;
@@ -38,7 +38,11 @@ impl Model {
         })
     }
 
-    fn regrouped(&self, ext: &Extensions, groups: impl Fn(&Body) -> Vec<GroupDraft>) -> Result<Self, String> {
+    fn regrouped(
+        &self,
+        ext: &Extensions,
+        groups: impl Fn(&MovableGroup) -> Vec<GroupDraft>,
+    ) -> Result<Self, String> {
         let mut model = self.clone();
         for body in &mut model.bodies {
             body.tree = tree::build(body, &groups(body), ext).map_err(|faults| {
@@ -54,7 +58,7 @@ impl Model {
 }
 
 /// The groups that the nodes of a body's tree came from.
-fn groups_of(body: &Body) -> Vec<GroupDraft> {
+fn groups_of(body: &MovableGroup) -> Vec<GroupDraft> {
     let nodes = body.tree.nodes.iter();
     nodes
         .map(|node| GroupDraft {

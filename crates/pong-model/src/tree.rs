@@ -4,7 +4,7 @@
 use crate::box_tree::{BoxTree, Boxed};
 use crate::draft::GroupDraft;
 use crate::element::Element;
-use crate::model::{Balls, Batch, Body, ChunkBoxes, Item, Node, Tree};
+use crate::model::{Balls, Batch, ChunkBoxes, Item, MovableGroup, Node, Tree};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{BoundKind, Bounded, Volume, fit, fit_aabb_bounds};
 use pong_geometry::extension::Extensions;
@@ -27,7 +27,7 @@ struct DraftNode {
 }
 
 struct Builder<'b> {
-    body: &'b Body,
+    body: &'b MovableGroup,
     groups: &'b [GroupDraft],
     ext: &'b Extensions,
     nodes: Vec<DraftNode>,
@@ -35,7 +35,11 @@ struct Builder<'b> {
 }
 
 /// Builds the tree of a body whose elements are all in place.
-pub(crate) fn build(body: &Body, groups: &[GroupDraft], ext: &Extensions) -> Result<Tree, Vec<FitFault>> {
+pub(crate) fn build(
+    body: &MovableGroup,
+    groups: &[GroupDraft],
+    ext: &Extensions,
+) -> Result<Tree, Vec<FitFault>> {
     let mut builder = Builder { body, groups, ext, nodes: Vec::new(), faults: Vec::new() };
     let root = match builder.group(0) {
         Some((root, _)) => root,
@@ -126,13 +130,13 @@ impl Builder<'_> {
     }
 }
 
-fn boxed(body: &Body, item: Item) -> Boxed<Item> {
+fn boxed(body: &MovableGroup, item: Item) -> Boxed<Item> {
     let (low, high) = Element::new(body, item).extent();
     Boxed { item, low, high }
 }
 
 /// The elements of a leaf by kind, the unbounded ones apart, each batch in the order of its tree.
-fn batches(body: &Body, items: &[Item], tree: &mut Tree) {
+fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
     let mut by_kind: BTreeMap<(PrimitiveKind, bool), Vec<Boxed<Item>>> = BTreeMap::new();
     for &item in items {
         let kind = body.primitives[item.primitive as usize].kind;
@@ -201,7 +205,7 @@ fn box_around(boxed: &[Boxed<Item>]) -> Option<Volume> {
 }
 
 /// Breadth first, so that the children of a node lie side by side.
-fn flatten(body: &Body, mut drafts: Vec<DraftNode>, root: usize) -> Tree {
+fn flatten(body: &MovableGroup, mut drafts: Vec<DraftNode>, root: usize) -> Tree {
     let mut order = vec![root];
     let mut tree = Tree::default();
     let mut next = 0;

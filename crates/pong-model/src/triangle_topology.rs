@@ -2,7 +2,7 @@
 //!
 //! Mirror images of two-sided meshes touch only mirror images. Everything sorts, nothing compares all with all.
 
-use crate::model::Body;
+use crate::model::MovableGroup;
 use crate::pieces::Sets;
 use crate::t_junctions;
 use pong_geometry::interference::triangle_features::mark_pushing;
@@ -36,7 +36,7 @@ pub(crate) struct Findings {
 type HalfEdge = (u64, u32);
 
 /// Sets the neighbours of all triangles, and which of their features may push.
-pub(crate) fn build_adjacency(body: &mut Body) -> Findings {
+pub(crate) fn build_adjacency(body: &mut MovableGroup) -> Findings {
     let mut findings =
         Findings { shell_leader: vec![0; body.triangles.triangles.len()], ..Findings::default() };
     for mirrors in [false, true] {
@@ -60,7 +60,7 @@ pub(crate) fn build_adjacency(body: &mut Body) -> Findings {
 }
 
 /// Fronts, or mirror images, in order.
-fn triangles_of(body: &Body, mirrors: bool) -> Vec<u32> {
+fn triangles_of(body: &MovableGroup, mirrors: bool) -> Vec<u32> {
     let meshes = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
     meshes
         .flat_map(|info| {

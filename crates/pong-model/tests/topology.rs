@@ -6,10 +6,10 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron, PrimitiveKind};
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, NarrowBox, lanes};
-use pong_model::{Body, Model};
+use pong_model::{Model, MovableGroup};
 use std::collections::BTreeSet;
 
-fn body(primitives: &str) -> Body {
+fn body(primitives: &str) -> MovableGroup {
     let model = load(&model_of(primitives));
     assert!(model.warnings.is_empty(), "{:?}", model.warnings);
     model.bodies.into_iter().next().unwrap()
@@ -429,7 +429,7 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
 }
 
 /// Every ball lies in the box that its batch has for it, and in the lane that its place says.
-fn check_batch(body: &Body, batch: &pong_model::Batch) {
+fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
     let balls = batch.balls.as_ref().expect("spheres have lanes");
     batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, |node, met| {
         for lane in lanes(met) {
@@ -448,7 +448,7 @@ fn check_batch(body: &Body, batch: &pong_model::Batch) {
 }
 
 /// Every volume below a node holds what it must; returns the items below.
-fn check_tree(body: &Body, node: usize, seen: &mut BTreeSet<usize>) -> Vec<usize> {
+fn check_tree(body: &MovableGroup, node: usize, seen: &mut BTreeSet<usize>) -> Vec<usize> {
     use pong_geometry::bounding::Volume;
     assert!(seen.insert(node));
     let n = &body.tree.nodes[node];
@@ -571,8 +571,9 @@ fn a_ridge_shared_by_two_pieces_pushes_once_between_the_faces_of_both() {
          faces: [[0,1,2],[4,3,5],[0,3,4,1],[1,4,5,2],[3,0,2,5]], inactive_faces: [4])",
     );
     assert_eq!(edge_lines(&halves.polyhedra), edge_lines(&whole.polyhedra));
-    let places =
-        |body: &Body| pushing_vertices(&body.polyhedra).into_iter().map(|(at, _)| at).collect::<Vec<_>>();
+    let places = |body: &MovableGroup| {
+        pushing_vertices(&body.polyhedra).into_iter().map(|(at, _)| at).collect::<Vec<_>>()
+    };
     assert_eq!(places(&halves), places(&whole));
     let pushing: Vec<_> =
         halves.polyhedra.iter().map(|p| p.vertices.iter().filter(|v| v.pushes).count()).collect();

@@ -42,7 +42,7 @@ fn a_planted_change_is_named() {
     let folder = folder("planted");
     let mut scene = scene(&folder);
     for (table, row, size, at, of, quantity) in [
-        // Body 1 of frame 120: three wrenches of 48 bytes a frame; the lowest byte of the moment's y.
+        // Movable group 1 of frame 120: three wrenches of 48 bytes a frame; the lowest byte of the moment's y.
         ("wrenches", 120 * 3 + 1, 48, 32, "wrench on `cart/arm`", "moment"),
         ("contacts", 200, 180, 44 + 48, "contact ", "depth"),
         ("contacts", 200, 180, 40, "contact ", "sticks"),

@@ -194,7 +194,7 @@ struct Looks {
     shapes: Vec<Shape>,
     /// Shape of each body.
     of_body: Vec<usize>,
-    /// Body and number of the part in its shape, for each primitive of the log.
+    /// Movable group and number of the part in its shape, for each primitive of the log.
     primitives: Vec<[usize; 2]>,
     /// Models whose hash is not the one in the log.
     changed: Vec<String>,

@@ -5,7 +5,7 @@ use crate::hull::hull;
 use crate::surface::Surface;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Mat3, Quat, Vec3};
-use pong_model::{Body, PrimitiveInfo};
+use pong_model::{MovableGroup, PrimitiveInfo};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ struct Draft {
 }
 
 impl Shape {
-    pub fn new(body: &Body, surfaces: &[pong_model::Surface], blob: &mut Blob) -> Self {
+    pub fn new(body: &MovableGroup, surfaces: &[pong_model::Surface], blob: &mut Blob) -> Self {
         let mut draft = Draft::default();
         draft.surface.take_vertices(&body.triangles);
         let name = |info: &PrimitiveInfo| surfaces[info.surface as usize].name.clone();
@@ -100,13 +100,13 @@ impl Shape {
 }
 
 impl Draft {
-    fn part(&mut self, body: &Body, info: &PrimitiveInfo, surface: String) -> Part {
+    fn part(&mut self, body: &MovableGroup, info: &PrimitiveInfo, surface: String) -> Part {
         let (first, count) = self.place(body, info);
         Part { path: info.path.clone(), kind: info.kind.name(), surface, first, count }
     }
 
     /// Adds a primitive and tells where it lies.
-    fn place(&mut self, body: &Body, info: &PrimitiveInfo) -> (u32, u32) {
+    fn place(&mut self, body: &MovableGroup, info: &PrimitiveInfo) -> (u32, u32) {
         let index = info.elements.start as usize;
         match info.kind {
             PrimitiveKind::Point => {

@@ -2,7 +2,7 @@
 
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{NO_NEIGHBOR, Polyhedron, TriangleSet};
-use pong_model::{Body, PrimitiveInfo};
+use pong_model::{MovableGroup, PrimitiveInfo};
 
 /// Neighbouring triangles whose normals differ by more get an edge between them: cosine of 25°.
 const CREASE: f64 = 0.906_307_787;
@@ -55,7 +55,7 @@ impl Surface {
     }
 
     /// Adds the free edges and the creases of the body's meshes, each once.
-    pub fn add_creases(&mut self, body: &Body) {
+    pub fn add_creases(&mut self, body: &MovableGroup) {
         let meshes = &body.triangles;
         let fronts = body.primitives.iter().filter(|info| info.first_mirror > info.elements.start);
         let fronts = fronts.filter(|info| info.kind == pong_geometry::primitive::PrimitiveKind::Triangle);

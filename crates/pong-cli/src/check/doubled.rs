@@ -2,7 +2,7 @@
 
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Model};
+use pong_model::{Model, MovableGroup};
 
 /// A point this near a segment's end, by the segment's length, sits on it.
 const NEAR: f64 = 1e-6;
@@ -20,7 +20,7 @@ pub(super) fn warnings(model: &Model) -> Vec<String> {
     lines
 }
 
-fn in_body(body: &Body, model: &Model) -> Vec<String> {
+fn in_body(body: &MovableGroup, model: &Model) -> Vec<String> {
     let primitives = |kind| body.primitives.iter().filter(move |info| info.kind == kind);
     let mut points: Vec<(Vec3, usize)> = Vec::new();
     for (index, info) in body.primitives.iter().enumerate().filter(|(_, i)| i.kind == PrimitiveKind::Point) {

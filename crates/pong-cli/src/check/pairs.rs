@@ -4,7 +4,7 @@ use super::{Named, stiffness};
 use crate::text::{count, number};
 use pong_engine::{Config, EngineError, SealReport, World, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, printable};
+use pong_model::{MovableGroup, printable};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -63,7 +63,7 @@ fn sealed(a: &Named, b: &Named) -> Result<SealReport, EngineError> {
 }
 
 /// The pairs of movable groups that are tested.
-fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m Body, &'m Body)> {
+fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m MovableGroup, &'m MovableGroup)> {
     let mut pairs = Vec::new();
     for (index, body_a) in a.model.bodies.iter().enumerate() {
         let from = if itself { index + 1 } else { 0 };
@@ -73,7 +73,7 @@ fn group_pairs<'m>(a: &'m Named, b: &'m Named, itself: bool) -> Vec<(&'m Body, &
 }
 
 /// Pairs of elements by pair of kinds, A's kind first.
-fn testers(group_pairs: &[(&Body, &Body)]) -> BTreeMap<(&'static str, &'static str), usize> {
+fn testers(group_pairs: &[(&MovableGroup, &MovableGroup)]) -> BTreeMap<(&'static str, &'static str), usize> {
     let mut testers = BTreeMap::new();
     for (body_a, body_b) in group_pairs {
         let (counts_a, counts_b) = (elements(body_a), elements(body_b));
@@ -91,7 +91,7 @@ fn testers(group_pairs: &[(&Body, &Body)]) -> BTreeMap<(&'static str, &'static s
     testers
 }
 
-fn elements(body: &Body) -> BTreeMap<PrimitiveKind, usize> {
+fn elements(body: &MovableGroup) -> BTreeMap<PrimitiveKind, usize> {
     let mut counts = BTreeMap::new();
     for item in &body.tree.items {
         *counts.entry(body.primitives[item.primitive as usize].kind).or_default() += 1;

@@ -4,7 +4,7 @@ use super::Named;
 use crate::text::{count, number};
 use pong_engine::{Laws, NormalProps, combine_surfaces};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Exponent, Model, Surface, pair_entries, printable};
+use pong_model::{Exponent, Model, MovableGroup, Surface, pair_entries, printable};
 use std::collections::BTreeMap;
 
 /// How many are told; the softer ones are only counted.
@@ -42,7 +42,10 @@ pub(super) fn lines(mut faces: Vec<FacePressed>) -> String {
 }
 
 /// Points and segments of body A that press on the faces of body B: one entry for each surface of faces.
-pub(super) fn faces_pressed((a, body_a): (&Named, &Body), (b, body_b): (&Named, &Body)) -> Vec<FacePressed> {
+pub(super) fn faces_pressed(
+    (a, body_a): (&Named, &MovableGroup),
+    (b, body_b): (&Named, &MovableGroup),
+) -> Vec<FacePressed> {
     let pressing = pressing(body_a);
     if pressing.is_empty() {
         return Vec::new();
@@ -86,7 +89,7 @@ fn told(points: usize, segments: usize) -> String {
     points.into_iter().chain(segments).collect::<Vec<_>>().join(" and ")
 }
 
-fn pressing(body: &Body) -> Vec<Group> {
+fn pressing(body: &MovableGroup) -> Vec<Group> {
     let mut by_surface: BTreeMap<u32, Group> = BTreeMap::new();
     for info in &body.primitives {
         let surface = info.surface;
@@ -103,7 +106,7 @@ fn pressing(body: &Body) -> Vec<Group> {
 }
 
 /// Surfaces of planes and polyhedra, each once.
-fn faces(body: &Body) -> BTreeMap<u32, &'static str> {
+fn faces(body: &MovableGroup) -> BTreeMap<u32, &'static str> {
     let flat = |kind| matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Polyhedron);
     body.primitives
         .iter()

@@ -3,7 +3,7 @@
 use crate::text::{count, number, numbers};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, Element, Exponent, FrictionLaw, Model, Node, NormalLaw, Surface, printable};
+use pong_model::{Element, Exponent, FrictionLaw, Model, MovableGroup, Node, NormalLaw, Surface, printable};
 use std::collections::{BTreeMap, HashMap};
 
 /// A group as the engine sees it.
@@ -48,7 +48,7 @@ pub(super) fn description(name: &str, model: &Model) -> String {
 
 /// The authored groups of a body in the order of the file, with and without volumes of their own; the loader's own
 /// subdivisions keep the path of their leaf and are one with it.
-fn groups_of(body: &Body) -> Vec<Group> {
+fn groups_of(body: &MovableGroup) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut numbers: HashMap<&str, usize> = HashMap::new();
     let nodes = nodes_of(body);
@@ -83,13 +83,13 @@ fn above(path: &str) -> Option<&str> {
 }
 
 /// The nodes of a body's tree by the group that they are of.
-fn nodes_of(body: &Body) -> HashMap<&str, Vec<&Node>> {
+fn nodes_of(body: &MovableGroup) -> HashMap<&str, Vec<&Node>> {
     let mut nodes: HashMap<&str, Vec<&Node>> = HashMap::new();
     body.tree.nodes.iter().for_each(|node| nodes.entry(&*node.group).or_default().push(node));
     nodes
 }
 
-fn group_at(body: &Body, path: &str, nodes: &[&Node]) -> Group {
+fn group_at(body: &MovableGroup, path: &str, nodes: &[&Node]) -> Group {
     let mut bound = nodes.first().map_or("Above", |node| node.volume.kind_name()).to_owned();
     let leaves = nodes.iter().filter(|node| !node.items.is_empty()).count();
     if leaves > 1 {
@@ -128,7 +128,7 @@ fn held(kind: PrimitiveKind, primitives: usize, elements: usize) -> String {
     }
 }
 
-fn extent(body: &Body) -> String {
+fn extent(body: &MovableGroup) -> String {
     let items = &body.tree.items;
     if items.is_empty() {
         return format!("  extent of {}: nothing\n", printable(&body.path));

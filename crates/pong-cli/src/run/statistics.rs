@@ -36,8 +36,8 @@ pub(super) struct Statistics {
     steps: u64,
     contacts_wanted: Option<u32>,
     /// Steps in which something went through something else, and the first of them in words.
-    passages: u64,
-    first_passage: String,
+    tunnelled: u64,
+    first_tunnelled: String,
     /// If it is asked for.
     pub acting: Option<Acting>,
 }
@@ -65,8 +65,8 @@ impl Statistics {
             every: built.steps.div_ceil(TIMES_KEPT).max(1),
             steps: 0,
             contacts_wanted: None,
-            passages: 0,
-            first_passage: String::new(),
+            tunnelled: 0,
+            first_tunnelled: String::new(),
             acting: acting.then(|| Acting::new(built.simulation.step_plan())),
         }
     }
@@ -98,9 +98,9 @@ impl Statistics {
         self.acting.iter_mut().for_each(|acting| acting.observe(simulation));
         let report = simulation.world().report();
         if report.status.contains(StatusBits::TUNNELLED) {
-            self.passages += 1;
-            if self.passages == 1 {
-                self.first_passage = passage_in_words(simulation).unwrap_or_default();
+            self.tunnelled += 1;
+            if self.tunnelled == 1 {
+                self.first_tunnelled = tunnelling_in_words(simulation).unwrap_or_default();
             }
         }
         if report.status.leaves_contacts_out() {
@@ -138,12 +138,12 @@ impl Statistics {
     }
 
     /// What to do if something went through something else between two steps.
-    pub fn passage_advice(&self) -> Option<String> {
-        (self.passages > 0).then(|| {
+    pub fn tunnelling_advice(&self) -> Option<String> {
+        (self.tunnelled > 0).then(|| {
             format!(
                 "in {} steps something went right through something else, and contacts were missed; first {}; \
                  make the step shorter, the wall thicker or the surfaces stiffer",
-                self.passages, self.first_passage
+                self.tunnelled, self.first_tunnelled
             )
         })
     }
@@ -159,9 +159,9 @@ impl Statistics {
 }
 
 /// Which element went through which body, and when.
-fn passage_in_words(simulation: &Simulation) -> Option<String> {
+fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
     let world = simulation.world();
-    let passage = world.passage()?;
+    let passage = world.tunnelling()?;
     let element = world.primitive_path(passage.interface, passage.primitive).ok()?;
     let through = world.interface_path(passage.through).ok()?;
     Some(format!("`{element}` through `{through}` at {} s", simulation.time()))

@@ -6,7 +6,7 @@ use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Plan};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, PrimitiveInfo};
+use pong_model::{MovableGroup, PrimitiveInfo};
 use std::collections::BTreeSet;
 
 /// What is tested in one direction of a pair.
@@ -32,7 +32,7 @@ fn plan(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Pla
 }
 
 /// One primitive of every kind in a body.
-fn representatives(body: &Body) -> impl Iterator<Item = &PrimitiveInfo> {
+fn representatives(body: &MovableGroup) -> impl Iterator<Item = &PrimitiveInfo> {
     let mut seen = BTreeSet::new();
     body.primitives.iter().filter(move |info| seen.insert(kind_name(body, info).to_owned()))
 }

@@ -6,7 +6,7 @@ use crate::error::EngineError;
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, SurfaceTable};
-use pong_model::{Body, FrictionLaw, LARGEST, Model, NormalLaw, PairOverride, Surface, pair_entries};
+use pong_model::{FrictionLaw, LARGEST, Model, MovableGroup, NormalLaw, PairOverride, Surface, pair_entries};
 use std::collections::BTreeSet;
 
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
@@ -37,12 +37,12 @@ pub(crate) fn surface_tables(
 fn fill_table(
     (scene, surfaces): (&Scene, &[Vec<Surface>]),
     table: &mut SurfaceTable,
-    body_a: &Body,
-    body_b: &Body,
+    body_a: &MovableGroup,
+    body_b: &MovableGroup,
     problems: &mut BTreeSet<String>,
 ) {
     // One representative per kind and surface: meshes of a thousand parts share a handful of them.
-    let distinct = |body: &Body| -> Vec<usize> {
+    let distinct = |body: &MovableGroup| -> Vec<usize> {
         let mut seen = BTreeSet::new();
         (0..body.primitives.len())
             .filter(|&i| {

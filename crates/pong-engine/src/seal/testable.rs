@@ -3,10 +3,10 @@
 use crate::frame::narrow_phase::pair_table::has_tester;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Body, PrimitiveInfo};
+use pong_model::{MovableGroup, PrimitiveInfo};
 
 /// The name of a primitive's kind, a custom kind's own name included.
-pub(crate) fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
+pub(crate) fn kind_name<'a>(body: &'a MovableGroup, info: &PrimitiveInfo) -> &'a str {
     match info.kind {
         PrimitiveKind::Custom => body.customs[info.elements.start as usize].kind_name(),
         kind => kind.name(),
@@ -16,8 +16,8 @@ pub(crate) fn kind_name<'a>(body: &'a Body, info: &PrimitiveInfo) -> &'a str {
 /// Whether a primitive can be tested as A against another as B.
 pub(crate) fn can_be_tested(
     extensions: &Extensions,
-    a: (&Body, &PrimitiveInfo),
-    b: (&Body, &PrimitiveInfo),
+    a: (&MovableGroup, &PrimitiveInfo),
+    b: (&MovableGroup, &PrimitiveInfo),
 ) -> bool {
     has_tester(a.1.kind, b.1.kind)
         || extensions.contact_test(kind_name(a.0, a.1), kind_name(b.0, b.1)).is_some()

@@ -2,7 +2,7 @@
 
 use super::testable::{can_be_tested, kind_name};
 use crate::scene::Scene;
-use pong_model::Body;
+use pong_model::MovableGroup;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Something the author may not have intended.
@@ -126,7 +126,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
 /// Pairs of kinds without a tester in the movable groups of two models, and whether any two have one.
 fn kinds_that_meet(scene: &Scene, models: [usize; 2], itself: bool) -> (BTreeSet<[String; 2]>, bool) {
     // One primitive of each kind.
-    let kinds = |body: &Body| -> BTreeMap<String, usize> {
+    let kinds = |body: &MovableGroup| -> BTreeMap<String, usize> {
         let mut by_name = BTreeMap::new();
         for (index, info) in body.primitives.iter().enumerate() {
             by_name.entry(kind_name(body, info).to_owned()).or_insert(index);

@@ -214,7 +214,7 @@ impl Stage<'_> {
         let counts = self.world.counts();
         hash.word(counts.leaf_pairs);
         hash.word(counts.boxes_tested);
-        hash.word(self.world.passage().map_or(0, |passage| u64::from(passage.count)));
+        hash.word(self.world.tunnelling().map_or(0, |passage| u64::from(passage.count)));
         for (a, b, tally) in counts.volumes() {
             hash.bytes(a.as_bytes());
             hash.bytes(b.as_bytes());

@@ -55,7 +55,7 @@ pub(crate) fn loads(
         }
         let axes = match entry.axes {
             AxesEntry::Common => Axes::Common,
-            AxesEntry::Body => Axes::Body,
+            AxesEntry::MovableGroup => Axes::MovableGroup,
         };
         loads.extend(body.map(|body| Load { body, point: entry.point.into(), axes, history }));
     }

@@ -35,7 +35,7 @@ impl Setting {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,
             workers: variation.workers.clone(),
-            accounts: integrator(document).wrench_use().filter(|_| document.ledger),
+            accounts: integrator(document).wrench_coupling().filter(|_| document.ledger),
         };
         let mut setting = Self {
             world: World::with_extensions(config, extensions.clone(), Laws::default()),

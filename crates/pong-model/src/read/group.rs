@@ -3,7 +3,7 @@
 use super::primitive::read_primitive;
 use super::{Fields, Reader, suggest};
 use crate::draft::{BodyDraft, GroupDraft};
-use crate::model::Body;
+use crate::model::MovableGroup;
 use crate::ron_tree::{Node, Value};
 use crate::surface::Surface;
 use pong_geometry::Pose;
@@ -93,12 +93,12 @@ fn new_body(
         Some(x_rp) => x_rp.compose(&x_bg),
         None => Pose::identity(),
     };
-    let body = Body {
+    let body = MovableGroup {
         name: name.unwrap_or_default(),
         path: path.clone(),
         parent: parent.map(|parent| parent as u32),
         initial_pose: Some(x_rb),
-        ..Body::default()
+        ..MovableGroup::default()
     };
     groups.bodies.push(BodyDraft { body, groups: vec![empty_group(&path)], ..BodyDraft::default() });
     Place { path, body: groups.bodies.len() - 1, group: 0, x_bg: Pose::identity(), surface: None }

@@ -4,7 +4,7 @@ use super::RecordOptions;
 use crate::run::{FORMAT, Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{EngineError, World};
-use pong_model::{Body, Model};
+use pong_model::{Model, MovableGroup};
 
 /// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
 pub(crate) fn describe(
@@ -68,7 +68,7 @@ pub(super) fn file(table: &str) -> String {
 }
 
 /// The Object's name for the root, with the path below the root for others.
-fn body_name(object: &str, model: &Model, body: &Body) -> String {
+fn body_name(object: &str, model: &Model, body: &MovableGroup) -> String {
     let root = &model.bodies[0].path;
     match body.path.strip_prefix(root.as_str()).and_then(|rest| rest.strip_prefix('/')) {
         Some(below) => format!("{object}/{below}"),

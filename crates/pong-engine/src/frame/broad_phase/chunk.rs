@@ -8,7 +8,7 @@ use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_geometry::{Transform, Vec3};
 use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
-use pong_model::{Batch, Body, ChunkBoxes, Item};
+use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
 
 /// The elements and where they are.
 pub(crate) struct Chunk<'a, 'l, 'm> {
@@ -51,7 +51,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
     #[inline(always)]
     pub fn new<S: Simd>(
         simd: S,
-        (body, batch): (&'a Body, &'a Batch),
+        (body, batch): (&'a MovableGroup, &'a Batch),
         first: u32,
         x_ba: &Transform,
         meets_triangles: bool,
@@ -128,7 +128,12 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
     }
 }
 
-fn carry_each(body: &Body, items: &[Item], x_ba: &Transform, carried: &mut List<'_, TransformedPrimitive>) {
+fn carry_each(
+    body: &MovableGroup,
+    items: &[Item],
+    x_ba: &Transform,
+    carried: &mut List<'_, TransformedPrimitive>,
+) {
     carried.clear();
     for &item in items {
         let Some(one) = TransformedPrimitive::new(body, item, x_ba) else { return };

@@ -2,7 +2,7 @@
 
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, PrimitiveKind, Ray, Sphere};
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Body, Item};
+use pong_model::{Item, MovableGroup};
 
 /// The primitive.
 #[derive(Clone, Copy, Debug)]
@@ -16,7 +16,7 @@ pub(crate) enum TransformedPrimitive {
 
 impl TransformedPrimitive {
     /// `None` for kinds that are never A in the table.
-    pub fn new(body: &Body, item: Item, x_ba: &Transform) -> Option<Self> {
+    pub fn new(body: &MovableGroup, item: Item, x_ba: &Transform) -> Option<Self> {
         let i = item.element as usize;
         Some(match body.primitives[item.primitive as usize].kind {
             PrimitiveKind::Point => Self::Point(body.points[i].carried(x_ba)),

@@ -3,11 +3,11 @@
 use crate::state::ContactKey;
 use pong_geometry::Vec3;
 use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
-use pong_model::Body;
+use pong_model::MovableGroup;
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
 /// a segment's end, a ray's tip.
-pub(crate) fn reference_point(body_a: &Body, key: &ContactKey, element_a: u32) -> Vec3 {
+pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a: u32) -> Vec3 {
     let element = element_a as usize;
     match body_a.primitives[key.primitive_a as usize].kind {
         PrimitiveKind::Point => body_a.points[element].position,

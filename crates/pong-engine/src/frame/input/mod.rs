@@ -11,7 +11,7 @@ use crate::state::ContactMemory;
 use motion::Motion;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
-use pong_model::Body;
+use pong_model::MovableGroup;
 use std::cell::Cell;
 use std::sync::Arc;
 
@@ -74,8 +74,8 @@ pub(crate) struct PairContext<'a> {
     pub group_pair: u32,
     /// 0 if A is in the pair's first body, 1 if in the second.
     pub flipped: u32,
-    pub body_a: &'a Body,
-    pub body_b: &'a Body,
+    pub body_a: &'a MovableGroup,
+    pub body_b: &'a MovableGroup,
     /// Motion of A against B.
     pub motion: &'a Motion,
     pub memory: &'a ContactMemory,

@@ -13,7 +13,7 @@ use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
 use pong_geometry::primitive::{Containment, PrimitiveKind};
 use pong_geometry::simd::LANES;
-use pong_model::{Body, Item, PrimitiveInfo};
+use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
 /// What testers find for one chunk of A.
 pub(crate) struct Findings<'m> {
@@ -85,11 +85,11 @@ pub(crate) struct ElementPair<'a> {
 }
 
 impl<'a> ElementPair<'a> {
-    pub fn body_a(&self) -> &'a Body {
+    pub fn body_a(&self) -> &'a MovableGroup {
         self.context.body_a
     }
 
-    pub fn body_b(&self) -> &'a Body {
+    pub fn body_b(&self) -> &'a MovableGroup {
         self.context.body_b
     }
 

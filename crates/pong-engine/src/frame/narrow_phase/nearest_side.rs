@@ -8,7 +8,7 @@ use pong_geometry::interference::triangle_features::{TriangleContact, is_in_fron
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{LANES, Portable};
 use pong_model::box_tree::{Child, lanes};
-use pong_model::{Body, Item};
+use pong_model::{Item, MovableGroup};
 
 /// How much wider than a distance the box is in which triangles at that distance are looked for.
 const REACH_SLACK: f64 = 1e-6;
@@ -18,7 +18,7 @@ pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// A triangle of a body, and the centre of a sphere or ellipsoid.
 pub(crate) struct Nearby<'a> {
-    pub body: &'a Body,
+    pub body: &'a MovableGroup,
     pub item: Item,
     pub center: Vec3,
 }
@@ -109,7 +109,7 @@ impl Nearby<'_> {
 }
 
 /// Calls `visit` with every triangle whose box meets that between two corners.
-pub(crate) fn visit_triangles(body: &Body, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
+pub(crate) fn visit_triangles(body: &MovableGroup, low: &Vec3, high: &Vec3, visit: &mut dyn FnMut(Item)) {
     let tree = &body.tree;
     for batch in tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
         batch.boxes.visit(Portable, &batch.boxes.narrowed(low, high), |node, met| {

@@ -3,7 +3,7 @@
 use super::element_pair::{ElementPair, Findings};
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
-use pong_model::{Body, Item};
+use pong_model::{Item, MovableGroup};
 
 /// Runs the test that is registered for a pair of kinds, if there is one.
 pub(crate) fn test(pair: &ElementPair<'_>, found: &mut Findings<'_>) {
@@ -19,7 +19,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, found: &mut Findings<'_>) {
 }
 
 /// An element as registered testers see it.
-fn element_ref(body: &Body, item: Item) -> PrimitiveRef<'_> {
+fn element_ref(body: &MovableGroup, item: Item) -> PrimitiveRef<'_> {
     let i = item.element as usize;
     match body.primitives[item.primitive as usize].kind {
         PrimitiveKind::Point => PrimitiveRef::Point(&body.points[i]),

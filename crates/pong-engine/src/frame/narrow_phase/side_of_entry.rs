@@ -13,7 +13,7 @@ use pong_geometry::interference::triangle_features::{
 };
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
-use pong_model::{Body, Item};
+use pong_model::{Item, MovableGroup};
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct EntryFace {
 /// A point (or a sphere's centre) inside a piece of B.
 pub(crate) struct PolyhedronEntry<'a> {
     pub memory: &'a ContactMemory,
-    pub body: &'a Body,
+    pub body: &'a MovableGroup,
     pub shell: u32,
     /// Which polyhedron of the body.
     pub piece: u32,
@@ -117,7 +117,7 @@ impl PolyhedronEntry<'_> {
 /// The centre of a sphere or ellipsoid against one triangle of B.
 pub(crate) struct TriangleEntry<'a> {
     pub memory: &'a ContactMemory,
-    pub body: &'a Body,
+    pub body: &'a MovableGroup,
     pub triangle: Item,
     /// The centre, in B's frame.
     pub center: Vec3,

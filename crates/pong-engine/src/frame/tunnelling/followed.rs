@@ -12,7 +12,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::Portable;
 use pong_model::box_tree::{Child, lanes};
-use pong_model::{Batch, Body, Item};
+use pong_model::{Batch, Item, MovableGroup};
 
 /// A contact pushes to a side where the cosine between its normal and that of the side exceeds this (60°).
 pub(super) const SAME_SIDE_COSINE_MIN: f64 = 0.5;
@@ -171,7 +171,7 @@ pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterat
 }
 
 /// Where an element of A is followed, in A's frame, m.
-fn places(body: &Body, kind: PrimitiveKind, item: Item) -> [Option<Vec3>; 3] {
+fn places(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> [Option<Vec3>; 3] {
     let i = item.element as usize;
     match kind {
         PrimitiveKind::Point => [Some(body.points[i].position), None, None],

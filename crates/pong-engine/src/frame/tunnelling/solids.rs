@@ -4,11 +4,11 @@ use super::line::{Line, Met};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::entry_of_line;
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind};
-use pong_model::Body;
+use pong_model::MovableGroup;
 
 /// What a line did to a piece: by an active face into it, and out of the whole solid or not. A line that began in the
 /// solid belongs to a contact that there was.
-pub(super) fn meet(body: &Body, shell: u32, piece: u32, line: &Line) -> Option<Met> {
+pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> Option<Met> {
     let polyhedron = &body.polyhedra[piece as usize];
     let entry = entry_of_line(&line.from, &line.to, polyhedron)?;
     let face = &polyhedron.faces[entry.face];
@@ -20,12 +20,12 @@ pub(super) fn meet(body: &Body, shell: u32, piece: u32, line: &Line) -> Option<M
 }
 
 /// Whether a place is inside a solid.
-pub(super) fn holds(body: &Body, shell: u32, place: &Vec3) -> bool {
+pub(super) fn holds(body: &MovableGroup, shell: u32, place: &Vec3) -> bool {
     pieces(body, shell).any(|polyhedron| polyhedron.contains(place))
 }
 
 /// The normal of the face by which a line that began inside has left the solid for good.
-pub(super) fn way_out(body: &Body, shell: u32, line: &Line) -> Option<Vec3> {
+pub(super) fn way_out(body: &MovableGroup, shell: u32, line: &Line) -> Option<Vec3> {
     let backwards = pieces(body, shell).filter_map(|polyhedron| {
         let entry = entry_of_line(&line.to, &line.from, polyhedron)?;
         Some((entry.at, &polyhedron.faces[entry.face]))
@@ -34,7 +34,7 @@ pub(super) fn way_out(body: &Body, shell: u32, line: &Line) -> Option<Vec3> {
     last.map(|(_, face)| face.normal)
 }
 
-fn pieces(body: &Body, shell: u32) -> impl Iterator<Item = &Polyhedron> {
+fn pieces(body: &MovableGroup, shell: u32) -> impl Iterator<Item = &Polyhedron> {
     let of_shell = body.primitives.iter().filter(move |info| info.shell == shell);
     let pieces = of_shell.filter(|info| info.kind == PrimitiveKind::Polyhedron);
     pieces.map(|info| &body.polyhedra[info.elements.start as usize])

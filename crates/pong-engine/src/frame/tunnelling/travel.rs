@@ -5,13 +5,13 @@ use crate::frame::input::motion::Motion;
 use crate::sealed::Plan;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Batch, Body};
+use pong_model::{Batch, MovableGroup};
 
 /// Half of what is thinnest in B, as far as A can go through it, m: a line that is shorter goes through no wall.
 /// Infinite where there is nothing to go through.
 pub(crate) fn least_travel_m(
-    a: &Body,
-    b: &Body,
+    a: &MovableGroup,
+    b: &MovableGroup,
     tests: impl Fn(PrimitiveKind, PrimitiveKind) -> bool,
 ) -> f64 {
     let kinds = PrimitiveKind::ALL;
@@ -48,7 +48,7 @@ pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
 }
 
 /// Greatest distance of anything of A that is followed from the origin of its movable group, m.
-pub(crate) fn reach_m(a: &Body) -> f64 {
+pub(crate) fn reach_m(a: &MovableGroup) -> f64 {
     let points = a.points.iter().map(|point| point.position);
     let ends = a.segments.iter().flat_map(|segment| segment.ends);
     let rays = a.rays.iter().map(|ray| ray.origin);

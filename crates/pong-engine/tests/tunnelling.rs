@@ -40,7 +40,7 @@ fn told_at(rig: &mut Rig, places: impl IntoIterator<Item = Vec3>) -> Vec<bool> {
         rig.place_a(place, Quat::identity());
         let report = rig.world.step().unwrap();
         let told = report.status.contains(StatusBits::TUNNELLED);
-        assert_eq!(told, rig.world.passage().is_some());
+        assert_eq!(told, rig.world.tunnelling().is_some());
         assert_eq!(told, !report.status.is_complete());
         told
     };
@@ -65,7 +65,7 @@ fn it_is_named() {
         &plate(),
     );
     told(&mut rig, &[0.3, -0.3]);
-    let passage = rig.world.passage().unwrap();
+    let passage = rig.world.tunnelling().unwrap();
     assert_eq!((passage.interface, passage.through), (rig.interfaces[0], rig.interfaces[1]));
     assert_eq!((passage.primitive, passage.count), (0, 1));
 }
