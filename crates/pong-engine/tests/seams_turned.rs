@@ -395,3 +395,30 @@ fn a_ray_through_a_fold_meets_the_face_in_front() {
     }
     assert!(hits > 100, "only {hits} rays meet the fold");
 }
+
+/// A ball whose centre lies in the plane of a two-sided triangle, beyond an edge or a vertex of its rim, is pushed once, as a
+/// ball a little above or below is.
+#[test]
+fn a_rim_of_two_sides_pushes_once() {
+    let ball = model("ball", &steel(), "Sphere(name: \"ball\", center: (0,0,0), radius: 0.3)");
+    for corners in ["(-1,0,0),(1,0,0),(0,-1,0)", "(0,-1,0),(1,0,0),(-1,0,0)"] {
+        let mesh = format!(
+            "TriangleMesh(name: \"m\", vertices: [{corners}], triangles: [(0,1,2)], two_sided: true)"
+        );
+        let mut rig = Rig::new(&ball, &model("sheet", &steel(), &mesh));
+        for (x, y, normal) in
+            [(0.1, 0.05, Vec3::y()), (1.05, 0.0, Vec3::x()), (1.03, 0.04, Vec3::new(0.6, 0.8, 0.0))]
+        {
+            for z in [0.0, 1e-12, -1e-12] {
+                rig.world.clear_contact_history(rig.objects[0]).unwrap();
+                rig.place_a(Vec3::new(x, y, z), Quat::identity());
+                rig.world.evaluate().unwrap();
+                let force = rig.wrench(0).force;
+                assert!(
+                    (force - normal * (0.5 * K * 0.25)).norm() < 1e-5,
+                    "{corners} {x} {y} {z:e}: {force:?}"
+                );
+            }
+        }
+    }
+}

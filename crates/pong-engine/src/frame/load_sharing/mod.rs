@@ -2,6 +2,7 @@
 
 mod pieces;
 mod ray_hits;
+mod rims;
 pub(crate) mod solver;
 
 use crate::frame::input::PairContext;
@@ -14,6 +15,7 @@ use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, Polyhedron, PolyhedronFace, PrimitiveKind, TriangleSet};
 use ray_hits::keep_first_ray_hits;
+use rims::keep_one_side_of_rims;
 use solver::{SharedContact, share_within};
 
 /// Relative: depths this close are as deep as each other.
@@ -40,6 +42,7 @@ pub(crate) fn assign_weights(
     let mut outcome = Ok(());
     found.sort_unstable_by_key(ContactCandidate::order);
     keep_first_ray_hits(found, context);
+    keep_one_side_of_rims(found, context);
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
         if group.iter().any(is_at_wall) {
             match group[0].half {

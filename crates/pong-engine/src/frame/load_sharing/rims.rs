@@ -1,0 +1,37 @@
+//! The rim of a two-sided surface, which its front and its back have in common (docs/theory.md, 2.2).
+
+use crate::frame::input::PairContext;
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use crate::state::ContactRole;
+use pong_geometry::primitive::PrimitiveKind;
+
+/// Where a centre lies in the plane of a two-sided triangle, beyond its rim, it is in front of both sides, and beyond a
+/// vertex of the rim that is folded it may be in front of two faces on different sides. Both sides then push with the
+/// one edge or vertex: the front counts.
+pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &PairContext<'_>) {
+    for index in 0..found.len() {
+        if is_of_a_back(&found[index], context) {
+            let back = found[index];
+            if found.iter().any(|front| is_front_of(front, &back) && !is_of_a_back(front, context)) {
+                found[index].status = CandidateStatus::Culled;
+            }
+        }
+    }
+}
+
+/// Whether an edge or a vertex of a back pushes.
+fn is_of_a_back(contact: &ContactCandidate, context: &PairContext<'_>) -> bool {
+    contact.kind_b == PrimitiveKind::Triangle
+        && contact.shares
+        && !contact.feature.is_face()
+        && contact.element_b >= context.body_b.primitives[contact.primitive_b as usize].first_mirror
+}
+
+/// Whether the same edge or vertex pushes the same. Both sides see it between the same ends, and find the same bits.
+fn is_front_of(front: &ContactCandidate, back: &ContactCandidate) -> bool {
+    front.key.primitive_a == back.key.primitive_a
+        && front.primitive_b == back.primitive_b
+        && !front.feature.is_face()
+        && (front.status, front.role) == (back.status, ContactRole::Active)
+        && (front.depth, front.normal, front.point_a) == (back.depth, back.normal, back.point_a)
+}
