@@ -422,3 +422,23 @@ fn a_rim_of_two_sides_pushes_once() {
         }
     }
 }
+
+/// Behind a valley, in the wedge between the prisms of its two faces, a ball whose centre is further from the line than the
+/// thickness is behind neither, whichever face is named first; one that is nearer is behind both.
+#[test]
+fn the_wedge_behind_a_valley_ends_at_the_thickness() {
+    let ball = model("ball", &steel(), "Sphere(name: \"ball\", center: (0,0,0), radius: 0.4)");
+    for order in ["(0,1,2),(1,0,3)", "(1,0,3),(0,1,2)"] {
+        // Slopes of one to two: the prisms end at twice the depth below the line.
+        let mesh = format!(
+            "TriangleMesh(name: \"m\", vertices: [(0,-9,0),(0,9,0),(-9,0,4.5),(9,0,4.5)], triangles: [{order}])"
+        );
+        let mut rig = Rig::new(&ball, &model("valley", &steel(), &mesh));
+        for (z, count) in [(-0.39, 2), (-0.41, 0)] {
+            rig.world.clear_contact_history(rig.objects[0]).unwrap();
+            rig.place_a(Vec3::new(0.01, 0.0, z), Quat::identity());
+            rig.world.evaluate().unwrap();
+            assert_eq!(rig.world.contact_count(), count, "{order} {z}");
+        }
+    }
+}

@@ -230,8 +230,11 @@ impl<'a> TriangleEdges<'a> {
         }
         let other = TriangleView::new(self.set, neighbor);
         let is_behind = self.view.height(p) <= 0.0 && other.height(p) <= 0.0;
-        (is_behind && self.square_from_edge(k, p) < thickness * thickness)
-            || (self.view.index < neighbor && self.view.normal.dot(&other.normal) > 0.0)
+        if is_behind {
+            self.square_from_edge(k, p) < thickness * thickness
+        } else {
+            self.view.index < neighbor && self.view.normal.dot(&other.normal) > 0.0
+        }
     }
 }
 
