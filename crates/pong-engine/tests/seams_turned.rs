@@ -428,15 +428,17 @@ fn a_rim_of_two_sides_pushes_once() {
 #[test]
 fn the_wedge_behind_a_valley_ends_at_the_thickness() {
     let ball = model("ball", &steel(), "Sphere(name: \"ball\", center: (0,0,0), radius: 0.4)");
+    // Turned, so that the boxes of the ball and of both faces meet.
+    let turn = Quat::from_axis_angle(&Vec3::y_axis(), 0.8);
+    let corners = [(0.0, -9.0, 0.0), (0.0, 9.0, 0.0), (-9.0, 0.0, 4.5), (9.0, 0.0, 4.5)];
+    let corners = list(&corners.map(|(x, y, z)| turn * Vec3::new(x, y, z)));
     for order in ["(0,1,2),(1,0,3)", "(1,0,3),(0,1,2)"] {
         // Slopes of one to two: the prisms end at twice the depth below the line.
-        let mesh = format!(
-            "TriangleMesh(name: \"m\", vertices: [(0,-9,0),(0,9,0),(-9,0,4.5),(9,0,4.5)], triangles: [{order}])"
-        );
+        let mesh = format!("TriangleMesh(name: \"m\", vertices: [{corners}], triangles: [{order}])");
         let mut rig = Rig::new(&ball, &model("valley", &steel(), &mesh));
         for (z, count) in [(-0.39, 2), (-0.41, 0)] {
             rig.world.clear_contact_history(rig.objects[0]).unwrap();
-            rig.place_a(Vec3::new(0.01, 0.0, z), Quat::identity());
+            rig.place_a(turn * Vec3::new(0.01, 0.0, z), Quat::identity());
             rig.world.evaluate().unwrap();
             assert_eq!(rig.world.contact_count(), count, "{order} {z}");
         }
