@@ -11,9 +11,7 @@ pub fn coupling(integrator: Integrator) -> WrenchCoupling {
     match integrator {
         Integrator::SemiImplicitEuler => WrenchCoupling::SemiImplicit,
         Integrator::RungeKutta4 => WrenchCoupling::Stages,
-        Integrator::ZeroOrderHold { delay_frames, .. } => {
-            WrenchCoupling::ZeroOrderHold { delay_frames: delay_frames }
-        }
+        Integrator::ZeroOrderHold { delay_frames, .. } => WrenchCoupling::ZeroOrderHold { delay_frames },
     }
 }
 

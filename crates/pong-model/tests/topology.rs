@@ -42,7 +42,7 @@ fn is_within_an_edge(cone: &[Vec3]) -> bool {
 fn pushing_vertices(pieces: &[Polyhedron]) -> BTreeSet<(String, BTreeSet<String>)> {
     let of = |piece: &Polyhedron| -> Vec<_> {
         let cone = |v: usize| piece.cone(v).iter().map(text).collect();
-        let is_corner = |v: usize| !is_within_an_edge(&piece.cone(v).iter().copied().collect::<Vec<_>>());
+        let is_corner = |v: usize| !is_within_an_edge(piece.cone(v));
         let all = piece.vertices.iter().enumerate().filter(|(v, vertex)| vertex.pushes && is_corner(*v));
         all.map(|(v, vertex)| (text(&vertex.position), cone(v))).collect()
     };

@@ -77,7 +77,7 @@ impl Simulation {
         Ok(pong_advise::step_report(self.world(), plan, &self.group_masses())?)
     }
 
-    /// What the contacts of the present instant leave of a step ([`World::acting_report`]); springs and other loads of the
+    /// What the contacts of the present instant leave of a step ([`pong_advise::acting_report`]); springs and other loads of the
     /// scene are left out.
     ///
     /// # Errors
