@@ -94,7 +94,9 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
 ) -> PieceContacts {
     let planes = SegmentPlanes::new(simd, segment, polyhedron);
     let Some(inside) = planes.inside_part::<F, N>() else {
-        return if polyhedron.planes().all_active { [None, None] } else { along_walls(segment, polyhedron) };
+        let walls = polyhedron.planes();
+        let misses = walls.all_active || planes.is_far_outside::<N>(walls.wall_slack);
+        return if misses { [None, None] } else { along_walls(segment, polyhedron) };
     };
     let mut search = Search { segment, polyhedron, inside: inside.ends, best: None };
     let moderate =

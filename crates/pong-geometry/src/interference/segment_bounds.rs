@@ -106,6 +106,24 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         outside & !along_closed != 0
     }
 
+    /// Whether one plane keeps the whole segment out: that of an inner wall by more than a slack (m). Most segments that
+    /// miss a piece do, and need no look at what is within rounding of its walls.
+    #[inline(always)]
+    pub fn is_far_outside<const N: usize>(&self, slack: f64) -> bool {
+        let (simd, zero, room) = (self.simd, self.simd.splat(0.0), self.simd.splat(slack));
+        for index in 0..self.polyhedron.planes().count::<N>() {
+            let block = self.polyhedron.planes().block(index);
+            let heights = [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])];
+            let both = |least| {
+                simd.bits(simd.and(simd.at_least(heights[0], least), simd.at_least(heights[1], least)))
+            };
+            if both(room) | (both(zero) & block.active) != 0 {
+                return true;
+            }
+        }
+        false
+    }
+
     /// Bounds for all faces of a polyhedron of no more than `N` blocks. Those above `limit` need not be exact.
     #[inline(always)]
     pub fn bounds<const N: usize>(&self, inside: &InsidePart, limit: f64) -> Bounds<S, N> {
