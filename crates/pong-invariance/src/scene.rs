@@ -206,7 +206,8 @@ impl Shape {
             }),
             Self::Mesh(mesh) => Self::Mesh(Mesh {
                 vertices: mesh.vertices.iter().map(|v| v * s).collect(),
-                thickness: mesh.thickness.map(|thickness| thickness * s),
+                // The compiler may multiply before it asks whether there is a thickness: then by zero (ci/traps).
+                thickness: mesh.thickness.and(Some(std::hint::black_box(mesh.thickness.unwrap_or(0.0)) * s)),
                 ..mesh.clone()
             }),
         }
