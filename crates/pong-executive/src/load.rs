@@ -11,7 +11,7 @@ pub enum Axes {
     /// Those of the common frame.
     Common,
     /// Those of the body: the load turns with it.
-    MovableGroup,
+    Body,
 }
 
 /// A force at a point of a body, and a moment.
@@ -111,7 +111,7 @@ impl Load {
         let given = self.history.at(time);
         let along_common = |v: Vec3| match self.axes {
             Axes::Common => v,
-            Axes::MovableGroup => pose.orientation * v,
+            Axes::Body => pose.orientation * v,
         };
         let mut wrench = Wrench::of_force_at(along_common(given.force), &(pose.orientation * self.point));
         wrench.moment += along_common(given.moment);

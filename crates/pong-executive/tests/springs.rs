@@ -142,7 +142,7 @@ fn loads_act_at_their_point_along_their_axes_and_their_work_is_counted() {
     let wrench = Wrench { force: Vec3::zeros(), moment: Vec3::new(0.0, 0.0, 0.5) };
     let rows = [(0.0, 0.0), (1.0, 3.0), (2.0, 3.0)]
         .map(|(time, force)| LoadRow { time, wrench: Wrench { force: Vec3::y() * force, ..wrench } });
-    let (axes, history) = (Axes::MovableGroup, LoadHistory::Table(rows.to_vec()));
+    let (axes, history) = (Axes::Body, LoadHistory::Table(rows.to_vec()));
     simulation.add_load(Load { body: rod, point: Vec3::new(2.0, 0.0, 0.0), axes, history }).unwrap();
     simulation.run_for(2.0).unwrap();
     // ∫(2·F + 0.5)dt = 2·(1.5 + 3) + 1 over I = 1.5.

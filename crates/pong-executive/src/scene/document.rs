@@ -176,7 +176,7 @@ pub(crate) struct LoadEntry {
 pub(crate) enum AxesEntry {
     #[default]
     Common,
-    MovableGroup,
+    Body,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]

@@ -55,7 +55,7 @@ pub(crate) fn loads(
         }
         let axes = match entry.axes {
             AxesEntry::Common => Axes::Common,
-            AxesEntry::MovableGroup => Axes::MovableGroup,
+            AxesEntry::Body => Axes::Body,
         };
         loads.extend(body.map(|body| Load { body, point: entry.point.into(), axes, history }));
     }
