@@ -45,7 +45,8 @@ pub fn states([active, _, indicator]: &[Arc<Model>; 3]) -> Vec<Vec<State>> {
 
 /// All groups of an Object where its author placed them.
 fn at_rest(model: &Model, root: &Pose) -> Vec<State> {
-    let placed = |body: &pong_model::MovableGroup| root.compose(&body.initial_pose.unwrap_or_else(Pose::identity));
+    let placed =
+        |body: &pong_model::MovableGroup| root.compose(&body.initial_pose.unwrap_or_else(Pose::identity));
     model.bodies.iter().map(|body| State::from_motion(&placed(body), &Twist::zero())).collect()
 }
 

@@ -19,7 +19,7 @@ use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, T
 use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
-use pong_model::{MovableGroup, Model};
+use pong_model::{Model, MovableGroup};
 
 /// The testers on one pair.
 pub struct Ours {

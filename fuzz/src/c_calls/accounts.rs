@@ -3,8 +3,8 @@
 use super::frames::finite;
 use super::session::{Session, Sure, read_text};
 use pong::accounts::{
-    pong_energy_account, pong_get_energy_account, pong_get_contact_energy_accounts, pong_get_pair_energy_account, pong_pair_energy_account,
-    pong_pair_energy_account_count, pong_pair_remedy,
+    pong_energy_account, pong_get_contact_energy_accounts, pong_get_energy_account,
+    pong_get_pair_energy_account, pong_pair_energy_account, pong_pair_energy_account_count, pong_pair_remedy,
 };
 use std::ffi::c_char;
 
@@ -21,7 +21,9 @@ impl Session<'_> {
         let (world, known) = self.world();
         let place = self.place::<pong_energy_account>();
         // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
-        if self.call("account", known.and(place.sure), || unsafe { pong_get_energy_account(world, place.pointer) }) {
+        if self.call("account", known.and(place.sure), || unsafe {
+            pong_get_energy_account(world, place.pointer)
+        }) {
             check(&place.get());
         }
     }
@@ -29,17 +31,22 @@ impl Session<'_> {
     fn pair_account(&mut self) {
         let (world, known) = self.world();
         let mut count = 0;
-        let counted =
-            self.call("pair accounts", known, || unsafe { pong_pair_energy_account_count(world, &mut count) });
+        let counted = self
+            .call("pair accounts", known, || unsafe { pong_pair_energy_account_count(world, &mut count) });
         let index = self.input.one_of(&[0, 1, 2, 3, 1000, usize::MAX]);
         let place = self.place::<pong_pair_energy_account>();
         let sure = known.and(place.sure).unless(!counted).only_if(index < count || !counted);
-        if self.call("pair account", sure, || unsafe { pong_get_pair_energy_account(world, index, place.pointer) }) {
+        if self.call("pair account", sure, || unsafe {
+            pong_get_pair_energy_account(world, index, place.pointer)
+        }) {
             let pair = place.get();
             check(&pair.total);
             check(&pair.episode);
             finite([pair.excess, pair.worst_excess, pair.stiffness, pair.damping].iter(), "pair account");
-            assert!(pair.episodes_gained + pair.episodes_unresolved <= pair.episodes, "verdicts without an episode");
+            assert!(
+                pair.episodes_gained + pair.episodes_unresolved <= pair.episodes,
+                "verdicts without an episode"
+            );
         }
         let place = self.place::<*const c_char>();
         let sure = known.and(place.sure).unless(!counted).only_if(index < count || !counted);

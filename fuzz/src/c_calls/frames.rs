@@ -239,7 +239,8 @@ impl Session<'_> {
         for contact in &contacts {
             let vectors =
                 [contact.point, contact.normal, contact.friction_force, contact.force, contact.slip_velocity];
-            let numbers = [contact.depth, contact.depth_rate, contact.weight, contact.normal_force, contact.stored];
+            let numbers =
+                [contact.depth, contact.depth_rate, contact.weight, contact.normal_force, contact.stored];
             finite(vectors.iter().flatten().chain(&numbers), "contact");
             assert!((0.0..=1.0).contains(&contact.weight) && contact.normal_force >= 0.0, "{contact:?}");
             assert!(contact.feature_kind <= 2 && contact.end <= 1, "{contact:?}");

@@ -3,7 +3,7 @@
 use super::session::{Session, Sure};
 use pong::ids::pong_interface_id;
 use pong::step_plan::{
-    pong_step_check, pong_default_step_plan, pong_check_step, pong_mass, pong_plan_step, pong_set_mass,
+    pong_check_step, pong_default_step_plan, pong_mass, pong_plan_step, pong_set_mass, pong_step_check,
 };
 
 impl Session<'_> {
