@@ -133,7 +133,7 @@ impl pong_config {
     fn accounts(&self) -> Outcome<Option<WrenchCoupling>> {
         let most = WrenchCoupling::DELAY_FRAMES_MAX.into();
         let late = within("delay_frames", self.delay_frames.into(), 0, most, "0 by default")? as u32;
-        let wrench_coupling = coupling::of_accounts(self.energy_accounts, late);
+        let wrench_coupling = coupling::of_number(self.energy_accounts, late);
         if wrench_coupling.is_none() && self.energy_accounts != 0 {
             let given = self.energy_accounts;
             let message =

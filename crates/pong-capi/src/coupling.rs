@@ -9,8 +9,8 @@ pub const PONG_COUPLING_SEMI_IMPLICIT: u32 = 2;
 /// The wrench is evaluated once a frame and held from one commit to the next.
 pub const PONG_COUPLING_ZERO_ORDER_HOLD: u32 = 3;
 
-/// The coupling of energy accounts; none if the host names none.
-pub(crate) fn of_accounts(coupling: u32, delay_frames: u32) -> Option<WrenchCoupling> {
+/// The coupling of this number; none if there is none.
+pub(crate) fn of_number(coupling: u32, delay_frames: u32) -> Option<WrenchCoupling> {
     match coupling {
         PONG_COUPLING_STAGES => Some(WrenchCoupling::Stages),
         PONG_COUPLING_SEMI_IMPLICIT => Some(WrenchCoupling::SemiImplicit),

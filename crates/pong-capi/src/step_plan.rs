@@ -1,13 +1,13 @@
 //! What the step adviser is told before the seal: masses, and what the host does with the wrench.
 
-use crate::coupling::{PONG_COUPLING_SEMI_IMPLICIT, PONG_COUPLING_STAGES, PONG_COUPLING_ZERO_ORDER_HOLD};
+use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::failure::{Failure, Outcome};
 use crate::guard::{setting_up, with_world};
 use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
-use pong_advise::{Accuracy, GroupMass, StepPlan, WrenchCoupling};
+use pong_advise::{Accuracy, GroupMass, StepPlan};
 
 /// Mass properties of a movable group, for the step adviser alone: no frame reads them.
 #[repr(C)]
@@ -144,19 +144,15 @@ pub unsafe extern "C" fn pong_check_step(
 impl pong_step_plan {
     fn check(&self) -> Outcome<StepPlan> {
         let bad = |message: String| Failure::new(pong_status::BadValue, message);
-        let coupling = match (self.wrench_coupling, self.delay_frames) {
-            (PONG_COUPLING_STAGES, 0) => WrenchCoupling::Stages,
-            (PONG_COUPLING_SEMI_IMPLICIT, 0) => WrenchCoupling::SemiImplicit,
-            (PONG_COUPLING_ZERO_ORDER_HOLD, late) => WrenchCoupling::ZeroOrderHold { delay_frames: late },
-            (PONG_COUPLING_STAGES | PONG_COUPLING_SEMI_IMPLICIT, late) => {
-                let cause =
-                    "only a wrench that is held can be delayed; give 0, or PONG_COUPLING_ZERO_ORDER_HOLD";
-                return Err(bad(format!("plan: delay_frames is {late}: {cause}")));
-            }
-            (other, _) => {
-                return Err(bad(format!("plan: wrench_coupling is {other}; give one of PONG_COUPLING_...")));
-            }
+        let late = self.delay_frames;
+        let Some(coupling) = coupling::of_number(self.wrench_coupling, late) else {
+            let given = self.wrench_coupling;
+            return Err(bad(format!("plan: wrench_coupling is {given}; give one of PONG_COUPLING_...")));
         };
+        if late > 0 && self.wrench_coupling != PONG_COUPLING_ZERO_ORDER_HOLD {
+            let cause = "only a wrench that is held can be delayed; give 0, or PONG_COUPLING_ZERO_ORDER_HOLD";
+            return Err(bad(format!("plan: delay_frames is {late}: {cause}")));
+        }
         if self.reserved != [0; 4] {
             let cause = "it has values in its reserved fields; start from pong_default_step_plan()";
             return Err(bad(format!("plan: {cause}")));

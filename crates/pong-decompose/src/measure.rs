@@ -264,13 +264,7 @@ fn volumes(deviation: &mut Deviation, source: &Mesh, solid: &Solid, union: &Unio
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::piece::hull;
-
-    fn box_between(low: [f64; 3], high: [f64; 3]) -> Piece {
-        let corner =
-            |k: usize| Vector3::from_fn(|axis, _| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
-        hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
-    }
+    use crate::piece::box_between;
 
     #[test]
     fn a_cube_beside_its_place_is_off_by_what_it_was_moved() {

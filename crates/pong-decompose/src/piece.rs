@@ -206,6 +206,14 @@ fn mapped_hull(points: &[Vector3<f64>], mapped: Vec<Vector3<f64>>) -> Result<Pie
     }
 }
 
+/// An upright box as a piece, for tests.
+#[cfg(test)]
+pub(crate) fn box_between(low: [f64; 3], high: [f64; 3]) -> Piece {
+    let corner =
+        |k: usize| Vector3::from_fn(|axis, _| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
+    hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

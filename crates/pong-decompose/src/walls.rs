@@ -252,13 +252,7 @@ fn longest_line(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::piece::hull;
-
-    fn box_between(low: [f64; 3], high: [f64; 3]) -> Piece {
-        let corner =
-            |k: usize| Vector3::from_fn(|axis, _| if k >> axis & 1 == 0 { low[axis] } else { high[axis] });
-        hull(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
-    }
+    use crate::piece::box_between;
 
     fn inactive_normals(piece: &Piece) -> Vec<Vector3<f64>> {
         let faces = (0..piece.faces.len()).filter(|&face| piece.inactive[face]);

@@ -164,9 +164,8 @@ impl Simulation {
             text += &format!("the contact that lasts has gained {:.3e} J; ", pair.episode.excess());
         }
         text += &pair.remedy();
-        if let (WrenchCoupling::ZeroOrderHold { delay_frames }, Some((k, _))) = (pair.coupling, pair.stiffest)
-        {
-            let needed = k * self.step_length() * (0.5 + f64::from(delay_frames));
+        if let (WrenchCoupling::ZeroOrderHold { .. }, Some((k, _))) = (pair.coupling, pair.stiffest) {
+            let needed = k * self.step_length() * pair.coupling.lag();
             text += &format!("; at this step c must exceed {needed:.3e} N·s/m");
         }
         text

@@ -32,15 +32,25 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// What the integrator does with contact wrenches, for a world that keeps accounts of their work
+    /// How the integrator uses the contact wrench.
+    pub fn coupling(self) -> WrenchCoupling {
+        match self {
+            Self::SemiImplicitEuler => WrenchCoupling::SemiImplicit,
+            Self::RungeKutta4 => WrenchCoupling::Stages,
+            Self::ZeroOrderHold { delay_frames, .. } => WrenchCoupling::ZeroOrderHold { delay_frames },
+        }
+    }
+
+    /// [`coupling`](Self::coupling), for a world that keeps accounts of their work
     /// ([`Config::accounts`](pong_engine::Config)); `None` if they come later than accounts can be kept for.
     pub fn wrench_coupling(self) -> Option<WrenchCoupling> {
-        match self {
-            Self::SemiImplicitEuler => Some(WrenchCoupling::SemiImplicit),
-            Self::RungeKutta4 => Some(WrenchCoupling::Stages),
-            Self::ZeroOrderHold { delay_frames, .. } => (delay_frames <= WrenchCoupling::DELAY_FRAMES_MAX)
-                .then_some(WrenchCoupling::ZeroOrderHold { delay_frames }),
-        }
+        let is_kept = |coupling: &WrenchCoupling| match *coupling {
+            WrenchCoupling::ZeroOrderHold { delay_frames } => {
+                delay_frames <= WrenchCoupling::DELAY_FRAMES_MAX
+            }
+            WrenchCoupling::Stages | WrenchCoupling::SemiImplicit => true,
+        };
+        Some(self.coupling()).filter(is_kept)
     }
 }
 

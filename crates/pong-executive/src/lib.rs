@@ -60,7 +60,7 @@ pub use path::{Oscillation, Path, PathRow, PathTable};
 pub use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 pub use simulation::{Observer, Simulation};
 pub use spring::{Spring, SpringEnd};
-pub use stability::{coupling, group_mass, longest_stable_step};
+pub use stability::{group_mass, longest_stable_step};
 pub use watch::StepWatch;
 
 #[doc(no_inline)]

@@ -4,21 +4,12 @@
 use crate::body::{Motion, RigidBody};
 use crate::integrate::Integrator;
 use crate::mass::MassProperties;
-use pong_advise::{GroupMass, WrenchCoupling};
-
-/// How an integrator uses the contact wrench.
-pub fn coupling(integrator: Integrator) -> WrenchCoupling {
-    match integrator {
-        Integrator::SemiImplicitEuler => WrenchCoupling::SemiImplicit,
-        Integrator::RungeKutta4 => WrenchCoupling::Stages,
-        Integrator::ZeroOrderHold { delay_frames, .. } => WrenchCoupling::ZeroOrderHold { delay_frames },
-    }
-}
+use pong_advise::GroupMass;
 
 /// The longest step (s) at which one contact of stiffness `k` (N/m) and damping `c` (N·s/m) on an effective mass `m`
 /// (kg) is stable; 0 if no step is.
 pub fn longest_stable_step(integrator: Integrator, k: f64, c: f64, m: f64) -> f64 {
-    pong_advise::longest_stable_step(coupling(integrator), k, c, m)
+    pong_advise::longest_stable_step(integrator.coupling(), k, c, m)
 }
 
 /// What the adviser must know of a body.

@@ -86,8 +86,8 @@ pub struct EnergyAccount {
     pub work_in: f64,
     /// What the bodies got back: work of the wrench on them, where it was positive.
     pub work_out: f64,
-    /// Stored without work: where the host put bodies into each other (first frame, after the contact history was cleared), less what it let
-    /// be forgotten. Of a contact that began while the pair touched already: what it may have taken over from another.
+    /// Stored without work: where the host put bodies into each other (first frame, after the contact history was
+    /// cleared), less what it let be forgotten. Of a contact that began while the pair touched already: what it may have taken over from another.
     pub inserted: f64,
     /// Made by holding the wrench: its work on the bodies less that of the force as it would have followed their motion.
     pub hold_error: f64,
@@ -221,8 +221,8 @@ impl PairEnergyAccount {
     pub fn remedy(&self) -> String {
         let mut text = String::from("shorten the step, or give the surfaces more damping");
         match (self.coupling, self.stiffest) {
-            (WrenchCoupling::ZeroOrderHold { delay_frames }, Some((k, c))) => {
-                let share = 0.5 + f64::from(delay_frames);
+            (WrenchCoupling::ZeroOrderHold { .. }, Some((k, c))) => {
+                let share = self.coupling.lag();
                 let _ = write!(
                     text,
                     ": a wrench held over a step dt loses energy only while c > k·dt·{share}, here k = {k:.3e} N/m and c = {c:.3e} N·s/m"
@@ -231,8 +231,8 @@ impl PairEnergyAccount {
                     let _ = write!(text, ", at steps below {:.3e} s", c / (k * share));
                 }
             }
-            (WrenchCoupling::ZeroOrderHold { delay_frames }, None) => {
-                let share = 0.5 + f64::from(delay_frames);
+            (WrenchCoupling::ZeroOrderHold { .. }, None) => {
+                let share = self.coupling.lag();
                 let _ = write!(
                     text,
                     ": a wrench held over a step dt loses energy only while the damping exceeds {share}·dt times the stiffness at hand"

@@ -5,7 +5,7 @@ use crate::body::{BodyId, RigidBody};
 use crate::energy::Energy;
 use crate::error::ExecutiveError;
 use crate::integrate::Integrator;
-use crate::stability::{coupling, group_mass};
+use crate::stability::group_mass;
 use crate::state::FreeState;
 use pong_advise::{ActingReport, GroupMass, StepPlan, StepReport, StepWarning};
 use pong_engine::{InterfaceId, World};
@@ -58,7 +58,7 @@ impl Simulation {
     /// Step and integrator as the step adviser knows them, and the closing speed of the scene's start. Whoever holds the step
     /// against a scene begins with this plan, so that all of them say the same.
     pub fn step_plan(&self) -> StepPlan {
-        let plan = StepPlan::new(self.step, coupling(self.integrator));
+        let plan = StepPlan::new(self.step, self.integrator.coupling());
         StepPlan { closing_speed: self.closing_speed(), ..plan }
     }
 
