@@ -15,6 +15,10 @@ pub struct Base {
 
 impl Base {
     /// Loads a scene and plays it.
+    ///
+    /// # Errors
+    ///
+    /// The scene cannot be loaded or played; the text is the engine's message.
     pub fn new(scene: Scene) -> Result<Self, Refusal> {
         let mut stage = Stage::set_up(&scene, 0)?;
         let answers = stage.play(&scene.frames)?;

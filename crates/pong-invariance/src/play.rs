@@ -59,6 +59,10 @@ pub type Refusal = String;
 
 impl Stage {
     /// Loads the models and seals the world.
+    ///
+    /// # Errors
+    ///
+    /// A model that the engine refuses; the text is the engine's message.
     pub fn set_up(scene: &Scene, workers: usize) -> Result<Self, Refusal> {
         let settings = WorkerSettings { workers, oversubscribe: true, ..WorkerSettings::default() };
         let workers = (workers > 0).then_some(settings);
@@ -83,6 +87,10 @@ impl Stage {
     }
 
     /// Sets the states of a frame and evaluates them.
+    ///
+    /// # Errors
+    ///
+    /// States that the engine refuses, or more contacts than there is room for.
     pub fn evaluate(&mut self, states: &[State; 2]) -> Result<Answer, Refusal> {
         let [a, b] = [(self.groups[0], states[0]), (self.groups[1], states[1])];
         let report = self.world.set_states(&[a, b]).and_then(|()| self.world.evaluate());
@@ -94,6 +102,10 @@ impl Stage {
     }
 
     /// Evaluates and commits a frame.
+    ///
+    /// # Errors
+    ///
+    /// As [`evaluate`](Self::evaluate) and [`commit`](Self::commit).
     pub fn step(&mut self, states: &[State; 2]) -> Result<Answer, Refusal> {
         let answer = self.evaluate(states)?;
         self.commit()?;
@@ -101,17 +113,29 @@ impl Stage {
     }
 
     /// Commits the states set.
+    ///
+    /// # Errors
+    ///
+    /// No states are evaluated; the text is the engine's message.
     pub fn commit(&mut self) -> Result<(), Refusal> {
         self.world.commit().map_err(|error| error.to_string())
     }
 
     /// Plays a history from the beginning: nothing is remembered of an earlier one.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step), for the first frame that is refused.
     pub fn play(&mut self, frames: &[[State; 2]]) -> Result<Vec<Answer>, Refusal> {
         self.forget()?;
         frames.iter().map(|states| self.step(states)).collect()
     }
 
     /// Drops all contact state.
+    ///
+    /// # Errors
+    ///
+    /// The world is not sealed; the text is the engine's message.
     pub fn forget(&mut self) -> Result<(), Refusal> {
         self.world.clear_contact_history(self.objects[0]).map_err(|error| error.to_string())
     }

@@ -15,6 +15,11 @@ use pong_model::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use std::borrow::Cow;
 
 /// Combines surface `a` (of A) with surface `b` (of B); what `table` gives for the pair goes first.
+///
+/// # Errors
+///
+/// Two rigid surfaces, a surface that names no law and is not rigid, laws that differ without an entry for the pair, or
+/// a law that is not registered; the error says the cause and the cure.
 pub fn combine(
     a: &Surface,
     b: &Surface,

@@ -28,6 +28,10 @@ pub fn workers(scene: &Scene, random: &mut Random) -> Option<Twin> {
 }
 
 /// Plays a scene in a world of its own.
+///
+/// # Errors
+///
+/// The scene cannot be loaded or played; the text is the engine's message.
 pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
     let workers = if let Manner::Workers(count) = manner { count } else { 0 };
     let mut stage = Stage::set_up(scene, workers)?;

@@ -66,6 +66,10 @@ impl Twin {
     }
 
     /// Plays it; where only states differ, in the world of the first scene.
+    ///
+    /// # Errors
+    ///
+    /// The twin cannot be loaded or played; the text is the engine's message.
     pub fn play(&self, first: &Scene, stage: &mut Stage) -> Result<Vec<Answer>, Refusal> {
         if let Manner::Plain | Manner::Forgotten = self.manner
             && first.bodies == self.scene.bodies

@@ -59,6 +59,10 @@ impl Default for PlanSettings {
 
 impl Plan {
     /// The plan for a scene whose bodies are counted.
+    ///
+    /// # Errors
+    ///
+    /// `--duration` or `--frame` that is no finite time above zero, no frame in the duration, or too many steps in a frame.
     pub fn new(scene: &Scene, bodies: usize, settings: &PlanSettings) -> Result<Self, StudyError> {
         let duration = settings.duration_s.unwrap_or(scene.duration());
         check("--duration", duration)?;

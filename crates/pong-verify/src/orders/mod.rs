@@ -63,6 +63,10 @@ pub fn curves() -> Result<&'static [Curve], Failure> {
 }
 
 /// One row for each motion and integrator.
+///
+/// # Errors
+///
+/// A motion that could not be run; the text is the engine's message.
 pub fn rows() -> Result<Vec<Row>, Failure> {
     let row = |curve: &Curve| {
         let quantity = format!("{}: {}", METHODS[curve.method].0, curve.motion);

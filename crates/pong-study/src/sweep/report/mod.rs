@@ -15,6 +15,10 @@ use crate::sweep::study::Study;
 use std::path::Path;
 
 /// Writes `trade.md`, `trade.csv`, `errors.csv` and `trade.svg` into a folder.
+///
+/// # Errors
+///
+/// A file that cannot be written; the error names it.
 pub fn write(study: &Study, folder: &Path) -> Result<(), StudyError> {
     let files = [
         ("trade.md", markdown(study)),
