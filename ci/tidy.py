@@ -141,6 +141,34 @@ def long_lines():
                 yield f"{path}:{number}: {len(line)} characters, at most 120"
 
 
+# What tells the unit of a number, or that it has none.
+UNIT = re.compile(
+    r"\b(?:m|mm|s|ns|us|ms|µs|N|J|W|kg|rad|Hz|m/s|bytes|frames|pixels?|degrees|quaternion|order|coefficient|fractions?|ratio|relative|weight|unit"
+    r" vector)\b|N·|·s|1/s|m/s|m²|m³|%|°|[Uu]nit\b|`unit`|metres|0…1|Coefficient|Ratio|Fraction|Relative|Weight",
+)
+NUMBER = re.compile(r"^\s*pub \w+: (?:Option<)?(?:f64|f32|Vec3|Duration|\[f(?:64|32); ?\w+\])>?,")
+
+
+def documentation(lines, number):
+    """The doc comment right above a line."""
+    first = number
+    while first > 0 and lines[first - 1].lstrip().startswith(("///", "#[")):
+        first -= 1
+    return "\n".join(line for line in lines[first:number] if line.lstrip().startswith("///"))
+
+
+def units():
+    """Every public number tells its unit, or the type does for all of its fields."""
+    for path in tracked("crates/*/src/*.rs"):
+        lines = path.read_text().splitlines()
+        of_type = ""
+        for number, line in enumerate(lines):
+            if re.match(r"\s*(?:pub(?:\(\w+\))? )?struct ", line):
+                of_type = documentation(lines, number)
+            if NUMBER.match(line) and not UNIT.search(of_type) and not UNIT.search(documentation(lines, number)):
+                yield f"{path}:{number + 1}: say the unit of `{line.strip()}`, or that it has none"
+
+
 def circles_of_files():
     yield from circles.check(ROOT)
 
@@ -148,7 +176,7 @@ def circles_of_files():
 def main():
     checks = (
         arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links, theory_citations, retired_words,
-        long_lines,
+        long_lines, units,
     )
     problems = [problem for check in checks for problem in check()]
     for problem in problems:

@@ -290,7 +290,7 @@ typedef struct pong_normal_input {
     double depth;
     /// Rate of the depth, m/s, positive while closing.
     double depth_rate;
-    /// Stiffness of the pair of surfaces.
+    /// Stiffness of the pair of surfaces, N/m.
     double stiffness;
     /// The law's parameters as the model gives them; valid during the call.
     const double *parameters;
@@ -377,10 +377,10 @@ typedef struct pong_step_plan {
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     double closing_speed;
-    /// How near the depth of a bounce must come to its closed form; 0.05 by default. 0 in both accuracies: warn of
-    /// contacts that gain energy alone.
+    /// How near the depth of a bounce must come to its closed form, a fraction of it; 0.05 by default. 0 in both
+    /// accuracies: warn of contacts that gain energy alone.
     double depth_within;
-    /// How near the rebound of a bounce must come to its closed form; 0.02 by default.
+    /// How near the rebound of a bounce must come to its closed form, a fraction of it; 0.02 by default.
     double rebound_within;
     /// Zero.
     uint64_t reserved[4];

@@ -14,7 +14,7 @@ use pong_engine::WrenchCoupling;
 use pong_model::restitution::restitution_of_zeta;
 use std::collections::VecDeque;
 
-/// How near a bounce must come to its closed form; shares of it.
+/// How near a bounce must come to its closed form; fractions of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Of the greatest depth.
@@ -30,7 +30,7 @@ impl Default for Accuracy {
     }
 }
 
-/// How far a bounce is from its closed form, for the worst phase of touch; shares of it.
+/// How far a bounce is from its closed form, for the worst phase of touch; fractions of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BounceError {
     /// Of the greatest depth that an evaluation sees.

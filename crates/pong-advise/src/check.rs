@@ -33,7 +33,7 @@ pub struct SpringLimit {
 pub struct BounceLimit {
     /// ω = √(k/m), rad/s.
     pub frequency: f64,
-    /// c/(2mω) less what the lag of the coupling takes; below zero the contact gives more than it takes.
+    /// The ratio c/(2mω), less what the lag of the coupling takes; below zero the contact gives more than it takes.
     pub damping_ratio: f64,
     /// How far a bounce may be from its closed form at the host's step.
     pub error: BounceError,

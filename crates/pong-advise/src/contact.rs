@@ -24,7 +24,7 @@ pub struct ContactWish {
     pub speed: f64,
     /// Greatest depth at that speed, m.
     pub depth: f64,
-    /// Rebound speed over closing speed, above 0, at most 1.
+    /// Coefficient of restitution: rebound speed over closing speed, above 0, at most 1.
     pub restitution: f64,
     /// How the wrench is used.
     pub coupling: WrenchCoupling,
@@ -45,7 +45,7 @@ pub struct ContactAdvice {
     pub friction_stiffness: f64,
     /// c_t of the pair, N·s/m.
     pub friction_damping: f64,
-    /// ζ that gives the restitution.
+    /// Damping ratio ζ = c/(2mω) that gives the restitution.
     pub damping_ratio: f64,
     /// ω = √(k/m), rad/s.
     pub frequency: f64,

@@ -10,7 +10,7 @@ pub struct pong_normal_input {
     pub depth: f64,
     /// Rate of the depth, m/s, positive while closing.
     pub depth_rate: f64,
-    /// Stiffness of the pair of surfaces.
+    /// Stiffness of the pair of surfaces, N/m.
     pub stiffness: f64,
     /// The law's parameters as the model gives them; valid during the call.
     pub parameters: *const f64,

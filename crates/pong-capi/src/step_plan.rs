@@ -37,10 +37,10 @@ pub struct pong_step_plan {
     /// Speed at which things touch, m/s; 0 (default) if it is not known. Laws whose stiffness or damping follows the
     /// depth are judged at the depth that this speed makes.
     pub closing_speed: f64,
-    /// How near the depth of a bounce must come to its closed form; 0.05 by default. 0 in both accuracies: warn of
-    /// contacts that gain energy alone.
+    /// How near the depth of a bounce must come to its closed form, a fraction of it; 0.05 by default. 0 in both
+    /// accuracies: warn of contacts that gain energy alone.
     pub depth_within: f64,
-    /// How near the rebound of a bounce must come to its closed form; 0.02 by default.
+    /// How near the rebound of a bounce must come to its closed form, a fraction of it; 0.02 by default.
     pub rebound_within: f64,
     /// Zero.
     pub reserved: [u64; 4],

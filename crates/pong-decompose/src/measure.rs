@@ -25,7 +25,7 @@ pub struct Distances {
     pub max_m: f64,
     /// No place of the surface is farther away than this, m.
     pub bound_m: f64,
-    /// Where the largest was found.
+    /// Where the largest was found, m.
     pub at: [f64; 3],
     /// Mean over the surface's area, m.
     pub mean_m: f64,

@@ -59,10 +59,12 @@ impl Energy {
     }
 }
 
-/// Powers that cross the border of the system.
+/// Powers that cross the border of the system, W.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Powers {
+    /// Turned into heat by springs; never negative.
     pub spring_heat: f64,
+    /// Of loads and of what is led, on the free bodies; positive into the system.
     pub work_in: f64,
     /// Of contact on bodies that are led or fixed.
     pub on_led: f64,

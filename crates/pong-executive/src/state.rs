@@ -15,10 +15,13 @@ use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 /// Mass properties made ready for use in every stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Inertia {
+    /// kg.
     pub mass: f64,
+    /// About the mass centre, along the group's axes, kg·m².
     pub tensor: Mat3,
+    /// Inverse of `tensor`, 1/(kg·m²).
     pub inverse: Mat3,
-    /// Mass centre in the group frame.
+    /// Mass centre in the group frame, m.
     pub mass_center: Vec3,
 }
 
@@ -33,21 +36,28 @@ impl Inertia {
 /// State of a free body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FreeState {
+    /// Of the mass centre in the common frame, m.
     pub position: Compensated,
+    /// Of the mass centre along the common axes, m/s.
     pub velocity: Compensated,
+    /// From the group's axes to the common axes, at the start of the step.
     pub orientation: Quat,
     /// θ: rotation vector since the start of the step, along the common axes, rad. Zero between steps.
     pub turn: Vec3,
+    /// Angular momentum about the mass centre, along the common axes, N·m·s.
     pub momentum: Vec3,
 }
 
 /// Time derivatives of a [`FreeState`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rates {
+    /// Of the mass centre, m/s.
     pub velocity: Vec3,
+    /// Of the mass centre, m/s².
     pub acceleration: Vec3,
-    /// θ̇.
+    /// θ̇, rad/s.
     pub turn: Vec3,
+    /// Rate of the angular momentum, N·m.
     pub moment: Vec3,
 }
 

@@ -14,6 +14,7 @@ const GROUND: usize = usize::MAX;
 pub(crate) struct System {
     pub world: World,
     pub bodies: Vec<RigidBody>,
+    /// Acceleration by gravity in the common axes, m/s².
     pub gravity: Vec3,
     pub loads: Vec<Load>,
     pub springs: Vec<Spring>,

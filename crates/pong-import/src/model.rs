@@ -19,7 +19,9 @@ pub struct Model {
 pub struct Group {
     pub name: String,
     pub movable: bool,
+    /// Origin in the parent group, m.
     pub position: Option<[f64; 3]>,
+    /// Unit quaternion (w, x, y, z), from the group's axes to those of the parent.
     pub orientation: Option<[f64; 4]>,
     /// `None` for `Aabb`, the default.
     pub bound: Option<String>,

@@ -34,7 +34,7 @@ pub enum Verdict {
 pub struct Finding {
     /// In which frame first.
     pub frame: usize,
-    /// Difference over the largest term.
+    /// Ratio of the difference to the largest term.
     pub relative: f64,
     /// What differs.
     pub says: String,

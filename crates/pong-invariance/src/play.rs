@@ -32,7 +32,7 @@ pub struct Touch {
     pub normal_force: f64,
     /// Friction force on A, N, in the common frame.
     pub friction: Vec3,
-    /// From B to A, in the common frame.
+    /// From B to A, in the common frame; a unit vector.
     pub normal: Vec3,
     /// Where the force acts, m, in the common frame.
     pub point: Vec3,

@@ -39,7 +39,7 @@ pub struct Tally {
     pub at_a_jump: u64,
     /// Answers that differ.
     pub differ: u64,
-    /// The largest such difference, over the largest term.
+    /// The largest such difference, as a ratio to the largest term.
     pub worst: f64,
     /// Of what differs, how many by family of scene.
     pub families: BTreeMap<&'static str, u64>,

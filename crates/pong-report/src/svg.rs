@@ -66,7 +66,7 @@ fn escaped(text: &str) -> String {
 pub struct LogAxis {
     /// Exponents of ten at its ends.
     decades: [i32; 2],
-    /// Pixels at its ends.
+    /// Its ends on the page; the unit is a pixel.
     pub pixels: [f64; 2],
 }
 

@@ -18,15 +18,15 @@ pub enum Bound {
 pub struct Row {
     /// What is compared.
     pub quantity: String,
-    /// Value by the closed form.
+    /// Value by the closed form, in `unit`.
     pub expected: f64,
-    /// Value measured.
+    /// Value measured, in `unit`.
     pub got: f64,
     /// How far they may differ.
     pub bound: Bound,
     /// Unit of both.
     pub unit: &'static str,
-    /// Order in the step, observed by halving it.
+    /// Order in the step, observed by halving it; no unit.
     pub order: Option<f64>,
 }
 

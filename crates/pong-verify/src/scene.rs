@@ -241,9 +241,9 @@ pub fn set_dissipation(surface: &mut Surface, value: f64) {
 /// Values of a bristle.
 #[derive(Clone, Copy, Debug)]
 pub struct Bristle {
-    /// μ_k.
+    /// Coefficient of kinetic friction μ_k.
     pub mu: f64,
-    /// a.
+    /// Static excess: the ratio μ_s/μ_k − 1.
     pub excess: f64,
     /// k_t, N/m.
     pub stiffness: f64,

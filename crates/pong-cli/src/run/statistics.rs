@@ -13,11 +13,14 @@ const TIMES_KEPT: u64 = 1_000_000;
 /// One body over the whole run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BodyStatistics {
+    /// Greatest contact force, N.
     pub peak_force: f64,
+    /// Greatest contact moment about the group's origin, N·m.
     pub peak_moment: f64,
+    /// Greatest depth, m.
     pub peak_depth: f64,
     pub most_contacts: usize,
-    /// ∫ contact force dt, by the trapezoid rule.
+    /// ∫ contact force dt in the common axes, N·s, by the trapezoid rule.
     pub impulse: Vec3,
     last_force: Vec3,
 }
@@ -29,7 +32,7 @@ pub(super) struct Statistics {
     pub most_contacts: usize,
     pub first_energy: Energy,
     pub last_energy: Energy,
-    /// Largest distance of the balance from its first value.
+    /// Largest distance of the energy balance from its first value, J.
     pub worst_balance: f64,
     times_ns: Vec<u64>,
     every: u64,

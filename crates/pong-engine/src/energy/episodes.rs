@@ -23,8 +23,9 @@ pub(crate) struct PairEnergy {
     pub episodes: u64,
     pub episodes_gained: u64,
     pub episodes_unresolved: u64,
-    /// What episodes gained, all together, and one of them at most, J.
+    /// What episodes gained, all together, J.
     pub excess: f64,
+    /// What one episode gained at most, J.
     pub worst_excess: f64,
 }
 

@@ -91,7 +91,7 @@ pub(crate) struct ContactRecord {
     pub sticks: bool,
     /// Whether the contact pushes, or is only remembered.
     pub role: ContactRole,
-    /// n.
+    /// Unit vector n from B to A.
     pub normal: Vec3,
     /// c, m.
     pub point: Vec3,

@@ -27,7 +27,9 @@ pub(crate) struct Document {
     #[serde(default)]
     pub springs: Vec<SpringEntry>,
     pub integrator: IntegratorEntry,
+    /// Step of the integrator, s.
     pub step: f64,
+    /// End of the run, s.
     pub duration: f64,
     #[serde(default = "one")]
     pub record_every: u64,
@@ -109,6 +111,7 @@ pub(crate) struct BodyEntry {
     #[serde(default)]
     pub group: String,
     pub motion: MotionEntry,
+    /// kg; free bodies need it.
     pub mass: Option<f64>,
     pub inertia: Option<InertiaEntry>,
     #[serde(default)]
@@ -154,6 +157,7 @@ pub(crate) enum PathEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "path row")]
 pub(crate) struct PathRowEntry {
+    /// s.
     pub time: f64,
     pub position: Triple,
     pub orientation: Option<Quaternion>,
@@ -182,6 +186,7 @@ pub(crate) enum AxesEntry {
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename = "load row")]
 pub(crate) struct LoadRowEntry {
+    /// s.
     pub time: f64,
     #[serde(default)]
     pub force: Triple,

@@ -19,7 +19,7 @@ pub struct Found {
     pub block: usize,
     /// Its lane there.
     pub lane: usize,
-    /// The number; of two zeros either.
+    /// The number, in the unit of what was searched; of two zeros either.
     pub number: f64,
 }
 

@@ -28,6 +28,7 @@ pub struct Building<'a> {
     pub name: String,
     /// Name of the root to take, if there are several.
     pub root: Option<String>,
+    /// Vertices nearer than this are one, m; `None` joins only equal ones.
     pub weld_m: Option<f64>,
     /// Metres in one unit of the file, for lengths in marks.
     pub unit_m: f64,

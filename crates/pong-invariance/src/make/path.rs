@@ -10,7 +10,7 @@ use pong_geometry::{Pose, Quat, Twist, Vec3};
 pub struct Foot {
     /// In B's group, m.
     pub place: Vec3,
-    /// Unit.
+    /// Out of the surface, in B's group; a unit vector.
     pub normal: Vec3,
 }
 

@@ -28,9 +28,9 @@ pub struct Twin {
 pub struct Back {
     /// By which the whole scene was turned.
     pub turn: Quat,
-    /// Forces of the twin over those of the first.
+    /// Ratio of the forces of the twin to those of the first.
     pub force: f64,
-    /// Moments of the twin over those of the first.
+    /// Ratio of the moments of the twin to those of the first.
     pub moment: f64,
     /// Origins of the twin's groups in the groups of the first, m.
     pub origins: [Vec3; 2],

@@ -29,9 +29,9 @@ pub struct Reference {
 /// Richardson's check of one quantity; relative, as the errors are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Check {
-    /// The observed order; `None` where the differences are rounding.
+    /// The observed order of convergence in the step, without unit; `None` where the differences are rounding.
     pub order: Option<f64>,
-    /// The estimated error of the reference.
+    /// The estimated relative error of the reference.
     #[serde(with = "crate::sweep::store::number")]
     pub error: f64,
 }

@@ -181,7 +181,7 @@ pub struct Study {
     pub cheapest: Option<usize>,
     /// Whether the reference is good enough to judge by.
     pub converged: bool,
-    /// The tolerance.
+    /// The tolerance: a relative error.
     pub within: f64,
     /// The quantities that count.
     pub of: Vec<Quantity>,

@@ -69,9 +69,9 @@ pub struct Tuned {
     pub refused: Vec<String>,
     /// Proposals that were compared bit by bit, and that were timed.
     pub tried: [usize; 2],
-    /// The part by which the time is shorter, and by which the same thing timed twice differs.
+    /// The fraction by which the time is shorter.
     pub gain: f64,
-    /// Noise of the last timing.
+    /// The fraction by which the same thing timed twice differs, in the last timing.
     pub noise: f64,
     /// Whether files were written.
     pub taken: bool,

@@ -35,7 +35,7 @@ pub struct Curve {
     pub motion: &'static str,
     /// The integrator's place in the table.
     pub method: usize,
-    /// What the theory manual promises.
+    /// The order that the theory manual promises, without unit.
     pub promised: f64,
     /// Steps, s, and errors, m/s.
     pub points: [(f64, f64); HALVINGS],

@@ -11,7 +11,7 @@ type Method = (Integrator, f64);
 /// A motion in contact.
 pub(super) struct Motion {
     pub name: &'static str,
-    /// The order that the theory manual promises under Runge-Kutta 4.
+    /// The order that the theory manual promises under Runge-Kutta 4, without unit.
     pub promised: f64,
     /// s.
     pub duration: f64,

@@ -3,10 +3,11 @@
 use crate::frame::input::motion::SinceCommit;
 use pong_geometry::{Transform, Vec3};
 
-/// Displacement of A since the last commit, at a point carried by A.
+/// Displacement of A since the last commit, at a point carried by A. Places are in B's frame, m.
 pub(crate) struct Displacement {
     before: Vec3,
     now: Vec3,
+    /// Rotation vector, rad.
     pub rotation: Vec3,
     /// The origin of A's frame.
     pub origin_before: Vec3,

@@ -7,8 +7,9 @@ use crate::energy::account::EnergyAccount;
 pub(crate) struct Interval {
     /// All but what was taken and returned.
     pub sum: EnergyAccount,
-    /// Work of the wrench as the host uses it, and as it would have followed the motion.
+    /// Work of the wrench as the host uses it, J.
     pub as_used: f64,
+    /// Work of the wrench as it would have followed the motion, J.
     pub along_motion: f64,
     pub pushes: bool,
 }

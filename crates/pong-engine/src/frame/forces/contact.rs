@@ -11,20 +11,28 @@ pub(crate) struct FrameContact {
     // testers, sharing
     pub found: ContactCandidate,
     // forces
+    /// Contact point c, m. This and the vectors below are in B's frame.
     pub point: Vec3,
+    /// Depth rate, m/s, positive while closing.
     pub rate: f64,
+    /// N; never negative.
     pub normal_force: f64,
+    /// On A, N.
     pub friction_force: Vec3,
+    /// Of A past B in the tangent plane, m/s.
     pub slip_velocity: Vec3,
+    /// Deflection p of the bristle, m.
     pub bristle: Vec3,
     /// On A about and along A's frame, on B about and along B's.
     pub wrenches: [Wrench; 2],
+    /// In the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
     /// The committed record that this contact continues.
     pub continues: Option<u32>,
-    // ledger
+    /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept, as the next.
     pub work: f64,
+    /// Lost since the last commit, J.
     pub dissipated: f64,
 }
 

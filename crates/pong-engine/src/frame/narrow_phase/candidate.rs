@@ -25,8 +25,11 @@ pub(crate) struct ContactCandidate {
     pub shares: bool,
     pub status: CandidateStatus,
     pub role: ContactRole,
+    /// m; positive. This and the vectors below are in B's frame.
     pub depth: f64,
+    /// Unit vector from B to A.
     pub normal: Vec3,
+    /// The deepest place of A, m.
     pub point_a: Vec3,
     /// Distance along a ray, m; infinite for everything else.
     pub ray_distance: f64,

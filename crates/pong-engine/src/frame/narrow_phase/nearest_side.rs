@@ -20,6 +20,7 @@ pub(crate) const ROUNDING: f64 = 1e-12;
 pub(crate) struct Nearby<'a> {
     pub body: &'a MovableGroup,
     pub item: Item,
+    /// In the frame of the triangle's movable group, m.
     pub center: Vec3,
 }
 

@@ -44,9 +44,9 @@ pub(super) fn deepest_of(contacts: &[SharedContact]) -> usize {
 /// How much two contacts couple. Normals more than 90° apart do not.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coupling {
-    /// g = max(0, n₁·n₂).
+    /// g = max(0, n₁·n₂), without unit.
     pub cosine: f64,
-    /// 1 − g.
+    /// 1 − g, without unit.
     pub gap: f64,
     /// Whether the normals are near enough to each other for differences to be exact.
     pub is_near: bool,
