@@ -80,3 +80,8 @@ pub fn place(v: &Vector3<f64>) -> Field {
 pub fn field(name: &str, value: Field) -> (String, Field) {
     (name.to_owned(), value)
 }
+
+/// Whether a field is there under this name.
+pub fn value_of<'a>(record: &'a [(String, Field)], name: &str) -> Option<&'a Field> {
+    record.iter().find(|(key, _)| key == name).map(|(_, value)| value)
+}

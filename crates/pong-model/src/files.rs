@@ -50,7 +50,8 @@ fn outside(real: &Path) -> String {
     format!("it lies at {}, outside the folder of the file that names it", real.display())
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     use super::*;
     use std::os::unix::fs::symlink;

@@ -18,7 +18,9 @@ mod fnv;
 pub mod grouping;
 mod hash;
 mod hull;
+mod limits;
 pub mod model;
+mod pair_table;
 mod pieces;
 mod polyhedra;
 mod printable;
@@ -30,28 +32,21 @@ pub mod surface;
 pub mod t_junctions;
 mod tree;
 mod triangle_topology;
-mod weld;
+#[doc(hidden)]
+pub mod weld;
 
 pub use element::Element;
 pub use error::{ModelError, ModelErrors};
 pub use fnv::Fnv;
+pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
 pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Tree};
+pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
-pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface, pair_entries};
+pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 
 use pong_geometry::extension::Extensions;
 use read::Reader;
 use std::path::Path;
-
-/// Largest number of a model that is not a rigid stiffness, of either sign: with places, lengths and factors of laws within
-/// it, products of any two, with any stiffness, are finite.
-pub const LARGEST: f64 = 1e100;
-
-/// Greatest and least size of a primitive, m: a length, a radius, an edge, a thickness. Within them no product of
-/// lengths leaves the range of numbers, and single precision holds the boxes around primitives.
-pub const LARGEST_SIZE: f64 = 1e30;
-/// See [`LARGEST_SIZE`].
-pub const SMALLEST_SIZE: f64 = 1e-30;
 
 /// Reads a model file; meshes are looked for beside it, and read if they lie there or in a folder that `ext` allows
 /// ([`Extensions::allow_files_below`]).

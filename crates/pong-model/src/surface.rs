@@ -1,6 +1,6 @@
 //! Surface properties: stiffness, damping and friction, per surface and per pair of surfaces.
 
-use crate::model::Model;
+use crate::limits::LARGEST;
 
 /// A named surface: what primitives are made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,25 +26,6 @@ impl PairOverride {
     }
 }
 
-/// The entries of the tables of two models that hold for a surface of each, with the models they stand in: of all that name
-/// the two, those that say most of which models they mean.
-pub fn pair_entries<'m>(
-    (model_a, a): (&'m Model, &Surface),
-    (model_b, b): (&'m Model, &Surface),
-) -> Vec<(&'m Model, &'m PairOverride)> {
-    let models = [model_a, model_b].into_iter().take(if std::ptr::eq(model_a, model_b) { 1 } else { 2 });
-    let named = models.flat_map(|model| model.pair_overrides.iter().map(move |entry| (model, entry)));
-    let (a, b) = ((model_a.name.as_str(), a.name.as_str()), (model_b.name.as_str(), b.name.as_str()));
-    let ranked: Vec<_> =
-        named.filter_map(|(model, entry)| Some((entry.names_models(a, b)?, model, entry))).collect();
-    let most = ranked.iter().map(|(rank, ..)| *rank).max();
-    ranked
-        .into_iter()
-        .filter(|(rank, ..)| Some(*rank) == most)
-        .map(|(_, model, entry)| (model, entry))
-        .collect()
-}
-
 /// 1 if a name of an entry says model and surface, 0 if only the surface, `None` if it is another's.
 fn names(entry: &str, (model, surface): (&str, &str)) -> Option<usize> {
     if entry == surface {
@@ -68,7 +49,7 @@ impl Surface {
     /// The stiffest that is not rigid, N/m (N/m^1.5 with the exponent 3/2), of surface, pair and bristle. As no place is
     /// beyond 1e100 m, energy and moment of a spring without damping stay below 1e301: within the range of numbers, and so
     /// do sums of stiffnesses.
-    pub const STIFFEST: f64 = crate::LARGEST;
+    pub const STIFFEST: f64 = LARGEST;
     /// The softest, N/m: its inverse and its share of the yield stay within that range.
     pub const SOFTEST: f64 = 1e-100;
 

@@ -1,25 +1,25 @@
-//! Bit-equal positions are one vertex.
+//! Bit-equal positions are one vertex. Public for `pong-import`, which welds by the same rule; no stable interface.
 
 use pong_geometry::Vec3;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
 /// Bits of a position; −0 and 0 are the same.
-pub(crate) type PositionKey = [u64; 3];
+pub type PositionKey = [u64; 3];
 
 /// The key of a position.
-pub(crate) fn position_key(p: &Vec3) -> PositionKey {
+pub fn position_key(p: &Vec3) -> PositionKey {
     [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits(), (p.z + 0.0).to_bits()]
 }
 
 /// A position without negative zeros.
-pub(crate) fn without_negative_zero(p: Vec3) -> Vec3 {
+pub fn without_negative_zero(p: Vec3) -> Vec3 {
     p.map(|x| x + 0.0)
 }
 
 /// Mixes words; quick, and the same on every machine. Nothing depends on the order of a map's entries.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct WordHasher(u64);
+pub struct WordHasher(u64);
 
 impl Hasher for WordHasher {
     fn finish(&self) -> u64 {
@@ -47,17 +47,17 @@ impl Hasher for WordHasher {
 }
 
 /// A map that hashes with [`WordHasher`].
-pub(crate) type WordMap<K, V> = HashMap<K, V, BuildHasherDefault<WordHasher>>;
+pub type WordMap<K, V> = HashMap<K, V, BuildHasherDefault<WordHasher>>;
 
 /// Gives every distinct position a number, in the order of first use.
 #[derive(Default)]
-pub(crate) struct Welder {
+pub struct Welder {
     numbers: WordMap<PositionKey, u32>,
 }
 
 impl Welder {
     /// The number of a position, which is pushed to `vertices` when it is new.
-    pub(crate) fn weld(&mut self, position: Vec3, vertices: &mut Vec<Vec3>) -> u32 {
+    pub fn weld(&mut self, position: Vec3, vertices: &mut Vec<Vec3>) -> u32 {
         *self.numbers.entry(position_key(&position)).or_insert_with(|| {
             vertices.push(without_negative_zero(position));
             (vertices.len() - 1) as u32

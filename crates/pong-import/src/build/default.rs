@@ -1,6 +1,6 @@
 //! A model without marks: a group per node, primitives by geometry.
 
-use super::Building;
+use super::building::Building;
 use super::kinds::{self, Naming};
 use super::meshes::{self, Placed};
 use super::names::Names;

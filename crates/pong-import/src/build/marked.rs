@@ -1,6 +1,6 @@
 //! A model by its marks: root, groups and primitives as `extras.pong` says.
 
-use super::Building;
+use super::building::Building;
 use super::frames::body_frame;
 use super::kinds::{self, Naming};
 use super::meshes;

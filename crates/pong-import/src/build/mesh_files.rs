@@ -1,8 +1,7 @@
 //! Big meshes in files of their own beside the model file.
 
-use super::value_of;
 use crate::findings::Findings;
-use crate::model::{Field, Model, Primitive, field};
+use crate::model::{Field, Model, Primitive, field, value_of};
 use nalgebra::Vector3;
 use std::collections::BTreeSet;
 use std::fmt::Write;

@@ -1,6 +1,6 @@
 //! Triangles of a node on their way into a primitive: placed, welded, cleaned, mended; what was done is told.
 
-use super::Building;
+use super::building::Building;
 use crate::affine::Affine;
 use crate::findings::Findings;
 use crate::mesh::{self, Adjacency, Mesh};

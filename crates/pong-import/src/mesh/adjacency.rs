@@ -1,6 +1,6 @@
 //! Which triangles share edges.
 
-use super::ring;
+use super::measures::ring;
 
 /// No triangle.
 pub const NONE: u32 = u32::MAX;

@@ -1,6 +1,6 @@
 //! Triangles without area, and triangles that are there twice.
 
-use super::Mesh;
+use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 
 /// A triangle whose smallest height is below this share of its longest edge is a sliver; model files refuse it.

@@ -3,7 +3,9 @@
 //! Regions grow from the largest triangles, whose normals are the surest. Their plane is fitted anew whenever the
 //! region has doubled, so that the noise of a small seed does not decide about a large face.
 
-use super::{Adjacency, Mesh, adjacency::NONE, area_vector, ring};
+use super::adjacency::{Adjacency, NONE};
+use super::measures::{area_vector, ring};
+use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, VecDeque};
 

@@ -1,6 +1,8 @@
 //! T-junctions: vertices within a free edge of another triangle. The triangle is split there, which closes the crack.
 
-use super::{Adjacency, Mesh, ring};
+use super::adjacency::Adjacency;
+use super::measures::ring;
+use super::triangle_mesh::Mesh;
 use pong_model::t_junctions::{self, ON_EDGE};
 use std::collections::BTreeMap;
 

@@ -1,6 +1,7 @@
 //! Connected parts of a mesh: triangles joined by edges that two of them share.
 
-use super::{Adjacency, Mesh, adjacency::NONE};
+use super::adjacency::{Adjacency, NONE};
+use super::triangle_mesh::Mesh;
 
 /// The parts, each a mesh of its own, in the order of their first triangles.
 pub fn parts(mesh: &Mesh) -> Vec<Mesh> {

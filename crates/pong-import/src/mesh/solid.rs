@@ -1,6 +1,9 @@
 //! Whether a part is a convex solid, and its polygons if it is.
 
-use super::{Adjacency, Facets, Mesh, adjacency::NONE, area_vector, bounds, facets, ring};
+use super::adjacency::{Adjacency, NONE};
+use super::facets::{Facets, facets};
+use super::measures::{area_vector, bounds, ring};
+use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
 
 /// Heights above a face that count as none, in sizes of the mesh: what model files allow is judged by the diameter,
@@ -17,6 +20,9 @@ pub struct Polyhedron {
     /// The look of each face.
     pub look_of: Vec<u16>,
 }
+
+/// Finds the convex hull of a mesh and how far its deepest vertex lies within it, m; `None` if it has no thickness.
+pub type HullFinder = fn(&Mesh) -> Option<(Polyhedron, f64)>;
 
 /// Why a part is no convex solid.
 #[derive(Debug, PartialEq)]

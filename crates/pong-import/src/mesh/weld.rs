@@ -1,8 +1,8 @@
 //! Vertices in the same place, or closer than a tolerance, become one.
 
-use super::Mesh;
-use crate::source::WordMap;
+use super::triangle_mesh::Mesh;
 use nalgebra::Vector3;
+use pong_model::weld::{PositionKey, WordMap, position_key};
 
 /// Moves every vertex within `tolerance_m` of an earlier one onto it; tells how many.
 pub(crate) fn weld(mesh: &mut Mesh, tolerance_m: f64) -> usize {
@@ -32,10 +32,9 @@ pub(crate) fn weld(mesh: &mut Mesh, tolerance_m: f64) -> usize {
 
 /// Bit-equal places become one vertex.
 pub(crate) fn weld_equal(mesh: &mut Mesh) {
-    let mut numbers: WordMap<[u64; 3], u32> = WordMap::default();
-    let first = |(index, place): (usize, &Vector3<f64>)| {
-        *numbers.entry([place.x, place.y, place.z].map(|x| (x + 0.0).to_bits())).or_insert(index as u32)
-    };
+    let mut numbers: WordMap<PositionKey, u32> = WordMap::default();
+    let first =
+        |(index, place): (usize, &Vector3<f64>)| *numbers.entry(position_key(place)).or_insert(index as u32);
     let target: Vec<u32> = mesh.vertices.iter().enumerate().map(first).collect();
     mesh.triangles.iter_mut().flatten().for_each(|vertex| *vertex = target[*vertex as usize]);
 }

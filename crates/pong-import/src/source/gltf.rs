@@ -6,7 +6,9 @@ mod accessors;
 mod buffers;
 mod json;
 
-use super::{Look, Node, Reading, Shape, Source, Welder};
+use super::reading::Reading;
+use super::tree::{Look, Node, Shape, Source, all_in_range};
+use super::welder::Welder;
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use accessors::{indices, positions};
@@ -164,7 +166,7 @@ impl Reader<'_> {
         }
         shape.vertices = welder.vertices;
         shape.vertices.iter_mut().for_each(|place| *place = self.up.turned(*place) * self.unit_m);
-        super::all_in_range(&shape, path, findings).then_some(shape)
+        all_in_range(&shape, path, findings).then_some(shape)
     }
 
     /// What the `extras.pong` of a material says.

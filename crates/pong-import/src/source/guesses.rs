@@ -1,6 +1,7 @@
 //! OBJ and STL files say neither their unit nor which axis points up. What was taken for granted is told where it looks wrong.
 
-use super::{Reading, Source};
+use super::reading::Reading;
+use super::tree::{Shape, Source};
 use crate::findings::Findings;
 use nalgebra::Vector3;
 
@@ -42,7 +43,7 @@ pub(super) fn tell(source: &Source, reading: &Reading, file: &str, findings: &mu
 /// Area of the triangles that lie below a height on one axis, m².
 fn foot(source: &Source, axis: usize, height: f64) -> f64 {
     let shapes = source.nodes.iter().filter_map(|node| node.mesh.as_ref());
-    let area = |shape: &super::Shape| -> f64 {
+    let area = |shape: &Shape| -> f64 {
         let corners = shape.triangles.iter().map(|triangle| triangle.map(|v| shape.vertices[v as usize]));
         let low = corners.filter(|corners| corners.iter().all(|corner| corner[axis] <= height));
         low.map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()

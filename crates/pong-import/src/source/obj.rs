@@ -1,9 +1,11 @@
 //! OBJ: objects, faces of any number of corners, lines and points; materials and texture coordinates are left aside.
 
-use super::{Node, Reading, Shape, Source, WordMap, stem};
+use super::reading::{Reading, stem};
+use super::tree::{Node, Shape, Source, all_in_range};
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use nalgebra::Vector3;
+use pong_model::weld::Welder;
 use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
@@ -58,7 +60,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
         let path = format!("{file}: {}", node.path);
         if let Some(shape) = &mut node.mesh {
             weld(shape);
-            super::all_in_range(shape, &path, findings);
+            all_in_range(shape, &path, findings);
         }
     }
     if source.nodes.is_empty() {
@@ -191,15 +193,9 @@ fn cut(shape: &mut Shape, face: &[u32]) -> bool {
 
 /// Bit-equal places become one vertex.
 fn weld(shape: &mut Shape) {
-    let mut numbers: WordMap<[u64; 3], u32> = WordMap::default();
+    let mut welder = Welder::default();
     let mut vertices = Vec::new();
-    let numbered = |place: &Vector3<f64>| {
-        *numbers.entry([place.x, place.y, place.z].map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
-            vertices.push(place.map(|x| x + 0.0));
-            (vertices.len() - 1) as u32
-        })
-    };
-    let number: Vec<u32> = shape.vertices.iter().map(numbered).collect();
+    let number: Vec<u32> = shape.vertices.iter().map(|place| welder.weld(*place, &mut vertices)).collect();
     let new = |vertex: &mut u32| *vertex = number[*vertex as usize];
     shape.triangles.iter_mut().flatten().for_each(new);
     shape.lines.iter_mut().flatten().for_each(new);

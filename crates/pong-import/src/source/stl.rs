@@ -1,6 +1,8 @@
 //! STL, binary and text.
 
-use super::{Node, Reading, Shape, Source, Welder, all_in_range, stem};
+use super::reading::{Reading, stem};
+use super::tree::{Node, Shape, Source, all_in_range};
+use super::welder::Welder;
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use std::io::Cursor;

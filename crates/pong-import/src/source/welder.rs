@@ -2,47 +2,10 @@
 
 use crate::number::widened;
 use nalgebra::Vector3;
-use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
+use pong_model::weld::WordMap;
 
-/// Mixes words; nothing depends on the order of a map's entries.
-#[derive(Default)]
-pub(crate) struct WordHasher(u64);
-
-impl Hasher for WordHasher {
-    fn finish(&self) -> u64 {
-        self.0 ^ (self.0 >> 32)
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for chunk in bytes.chunks(8) {
-            let mut word = [0; 8];
-            word[..chunk.len()].copy_from_slice(chunk);
-            self.write_u64(u64::from_le_bytes(word));
-        }
-    }
-
-    fn write_u32(&mut self, word: u32) {
-        self.write_u64(u64::from(word));
-    }
-
-    fn write_usize(&mut self, word: usize) {
-        self.write_u64(word as u64);
-    }
-
-    fn write_i64(&mut self, word: i64) {
-        self.write_u64(word as u64);
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        let mixed = (self.0.rotate_left(26) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.0 = mixed ^ (mixed >> 29);
-    }
-}
-
-pub(crate) type WordMap<K, V> = HashMap<K, V, BuildHasherDefault<WordHasher>>;
-
-/// Gives distinct places of single precision numbers in the order of first use.
+/// Gives distinct places of single precision numbers in the order of first use. It compares them before they are widened,
+/// which costs more than the look-up: most places come several times.
 #[derive(Default)]
 pub(crate) struct Welder {
     numbers: WordMap<[u32; 3], u32>,

@@ -2,8 +2,9 @@
 
 use super::places::Places;
 use super::polygon::{area_vector, dent, edges, longest_edge, plane_of, width};
-use super::{HullFace, PLANE_TOLERANCE, Problem};
-use crate::read::out_of_range;
+use super::problem::Problem;
+use super::solid::{HullFace, PLANE_TOLERANCE};
+use crate::limits::out_of_range;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 

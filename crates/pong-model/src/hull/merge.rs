@@ -10,7 +10,7 @@
 
 use super::places::Places;
 use super::polygon::{area_vector, edges, nearly_convex, plane_of, unit, width};
-use super::{HullFace, PLANE_TOLERANCE};
+use super::solid::{HullFace, PLANE_TOLERANCE};
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use std::collections::VecDeque;

@@ -9,65 +9,18 @@ mod checks;
 mod merge;
 mod places;
 mod polygon;
+mod problem;
+mod solid;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use polygon::{area, overlap_area};
+pub(crate) use problem::Problem;
+pub(crate) use solid::{Hull, HullFace, PLANE_TOLERANCE};
 
 use crate::weld::Welder;
 use places::Places;
 use pong_geometry::Vec3;
-
-/// Planes, walls and vertices count as one within this share of the diameter.
-pub(crate) const PLANE_TOLERANCE: f64 = 1e-6;
-
-/// A checked convex piece in the frame of its body.
-pub(crate) struct Hull {
-    /// Distinct positions, all in use.
-    pub(crate) vertices: Vec<Vec3>,
-    pub(crate) faces: Vec<HullFace>,
-    /// Largest distance between two vertices, m.
-    pub(crate) diameter: f64,
-    /// What the author should know.
-    pub(crate) remarks: Vec<String>,
-}
-
-/// A planar face.
-#[derive(Clone)]
-pub(crate) struct HullFace {
-    pub(crate) normal: Vec3,
-    pub(crate) offset: f64,
-    pub(crate) active: bool,
-    /// Whether its plane belongs to the piece (see `PolyhedronFace::closed`).
-    pub(crate) closed: bool,
-    /// Vertices counter-clockwise seen from outside.
-    pub(crate) outline: Vec<u32>,
-    /// The lowest authored face that went into it.
-    pub(crate) authored: u32,
-}
-
-/// What is wrong with a polyhedron.
-#[derive(Debug)]
-pub(crate) struct Problem {
-    /// The authored face, if it lies with one.
-    pub(crate) face: Option<usize>,
-    pub(crate) rule: &'static str,
-    pub(crate) cause: String,
-    pub(crate) cure: &'static str,
-}
-
-impl Problem {
-    fn new(face: Option<usize>, rule: &'static str, cause: String, cure: &'static str) -> Self {
-        Self { face, rule, cause, cure }
-    }
-}
-
-impl Hull {
-    /// The corners of a face, m.
-    pub(crate) fn corners(&self, face: usize) -> Vec<Vec3> {
-        self.faces[face].outline.iter().map(|&v| self.vertices[v as usize]).collect()
-    }
-}
 
 /// Checks a polyhedron and merges its coplanar neighbouring faces, or lists all that is wrong at the first
 /// stage that finds anything.

@@ -1,6 +1,7 @@
 //! Primitives of kinds that the user has registered.
 
-use super::{Reader, primitive::Primitive};
+use super::opened_primitive::Primitive;
+use super::reader::Reader;
 use pong_geometry::primitive::CustomPrimitive;
 use std::sync::Arc;
 

@@ -1,7 +1,10 @@
 //! The top level of a model file.
 
-use super::group::{GroupReader, read_root};
-use super::{Fields, Reader, surface};
+use super::fields::Fields;
+use super::group::read_root;
+use super::place::GroupReader;
+use super::reader::Reader;
+use super::surface;
 use crate::draft::{BodyDraft, ModelDraft};
 use crate::ron_tree::{Node, Value};
 

@@ -1,6 +1,7 @@
 //! The named fields of a value.
 
-use super::{Reader, suggest};
+use super::reader::Reader;
+use super::suggest;
 use crate::ron_tree::{Field, Node, Value};
 
 /// The fields of one struct, checked against the names it may have.

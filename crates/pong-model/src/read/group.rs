@@ -1,24 +1,18 @@
 //! Groups: names, poses, bounding volumes, surfaces, and what hangs below.
 
+use super::fields::Fields;
+use super::place::{GroupReader, Place, authored_name, read_name, surface_index};
 use super::primitive::read_primitive;
-use super::{Fields, Reader, suggest};
+use super::reader::Reader;
 use crate::draft::{BodyDraft, GroupDraft};
 use crate::model::MovableGroup;
 use crate::ron_tree::{Node, Value};
-use crate::surface::Surface;
 use pong_geometry::Pose;
 use pong_geometry::bounding::BoundKind;
 use std::collections::HashSet;
 
 const FIELDS: [&str; 8] =
     ["name", "movable", "pose", "bound", "leaf_size", "surface", "groups", "primitives"];
-
-/// What reading a group needs and fills.
-pub(super) struct GroupReader<'r, 'a> {
-    pub(super) reader: &'r mut Reader<'a>,
-    pub(super) surfaces: &'r [Surface],
-    pub(super) bodies: &'r mut Vec<BodyDraft>,
-}
 
 /// What a group inherits from the group above it.
 #[derive(Clone)]
@@ -30,15 +24,6 @@ pub(super) struct Above {
     /// Pose of the group above in the frame of that body.
     x_bg: Pose,
     surface: Option<u32>,
-}
-
-/// Where primitives go.
-pub(super) struct Place {
-    pub(super) path: String,
-    pub(super) body: usize,
-    pub(super) group: usize,
-    pub(super) x_bg: Pose,
-    pub(super) surface: Option<u32>,
 }
 
 /// Reads the root group with everything below it.
@@ -157,45 +142,6 @@ fn read_contents(groups: &mut GroupReader<'_, '_>, fields: &Fields<'_>, place: &
     }
 }
 
-/// The name of a group or primitive, if it has a usable one, so that all its faults carry its path.
-pub(super) fn authored_name(node: &Node) -> Option<&str> {
-    let Value::Struct(_, fields) = &node.value else { return None };
-    match &fields.iter().find(|field| field.name.as_ref() == "name")?.value.value {
-        Value::Text(name) if !name.is_empty() => Some(name),
-        _ => None,
-    }
-}
-
-/// The name of a group or primitive: there, not empty, without `/`, unique among its siblings.
-pub(super) fn read_name(
-    reader: &mut Reader<'_>,
-    fields: &Fields<'_>,
-    path: &str,
-    siblings: &mut HashSet<String>,
-) -> Option<String> {
-    let node = fields.required(reader, "name")?;
-    let name = reader.text(node, path)?;
-    if name.is_empty() {
-        reader.fault(node.at, path, "empty-name", "the name is empty", "name it");
-        return None;
-    }
-    if name.contains('/') {
-        let cause = format!("the name \"{name}\" contains a `/`");
-        reader.fault(
-            node.at,
-            path,
-            "slash-in-name",
-            cause,
-            "a `/` separates the names of a path; use another sign",
-        );
-    }
-    if !siblings.insert(name.clone()) {
-        let cause = format!("the name \"{name}\" is taken by a sibling");
-        reader.fault(node.at, path, "repeated-name", cause, "names are unique within a group; rename one");
-    }
-    Some(name)
-}
-
 fn read_movable(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, is_root: bool) -> bool {
     let Some(node) = fields.optional("movable") else { return is_root };
     let movable = reader.boolean(node, path);
@@ -282,25 +228,6 @@ fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {
         return BoundKind::Aabb;
     }
     BoundKind::Custom(name)
-}
-
-/// The index of a surface by name.
-pub(super) fn surface_index(
-    reader: &mut Reader<'_>,
-    surfaces: &[Surface],
-    node: &Node,
-    path: &str,
-) -> Option<u32> {
-    let name = reader.text(node, path)?;
-    if let Some(index) = reader.surface_called(surfaces, &name) {
-        return Some(index);
-    }
-    let cause = format!("there is no surface \"{name}\"");
-    let cure =
-        suggest::cure_among(&name, surfaces.len(), surfaces.iter().map(|surface| surface.name.as_str()));
-    reader.fault(node.at, path, "unknown-surface", cause, cure);
-    // Any index will do: the model is refused, and no second fault should follow from this one.
-    Some(0)
 }
 
 fn join(above: &str, name: &str) -> String {

@@ -1,6 +1,6 @@
 //! Shapes from OBJ and STL files that lie beside the model file.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::files;
 use crate::ron_tree::Node;
 use pong_geometry::Vec3;

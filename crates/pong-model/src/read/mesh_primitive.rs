@@ -1,8 +1,10 @@
 //! Triangles, meshes of triangles, and polyhedra: inline or from a file.
 
 use super::mesh_file::{self, Mesh};
-use super::{LISTED_PER_MESH, Reader, out_of_range, primitive::Primitive};
+use super::opened_primitive::Primitive;
+use super::reader::{LISTED_PER_MESH, Reader};
 use crate::hull::{self, Hull};
+use crate::limits::out_of_range;
 use crate::model::PrimitiveInfo;
 use crate::ron_tree::{Node, Value};
 use pong_geometry::Vec3;

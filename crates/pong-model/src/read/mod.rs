@@ -6,131 +6,14 @@ mod fields;
 mod group;
 mod mesh_file;
 mod mesh_primitive;
+mod opened_primitive;
+mod place;
 mod primitive;
+mod reader;
 mod scalar;
 mod size;
 mod suggest;
 mod surface;
 
 pub(crate) use document::document;
-pub(crate) use fields::Fields;
-pub(crate) use scalar::out_of_range;
-
-use crate::error::ModelError;
-use crate::ron_tree::SyntaxError;
-use crate::surface::Surface;
-use pong_geometry::extension::Extensions;
-use std::cell::OnceCell;
-use std::collections::BTreeMap;
-use std::path::Path;
-
-/// How many faults of one mesh are listed one by one before the rest is only counted.
-pub(crate) const LISTED_PER_MESH: usize = 20;
-
-/// The text being read and all that was found wrong with it.
-pub(crate) struct Reader<'a> {
-    text: &'a str,
-    file: &'a str,
-    pub(crate) mesh_dir: Option<&'a Path>,
-    pub(crate) ext: &'a Extensions,
-    /// Byte offset and fault.
-    faults: Vec<(u32, ModelError)>,
-    /// Where each line begins; found when the first warning needs it.
-    line_starts: OnceCell<Vec<u32>>,
-    pub(crate) warnings: Vec<String>,
-    /// The surfaces by their names; made when the first one is looked for.
-    surfaces: OnceCell<BTreeMap<String, u32>>,
-}
-
-impl<'a> Reader<'a> {
-    pub(crate) fn new(text: &'a str, file: &'a str, mesh_dir: Option<&'a Path>, ext: &'a Extensions) -> Self {
-        Self {
-            text,
-            file,
-            mesh_dir,
-            ext,
-            faults: Vec::new(),
-            line_starts: OnceCell::new(),
-            warnings: Vec::new(),
-            surfaces: OnceCell::new(),
-        }
-    }
-
-    /// Notes a fault.
-    pub(crate) fn fault(
-        &mut self,
-        at: u32,
-        path: &str,
-        rule: &'static str,
-        cause: impl Into<String>,
-        cure: impl Into<String>,
-    ) {
-        let error = ModelError {
-            file: self.file.to_owned(),
-            // Found for all faults together, when all are known.
-            line: 0,
-            column: 0,
-            path: path.to_owned(),
-            rule,
-            cause: cause.into(),
-            cure: cure.into(),
-        };
-        self.faults.push((at, error));
-    }
-
-    pub(crate) fn syntax_fault(&mut self, error: SyntaxError) {
-        let cure = match error.rule {
-            "too-deep" => "flatten the tree of groups",
-            "text-too-long" => "keep large meshes in files of their own (OBJ or STL)",
-            _ => "correct the notation; nothing behind this place was read",
-        };
-        self.fault(error.at, "model", error.rule, error.cause, cure);
-    }
-
-    pub(crate) fn warn(&mut self, at: u32, path: &str, what: &str) {
-        let line = self.line(at);
-        self.warnings.push(format!("{}:{line}: {path}: {what}", self.file));
-    }
-
-    /// The first surface of that name. The list is the same whenever this is asked.
-    pub(crate) fn surface_called(&self, surfaces: &[Surface], name: &str) -> Option<u32> {
-        let by_name = self.surfaces.get_or_init(|| {
-            let named = surfaces.iter().zip(0..surfaces.len() as u32).rev();
-            named.map(|(surface, index)| (surface.name.clone(), index)).collect()
-        });
-        by_name.get(name).copied()
-    }
-
-    pub(crate) fn fault_count(&self) -> usize {
-        self.faults.len()
-    }
-
-    /// All faults in the order of the file.
-    pub(crate) fn into_faults(mut self) -> Vec<ModelError> {
-        self.faults.sort_by_key(|(at, _)| *at);
-        self.place_faults();
-        self.faults.into_iter().map(|(_, error)| error).collect()
-    }
-
-    /// Gives sorted faults their lines and columns in one walk through the text: counted from its line's start for each, the
-    /// faults of a file in one line would take the square of its length.
-    fn place_faults(&mut self) {
-        let (mut here, mut line, mut column) = (0, 1, 1);
-        for (at, error) in &mut self.faults {
-            let end = self.text.floor_char_boundary(*at as usize);
-            for c in self.text[here..end].chars() {
-                (line, column) = if c == '\n' { (line + 1, 1) } else { (line, column + 1) };
-            }
-            here = end;
-            (error.line, error.column) = (line, column);
-        }
-    }
-
-    fn line(&self, at: u32) -> u32 {
-        let starts = self.line_starts.get_or_init(|| {
-            let breaks = self.text.bytes().enumerate().filter(|&(_, byte)| byte == b'\n');
-            std::iter::once(0).chain(breaks.map(|(at, _)| at as u32 + 1)).collect()
-        });
-        starts.partition_point(|&start| start <= at) as u32
-    }
-}
+pub(crate) use reader::{LISTED_PER_MESH, Reader};

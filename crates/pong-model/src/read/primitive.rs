@@ -1,14 +1,17 @@
 //! Primitives, one function each.
 
-use super::group::{GroupReader, Place, authored_name, read_name, surface_index};
-use super::{Fields, Reader, custom, mesh_primitive, size};
+use super::fields::Fields;
+use super::opened_primitive::Primitive;
+use super::place::{GroupReader, Place, authored_name, read_name, surface_index};
+use super::reader::Reader;
+use super::{custom, mesh_primitive, size};
 use crate::draft::BodyDraft;
 use crate::model::{Item, PrimitiveInfo};
 use crate::ron_tree::Node;
+use pong_geometry::Quat;
 use pong_geometry::primitive::{
     Ellipsoid, LineSegment, Plane, Point, PrimitiveKind, Ray, RayResponse, Sphere,
 };
-use pong_geometry::{Quat, Transform};
 use std::collections::HashSet;
 
 const KINDS: [&str; 10] = [
@@ -23,15 +26,6 @@ const KINDS: [&str; 10] = [
     "Polyhedron",
     "Custom",
 ];
-
-/// A primitive being read.
-pub(super) struct Primitive<'n, 'd> {
-    pub(super) fields: Fields<'n>,
-    pub(super) at: u32,
-    pub(super) path: String,
-    pub(super) x: Transform,
-    pub(super) draft: &'d mut BodyDraft,
-}
 
 pub(super) fn read_primitive(
     groups: &mut GroupReader<'_, '_>,

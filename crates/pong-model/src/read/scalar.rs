@@ -1,24 +1,9 @@
 //! Numbers, texts, vectors and rotations, each refused with a reason where it makes no sense.
 
-use super::Reader;
-use crate::LARGEST;
+use super::reader::Reader;
+use crate::limits::{NumberFault, not_finite, out_of_range};
 use crate::ron_tree::{Node, Value};
 use pong_geometry::{Quat, Vec3};
-
-/// What is wrong with a number: rule, cause and cure.
-type NumberFault = (&'static str, String, &'static str);
-
-fn not_finite(value: f64) -> Option<NumberFault> {
-    let told = || ("not-finite", format!("{value} is no finite number"), "give a finite number");
-    (!value.is_finite()).then(told)
-}
-
-/// Of a number that must be finite and not beyond [`LARGEST`].
-pub(crate) fn out_of_range(value: f64) -> Option<NumberFault> {
-    let beyond = || format!("{value:e} is beyond ±{LARGEST:e}");
-    let too_large = || ("too-large", beyond(), "give a smaller number; check its unit");
-    not_finite(value).or_else(|| (value.abs() > LARGEST).then(too_large))
-}
 
 /// How far the norm of an authored quaternion may be from 1.
 const QUATERNION_NORM_TOLERANCE: f64 = 1e-3;
@@ -53,13 +38,13 @@ impl Reader<'_> {
         self.has_none(node.at, path, not_finite(value)).then_some(value)
     }
 
-    /// A finite number, not beyond [`LARGEST`].
+    /// A finite number, not beyond [`LARGEST`](crate::LARGEST).
     pub(crate) fn number(&mut self, node: &Node, path: &str) -> Option<f64> {
         let value = self.any_number(node, path)?;
         self.has_none(node.at, path, out_of_range(value)).then_some(value)
     }
 
-    /// A number above zero, not beyond [`LARGEST`].
+    /// A number above zero, not beyond [`LARGEST`](crate::LARGEST).
     pub(crate) fn positive(&mut self, node: &Node, path: &str, what: &str) -> Option<f64> {
         let value = self.number(node, path)?;
         self.above_zero(node, path, what, value)

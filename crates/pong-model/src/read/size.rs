@@ -3,10 +3,10 @@
 //! Interference multiplies up to four lengths, and bounding boxes are in single precision: between these limits neither
 //! leaves the range of numbers. Beyond them contacts would be missed without a word.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::draft::BodyDraft;
+use crate::limits::{LARGEST_SIZE, SMALLEST_SIZE};
 use crate::model::PrimitiveInfo;
-use crate::{LARGEST_SIZE, SMALLEST_SIZE};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 

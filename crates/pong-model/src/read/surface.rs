@@ -1,7 +1,8 @@
 //! The tables of surfaces and of pairs of surfaces.
 
-use super::{Fields, Reader};
-use crate::LARGEST;
+use super::fields::Fields;
+use super::reader::Reader;
+use crate::limits::LARGEST;
 use crate::restitution::{chi_for_restitution, zeta_for_restitution};
 use crate::ron_tree::{Node, Value};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};

@@ -1,31 +1,17 @@
 //! Numbers: decimal, hexadecimal, binary, octal, with underscores and type suffixes, infinite or not a number.
 
-use super::SyntaxError;
-use super::parser::{Parsed, Parser};
-
 const SUFFIXES: [&str; 12] =
     ["i8", "i16", "i32", "i64", "i128", "u8", "u16", "u32", "u64", "u128", "f32", "f64"];
 
-/// Reads the number that stands next.
-pub(super) fn number(parser: &mut Parser<'_>) -> Parsed<f64> {
-    let start = parser.position;
-    let bytes = parser.text.as_bytes();
+/// The number that begins at a place of a text, and the place behind it; the token that stands there if it is none.
+pub(super) fn number(text: &str, start: usize) -> Result<(f64, usize), &str> {
+    let bytes = text.as_bytes();
     let mut end = start;
     while end < bytes.len() && belongs(bytes, start, end) {
         end += 1;
     }
-    let token = &parser.text[start..end];
-    match meaning(token) {
-        Some(value) => {
-            parser.position = end;
-            Ok(value)
-        }
-        None => Err(malformed(parser, start, token)),
-    }
-}
-
-fn malformed(parser: &Parser<'_>, start: usize, token: &str) -> SyntaxError {
-    parser.error_at(start, "syntax", format!("`{token}` is not a number"))
+    let token = &text[start..end];
+    meaning(token).map(|value| (value, end)).ok_or(token)
 }
 
 /// Signs belong to a number at its start and behind the `e` of an exponent.

@@ -168,7 +168,7 @@ impl Parser<'_> {
             Some(b'{') => self.map(),
             Some(b'"') => self.string().map(Value::Text),
             Some(b'\'') => self.character().map(Value::Text),
-            Some(b'0'..=b'9' | b'+' | b'-' | b'.') => number(self).map(Value::Number),
+            Some(b'0'..=b'9' | b'+' | b'-' | b'.') => self.number().map(Value::Number),
             Some(b'r') if self.at_raw_string() => self.raw_string().map(Value::Text),
             Some(b'b') if self.at_bytes() => {
                 Err(self.error("byte-string", "byte strings have no meaning in a model file"))
@@ -176,6 +176,14 @@ impl Parser<'_> {
             Some(_) => self.named(),
             None => Err(self.error("syntax", "expected a value, found the end of the file")),
         }
+    }
+
+    fn number(&mut self) -> Parsed<f64> {
+        let start = self.position;
+        let malformed = |token: &str| self.error_at(start, "syntax", format!("`{token}` is not a number"));
+        let (value, end) = number(self.text, start).map_err(malformed)?;
+        self.position = end;
+        Ok(value)
     }
 
     fn named(&mut self) -> Parsed<Value> {
@@ -370,7 +378,7 @@ impl Parser<'_> {
             if !matches!(self.byte()?, b'0'..=b'9' | b'+' | b'-' | b'.') {
                 return None;
             }
-            numbers.push(number(self).ok()?);
+            numbers.push(self.number().ok()?);
             self.skip_blank().ok()?;
             if !self.take(",") && !self.rest_starts(close) {
                 return None;

@@ -13,6 +13,7 @@
 
 pub mod choice;
 mod errors;
+mod hashes;
 mod level;
 mod open_loop;
 mod plan;

@@ -1,18 +1,17 @@
 //! A log as the subject of a study: its motions through the engine, again and again.
 
 use crate::StudyError;
+use crate::sweep::hashes::{hash_file, hash_model};
 use crate::sweep::level::Level;
 use crate::sweep::record::{Record, vector};
 use crate::sweep::rewrite;
 use crate::sweep::run::Frames;
-use crate::sweep::subject::hash_model;
 use pong_engine::{EngineError, WorkerSettings};
 use pong_geometry::Wrench;
 use pong_geometry::extension::Extensions;
 use pong_model::Fnv;
 use pong_model::Model;
 use pong_record::{Event, Log, LogError, RerunFrame, RerunOptions, rerun};
-use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Other files for some models of a log.
@@ -261,18 +260,4 @@ fn six(wrench: &Wrench) -> [f64; 6] {
 
 fn refused(error: EngineError) -> LogError {
     error.into()
-}
-
-/// The bytes of a file, a piece at a time.
-fn hash_file(hash: &mut Fnv, path: &Path) -> Result<(), StudyError> {
-    let unreadable = |reason: std::io::Error| StudyError::file(path, reason);
-    let mut file = std::fs::File::open(path).map_err(unreadable)?;
-    let mut piece = vec![0; 1 << 20];
-    loop {
-        let read = file.read(&mut piece).map_err(unreadable)?;
-        if read == 0 {
-            return Ok(());
-        }
-        hash.bytes(&piece[..read]);
-    }
 }

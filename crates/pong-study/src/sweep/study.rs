@@ -3,6 +3,7 @@
 use crate::StudyError;
 use crate::sweep::choice::{self, Point, percentile};
 use crate::sweep::errors::{Errors, Quantity, errors};
+use crate::sweep::hashes;
 use crate::sweep::level::{Level, Lever, Motion};
 use crate::sweep::open_loop::{LogAlternative, LoggedRun};
 use crate::sweep::plan::{Plan, PlanSettings};
@@ -10,7 +11,7 @@ use crate::sweep::record::Record;
 use crate::sweep::reference::Reference;
 use crate::sweep::run::Ended;
 use crate::sweep::store::Store;
-use crate::sweep::subject::{self, Subject};
+use crate::sweep::subject::Subject;
 use pong_executive::scene::Scene;
 use pong_executive::{Integrator, Simulation};
 use pong_geometry::extension::Extensions;
@@ -229,7 +230,7 @@ pub fn study(
     let scene = scene.with_extensions(settings.extensions.clone());
     let built = scene.build()?;
     let plan = Plan::new(&scene, built.simulation.bodies().len(), &settings.plan)?;
-    let hash = subject::hash_of_scene(&scene, &text)?;
+    let hash = hashes::hash_of_scene(&scene, &text)?;
     let radii = radii(&built.simulation);
     drop(built);
     let store = Store::open(output, settings.fresh)?;

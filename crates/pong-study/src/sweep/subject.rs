@@ -5,9 +5,6 @@ use crate::sweep::level::Level;
 use crate::sweep::open_loop::LoggedRun;
 use crate::sweep::run::{self, Ended, Frames};
 use pong_executive::scene::Scene;
-use pong_geometry::extension::Extensions;
-use pong_model::Fnv;
-use std::path::Path;
 
 /// A scene or a log.
 pub(crate) enum Subject {
@@ -45,25 +42,4 @@ impl Subject {
             Self::Log(log) => log.alternatives(),
         }
     }
-}
-
-/// A hash of a scene's text and of every model that it names.
-pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, StudyError> {
-    let mut hash = Fnv::default();
-    hash.text(env!("CARGO_PKG_VERSION"));
-    hash.text(text);
-    for file in scene.model_files() {
-        hash_model(&mut hash, &file, scene.extensions())?;
-    }
-    Ok(hash)
-}
-
-/// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
-/// when it is run.
-pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<(), StudyError> {
-    let unreadable = |reason| StudyError::file(file, reason);
-    hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
-    let model = pong_model::load(file, extensions);
-    hash.word(model.map_or(0, |model| model.hash));
-    Ok(())
 }

@@ -1,6 +1,6 @@
 //! Which lever bought what: levels that differ from one level in one lever.
 
-use super::{digits, percent};
+use super::numbers::{digits, percent};
 use crate::sweep::level::Lever;
 use crate::sweep::study::{Place, Row, Study};
 use pong_report::table;

@@ -1,6 +1,7 @@
 //! The page for people.
 
-use super::{effects, microseconds, percent};
+use super::effects;
+use super::numbers::{digits, microseconds, percent};
 use crate::sweep::errors::Quantity;
 use crate::sweep::level::seconds;
 use crate::sweep::reference::Reference;
@@ -84,7 +85,7 @@ fn verdict(study: &Study) -> String {
             let against = match (&row.times, &base.times) {
                 (Some(own), Some(base)) => {
                     let ratio = base.median_ns() as f64 / own.median_ns().max(1) as f64;
-                    format!(" ({} times as fast as {})", super::digits(ratio), as_written(study))
+                    format!(" ({} times as fast as {})", digits(ratio), as_written(study))
                 }
                 _ => String::new(),
             };
@@ -136,7 +137,7 @@ fn line(study: &Study, index: usize) -> Vec<String> {
         }
         Answer::Reached { errors, .. } => {
             cells.extend(shown(study).iter().map(|quantity| percent(errors.of(*quantity))));
-            cells.extend((!study.is_log()).then(|| super::digits(1e3 * errors.position_m)));
+            cells.extend((!study.is_log()).then(|| digits(1e3 * errors.position_m)));
         }
     }
     cells.push(marks(study, index, row));

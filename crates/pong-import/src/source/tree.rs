@@ -1,0 +1,68 @@
+//! What every reader makes of its file: a tree of nodes with geometry.
+
+use crate::affine::Affine;
+use crate::findings::Findings;
+use nalgebra::Vector3;
+use serde_json::Value;
+
+/// A file as a tree of nodes; lengths in metres, axes those of models.
+#[derive(Default)]
+pub struct Source {
+    /// Parents before their children.
+    pub nodes: Vec<Node>,
+    /// `extras.pong` of the scene.
+    pub settings: Option<Value>,
+}
+
+pub struct Node {
+    pub name: String,
+    pub parent: Option<usize>,
+    /// Names from the top, with `/` between; for messages.
+    pub path: String,
+    /// To the parent.
+    pub local: Affine,
+    /// `extras.pong`.
+    pub mark: Option<Value>,
+    pub mesh: Option<Shape>,
+}
+
+/// Vertices in the node's frame and what they span.
+#[derive(Default)]
+pub struct Shape {
+    /// Distinct places.
+    pub vertices: Vec<Vector3<f64>>,
+    /// Triangles, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// For each triangle an index into `looks`; empty if all have the first.
+    pub look_of: Vec<u16>,
+    pub looks: Vec<Look>,
+    pub lines: Vec<[u32; 2]>,
+    pub points: Vec<u32>,
+}
+
+impl Shape {
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty() && self.lines.is_empty() && self.points.is_empty()
+    }
+}
+
+/// What a material says of its faces.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Look {
+    pub surface: Option<String>,
+    pub inactive: bool,
+}
+
+/// Whether all coordinates are numbers that a model may hold; else a fault is noted.
+pub(super) fn all_in_range(shape: &Shape, path: &str, findings: &mut Findings) -> bool {
+    let in_range = |x: &f64| x.abs() <= pong_model::LARGEST;
+    let Some(index) = shape.vertices.iter().position(|place| !place.iter().all(in_range)) else {
+        return true;
+    };
+    let (rule, cause) = match shape.vertices[index].iter().all(|x| x.is_finite()) {
+        true => ("too-large", format!("vertex {index} lies beyond {:e} m", pong_model::LARGEST)),
+        false => ("not-finite", format!("vertex {index} is not finite")),
+    };
+    findings.fault(path, rule, cause, "repair the mesh where it was made");
+    false
+}

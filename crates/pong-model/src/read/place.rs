@@ -1,0 +1,84 @@
+//! Where groups and primitives go, and how they are called.
+
+use super::fields::Fields;
+use super::reader::Reader;
+use super::suggest;
+use crate::draft::BodyDraft;
+use crate::ron_tree::{Node, Value};
+use crate::surface::Surface;
+use pong_geometry::Pose;
+use std::collections::HashSet;
+
+/// What reading a group needs and fills.
+pub(super) struct GroupReader<'r, 'a> {
+    pub(super) reader: &'r mut Reader<'a>,
+    pub(super) surfaces: &'r [Surface],
+    pub(super) bodies: &'r mut Vec<BodyDraft>,
+}
+
+/// Where primitives go.
+pub(super) struct Place {
+    pub(super) path: String,
+    pub(super) body: usize,
+    pub(super) group: usize,
+    pub(super) x_bg: Pose,
+    pub(super) surface: Option<u32>,
+}
+
+/// The name of a group or primitive, if it has a usable one, so that all its faults carry its path.
+pub(super) fn authored_name(node: &Node) -> Option<&str> {
+    let Value::Struct(_, fields) = &node.value else { return None };
+    match &fields.iter().find(|field| field.name.as_ref() == "name")?.value.value {
+        Value::Text(name) if !name.is_empty() => Some(name),
+        _ => None,
+    }
+}
+
+/// The name of a group or primitive: there, not empty, without `/`, unique among its siblings.
+pub(super) fn read_name(
+    reader: &mut Reader<'_>,
+    fields: &Fields<'_>,
+    path: &str,
+    siblings: &mut HashSet<String>,
+) -> Option<String> {
+    let node = fields.required(reader, "name")?;
+    let name = reader.text(node, path)?;
+    if name.is_empty() {
+        reader.fault(node.at, path, "empty-name", "the name is empty", "name it");
+        return None;
+    }
+    if name.contains('/') {
+        let cause = format!("the name \"{name}\" contains a `/`");
+        reader.fault(
+            node.at,
+            path,
+            "slash-in-name",
+            cause,
+            "a `/` separates the names of a path; use another sign",
+        );
+    }
+    if !siblings.insert(name.clone()) {
+        let cause = format!("the name \"{name}\" is taken by a sibling");
+        reader.fault(node.at, path, "repeated-name", cause, "names are unique within a group; rename one");
+    }
+    Some(name)
+}
+
+/// The index of a surface by name.
+pub(super) fn surface_index(
+    reader: &mut Reader<'_>,
+    surfaces: &[Surface],
+    node: &Node,
+    path: &str,
+) -> Option<u32> {
+    let name = reader.text(node, path)?;
+    if let Some(index) = reader.surface_called(surfaces, &name) {
+        return Some(index);
+    }
+    let cause = format!("there is no surface \"{name}\"");
+    let cure =
+        suggest::cure_among(&name, surfaces.len(), surfaces.iter().map(|surface| surface.name.as_str()));
+    reader.fault(node.at, path, "unknown-surface", cause, cure);
+    // Any index will do: the model is refused, and no second fault should follow from this one.
+    Some(0)
+}
