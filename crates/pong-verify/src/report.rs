@@ -2,9 +2,10 @@
 //!
 //! The report holds no date, no duration and nothing about a machine: the same engine gives the same file.
 
-use crate::{Row, Verdict};
+use crate::case::Verdict;
+use crate::row::Row;
 use pong_report::table;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 const HEADS: [&str; 9] =
     ["case", "quantity", "unit", "expected", "got", "error", "tolerance", "order", "pass"];
@@ -35,6 +36,12 @@ pub fn text(verdicts: &[Verdict]) -> String {
         }
     }
     out
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&text(std::slice::from_ref(self)))
+    }
 }
 
 /// The report of `docs/verification.md`.

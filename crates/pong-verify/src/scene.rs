@@ -1,6 +1,6 @@
 //! Model files → sealed world → simulation.
 
-use crate::Failure;
+use crate::case::Failure;
 use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World};
 use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Vec3};
 use pong_geometry::extension::Extensions;

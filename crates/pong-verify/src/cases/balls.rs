@@ -1,7 +1,8 @@
 //! V6: elastic balls keep their energy.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{G, Scene};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3};
 
 pub const V6: Case = Case {

@@ -1,7 +1,8 @@
 //! V9: a block slides to a stop.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
 
 pub const V9: Case = Case {

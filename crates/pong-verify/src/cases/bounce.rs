@@ -1,8 +1,9 @@
 //! V3, V4, V28: one bounce of a point mass, averaged over the phase of touch within a step.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::bisect;
+use crate::row::Row;
 use crate::scene::{Duo, point_mass, set_damping, set_dissipation};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Pose, RigidBody, Twist, Vec3};
 
 pub const V3: Case = Case {

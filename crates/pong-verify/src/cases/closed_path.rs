@@ -1,8 +1,9 @@
 //! W10: without friction and damping a closed path gains nothing.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{order, rotation};
+use crate::row::Row;
 use crate::scene::Duo;
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
 

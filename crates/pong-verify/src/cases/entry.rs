@@ -1,7 +1,8 @@
 //! W15: what came in by one face is pushed back out by it, however deep.
 
+use crate::case::{Case, Failure, Outcome};
+use crate::row::Row;
 use crate::scene::Duo;
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::State;
 
 pub const W15: Case = Case {

@@ -1,8 +1,9 @@
 //! W7: friction survives the crossing from facet to facet.
 
 use super::rolling::{RADIUS, down_slope};
+use crate::case::{Case, Failure, Outcome};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::State;
 use pong_executive::Vec3;
 

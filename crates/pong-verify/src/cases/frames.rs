@@ -1,8 +1,9 @@
 //! V25, V26: the common frame does not matter, and action is reaction.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Random, rotation};
+use crate::row::Row;
 use crate::scene::{Duo, point_mass};
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::{InterfaceId, State, World};
 use pong_executive::{Integrator, Path, Pose, RigidBody, Twist, Vec3, Wrench};
 

@@ -1,8 +1,9 @@
 //! V18: friction knows no axes.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{bisect, radians};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, point_mass, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::{Contact, InterfaceId, State, World};
 use pong_executive::{Integrator, Load, Pose, RigidBody, Vec3};
 

@@ -1,7 +1,8 @@
 //! W1: the exponent 3/2.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, G, point_mass, set_dissipation};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, RigidBody, Twist, Vec3};
 
 pub const W1: Case = Case {

@@ -1,8 +1,9 @@
 //! V8 and W4: a block on an incline, held by a bristle, and creeping under regularised friction.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V8: Case = Case {

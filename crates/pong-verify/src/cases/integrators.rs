@@ -1,8 +1,9 @@
 //! W12: a sprung mass under each integrator.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
+use crate::row::Row;
 use crate::scene::{Duo, G, point_mass};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Pose, RigidBody, Vec3};
 
 pub const W12: Case = Case {

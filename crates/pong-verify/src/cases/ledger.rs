@@ -1,9 +1,10 @@
 //! W11: the books close: kinetic + potential + stored + dissipated stays.
 
 use super::bounce::clamped_restitution;
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, point_mass, set_damping, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Twist, Vec3};
 
 pub const W11: Case = Case {

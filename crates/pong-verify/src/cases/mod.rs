@@ -30,7 +30,7 @@ mod tumbling;
 mod turntable;
 mod two_spheres;
 
-use crate::Case;
+use crate::case::Case;
 
 /// All cases.
 pub fn cases() -> Vec<Case> {
@@ -73,6 +73,11 @@ pub fn cases() -> Vec<Case> {
         bounce::W16,
         orders::W17,
     ]
+}
+
+/// The case of an id, in upper or lower case.
+pub fn find(id: &str) -> Option<Case> {
+    cases().into_iter().find(|case| case.id.eq_ignore_ascii_case(id))
 }
 
 #[cfg(test)]

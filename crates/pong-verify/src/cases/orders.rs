@@ -1,6 +1,7 @@
 //! W17: orders of contact motions.
 
-use crate::{Case, orders};
+use crate::case::Case;
+use crate::orders;
 
 pub const W17: Case = Case {
     id: "W17",

@@ -5,9 +5,10 @@
 //! T·D with T ≤ μ·N, hence L < μ·D. Where it holds, the turn θ that stretches the bristles (k_t·θ·D/2 = T) relieves
 //! the springs (N = k·(δ₀ − θ·L/2)), so that N = k·δ₀·k_t·D²/(k·L² + k_t·D²).
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{bisect, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, set_bristle};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V20: Case = Case {

@@ -1,7 +1,8 @@
 //! W3: damping that sets in over a depth.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, set_damping, set_ramp};
-use crate::{Case, Outcome, Row};
 use pong_engine::State;
 
 pub const W3: Case = Case {

@@ -1,8 +1,9 @@
 //! V29: rays against a plane, a triangle and a convex polyhedron.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::Random;
+use crate::row::Row;
 use crate::scene::Duo;
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
 

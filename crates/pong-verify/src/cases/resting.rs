@@ -1,7 +1,8 @@
 //! W5: bars and boxes at rest on a plane and on blocks.
 
+use crate::case::{Case, Failure, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, G, Run, set_damping};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const W5: Case = Case {

@@ -4,9 +4,10 @@
 //! (a² − c²)/c·θ aside. Without friction the mass centre stays above its place and the body turns about it; rolling, it
 //! turns about the lowest point, where the radius of curvature is a²/c.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Crossings, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, Run, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const W9: Case = Case {

@@ -1,8 +1,9 @@
 //! V10, V11: a rigid ball on ground that yields, slipping and rolling.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
 
 pub const V10: Case = Case {

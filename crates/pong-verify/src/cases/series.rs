@@ -1,7 +1,8 @@
 //! W2: two surfaces in series.
 
+use crate::case::{Case, Failure, Outcome};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, set_bristle, set_damping, set_dissipation};
-use crate::{Case, Failure, Outcome, Row};
 use pong_engine::{Contact, State};
 
 pub const W2: Case = Case {

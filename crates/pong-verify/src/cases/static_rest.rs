@@ -1,7 +1,8 @@
 //! V1: a mass on a spring comes to rest at m·g/k.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, G, point_mass, set_damping};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, RigidBody};
 
 pub const V1: Case = Case {

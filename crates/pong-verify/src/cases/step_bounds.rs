@@ -1,7 +1,8 @@
 //! W13: how long a step may be.
 
+use crate::case::{Case, Failure, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, G, point_mass, set_damping};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Pose, RigidBody, Vec3};
 
 pub const W13: Case = Case {

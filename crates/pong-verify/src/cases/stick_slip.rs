@@ -1,8 +1,9 @@
 //! V16, V17: one mass held by a spring on a moving belt, and held by friction for a long time.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, Load, Path, Pose, RigidBody, Spring, SpringEnd, Twist, Vec3};
 
 pub const V16: Case = Case {

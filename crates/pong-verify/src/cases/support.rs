@@ -1,8 +1,9 @@
 //! V30: an ellipsoid on a plane.
 
+use crate::case::{Case, Outcome};
 use crate::measure::Random;
+use crate::row::Row;
 use crate::scene::Duo;
-use crate::{Case, Outcome, Row};
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
 

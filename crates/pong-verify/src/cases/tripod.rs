@@ -3,9 +3,10 @@
 //! Feet at r_i on a circle of radius R, Σ r_i·r_iᵀ = ½·3R², so that a moment M about the middle gives the loads
 //! N_i = N/3 + k·(r_i·θ) with the tilt θ from 1.5·k·R²·θ = M, M counted at the tilted place.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Crossings, radians, rotation};
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V2: Case = Case {

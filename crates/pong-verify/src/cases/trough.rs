@@ -1,7 +1,8 @@
 //! W6: a ball in a trough of two walls of one surface.
 
+use crate::case::{Case, Outcome};
+use crate::row::Row;
 use crate::scene::{Duo, G, set_damping};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const W6: Case = Case {

@@ -1,8 +1,9 @@
 //! V24: a body tumbles in free flight. Checks the integrator that all other cases rest on.
 
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
+use crate::row::Row;
 use crate::scene::Scene;
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Twist, Vec3};
 
 pub const V24: Case = Case {

@@ -1,9 +1,10 @@
 //! W14: a ball on a turntable.
 
 use super::rolling::{MASS, RADIUS};
+use crate::case::{Case, Outcome};
 use crate::measure::Crossings;
+use crate::row::Row;
 use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
-use crate::{Case, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Path, Pose, RigidBody, Twist, Vec3};
 
 pub const W14: Case = Case {

@@ -1,9 +1,10 @@
 //! V7 and W8: two spheres in free space.
 
 use super::bounce::clamped_restitution;
+use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
+use crate::row::Row;
 use crate::scene::{Bristle, Scene, set_bristle, set_damping};
-use crate::{Case, Failure, Outcome, Row};
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 
 pub const V7: Case = Case {

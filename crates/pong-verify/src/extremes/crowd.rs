@@ -1,8 +1,9 @@
 //! Ten thousand contacts at once.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model, spring};
-use super::{Answer, Extreme, Length};
-use crate::{Outcome, Row};
+use crate::case::Outcome;
+use crate::row::Row;
 use pong_engine::{Config, StatusBits, WorkerSettings};
 use pong_executive::{Quat, Vec3};
 

@@ -1,9 +1,10 @@
 //! Drops at all steps, and steps that are too long.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model};
-use super::{Answer, Extreme, Length};
+use crate::case::{Failure, Outcome};
 use crate::measure::{Random, order};
-use crate::{Failure, Outcome, Row};
+use crate::row::Row;
 use pong_engine::Config;
 use pong_executive::{
     BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3, longest_stable_step,

@@ -1,9 +1,10 @@
 //! Friction over facets, under cyclic load, with a load that drops.
 
+use super::extreme::{Answer, Extreme, Length, rows_of};
 use super::rig::{Rig, model};
-use super::{Answer, Extreme, Length, rows_of};
+use crate::case::Outcome;
 use crate::measure::Random;
-use crate::{Outcome, Row};
+use crate::row::Row;
 use pong_executive::{Quat, Vec3};
 
 pub const FACETS: Extreme = Extreme {

@@ -1,8 +1,9 @@
 //! Grazing contact, coincident and parallel features, exact symmetry.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, sheet, spring};
-use super::{Answer, Extreme, Length};
-use crate::{Failure, Outcome, Row};
+use crate::case::{Failure, Outcome};
+use crate::row::Row;
 use pong_executive::{Quat, Vec3, Wrench};
 
 pub const TOUCH: Extreme = Extreme {

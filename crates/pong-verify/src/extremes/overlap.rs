@@ -1,8 +1,9 @@
 //! Bodies that overlap deeply when a run begins.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, sheet, spring};
-use super::{Answer, Extreme, Length};
-use crate::{Failure, Outcome, Row};
+use crate::case::{Failure, Outcome};
+use crate::row::Row;
 use pong_engine::Config;
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3};
 

@@ -1,7 +1,7 @@
 //! Far and fast common frames.
 
-use super::{Answer, Extreme, Length, rows_of};
-use crate::Outcome;
+use super::extreme::{Answer, Extreme, Length, rows_of};
+use crate::case::Outcome;
 
 pub const FAR: Extreme = Extreme {
     id: "E1",

@@ -1,9 +1,10 @@
 //! Shapes and states that are refused, and shapes that must not be.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, spring};
-use super::{Answer, Extreme, Length};
+use crate::case::{Failure, Outcome};
 use crate::measure::Random;
-use crate::{Failure, Outcome, Row};
+use crate::row::Row;
 use pong_engine::State;
 use pong_executive::{Quat, Vec3, Wrench};
 use pong_geometry::extension::Extensions;

@@ -1,7 +1,7 @@
 //! The table of extremes: as text, and as Markdown for `docs/extremes.md`. No date, no duration, no machine.
 
-use super::{Answer, Finding};
-use crate::{Bound, Row};
+use super::extreme::{Answer, Finding};
+use crate::row::{Bound, Row};
 use pong_report::table;
 use std::fmt::Write as _;
 

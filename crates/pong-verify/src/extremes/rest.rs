@@ -1,8 +1,9 @@
 //! Rest for a long time.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model};
-use super::{Answer, Extreme, Length};
-use crate::{Failure, Outcome, Row};
+use crate::case::{Failure, Outcome};
+use crate::row::Row;
 use pong_executive::{Quat, Vec3};
 
 pub const REST: Extreme = Extreme {

@@ -1,6 +1,6 @@
 //! Small scenes of two Objects, written as an author would write them.
 
-use crate::Failure;
+use crate::case::Failure;
 use pong_engine::{Config, Contact, InterfaceId, State, World};
 use pong_executive::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_geometry::extension::Extensions;

@@ -1,10 +1,11 @@
 //! Sizes, stiffness, mass ratios.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, at, block, model, sheet};
-use super::{Answer, Extreme, Length};
+use crate::case::{Failure, Outcome};
 use crate::measure::Random;
+use crate::row::Row;
 use crate::scene::{Duo, Run};
-use crate::{Failure, Outcome, Row};
 use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Twist, Vec3, Wrench};
 
 pub const SIZES: Extreme = Extreme {

@@ -1,9 +1,10 @@
 //! Thin walls and high speed.
 
+use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, sheet};
-use super::{Answer, Extreme, Length};
+use crate::case::{Failure, Outcome};
 use crate::measure::Random;
-use crate::{Failure, Outcome, Row};
+use crate::row::Row;
 use pong_engine::StatusBits;
 use pong_executive::{Quat, Vec3};
 

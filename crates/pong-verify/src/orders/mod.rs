@@ -7,8 +7,9 @@
 mod motions;
 mod plot;
 
+use crate::case::Failure;
+use crate::row::Row;
 use crate::scene::Run;
-use crate::{Failure, Row};
 use motions::{MOTIONS, Motion};
 use pong_executive::{Integrator, Vec3};
 use std::sync::OnceLock;

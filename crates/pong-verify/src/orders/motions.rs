@@ -1,6 +1,6 @@
 //! The motions whose order is observed.
 
-use crate::Failure;
+use crate::case::Failure;
 use crate::measure::{radians, rotation};
 use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
 use pong_engine::State;
