@@ -1,10 +1,10 @@
 //! One block of bytes that is handed out piece by piece and taken back as a whole.
 
+use crate::counts::Counts;
 use crate::demand::{GRAIN, rounded};
 use crate::full::Full;
 use crate::list::List;
 use bumpalo::Bump;
-use std::cell::Cell;
 
 /// Memory of one frame: slices and lists that all end with the next [`reset`](Self::reset).
 ///
@@ -14,9 +14,7 @@ use std::cell::Cell;
 pub struct Arena {
     bump: Bump,
     capacity: usize,
-    used: Cell<usize>,
-    refused: Cell<usize>,
-    peak: Cell<usize>,
+    counts: Counts,
 }
 
 impl Arena {
@@ -31,23 +29,20 @@ impl Arena {
         bump.reset();
         // No second block, whatever happens.
         bump.set_allocation_limit(Some(bump.allocated_bytes()));
-        Self { bump, capacity, used: Cell::new(0), refused: Cell::new(0), peak: Cell::new(0) }
+        Self { bump, capacity, counts: Counts::default() }
     }
 
     /// Ends everything that was handed out; the memory stays.
     pub fn reset(&mut self) {
         self.bump.reset();
-        self.used.set(0);
-        self.refused.set(0);
+        self.counts.reset();
     }
 
     /// A slice of `len` elements, each a copy of `fill`.
     ///
     /// # Errors
-    /// [`Full`] if it does not fit.
-    // `&mut` from `&self`: every call hands out memory that no other call has.
-    /// # Errors
     /// [`Full`] if the arena has not that much room left; nothing was taken then.
+    // `&mut` from `&self`: every call hands out memory that no other call has.
     #[allow(clippy::mut_from_ref)]
     pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
         self.claim::<T>(len)?;
@@ -62,18 +57,18 @@ impl Arena {
         self.claim::<T>(capacity)?;
         let mut items = bumpalo::collections::Vec::new_in(&self.bump);
         items.try_reserve_exact(capacity).map_err(|_| self.full(capacity * size_of::<T>()))?;
-        Ok(List::new(self, items, capacity))
+        Ok(List::new(&self.counts, items, capacity))
     }
 
     /// Bytes handed out since the last reset.
     pub fn used(&self) -> usize {
-        self.used.get()
+        self.counts.used()
     }
 
     /// The most bytes that were asked for between two resets since the arena was made, what was refused included: the
     /// capacity that would have been enough for all that was asked for.
     pub fn peak(&self) -> usize {
-        self.peak.get()
+        self.counts.peak()
     }
 
     /// Bytes that can be handed out between two resets.
@@ -85,27 +80,16 @@ impl Arena {
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };
         let whole = rounded::<T>(len);
-        if whole > self.capacity - self.used.get() {
-            self.refuse(whole);
+        if whole > self.capacity - self.counts.used() {
+            self.counts.refuse(whole);
             return Err(self.full(len.saturating_mul(size_of::<T>())));
         }
-        self.used.set(self.used.get() + whole);
-        self.note_peak();
+        self.counts.take(whole);
         Ok(())
     }
 
-    /// Remembers what did not fit, for the peak.
-    pub(crate) fn refuse(&self, bytes: usize) {
-        self.refused.set(self.refused.get().saturating_add(bytes));
-        self.note_peak();
-    }
-
-    fn note_peak(&self) {
-        self.peak.set(self.peak.get().max(self.used.get().saturating_add(self.refused.get())));
-    }
-
     fn full(&self, asked: usize) -> Full {
-        Full { asked, free: self.capacity - self.used.get(), capacity: self.capacity }
+        Full { asked, free: self.capacity - self.counts.used(), capacity: self.capacity }
     }
 }
 

@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod arena;
+mod counts;
 mod demand;
 mod full;
 mod list;

@@ -1,20 +1,20 @@
 //! A list in an arena.
 
-use crate::arena::Arena;
+use crate::counts::Counts;
 use crate::full::Full;
 use std::ops::{Deref, DerefMut};
 
-/// A list of a fixed capacity in an [`Arena`], filled one by one. Used as a slice.
+/// A list of a fixed capacity in an [`Arena`](crate::Arena), filled one by one. Used as a slice.
 #[derive(Debug)]
 pub struct List<'a, T: Copy> {
-    arena: &'a Arena,
+    counts: &'a Counts,
     items: bumpalo::collections::Vec<'a, T>,
     capacity: usize,
 }
 
 impl<'a, T: Copy> List<'a, T> {
-    pub(crate) fn new(arena: &'a Arena, items: bumpalo::collections::Vec<'a, T>, capacity: usize) -> Self {
-        Self { arena, items, capacity }
+    pub(crate) fn new(counts: &'a Counts, items: bumpalo::collections::Vec<'a, T>, capacity: usize) -> Self {
+        Self { counts, items, capacity }
     }
 
     /// Appends an element.
@@ -33,7 +33,7 @@ impl<'a, T: Copy> List<'a, T> {
     #[cold]
     fn refused(&self) -> Full {
         let size = size_of::<T>();
-        self.arena.refuse(size);
+        self.counts.refuse(size);
         Full { asked: size, free: 0, capacity: self.capacity * size }
     }
 
@@ -75,6 +75,7 @@ impl<T: Copy> DerefMut for List<'_, T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Arena;
 
     #[test]
     fn a_list_takes_its_capacity_and_loses_nothing_at_the_limit() {

@@ -3,14 +3,14 @@
 mod euler;
 mod hold;
 mod runge_kutta;
+mod stages;
 
 pub(crate) use euler::euler;
 pub(crate) use hold::{Held, hold};
 pub(crate) use runge_kutta::{Contact, runge_kutta};
+pub(crate) use stages::{Pushed, Stages};
 
-use crate::state::Rates;
 use pong_engine::WrenchCoupling;
-use pong_geometry::Wrench;
 
 /// How the motion of the free bodies is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,21 +52,4 @@ impl Integrator {
         };
         Some(self.coupling()).filter(is_kept)
     }
-}
-
-/// Room for derivatives, kept from step to step.
-#[derive(Debug, Default)]
-pub(crate) struct Stages {
-    pub rates: [Vec<Rates>; 4],
-    /// What contact did to the bodies in the last step, if it was evaluated at stages.
-    pub pushed: Pushed,
-}
-
-/// What contact did to the bodies over a step, with the weights of the stages.
-#[derive(Debug, Default)]
-pub(crate) struct Pushed {
-    /// On every free body, of the force (N·s) and of its moment about the mass centre (N·m·s).
-    pub impulses: Vec<Wrench>,
-    /// Work on the bodies that are led or fixed, J.
-    pub work_on_led: f64,
 }

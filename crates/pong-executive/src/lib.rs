@@ -36,6 +36,7 @@ struct UsersGuide;
 
 mod body;
 mod energy;
+mod energy_warnings;
 mod error;
 mod integrate;
 mod load;

@@ -1,5 +1,6 @@
 //! What can be wrong with a log.
 
+use crate::format::VERSION;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -107,7 +108,7 @@ impl std::fmt::Display for LogError {
                 f,
                 "{}: is of version {version}, this program reads versions 1 to {}; use the program that wrote it, or a later one",
                 path.display(),
-                crate::run::VERSION
+                VERSION
             ),
             Self::Model { name, cause, cure } => {
                 write!(f, "model `{name}`: cannot be kept with the log: {cause}; {cure}")

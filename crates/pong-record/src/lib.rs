@@ -16,6 +16,7 @@
 mod csv;
 mod error;
 mod event;
+mod format;
 mod read;
 mod replay;
 mod run;
@@ -25,10 +26,11 @@ mod write;
 pub use csv::{AccountsTable, CsvTables, Look, csv_name};
 pub use error::LogError;
 pub use event::{Event, LoggedEvent, SurfaceValues};
+pub use format::VERSION;
 pub use read::{Frame, Log};
 pub use replay::{
     Difference, Obstacle, ReplayOptions, ReplayReport, RerunFrame, RerunOptions, replay, rerun, world_of_log,
 };
-pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
+pub use run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
 pub use table::{ContactRow, EnergyRow, FrameRow, StateRow, WrenchRow};
 pub use write::{LONGEST_WAIT, ModelSource, RecordOptions, RecordStatus, Recorder, WhenFull};

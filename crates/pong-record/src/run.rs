@@ -1,15 +1,12 @@
 //! run.json: what the numbers in the tables of a log mean.
 
 use crate::error::LogError;
+use crate::format::{FORMAT, VERSION};
 use pong_engine::WrenchCoupling;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Component, Path};
 
-/// The version of the format that is written. Version 1, which is read too, has other names for some fields.
-pub const VERSION: u64 = 2;
-/// Name of the format.
-pub(crate) const FORMAT: &str = "pong-log";
 /// Name of the file.
 pub(crate) const FILE: &str = "run.json";
 

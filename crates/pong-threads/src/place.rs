@@ -49,6 +49,13 @@ impl fmt::Display for WorkerStart {
     }
 }
 
+impl Settings {
+    /// How many workers a pool started with these settings from the calling thread will have.
+    pub fn workers_granted(&self) -> usize {
+        cores_of_workers(self).len()
+    }
+}
+
 /// Per worker that there will be, the core to bind it to, if any.
 pub fn cores_of_workers(settings: &Settings) -> Vec<Option<usize>> {
     let (cores, room) = room_for_workers(settings);

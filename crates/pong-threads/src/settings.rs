@@ -44,11 +44,3 @@ impl Default for Settings {
         }
     }
 }
-
-#[cfg(not(loom))]
-impl Settings {
-    /// How many workers a pool started with these settings from the calling thread will have.
-    pub fn workers_granted(&self) -> usize {
-        crate::place::cores_of_workers(self).len()
-    }
-}

@@ -1,6 +1,6 @@
 //! Semi-implicit Euler:  p' = p + h·F(x, v),  x' = x + h·v(p').
 
-use super::Stages;
+use super::stages::Stages;
 use crate::state::FreeState;
 use crate::system::System;
 

@@ -1,7 +1,7 @@
 //! Zero-order hold: one contact wrench a frame, held until the next, perhaps late.
 
-use super::Stages;
 use super::runge_kutta::{Contact, runge_kutta};
+use super::stages::Stages;
 use crate::error::ExecutiveError;
 use crate::state::FreeState;
 use crate::system::System;

@@ -7,7 +7,7 @@
 //!
 //! Orientations are integrated as rotation vectors since the start of the step (`state.rs`).
 
-use super::{Pushed, Stages};
+use super::stages::{Pushed, Stages};
 use crate::error::ExecutiveError;
 use crate::state::{FreeState, Rates};
 use crate::system::System;

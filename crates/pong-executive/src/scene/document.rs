@@ -1,5 +1,6 @@
 //! What a scene file says, field by field (docs/scene_format.md).
 
+use crate::integrate::Integrator;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
@@ -243,6 +244,30 @@ pub(crate) enum IntegratorEntry {
         #[serde(default, alias = "delay")]
         delay_frames: u32,
     },
+}
+
+impl From<IntegratorEntry> for Integrator {
+    fn from(entry: IntegratorEntry) -> Self {
+        match entry {
+            IntegratorEntry::SemiImplicitEuler => Self::SemiImplicitEuler,
+            IntegratorEntry::RungeKutta4 => Self::RungeKutta4,
+            IntegratorEntry::ZeroOrderHold { substeps, delay_frames } => {
+                Self::ZeroOrderHold { substeps, delay_frames }
+            }
+        }
+    }
+}
+
+impl From<Integrator> for IntegratorEntry {
+    fn from(integrator: Integrator) -> Self {
+        match integrator {
+            Integrator::SemiImplicitEuler => Self::SemiImplicitEuler,
+            Integrator::RungeKutta4 => Self::RungeKutta4,
+            Integrator::ZeroOrderHold { substeps, delay_frames } => {
+                Self::ZeroOrderHold { substeps, delay_frames }
+            }
+        }
+    }
 }
 
 fn one_substep() -> u32 {

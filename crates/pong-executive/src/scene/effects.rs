@@ -1,28 +1,15 @@
-//! Loads, springs and the integrator of a scene.
+//! Loads, springs and preloads of a scene.
 
-use super::document::{
-    AxesEntry, Document, EndEntry, FrictionEntry, IntegratorEntry, LoadEntry, PreloadEntry, SpringEntry,
-};
+use super::document::{AxesEntry, Document, EndEntry, FrictionEntry, LoadEntry, PreloadEntry, SpringEntry};
 use super::error::Faults;
 use super::poses::{pose, pose_entry};
 use super::setting::Setting;
 use crate::body::{BodyId, RigidBody};
-use crate::integrate::Integrator;
 use crate::load::{Axes, Load, LoadHistory, LoadRow};
 use crate::simulation::Simulation;
 use crate::spring::{Spring, SpringEnd};
 use pong_engine::FrictionPreload;
 use pong_geometry::Wrench;
-
-pub(crate) fn integrator(document: &Document) -> Integrator {
-    match document.integrator {
-        IntegratorEntry::SemiImplicitEuler => Integrator::SemiImplicitEuler,
-        IntegratorEntry::RungeKutta4 => Integrator::RungeKutta4,
-        IntegratorEntry::ZeroOrderHold { substeps, delay_frames } => {
-            Integrator::ZeroOrderHold { substeps, delay_frames }
-        }
-    }
-}
 
 /// Finds a body by its name in the scene.
 fn body_named(

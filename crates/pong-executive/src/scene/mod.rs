@@ -12,6 +12,7 @@ pub use error::{SceneError, SceneErrors};
 pub use variation::Variation;
 
 use crate::body::BodyId;
+use crate::integrate::Integrator;
 use crate::simulation::Simulation;
 use document::Document;
 use error::Faults;
@@ -114,6 +115,38 @@ impl Scene {
         &self.extensions
     }
 
+    /// Name as given in the file.
+    pub fn name(&self) -> &str {
+        &self.document.name
+    }
+
+    /// The step, s.
+    pub fn step(&self) -> f64 {
+        self.document.step
+    }
+
+    /// The duration, s.
+    pub fn duration(&self) -> f64 {
+        self.document.duration
+    }
+
+    /// The integrator.
+    pub fn integrator(&self) -> Integrator {
+        self.document.integrator.into()
+    }
+
+    /// Names of the alternatives, in the order of the file.
+    pub fn alternatives(&self) -> impl Iterator<Item = &str> {
+        self.document.alternatives.iter().map(|alternative| alternative.name.as_str())
+    }
+
+    /// Every model file that the scene names, those of its alternatives included, in the order of the file.
+    pub fn model_files(&self) -> Vec<PathBuf> {
+        let alternatives = self.document.alternatives.iter().flat_map(|alternative| &alternative.models);
+        let files = self.document.models.iter().chain(alternatives);
+        files.map(|(_, file)| self.folder.join(file)).collect()
+    }
+
     /// Loads the models and sets everything up, or tells everything that is wrong.
     ///
     /// # Errors
@@ -169,7 +202,7 @@ fn assemble(
     loads: Vec<crate::Load>,
     springs: Vec<crate::Spring>,
 ) -> Result<Simulation, crate::ExecutiveError> {
-    let mut simulation = Simulation::new(world, effects::integrator(document), document.step)?;
+    let mut simulation = Simulation::new(world, document.integrator.into(), document.step)?;
     simulation.set_gravity(document.gravity.into());
     for body in bodies {
         simulation.add_body(body)?;

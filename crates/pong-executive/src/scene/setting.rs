@@ -1,9 +1,9 @@
 //! Models, objects and pairs of a scene, as a world.
 
 use super::document::Document;
-use super::effects::integrator;
 use super::error::Faults;
 use super::variation::Variation;
+use crate::integrate::Integrator;
 use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
@@ -35,7 +35,7 @@ impl Setting {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,
             workers: variation.workers.clone(),
-            accounts: integrator(document).wrench_coupling().filter(|_| document.ledger),
+            accounts: Integrator::from(document.integrator).wrench_coupling().filter(|_| document.ledger),
         };
         let mut setting = Self {
             world: World::with_extensions(config, extensions.clone(), Laws::default()),

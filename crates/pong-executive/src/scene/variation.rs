@@ -1,12 +1,11 @@
 //! A scene with something else than its file says: another step, another integrator, other models.
 
-use super::Scene;
-use super::document::{Document, IntegratorEntry};
+use super::document::Document;
 use super::error::Faults;
 use crate::integrate::Integrator;
 use pong_engine::WorkerSettings;
 use pong_model::Model;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// What a rewritten model is made by; an error is a line of cause and cure.
@@ -37,7 +36,7 @@ impl Variation<'_> {
     pub(super) fn document(&self, document: &Document, faults: &mut Faults<'_>) -> Document {
         let mut varied = document.clone();
         varied.step = self.step.unwrap_or(document.step);
-        varied.integrator = self.integrator.map_or(document.integrator, entry);
+        varied.integrator = self.integrator.map_or(document.integrator, Into::into);
         if let Some(wanted) = self.alternative {
             match document.alternatives.iter().find(|alternative| alternative.name == wanted) {
                 Some(found) => take_models(&mut varied, &found.models),
@@ -56,16 +55,6 @@ fn take_models(document: &mut Document, instead: &[(String, String)]) {
     for (name, file) in &mut document.models {
         if let Some((_, other)) = instead.iter().find(|(other, _)| other == name) {
             file.clone_from(other);
-        }
-    }
-}
-
-fn entry(integrator: Integrator) -> IntegratorEntry {
-    match integrator {
-        Integrator::SemiImplicitEuler => IntegratorEntry::SemiImplicitEuler,
-        Integrator::RungeKutta4 => IntegratorEntry::RungeKutta4,
-        Integrator::ZeroOrderHold { substeps, delay_frames } => {
-            IntegratorEntry::ZeroOrderHold { substeps, delay_frames }
         }
     }
 }
@@ -93,39 +82,5 @@ pub(super) fn check_alternatives(document: &Document, faults: &mut Faults<'_>) {
                 faults.note(&thing, format!("model `{name}` is replaced twice"), "keep one of the files");
             }
         }
-    }
-}
-
-impl Scene {
-    /// Name as given in the file.
-    pub fn name(&self) -> &str {
-        &self.document.name
-    }
-
-    /// The step, s.
-    pub fn step(&self) -> f64 {
-        self.document.step
-    }
-
-    /// The duration, s.
-    pub fn duration(&self) -> f64 {
-        self.document.duration
-    }
-
-    /// The integrator.
-    pub fn integrator(&self) -> Integrator {
-        super::effects::integrator(&self.document)
-    }
-
-    /// Names of the alternatives, in the order of the file.
-    pub fn alternatives(&self) -> impl Iterator<Item = &str> {
-        self.document.alternatives.iter().map(|alternative| alternative.name.as_str())
-    }
-
-    /// Every model file that the scene names, those of its alternatives included, in the order of the file.
-    pub fn model_files(&self) -> Vec<PathBuf> {
-        let alternatives = self.document.alternatives.iter().flat_map(|alternative| &alternative.models);
-        let files = self.document.models.iter().chain(alternatives);
-        files.map(|(_, file)| self.folder.join(file)).collect()
     }
 }

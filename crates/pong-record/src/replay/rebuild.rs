@@ -1,6 +1,6 @@
 //! The world of a log, built again.
 
-use super::ReplayOptions;
+use super::options::ReplayOptions;
 use crate::error::LogError;
 use crate::read::Log;
 use pong_engine::{Config, ModelId, World};

@@ -1,6 +1,8 @@
 //! The recorded motions go through an engine that is not quite the log's: other models, other laws, fewer frames.
 
-use super::{Replay, ReplayOptions, rebuild};
+use super::options::ReplayOptions;
+use super::rebuild;
+use super::replayed_world::Replay;
 use crate::error::LogError;
 use crate::read::{Frame, Log};
 use pong_engine::{InterfaceId, Laws, WorkerSettings, World};

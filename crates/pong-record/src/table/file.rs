@@ -1,6 +1,7 @@
 //! A table that is read: rows by number, through a window that moves over the file.
 
-use super::{Field, Row};
+use super::field::Field;
+use super::rows::Row;
 use crate::error::LogError;
 use npyz::{DType, NpyHeader, Order};
 use std::fs::File;

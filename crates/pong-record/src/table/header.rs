@@ -1,6 +1,6 @@
 //! The header of a NumPy file of a structured type (format 1.0), with room for any number of rows.
 
-use super::Field;
+use super::field::Field;
 use std::io::Write as _;
 
 /// Room for the count: as many digits as a number of 64 bits has.

@@ -1,6 +1,6 @@
 //! The rows of each table. The order of the fields here is the order in the file.
 
-use super::Field;
+use super::field::Field;
 use super::value::Value;
 
 /// A row of a table.

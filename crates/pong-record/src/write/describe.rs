@@ -1,7 +1,8 @@
 //! run.json from a sealed world.
 
-use super::RecordOptions;
-use crate::run::{FORMAT, Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable, VERSION};
+use super::options::RecordOptions;
+use crate::format::{FORMAT, VERSION};
+use crate::run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{EngineError, World};
 use pong_model::{Model, MovableGroup};

@@ -1,8 +1,8 @@
 //! The thread that writes the files of a log.
 
-use super::RecordOptions;
 use super::folder::CONTACT_STATE;
 use super::message::{self, Kind};
+use super::options::RecordOptions;
 use super::tables::Tables;
 use crate::error::LogError;
 use crate::event;
