@@ -8,10 +8,10 @@
 //!
 //! and ω² = λ, the largest eigenvalue of K. Friction counts as if it stuck everywhere.
 
-use crate::check::Setting;
 use crate::coupling::surely_stable_step;
 use crate::mass::{GroupMass, StepPlan};
 use crate::mobility::{Mobility, Vec6, largest_eigenvalue};
+use crate::setting::Setting;
 use crate::spring::ContactSprings;
 use nalgebra::DMatrix;
 use pong_engine::inspect::PushingContact;

@@ -4,36 +4,13 @@
 //! Asked is what would lengthen the step most if it were not there. Where no term alone does, because another as large is
 //! left, both are named.
 
-use crate::check::Setting;
 use crate::coupling::{longest_stable_step, surely_stable_step};
 use crate::mass::StepPlan;
+use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring};
+use crate::term::{FAINT, Term};
 use crate::together::{Load, pair_load};
 use pong_engine::WrenchCoupling;
-
-/// A part of a contact that can limit a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Term {
-    /// k.
-    NormalStiffness,
-    /// c, or what stands for it in laws that follow the depth.
-    NormalDamping,
-    /// k_t of what sticks.
-    FrictionStiffness,
-    /// c_t, or the slope of regularised friction.
-    FrictionDamping,
-}
-
-impl std::fmt::Display for Term {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::NormalStiffness => "normal stiffness",
-            Self::NormalDamping => "normal damping",
-            Self::FrictionStiffness => "friction stiffness",
-            Self::FrictionDamping => "friction damping",
-        })
-    }
-}
 
 /// One term, or two that are as large as each other.
 const SUSPECTS: [&[Term]; 6] = [
@@ -45,44 +22,8 @@ const SUSPECTS: [&[Term]; 6] = [
     &[Term::NormalDamping, Term::FrictionDamping],
 ];
 
-/// A term that is taken away is made so small that no step feels it, and the equations stay regular.
-const FAINT: f64 = 1e-9;
-
 /// A step must grow by this factor before one term alone is called the cause.
 const ALONE: f64 = 1.1;
-
-impl ContactSprings {
-    /// The contact without some of its terms.
-    pub fn without(&self, terms: &[Term]) -> Self {
-        let faint = |term: Term| if terms.contains(&term) { FAINT } else { 1.0 };
-        let weaken = |spring: Spring, stiffness: Term, damping: Term| Spring {
-            stiffness: spring.stiffness * faint(stiffness),
-            damping: spring.damping * faint(damping),
-        };
-        Self {
-            normal: weaken(self.normal, Term::NormalStiffness, Term::NormalDamping),
-            friction: self
-                .friction
-                .map(|friction| weaken(friction, Term::FrictionStiffness, Term::FrictionDamping)),
-            bounces_by_formula: self.bounces_by_formula,
-        }
-    }
-
-    /// The spring that a term belongs to.
-    fn spring_of(&self, term: Term) -> Option<Spring> {
-        match term {
-            Term::NormalStiffness | Term::NormalDamping => Some(self.normal),
-            Term::FrictionStiffness | Term::FrictionDamping => self.friction,
-        }
-    }
-}
-
-/// The contacts of one pair of movable groups by the names of their surfaces.
-pub(crate) struct Known {
-    pub springs: ContactSprings,
-    /// `model/surface` of both.
-    pub surfaces: [String; 2],
-}
 
 /// Whether the stiffness or the damping of one spring on one mass asks for its longest stable step.
 pub(crate) fn of_spring(spring: &Spring, coupling: WrenchCoupling, mass: f64) -> &'static str {

@@ -12,7 +12,8 @@
 //! | `mass.rs`, `spring.rs` | what the host tells of masses and step; what surfaces are to a step |
 //! | `together.rs`, `mobility.rs` | a bound of what can act on one movable group at once, levers and inertia included |
 //! | `acting.rs` | the same of what acts in a frame, exactly |
-//! | `asking.rs` | which term asks for a short step |
+//! | `term.rs`, `asking.rs` | the terms of a contact; which of them asks for a short step |
+//! | `setting.rs`, `limits.rs` | the world and the masses that are known; what a step can hold of them |
 //! | `pressed.rs` | single contacts of a frame, each as deep and as hard pressed as it is |
 //! | `check.rs`, `warn.rs` | every pair of movable groups against the host's step; the warnings and notes |
 
@@ -24,10 +25,13 @@ mod bounce;
 mod check;
 mod contact;
 mod coupling;
+mod limits;
 mod mass;
 mod mobility;
 mod pressed;
+mod setting;
 mod spring;
+mod term;
 mod together;
 mod warn;
 
@@ -37,9 +41,10 @@ pub const BYTES_PER_PAIR: usize = 1024;
 
 pub use acting::{ActingReport, acting_report};
 pub use bounce::{Accuracy, BounceError, bounce_error, depth_factor, resolved_step};
-pub use check::{BounceLimit, GroupLimits, PairLimits, SpringLimit, StepReport, judge_contact, step_report};
+pub use check::{StepReport, step_report};
 pub use contact::{ContactAdvice, ContactWish, advise_contact, critical_damping};
 pub use coupling::longest_stable_step;
+pub use limits::{BounceLimit, GroupLimits, PairLimits, SpringLimit, judge_contact};
 pub use mass::{GroupMass, StepPlan};
 pub use pong_engine::WrenchCoupling;
 pub use pressed::pressed_report;

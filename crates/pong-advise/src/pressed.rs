@@ -3,9 +3,10 @@
 //! Before the run a law whose stiffness follows the depth, or whose damping follows the load, can only be judged for a closing
 //! speed that is guessed. Here nothing is guessed; the warnings are those of `warn.rs`, as for every other check of a step.
 
-use crate::asking::Known;
-use crate::check::{Setting, StepReport, pair_limits};
+use crate::check::StepReport;
+use crate::limits::pair_limits;
 use crate::mass::{GroupMass, StepPlan};
+use crate::setting::{Known, Setting};
 use crate::warn::warnings;
 use pong_engine::inspect::PushingContact;
 use pong_engine::{EngineError, InterfaceId, World};
@@ -36,7 +37,7 @@ pub fn pressed_report(
         let names = [pair.first, pair.second].map(|body| setting.scene.group_name(body));
         report.pairs.extend(pair_limits(names, mass, known, &plan));
     }
-    report.warnings = warnings(&report, &plan);
+    report.warnings = warnings(&report.pairs, &report.not_judged, &plan);
     Ok(report)
 }
 

@@ -14,11 +14,11 @@
 //! Each of these can only raise λ, but for levers of friction on balls and for the directions of supporting planes, which
 //! are tried on a grid.
 
-use crate::asking::Term;
-use crate::check::Setting;
 use crate::mass::StepPlan;
 use crate::mobility::{Mat6, Mobility, largest_eigenvalue};
+use crate::setting::Setting;
 use crate::spring::{ContactSprings, Spring, springs};
+use crate::term::Term;
 use nalgebra::DMatrix;
 use pong_engine::inspect::GroupPair;
 use pong_geometry::Vec3;

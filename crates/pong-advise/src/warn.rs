@@ -1,7 +1,7 @@
 //! What the step check tells before the first frame.
 
 use crate::asking::of_spring;
-use crate::check::{GroupLimits, PairLimits, SpringLimit, StepReport};
+use crate::limits::{GroupLimits, PairLimits, SpringLimit};
 use crate::mass::StepPlan;
 use crate::spring::Spring;
 use pong_engine::WrenchCoupling;
@@ -53,29 +53,30 @@ impl std::fmt::Display for StepNote {
 const HELD_UNDAMPED: f64 = 0.1;
 
 /// All warnings of a report, those of instability first.
-pub(crate) fn warnings(report: &StepReport, plan: &StepPlan) -> Vec<StepWarning> {
+pub(crate) fn warnings(pairs: &[PairLimits], not_judged: &[String], plan: &StepPlan) -> Vec<StepWarning> {
     let mut told = Vec::new();
-    for pair in &report.pairs {
+    for pair in pairs {
         told.extend(unstable(pair, plan).map(|told| StepWarning::TooLong { told }));
     }
-    for pair in report.pairs.iter().filter(|pair| unstable(pair, plan).is_none()) {
+    for pair in pairs.iter().filter(|pair| unstable(pair, plan).is_none()) {
         told.extend(coarse(pair, plan).map(|told| StepWarning::TooCoarse { told }));
     }
-    told.extend(report.not_judged.iter().map(|cause| StepWarning::NotJudged { told: cause.clone() }));
+    told.extend(not_judged.iter().map(|cause| StepWarning::NotJudged { told: cause.clone() }));
     told
 }
 
 /// What nothing proves. The worst group speaks for the others: they are bounds, and the cure is the same. `asks` tells of a
 /// group which term of its contacts asks for its step.
 pub(crate) fn notes(
-    report: &StepReport,
+    pairs: &[PairLimits],
+    groups: &[GroupLimits],
     plan: &StepPlan,
     asks: impl Fn(&str) -> Option<String>,
 ) -> Option<StepNote> {
     let warned = |group: &GroupLimits| {
-        report.pairs.iter().any(|pair| pair.groups.contains(&group.group) && unstable(pair, plan).is_some())
+        pairs.iter().any(|pair| pair.groups.contains(&group.group) && unstable(pair, plan).is_some())
     };
-    let together = report.groups.iter().filter(|group| !warned(group) && may_grow(group, plan));
+    let together = groups.iter().filter(|group| !warned(group) && may_grow(group, plan));
     let together: Vec<&GroupLimits> = together.collect();
     let worst = together.iter().min_by(|x, y| x.stable_step.total_cmp(&y.stable_step))?;
     let asks = asks(&worst.group).map_or_else(String::new, |term| format!("; {term}"));

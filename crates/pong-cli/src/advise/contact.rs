@@ -1,6 +1,6 @@
 //! Values of a contact from what is wanted of it.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use crate::text::number;
 use pong_advise::{ContactAdvice, ContactWish, WrenchCoupling, advise_contact};
 

@@ -1,13 +1,15 @@
 //! `pong check`: what the engine makes of models, alone and together.
 
 mod doubled;
+mod named;
 mod pairs;
 mod stiffness;
 mod tree;
 
 use crate::folders::AllowedFolders;
 use crate::terminal::{print, tell, tell_lines};
-use pong_model::{Model, printable};
+use named::{Named, name};
+use pong_model::printable;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -23,12 +25,6 @@ pub(crate) struct Arguments {
     alone: bool,
     #[command(flatten)]
     allowed: AllowedFolders,
-}
-
-/// A model and what it is called here.
-struct Named {
-    name: String,
-    model: Arc<Model>,
 }
 
 pub(crate) fn main(arguments: &Arguments) -> ExitCode {
@@ -71,16 +67,6 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     }
     tell(crate::text::count(faults, "fault", "faults").to_string());
     ExitCode::FAILURE
-}
-
-/// Two models of one name are told apart by a number.
-fn name(earlier: &[Named], model: Model) -> Named {
-    // Only shown: the engine is given this name too, which nothing else sees.
-    let own = printable(&model.name).into_owned();
-    let taken = |name: &str| earlier.iter().any(|other| other.name == name);
-    let numbered = (2..).map(|number| format!("{own}#{number}"));
-    let name = std::iter::once(own.clone()).chain(numbered).find(|name| !taken(name));
-    Named { name: name.unwrap_or_default(), model: Arc::new(model) }
 }
 
 /// Every two models, and each model of several movable groups with itself.

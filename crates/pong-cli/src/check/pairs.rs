@@ -1,6 +1,7 @@
 //! How two models would meet: the testers that run, the pairs of kinds that ignore each other.
 
-use super::{Named, stiffness};
+use super::named::Named;
+use super::stiffness;
 use crate::text::{count, number};
 use pong_engine::{Config, EngineError, SealReport, World, has_tester};
 use pong_geometry::primitive::PrimitiveKind;

@@ -1,6 +1,6 @@
 //! What one face would feel if everything that can press on it did: springs in parallel add.
 
-use super::Named;
+use super::named::Named;
 use crate::text::{count, number};
 use pong_engine::{Laws, NormalProps, combine_surfaces};
 use pong_geometry::primitive::PrimitiveKind;

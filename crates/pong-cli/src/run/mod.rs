@@ -1,11 +1,13 @@
 //! `pong run`: runs a scene, records it, sums it up.
 
 mod acting;
+mod arguments;
 mod outputs;
 mod statistics;
 mod summary;
 
-use crate::folders::AllowedFolders;
+pub(crate) use arguments::Arguments;
+
 use crate::terminal::{print, tell, tell_lines};
 use crate::text::number;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,42 +15,8 @@ use outputs::Outputs;
 use pong_executive::scene::{BuiltScene, Scene};
 use pong_executive::{ExecutiveError, StepWatch};
 use statistics::Statistics;
-use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
-
-/// Runs a scene file (docs/scene_format.md) and sums up what happened.
-#[derive(clap::Args)]
-pub(crate) struct Arguments {
-    /// The scene file.
-    #[arg(value_name = "SCENE.ron")]
-    scene: PathBuf,
-    /// Folder for the CSV files; made if it is not there. Asks for CSV files by itself.
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-    /// Writes states.csv, wrenches.csv and contacts.csv (with the ledger also energies.csv and accounts.csv), into
-    /// `<scene>_out` unless -o says otherwise.
-    #[arg(long)]
-    csv: bool,
-    /// Writes a response log into this folder (docs/response_logs.md).
-    #[arg(long, value_name = "DIR")]
-    log: Option<PathBuf>,
-    /// Has every step in the log, whatever `record_every` says: such a log can be replayed exactly.
-    #[arg(long, requires = "log")]
-    every_step: bool,
-    /// Replaces a log that is in the folder.
-    #[arg(long, requires = "log")]
-    overwrite: bool,
-    /// Has the step held against the contacts that really act together, at every step, and tells the worst in the
-    /// summary (docs/advise.md).
-    #[arg(long, conflicts_with = "quiet")]
-    acting: bool,
-    /// No progress bar, no notes and no summary; warnings and errors stay.
-    #[arg(short, long)]
-    quiet: bool,
-    #[command(flatten)]
-    allowed: AllowedFolders,
-}
 
 /// Why a run ended early.
 enum Failure {

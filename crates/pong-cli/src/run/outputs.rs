@@ -1,6 +1,6 @@
 //! What a run leaves behind: CSV files, a response log, or both, of the same rows.
 
-use super::Arguments;
+use super::arguments::Arguments;
 use pong_engine::World;
 use pong_executive::scene::BuiltScene;
 use pong_executive::{Integrator, Simulation};

@@ -1,0 +1,142 @@
+//! What a step can hold of one contact, and of all that can act on one movable group at once.
+
+use crate::bounce::{Accuracy, BounceError, bounce_error, resolved_step};
+use crate::coupling::longest_stable_step;
+use crate::mass::StepPlan;
+use crate::setting::Known;
+use crate::spring::{Spring, springs};
+use pong_engine::{PairProps, WrenchCoupling};
+
+/// One spring on one mass.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SpringLimit {
+    /// The spring and damper of a whole contact.
+    pub spring: Spring,
+    /// The longest step at which it is stable, s; 0 if no step is.
+    pub stable_step: f64,
+}
+
+/// How well the host's step follows a bounce.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BounceLimit {
+    /// ω = √(k/m), rad/s.
+    pub frequency: f64,
+    /// The ratio c/(2mω), less what the lag of the coupling takes; below zero the contact gives more than it takes.
+    pub damping_ratio: f64,
+    /// How far a bounce may be from its closed form at the host's step.
+    pub error: BounceError,
+}
+
+/// Single contacts between two movable groups.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairLimits {
+    /// `object/path` of the two.
+    pub groups: [String; 2],
+    /// Effective mass at a contact that is not off the mass centres, kg.
+    pub mass: f64,
+    /// The normal spring that bears the least step.
+    pub normal: SpringLimit,
+    /// The friction spring that bears the least step, if there is friction.
+    pub friction: Option<SpringLimit>,
+    /// `model/surface` of the two that make the normal spring, and of those that make the friction spring.
+    pub surfaces: [[String; 2]; 2],
+    /// The bounce that is followed worst; `None` if no accuracy is asked, or for laws without a closed form.
+    pub bounce: Option<BounceLimit>,
+}
+
+/// All contacts that can act on one movable group at once (`together.rs` says which).
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupLimits {
+    /// `object/path`.
+    pub group: String,
+    /// Its mass, kg.
+    pub mass: f64,
+    /// Primitives that can be in contact at once, at most.
+    pub contacts: usize,
+    /// Of the stiffest mode: the stiffness and damping that a contact in line with the mass centre would need for it.
+    pub spring: Spring,
+    /// The least damping over stiffness of any spring among them, s.
+    pub least_damped: f64,
+    /// The longest step at which every mode is surely stable, s; 0 if there is none.
+    pub stable_step: f64,
+}
+
+/// What a step can hold of one contact with these values on an effective mass (kg); `groups` is what the two are
+/// called.
+///
+/// # Errors
+/// Why it cannot be judged.
+pub fn judge_contact(
+    groups: [String; 2],
+    props: &PairProps,
+    mass: f64,
+    plan: &StepPlan,
+) -> Result<PairLimits, &'static str> {
+    let known = [Known { springs: springs(props, mass, plan.closing_speed)?, surfaces: groups.clone() }];
+    Ok(pair_limits(groups, mass, &known, plan).expect("one contact is known"))
+}
+
+pub(crate) fn pair_limits(
+    groups: [String; 2],
+    mass: f64,
+    known: &[Known],
+    plan: &StepPlan,
+) -> Option<PairLimits> {
+    let limit = |spring: Spring| {
+        let (k, c) = (spring.stiffness, spring.damping);
+        SpringLimit { spring, stable_step: longest_stable_step(plan.coupling, k, c, mass) }
+    };
+    let (normal, surfaces) =
+        least(known.iter().map(|known| (limit(known.springs.normal), &known.surfaces)).collect())?;
+    let with_friction =
+        known.iter().filter_map(|known| Some((limit(known.springs.friction?), &known.surfaces)));
+    let friction = least(with_friction.collect());
+    let surfaces = [surfaces, friction.map_or(surfaces, |(_, surfaces)| surfaces)].map(Clone::clone);
+    let friction = friction.map(|(limit, _)| limit);
+    let known: Vec<_> = known.iter().map(|known| known.springs).collect();
+    let by_formula = known.iter().filter(|made| made.bounces_by_formula);
+    let bounces = by_formula.filter_map(|made| bounce_limit(made.normal, mass, plan));
+    let bounce = bounces.max_by(|x, y| x.error.rebound.total_cmp(&y.error.rebound));
+    Some(PairLimits { groups, mass, normal, friction, surfaces, bounce })
+}
+
+/// The spring that bears the least step; of two that are equally bad the stiffer.
+fn least(limits: Vec<(SpringLimit, &[String; 2])>) -> Option<(SpringLimit, &[String; 2])> {
+    limits.into_iter().min_by(|(x, _), (y, _)| {
+        let by_step = x.stable_step.total_cmp(&y.stable_step);
+        by_step.then(y.spring.stiffness.total_cmp(&x.spring.stiffness))
+    })
+}
+
+/// Beyond this damping ratio (restitution 0.01) hardly anything bounces.
+const ZETA_MAX: f64 = 5.0;
+
+/// Steps of ω·dt below this follow every bounce.
+const SURELY_FINE: f64 = 1e-4;
+
+fn bounce_limit(spring: Spring, mass: f64, plan: &StepPlan) -> Option<BounceLimit> {
+    plan.accuracy?;
+    let frequency = (spring.stiffness / mass).sqrt();
+    let omega_step = frequency * plan.step;
+    let damping_ratio = 0.5 * (spring.damping / (mass * frequency) - omega_step * plan.coupling.lag());
+    if damping_ratio > ZETA_MAX {
+        return None;
+    }
+    let error = if damping_ratio < 0.0 {
+        // A negative damping: the rebound is exp(π|ζ|), and so is the energy's root (V28).
+        let gain = libm::expm1(-std::f64::consts::PI * damping_ratio);
+        BounceError { depth: gain, rebound: gain }
+    } else if omega_step < SURELY_FINE {
+        BounceError { depth: 0.0, rebound: 0.0 }
+    } else {
+        bounce_error(plan.coupling, damping_ratio, omega_step)
+    };
+    Some(BounceLimit { frequency, damping_ratio, error })
+}
+
+impl BounceLimit {
+    /// The longest step that keeps to an accuracy, s.
+    pub fn accurate_step(&self, coupling: WrenchCoupling, accuracy: &Accuracy) -> f64 {
+        resolved_step(coupling, self.damping_ratio.max(0.0), accuracy) / self.frequency
+    }
+}
