@@ -1,7 +1,7 @@
 //! A world that has what none of its models uses: what that costs must not be measurable.
 
 use crate::rig;
-use pong_engine::{Laws, NormalForce, NormalInput, World};
+use pong_engine::{Laws, NormalForce, NormalInput, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
 
@@ -20,11 +20,11 @@ impl NormalForce for Unused {
 }
 
 /// A world with laws, tests of primitives and tests of volumes that belong to kinds no model has.
-pub fn world_with_unused() -> World {
+pub fn world_with_unused() -> WorldBuilder {
     let mut extensions = Extensions::new();
     extensions.add_contact_test("Gadget", "Gizmo", Arc::new(|_, _, _| None));
     extensions.add_volume_test("Gadget", "Gizmo", Arc::new(|_, _, _| true));
     let mut laws = Laws::default();
     laws.add_normal("unused", Arc::new(Unused));
-    World::with_extensions(rig::config(1), extensions, laws)
+    WorldBuilder::with_extensions(rig::config(1), extensions, laws)
 }

@@ -2,7 +2,9 @@
 
 use crate::peer::Peer;
 use core_affinity::CoreId;
-use pong_engine::{Config, EngineError, InterfaceId, PairId, SealReport, State, WorkerSettings, World};
+use pong_engine::{
+    Config, EngineError, InterfaceId, PairId, SealReport, State, WorkerSettings, World, WorldBuilder,
+};
 use pong_model::Model;
 use std::sync::{Arc, OnceLock};
 
@@ -20,7 +22,7 @@ pub struct Rig {
 
 /// Objects, paired and not yet sealed.
 pub struct Unsealed {
-    world: World,
+    builder: WorldBuilder,
     pairs: Vec<PairId>,
     states: Vec<(InterfaceId, State)>,
 }
@@ -31,7 +33,7 @@ impl Rig {
     /// # Errors
     /// Whatever the engine refuses.
     pub fn new(models: &[Arc<Model>], pairs: &[(usize, usize)], threads: usize) -> Result<Self, EngineError> {
-        Self::in_world(World::new(config(threads)), models, pairs)
+        Self::in_world(WorldBuilder::new(config(threads)), models, pairs)
     }
 
     /// As [`new`](Self::new), in a world that was made for it.
@@ -39,11 +41,11 @@ impl Rig {
     /// # Errors
     /// Whatever the engine refuses.
     pub fn in_world(
-        world: World,
+        builder: WorldBuilder,
         models: &[Arc<Model>],
         pairs: &[(usize, usize)],
     ) -> Result<Self, EngineError> {
-        Unsealed::new(world, models, pairs)?.seal()
+        Unsealed::new(builder, models, pairs)?.seal()
     }
 
     /// One whole frame: states in (of all movable groups of all Objects, or of the first so many), forces and
@@ -91,7 +93,7 @@ impl Unsealed {
     /// # Errors
     /// Whatever the engine refuses.
     pub fn new(
-        mut world: World,
+        mut builder: WorldBuilder,
         models: &[Arc<Model>],
         pairs: &[(usize, usize)],
     ) -> Result<Self, EngineError> {
@@ -100,20 +102,20 @@ impl Unsealed {
             let same = models[..number].iter().position(|earlier| Arc::ptr_eq(earlier, model));
             let id = match same {
                 Some(earlier) => known[earlier],
-                None => world.add_model(Arc::clone(model))?,
+                None => builder.add_model(Arc::clone(model)),
             };
             known.push(id);
-            objects.push(world.create_object(id, &format!("object_{number}"))?);
+            objects.push(builder.create_object(id, &format!("object_{number}"))?);
         }
-        let pairs = pairs.iter().map(|&(a, b)| world.pair(objects[a], objects[b]));
+        let pairs = pairs.iter().map(|&(a, b)| builder.pair(objects[a], objects[b]));
         let pairs = pairs.collect::<Result<Vec<_>, _>>()?;
         let mut states = Vec::new();
         for object in objects {
-            for interface in world.interfaces(object)? {
+            for interface in builder.scene().interfaces(object)? {
                 states.push((interface, State::identity()));
             }
         }
-        Ok(Self { world, pairs, states })
+        Ok(Self { builder, pairs, states })
     }
 
     /// Ends set-up.
@@ -121,8 +123,8 @@ impl Unsealed {
     /// # Errors
     /// Whatever the engine refuses.
     pub fn seal(self) -> Result<Rig, EngineError> {
-        let Self { mut world, pairs, states } = self;
-        let report = world.seal()?;
+        let Self { builder, pairs, states } = self;
+        let (world, report) = builder.seal()?;
         let wrenches = vec![0.0; 6 * states.len()];
         Ok(Rig { world, report, pairs, states, wrenches })
     }

@@ -6,7 +6,7 @@ use crate::docking;
 use crate::rig::Rig;
 use crate::ring::{self, Ring, Tip};
 use crate::terrain::{self, Source, Terrain, WHEELS, Wheel};
-use pong_engine::{EngineError, State, World};
+use pong_engine::{EngineError, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::error::Error;
@@ -113,8 +113,8 @@ impl Scene {
     ///
     /// # Errors
     /// Whatever the engine refuses.
-    pub fn rig(&self, world: World) -> Result<Rig, EngineError> {
-        Rig::in_world(world, &self.models, &self.pairs)
+    pub fn rig(&self, builder: WorldBuilder) -> Result<Rig, EngineError> {
+        Rig::in_world(builder, &self.models, &self.pairs)
     }
 }
 
@@ -152,5 +152,5 @@ pub fn ring_states() -> Frames {
 /// # Errors
 /// Whatever the engine refuses.
 pub fn wheels(terrain: &Terrain, wheel: Wheel) -> Result<Rig, Box<dyn Error>> {
-    Ok(Scene::wheels(terrain, wheel)?.rig(World::new(crate::rig::config(1)))?)
+    Ok(Scene::wheels(terrain, wheel)?.rig(WorldBuilder::new(crate::rig::config(1)))?)
 }

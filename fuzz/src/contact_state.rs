@@ -2,7 +2,7 @@
 
 use crate::count;
 use crate::input::Input;
-use pong_engine::{Config, InterfaceId, State, World};
+use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
 use std::sync::{Arc, Mutex, OnceLock};
 
 const MODELS: [&str; 2] =
@@ -88,21 +88,22 @@ fn frames(scene: &mut Scene) {
 
 fn scene() -> Scene {
     let config = Config { contact_capacity: Some(CAPACITY), ledger: true, ..Config::default() };
-    let mut world = World::new(config);
+    let mut builder = WorldBuilder::new(config);
     let objects: Vec<_> = MODELS
         .iter()
         .enumerate()
         .map(|(index, text)| {
-            let model = pong_model::parse(text, "model", None, world.extensions()).expect("a good model");
-            let model = world.add_model(Arc::new(model)).expect("set-up");
-            world.create_object(model, &format!("object {index}")).expect("set-up")
+            let model =
+                pong_model::parse(text, "model", None, builder.scene().extensions()).expect("a good model");
+            let model = builder.add_model(Arc::new(model));
+            builder.create_object(model, &format!("object {index}")).expect("set-up")
         })
         .collect();
-    world.pair(objects[0], objects[1]).expect("set-up");
-    world.pair(objects[1], objects[1]).expect("set-up");
-    world.seal().expect("a good scene");
+    builder.pair(objects[0], objects[1]).expect("set-up");
+    builder.pair(objects[1], objects[1]).expect("set-up");
+    let (mut world, _) = builder.seal().expect("a good scene");
     let interfaces: Vec<_> =
-        objects.iter().flat_map(|object| world.interfaces(*object).expect("sealed")).collect();
+        objects.iter().flat_map(|object| world.scene().interfaces(*object).expect("sealed")).collect();
     for k in 0..3 {
         set_states(&mut world, &interfaces, f64::from(k) * 1e-3);
         world.step().expect("good states");
@@ -123,6 +124,6 @@ fn set_states(world: &mut World, interfaces: &[InterfaceId], shift: f64) {
 
 fn saved(world: &World) -> Vec<u8> {
     let mut block = Vec::new();
-    world.save_state_packed(&mut block).expect("sealed");
+    world.save_state_packed(&mut block);
     block
 }

@@ -2,7 +2,7 @@
 
 use crate::count;
 use crate::input::Input;
-use pong_engine::{Config, State, World};
+use pong_engine::{Config, State, WorldBuilder};
 use pong_model::Model;
 use std::sync::Arc;
 
@@ -31,21 +31,20 @@ pub fn run(model: Model, input: &mut Input<'_>) {
         return;
     }
     let config = Config { contact_capacity: Some(CAPACITY), ledger: true, ..Config::default() };
-    let mut world = World::new(config);
-    let partner = pong_model::parse(PARTNER, "partner", None, world.extensions()).expect("a good model");
-    let model = world.add_model(Arc::new(model)).expect("set-up");
-    let partner = world.add_model(Arc::new(partner)).expect("set-up");
+    let mut builder = WorldBuilder::new(config);
+    let partner =
+        pong_model::parse(PARTNER, "partner", None, builder.scene().extensions()).expect("a good model");
+    let model = builder.add_model(Arc::new(model));
+    let partner = builder.add_model(Arc::new(partner));
     let objects = [("a", model), ("b", model), ("c", partner)]
-        .map(|(name, model)| world.create_object(model, name).expect("set-up"));
-    world.pair(objects[0], objects[1]).expect("set-up");
-    world.pair(objects[0], objects[2]).expect("set-up");
+        .map(|(name, model)| builder.create_object(model, name).expect("set-up"));
+    builder.pair(objects[0], objects[1]).expect("set-up");
+    builder.pair(objects[0], objects[2]).expect("set-up");
     // Of one movable group it is refused.
-    let _ = world.pair(objects[0], objects[0]);
-    if world.seal().is_err() {
-        return;
-    }
+    let _ = builder.pair(objects[0], objects[0]);
+    let Ok((mut world, _)) = builder.seal() else { return };
     let interfaces: Vec<_> =
-        objects.iter().flat_map(|object| world.interfaces(*object).expect("sealed")).collect();
+        objects.iter().flat_map(|object| world.scene().interfaces(*object).expect("sealed")).collect();
     for _ in 0..3 {
         for interface in &interfaces {
             world.set_state(*interface, &state(input)).expect("a good state");
@@ -63,7 +62,7 @@ pub fn run(model: Model, input: &mut Input<'_>) {
             assert!(numbers.chain(&alone).all(|x| x.is_finite()), "{contact:?}");
         }
     }
-    let mut block = vec![0; world.state_size().expect("sealed")];
+    let mut block = vec![0; world.state_size()];
     world.save_state(&mut block).expect("a block of this size");
     world.restore_state(&block).expect("what was just saved");
 }

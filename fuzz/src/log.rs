@@ -2,7 +2,7 @@
 
 use crate::input::Input;
 use crate::{count, files};
-use pong_engine::{Config, State, World};
+use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_record::{Log, ModelSource, RecordOptions, Recorder, ReplayOptions};
 use std::path::{Path, PathBuf};
@@ -68,13 +68,13 @@ fn read(folder: &Path) {
 /// A log of a ball that goes into another one, as the recorder writes it; every kind of event is in it.
 fn good_log() -> Vec<(PathBuf, Vec<u8>)> {
     let folder = files::folder().join("log");
-    let mut world = World::new(Config { contact_capacity: Some(32), ..Config::default() });
+    let mut builder = WorldBuilder::new(Config { contact_capacity: Some(32), ..Config::default() });
     let model = pong_model::parse(MODEL, "ball.ron", None, &Extensions::new()).expect("a good model");
-    let model = world.add_model(Arc::new(model)).expect("set-up");
-    let objects = ["a", "b"].map(|name| world.create_object(model, name).expect("set-up"));
-    let pair = world.pair(objects[0], objects[1]).expect("set-up");
-    world.seal().expect("a good scene");
-    let interfaces = objects.map(|object| world.interfaces(object).expect("sealed"));
+    let model = builder.add_model(Arc::new(model));
+    let objects = ["a", "b"].map(|name| builder.create_object(model, name).expect("set-up"));
+    let pair = builder.pair(objects[0], objects[1]).expect("set-up");
+    let (mut world, _) = builder.seal().expect("a good scene");
+    let interfaces = objects.map(|object| world.scene().interfaces(object).expect("sealed"));
     let options = RecordOptions::default();
     let sources = [ModelSource::Text { text: MODEL.to_owned(), mesh_dir: None }];
     let mut recorder =

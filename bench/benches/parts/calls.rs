@@ -10,7 +10,7 @@ use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::scenes::{self, FIXED, Scene};
 use pong_bench::terrain::{Source, Terrain};
 use pong_bench::timing::now_ns;
-use pong_engine::{State, World};
+use pong_engine::{State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use std::error::Error;
 use std::hint::black_box;
@@ -37,7 +37,7 @@ pub fn all(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>> 
 
 fn frames(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(), Box<dyn Error>> {
     let states = &scene.states;
-    let mut rig = scene.rig(World::new(rig::config(1)))?;
+    let mut rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
     let mut part = |part: &str, pass: fn(&mut Rig, &[Vec<State>]) -> f64| {
         group.bench_function(BenchmarkId::new(part, name), |bencher| {
             bencher.iter_custom(|passes| middle_of(passes, || pass(&mut rig, states)));
@@ -93,7 +93,7 @@ fn timed<T>(part: impl FnOnce() -> T) -> f64 {
 // ---- contact state
 
 fn contact_state(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(), Box<dyn Error>> {
-    let mut rig = scene.rig(World::new(rig::config(1)))?;
+    let mut rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
     let touching = |rig: &mut Rig, states: &Vec<State>| {
         rig.step(states);
         rig.world.report().contacts > 0
@@ -102,7 +102,7 @@ fn contact_state(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(),
     let middle = scene.states.len() / 2;
     scene.states[..middle].iter().for_each(|states| _ = rig.step(states));
     scene.states[middle..].iter().find(|states| touching(&mut rig, states)).ok_or("nothing touches")?;
-    let mut block = vec![0; rig.world.state_used()?];
+    let mut block = vec![0; rig.world.state_used()];
     rig.world.save_state(&mut block)?;
     group.bench_function(BenchmarkId::new("save_state", name), |bencher| {
         bencher.iter(|| rig.world.save_state(black_box(&mut block)));
@@ -117,8 +117,8 @@ fn contact_state(group: &mut Group<'_>, name: &str, scene: &Scene) -> Result<(),
 
 fn seal(group: &mut Group<'_>, name: &str, scene: &Scene) {
     let set_up = || {
-        let world = World::new(rig::config(1));
-        Unsealed::new(world, &scene.models, &scene.pairs).expect("a scene that was built before")
+        let builder = WorldBuilder::new(rig::config(1));
+        Unsealed::new(builder, &scene.models, &scene.pairs).expect("a scene that was built before")
     };
     group.bench_function(BenchmarkId::new("seal", name), |bencher| {
         bencher.iter_batched(set_up, Unsealed::seal, BatchSize::PerIteration);

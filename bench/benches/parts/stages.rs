@@ -6,7 +6,7 @@ use criterion::{BenchmarkId, Criterion};
 use pong_bench::rig::{self, Rig};
 use pong_bench::scenes::{FIXED, Scene};
 use pong_bench::timing::now_ns;
-use pong_engine::{Config, Stage, State, World};
+use pong_engine::{Config, Stage, State, WorldBuilder};
 use std::error::Error;
 
 /// All of them.
@@ -14,9 +14,9 @@ pub fn all(criterion: &mut Criterion<ThreadTime>) -> Result<(), Box<dyn Error>> 
     let mut group = criterion.benchmark_group("stages");
     for name in FIXED {
         let scene = Scene::fixed(name)?;
-        let mut world = World::new(Config { ledger: true, ..rig::config(1) });
-        world.set_clock(now_ns);
-        let mut rig = scene.rig(world)?;
+        let mut builder = WorldBuilder::new(Config { ledger: true, ..rig::config(1) });
+        builder.set_clock(now_ns);
+        let mut rig = scene.rig(builder)?;
         for stage in Stage::ALL {
             group.bench_function(BenchmarkId::new(name, stage.name()), |bencher| {
                 bencher.iter_custom(|passes| middle_of(passes, || pass(&mut rig, &scene.states, stage)));

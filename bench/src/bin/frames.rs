@@ -7,7 +7,7 @@ use pong_bench::rig::Rig;
 use pong_bench::scenes::{self, FRAMES, Frames, Scene};
 use pong_bench::terrain::Wheel;
 use pong_bench::{optional, rig};
-use pong_engine::{State, World};
+use pong_engine::{State, WorldBuilder};
 use pong_geometry::simd::{Level, set_level};
 use std::error::Error;
 use std::sync::Arc;
@@ -52,13 +52,13 @@ fn scene(name: &str) -> Result<(Rig, Frames), Box<dyn Error>> {
         return Err(format!("{name}: use one of {SCENES}").into());
     }
     let mut scene = Scene::fixed(name.split('_').next().unwrap_or(name))?;
-    let mut world = World::new(rig::config(1));
+    let mut builder = WorldBuilder::new(rig::config(1));
     match name {
         "docking_crowded" => {
             let bystander = scenes::parse(&Wheel::BOTH[0].model())?;
             scene.models.extend(vec![bystander; BYSTANDERS]);
         }
-        "docking_unused" => world = optional::world_with_unused(),
+        "docking_unused" => builder = optional::world_with_unused(),
         // A third Object in the way of the first as well, their pair switched off.
         "docking_pair_off" => {
             scene.models.push(Arc::clone(&scene.models[1]));
@@ -66,7 +66,7 @@ fn scene(name: &str) -> Result<(Rig, Frames), Box<dyn Error>> {
         }
         _ => {}
     }
-    let mut rig = scene.rig(world)?;
+    let mut rig = scene.rig(builder)?;
     if name == "docking_pair_off" {
         rig.world.set_pair_enabled(rig.pairs[1], false)?;
     }

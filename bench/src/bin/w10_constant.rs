@@ -11,7 +11,7 @@ use pong_bench::ron;
 use pong_bench::scenes::Scene;
 use pong_bench::table::{Table, min_and_median, ratio_at_most};
 use pong_bench::timing::Clock;
-use pong_engine::{State, World};
+use pong_engine::{State, WorldBuilder};
 use pong_geometry::{Pose, Twist, Vec3};
 use std::error::Error;
 use std::hint::black_box;
@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     ];
     let mut race = Race::new();
     for (name, scene, contacts) in scenes {
-        let mut rig = scene.rig(World::new(rig::config(1)))?;
+        let mut rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
         let states = scene.states[0].clone();
         let found = rig.frame(&states);
         if found != contacts {

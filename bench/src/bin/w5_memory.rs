@@ -11,7 +11,7 @@ use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::scenes;
 use pong_bench::table::{Table, at_most, or_dash};
 use pong_bench::terrain::{self, Source, Terrain, WHEELS, Wheel};
-use pong_engine::{Config, World};
+use pong_engine::{Config, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_model::MovableGroup;
 use std::error::Error;
@@ -143,11 +143,11 @@ fn contacts(size: usize) -> Result<Table, Box<dyn Error>> {
     let states = ring::states();
     let with_room = |contacts: usize| -> Result<[usize; 3], Box<dyn Error>> {
         let before = heap::held();
-        let world = World::new(Config { contact_capacity: Some(contacts), ..rig::config(1) });
-        let mut rig = Rig::in_world(world, &models, &[(0, 1)])?;
+        let builder = WorldBuilder::new(Config { contact_capacity: Some(contacts), ..rig::config(1) });
+        let mut rig = Rig::in_world(builder, &models, &[(0, 1)])?;
         states.iter().for_each(|states| _ = rig.frame(states));
         let records = rig.world.memory().contacts_capacity;
-        Ok([heap::held() - before, rig.world.state_size()?, records])
+        Ok([heap::held() - before, rig.world.state_size(), records])
     };
     let (less, more) = (with_room(ROOM)?, with_room(2 * ROOM)?);
     let mut table = Table::new(&["memory of contacts", "B per contact", "wanted"]);

@@ -8,7 +8,7 @@ use pong_bench::rig;
 use pong_bench::scenes::Scene;
 use pong_bench::table::{Table, min_and_median};
 use pong_bench::timing::Clock;
-use pong_engine::World;
+use pong_engine::WorldBuilder;
 use std::error::Error;
 
 const MICRO: f64 = 1e-6;
@@ -16,7 +16,7 @@ const MICRO: f64 = 1e-6;
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(30)?;
     let scene = Scene::berthing()?;
-    let mut rig = scene.rig(World::new(rig::config(1)))?;
+    let mut rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
     let (mut contacts, mut tests) = (0, 0);
     for states in &scene.states {
         contacts += rig.frame(states);

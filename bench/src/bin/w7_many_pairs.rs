@@ -9,7 +9,7 @@ use pong_bench::rig;
 use pong_bench::scenes::Scene;
 use pong_bench::table::{Table, min_and_median, or_dash, ratio_at_most};
 use pong_bench::timing::{Clock, Ratios};
-use pong_engine::World;
+use pong_engine::WorldBuilder;
 use std::error::Error;
 
 #[global_allocator]
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut all: Vec<(&str, Box<dyn Peer>)> = Vec::new();
         let scene = Scene::cloud(count)?;
         let before = heap::held();
-        let rig = scene.rig(World::new(rig::config(1)))?;
+        let rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
         let memory = (heap::held() - before) as f64 / MEBIBYTE;
         all.push(("Pong", Box::new(rig)));
         #[cfg(feature = "mujoco")]

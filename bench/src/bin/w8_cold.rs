@@ -9,7 +9,7 @@ use pong_bench::scenes::Scene;
 use pong_bench::table::{Table, ratio_at_most};
 use pong_bench::terrain::{Terrain, Wheel};
 use pong_bench::timing::digits;
-use pong_engine::{State, World};
+use pong_engine::{State, WorldBuilder};
 use std::error::Error;
 use std::hint::black_box;
 
@@ -68,7 +68,7 @@ fn contenders(options: &Options) -> Result<Vec<Contender>, Box<dyn Error>> {
     for (name, scene) in scenes {
         let mut states = scene.states.clone();
         states.truncate(if options.smoke { 2 } else { states.len() });
-        let rig = scene.rig(World::new(rig::config(1)))?;
+        let rig = scene.rig(WorldBuilder::new(rig::config(1)))?;
         all.push((format!("Pong, {name}"), Box::new(rig), states, Some(COLD_OVER_WARM)));
     }
     #[cfg(feature = "ode")]

@@ -38,7 +38,7 @@ pub struct ActingReport {
 /// that [`step_report`](crate::step_report) has before anything touches.
 ///
 /// # Errors
-/// A world that is not sealed or has no frame yet, or values that no plan or group can have.
+/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group can have.
 pub fn acting_report(
     world: &World,
     plan: &StepPlan,

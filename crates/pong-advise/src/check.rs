@@ -44,7 +44,7 @@ impl StepReport {
 /// counts.
 ///
 /// # Errors
-/// A world that is not sealed, or values that no plan or group can have.
+/// A mass of another world's movable group, or values that no plan or group can have.
 pub fn step_report(
     world: &World,
     plan: &StepPlan,

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 /// bears the least step speaks; bounces are not judged.
 ///
 /// # Errors
-/// A world that is not sealed or has no frame yet, or values that no plan or group can have.
+/// A world that has no frame yet, a mass of another world's movable group, or values that no plan or group can have.
 pub fn pressed_report(
     world: &World,
     plan: &StepPlan,

@@ -22,10 +22,10 @@ pub(crate) struct Setting<'w> {
 
 impl<'w> Setting<'w> {
     pub fn new(world: &'w World, masses: &[(InterfaceId, GroupMass)]) -> Result<Self, EngineError> {
-        let scene = world.inspect()?;
+        let scene = world.inspect();
         let mut all = vec![None; scene.group_count()];
         for (interface, mass) in masses {
-            mass.check(&world.interface_name(*interface)?)?;
+            mass.check(&world.scene().interface_name(*interface)?)?;
             all[interface.index()] = Some(*mass);
         }
         Ok(Self { scene, masses: all })

@@ -4,7 +4,7 @@ use pong_advise::{
     ActingReport, GroupMass, StepNote, StepPlan, StepReport, StepWarning, WrenchCoupling, acting_report,
     pressed_report, step_report,
 };
-use pong_engine::{Config, InterfaceId, State, World};
+use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Vec3};
 use std::sync::Arc;
@@ -28,20 +28,22 @@ struct Meeting {
 
 impl Meeting {
     fn new(texts: &[&str], masses: &[GroupMass]) -> Self {
-        let mut world = World::new(Config::default());
+        let mut builder = WorldBuilder::new(Config::default());
         let mut objects = Vec::new();
         for (i, text) in texts.iter().enumerate() {
             let model =
                 pong_model::parse(text, "m", None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-            let model = world.add_model(Arc::new(model)).unwrap();
-            objects.push(world.create_object(model, &format!("o{i}")).unwrap());
+            let model = builder.add_model(Arc::new(model));
+            objects.push(builder.create_object(model, &format!("o{i}")).unwrap());
         }
         for other in &objects[1..] {
-            world.pair(objects[0], *other).unwrap();
+            builder.pair(objects[0], *other).unwrap();
         }
-        let interfaces: Vec<_> = objects.iter().map(|object| world.interface(*object, "").unwrap()).collect();
+        let interfaces: Vec<_> =
+            objects.iter().map(|object| builder.scene().interface(*object, "").unwrap()).collect();
         let masses = interfaces.iter().copied().zip(masses.iter().copied()).collect();
-        assert_eq!(world.seal().unwrap().warnings, []);
+        let (world, report) = builder.seal().unwrap();
+        assert_eq!(report.warnings, []);
         Self { world, interfaces, masses }
     }
 

@@ -1,13 +1,13 @@
 //! Energy accounts.
 
 use crate::guard::with_world;
-use crate::handle::pong_world;
+use crate::handle::{Inner, pong_world};
 use crate::ids::{pong_interface_id, pong_pair_id};
 use crate::interfaces::too_small;
 use crate::names::{c_text, no_such};
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
-use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict};
+use pong_engine::{EnergyAccount, PairEnergyAccount, Verdict, World};
 use std::ffi::c_char;
 
 /// `verdict`: less energy came out than went in.
@@ -86,7 +86,8 @@ pub unsafe extern "C" fn pong_get_energy_account(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(account, "account")?.set((&inner.world.account()).into());
+            Out::new(account, "account")?
+                .set((&inner.phase.sealed().map_or_else(EnergyAccount::default, World::account)).into());
             Ok(())
         })
     }
@@ -101,7 +102,7 @@ pub unsafe extern "C" fn pong_pair_energy_account_count(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.world.pair_accounts().count());
+            Out::new(count, "count")?.set(inner.pair_accounts().count());
             Ok(())
         })
     }
@@ -118,8 +119,8 @@ pub unsafe extern "C" fn pong_get_pair_energy_account(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(account, "account")?;
-            let count = inner.world.pair_accounts().count();
-            let found = inner.world.pair_accounts().nth(index);
+            let count = inner.pair_accounts().count();
+            let found = inner.pair_accounts().nth(index);
             out.set((&found.ok_or_else(|| no_such("pair account", index, count))?).into());
             Ok(())
         })
@@ -138,8 +139,8 @@ pub unsafe extern "C" fn pong_pair_remedy(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(remedy, "remedy")?;
-            let count = inner.world.pair_accounts().count();
-            let found = inner.world.pair_accounts().nth(index);
+            let count = inner.pair_accounts().count();
+            let found = inner.pair_accounts().nth(index);
             let found = found.ok_or_else(|| no_such("pair account", index, count))?;
             inner.remedy = c_text(&found.remedy());
             out.set(inner.remedy.as_ptr());
@@ -165,12 +166,20 @@ pub unsafe extern "C" fn pong_get_contact_energy_accounts(
             let (mut out, count) =
                 (OutArray::new(accounts, capacity, "accounts")?, Out::new(count, "count")?);
             inner.law_faults.check()?;
-            let listed = inner.world.contact_accounts().enumerate();
+            let listed = inner.phase.sealed().into_iter().flat_map(World::contact_accounts).enumerate();
             listed.take(capacity).for_each(|(index, account)| out.set(index, (&account).into()));
-            let total = inner.world.wrench_coupling().map_or(0, |_| inner.world.contact_count());
+            let kept = inner.phase.scene().wrench_coupling().is_some();
+            let total = if kept { inner.phase.report().contacts as usize } else { 0 };
             count.set(total);
             too_small("accounts", capacity, total)
         })
+    }
+}
+
+impl Inner {
+    /// None before the seal.
+    fn pair_accounts(&self) -> impl Iterator<Item = PairEnergyAccount> + '_ {
+        self.phase.sealed().into_iter().flat_map(World::pair_accounts)
     }
 }
 

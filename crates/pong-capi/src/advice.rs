@@ -1,7 +1,7 @@
 //! What the step adviser was told before the seal.
 
 use pong_advise::{GroupMass, StepPlan, StepReport};
-use pong_engine::{EngineError, InterfaceId, World};
+use pong_engine::{EngineError, InterfaceId, Scene, World};
 use std::collections::BTreeMap;
 
 /// What the adviser was told before the seal.
@@ -14,11 +14,11 @@ pub(crate) struct Advice {
 impl Advice {
     pub fn set_mass(
         &mut self,
-        world: &World,
+        scene: &Scene,
         interface: InterfaceId,
         mass: GroupMass,
     ) -> Result<(), EngineError> {
-        mass.check(&world.interface_name(interface)?)?;
+        mass.check(&scene.interface_name(interface)?)?;
         self.masses.insert(interface, mass);
         Ok(())
     }

@@ -17,7 +17,8 @@ pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size:
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(size, "size")?.set(inner.world.state_size()?);
+            Out::new(size, "size")?
+                .set(inner.phase.frames("ask for the size of the contact state")?.state_size());
             Ok(())
         })
     }
@@ -30,7 +31,8 @@ pub unsafe extern "C" fn pong_contact_state_used(world: *const pong_world, size:
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(size, "size")?.set(inner.world.state_used()?);
+            Out::new(size, "size")?
+                .set(inner.phase.frames("ask for the size of the contact state")?.state_used());
             Ok(())
         })
     }
@@ -48,15 +50,16 @@ pub unsafe extern "C" fn pong_save_contact_state(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let needed = inner.world.state_used()?;
-            let written = size.min(inner.world.state_size()?);
+            let world = inner.phase.frames("ask for the size of the contact state")?;
+            let needed = world.state_used();
+            let written = size.min(world.state_size());
             if size < needed {
                 let message =
                     format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
                 return Err(Failure::new(pong_status::BufferTooSmall, message));
             }
             let mut out = OutArray::new(buffer.cast::<u8>(), written, "buffer")?;
-            Ok(inner.world.save_state(out.zeroed())?)
+            Ok(world.save_state(out.zeroed())?)
         })
     }
 }
@@ -74,9 +77,10 @@ pub unsafe extern "C" fn pong_restore_contact_state(
     unsafe {
         with_world(world, |inner| {
             let block = array(buffer.cast::<u8>(), size, "buffer")?;
-            inner.world.restore_state(block)?;
+            let world = inner.phase.frames_mut("restore the contact state")?;
+            world.restore_state(block)?;
             // The block ends where what is remembered now does.
-            let used = inner.world.state_used()?;
+            let used = world.state_used();
             inner.tell_log(|log| log.restored(&block[..used]));
             Ok(())
         })
@@ -105,11 +109,13 @@ pub unsafe extern "C" fn pong_preload_friction(
                 let force = array(force, 3, "force")?;
                 FrictionPreload::Holding(Vec3::new(force[0], force[1], force[2]))
             };
-            let set = inner.world.preload_friction(pair.id(), &preload)?;
+            inner.phase.scene().objects_of(pair.id())?;
+            let world = inner.phase.frames_mut("preload friction")?;
+            let set = world.preload_friction(pair.id(), &preload)?;
             // For the log it is what a restored contact state is.
             if inner.log.is_some() {
                 let mut block = Vec::new();
-                inner.world.save_state_packed(&mut block)?;
+                world.save_state_packed(&mut block);
                 inner.tell_log(|log| log.restored(&block));
             }
             if let Some(out) = out {

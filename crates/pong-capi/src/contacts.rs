@@ -6,7 +6,7 @@ use crate::ids::{pong_interface_id, pong_object_id, pong_pair_id};
 use crate::interfaces::too_small;
 use crate::pointers::{Out, OutArray, apart};
 use crate::status::pong_status;
-use pong_engine::{Contact, ContactSide};
+use pong_engine::{Contact, ContactSide, World};
 
 /// `feature_kind` of a face, or of a surface as a whole.
 pub const PONG_FEATURE_FACE: u32 = 0;
@@ -78,7 +78,7 @@ pub unsafe extern "C" fn pong_contact_count(world: *const pong_world, count: *mu
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.world.contact_count());
+            Out::new(count, "count")?.set(inner.phase.report().contacts as usize);
             Ok(())
         })
     }
@@ -101,9 +101,9 @@ pub unsafe extern "C" fn pong_get_contacts(
             let (mut out, count) =
                 (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
             inner.law_faults.check()?;
-            let listed = inner.world.contacts_iter().enumerate();
+            let listed = inner.phase.sealed().into_iter().flat_map(World::contacts_iter).enumerate();
             listed.take(capacity).for_each(|(index, contact)| out.set(index, (&contact).into()));
-            let total = inner.world.contact_count();
+            let total = inner.phase.report().contacts as usize;
             count.set(total);
             too_small("contacts", capacity, total)
         })

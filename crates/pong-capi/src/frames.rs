@@ -66,7 +66,7 @@ pub unsafe extern "C" fn pong_step(world: *mut pong_world) -> pong_status {
 impl Inner {
     fn evaluate(&mut self) -> Outcome {
         let start = Instant::now();
-        let report = self.world.evaluate()?;
+        let report = self.phase.frames_mut("evaluate")?.evaluate()?;
         self.tell_log(Recorder::evaluated);
         self.counters.evaluate_ns = elapsed_ns(start);
         self.counters.evaluations += 1;
@@ -86,12 +86,12 @@ impl Inner {
         &mut self,
         commit: impl FnOnce(&mut pong_engine::World) -> Result<(), pong_engine::EngineError>,
     ) -> Outcome {
-        if !self.world.is_evaluated() {
+        if !self.phase.frames("evaluate")?.is_evaluated() {
             self.evaluate()?;
         }
         self.law_faults.check()?;
         let start = Instant::now();
-        commit(&mut self.world)?;
+        commit(self.phase.frames_mut("commit")?)?;
         self.counters.commit_ns = elapsed_ns(start);
         self.counters.commits += 1;
         Ok(())

@@ -5,8 +5,9 @@ use crate::counters::Counters;
 use crate::host_data::UserData;
 use crate::law_adapters::LawFaults;
 use crate::names::Names;
+use crate::phase::Phase;
 use crate::worker::Started;
-use pong_engine::{EngineError, InterfaceId, PairId, State, World};
+use pong_engine::{InterfaceId, PairId, State};
 use pong_record::{ModelSource, Recorder};
 use std::ffi::CString;
 use std::sync::Mutex;
@@ -21,7 +22,7 @@ pub struct pong_world {
 
 /// What the lock guards.
 pub(crate) struct Inner {
-    pub world: World,
+    pub phase: Phase,
     pub names: Names,
     pub user_data: UserData,
     pub advice: Advice,
@@ -29,8 +30,8 @@ pub(crate) struct Inner {
     pub seal_notes: Vec<CString>,
     /// What `pong_pair_remedy` gave out last.
     pub remedy: CString,
-    /// The workers, once the world is sealed.
-    pub workers: Option<Vec<Started>>,
+    /// The workers; none before the world is sealed.
+    pub workers: Vec<Started>,
     /// How many pairs of Objects there are.
     pub pair_count: usize,
     /// For `pong_set_states`: its memory stays.
@@ -44,14 +45,4 @@ pub(crate) struct Inner {
     /// Where each model came from.
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,
-}
-
-impl Inner {
-    /// For what the engine does not hear of and yet belongs before the seal.
-    pub fn must_not_be_sealed(&self, call: &'static str) -> Result<(), EngineError> {
-        match self.workers {
-            None => Ok(()),
-            Some(_) => Err(EngineError::WrongPhase { call, cure: "do it before the world is sealed" }),
-        }
-    }
 }

@@ -22,7 +22,7 @@ pub unsafe extern "C" fn pong_find_interface(
     unsafe {
         with_world(world, |inner| {
             let (path, out) = (text(path, "path")?, Out::new(interface, "interface")?);
-            out.set(inner.world.interface(object.id(), path)?.into());
+            out.set(inner.phase.scene().interface(object.id(), path)?.into());
             Ok(())
         })
     }
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn pong_list_interfaces(
             apart(("interfaces", interfaces, capacity), ("count", count, 1))?;
             let (mut out, count) =
                 (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
-            let ids = inner.world.interfaces(object.id())?;
+            let ids = inner.phase.scene().interfaces(object.id())?;
             ids.iter().enumerate().for_each(|(index, id)| out.set(index, (*id).into()));
             count.set(ids.len());
             too_small("interfaces", out.len(), ids.len())
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn pong_get_authored_state(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let pose = inner.world.authored_pose(interface.id())?;
+            let pose = inner.phase.scene().authored_pose(interface.id())?;
             Out::new(state, "state")?.set(pong_state::from_motion(&pose, &pong_geometry::Twist::zero()));
             Ok(())
         })

@@ -32,7 +32,7 @@ pub unsafe extern "C" fn pong_register_normal_law(
             inner.claim_law_name(NORMAL, name)?;
             let fault = inner.law_faults.watch(name);
             let law = Arc::new(NormalCallback { force, stored, user: User(user), fault });
-            inner.world.laws_mut()?.add_normal(name, law);
+            inner.phase.set_up("register a law")?.laws_mut().add_normal(name, law);
             Ok(())
         })
     }
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn pong_register_friction_law(
             inner.claim_law_name(FRICTION, name)?;
             let fault = inner.law_faults.watch(name);
             let law = Arc::new(FrictionCallback { evaluate, state_len, user: User(user), fault });
-            inner.world.laws_mut()?.add_friction(name, law);
+            inner.phase.set_up("register a law")?.laws_mut().add_friction(name, law);
             Ok(())
         })
     }
@@ -79,7 +79,7 @@ fn no_function(name: &str) -> Failure {
 impl Inner {
     /// Refuses a law that may not be added.
     fn claim_law_name(&mut self, kind: usize, name: &str) -> Outcome {
-        self.world.laws_mut()?;
+        self.phase.set_up("register a law")?;
         if self.law_names[kind].iter().any(|known| known == name) {
             let message = format!("law `{name}`: already there; use another name");
             return Err(Failure::new(pong_status::Duplicate, message));

@@ -8,6 +8,7 @@
 //! | `version.rs` | version, layout check |
 //! | `status.rs`, `message.rs` | status numbers, the last message |
 //! | `config.rs`, `world.rs` | create and destroy a world |
+//! | `phase.rs` | set-up or frames: refuses calls in the wrong phase |
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
 //! | `coupling.rs`, `step_plan.rs` | what the host does with wrenches; masses and step, for the check at the seal |
@@ -58,6 +59,7 @@ pub mod models;
 mod names;
 pub mod objects;
 pub mod pairs;
+mod phase;
 mod pointers;
 pub mod primitives;
 pub mod report;

@@ -121,7 +121,8 @@ pub unsafe extern "C" fn pong_start_log(
                 return Err(Failure::new(pong_status::WrongPhase, message));
             }
             let options = options.check(name, folder)?;
-            let start = || Recorder::start(&inner.world, folder, &inner.sources, &options);
+            let world = inner.phase.frames("ask for the size of the contact state")?;
+            let start = || Recorder::start(world, folder, &inner.sources, &options);
             inner.log = Some(without_signals(start)?);
             Ok(())
         })
@@ -141,7 +142,7 @@ pub unsafe extern "C" fn pong_log_frame(world: *mut pong_world, time: f64) -> po
             inner.law_faults.check()?;
             let evaluate_ns = inner.counters.evaluate_ns;
             let Some(log) = &mut inner.log else { return Err(no_log()) };
-            Ok(log.record(&inner.world, time, evaluate_ns, None)?)
+            Ok(log.record(inner.phase.frames("log a frame")?, time, evaluate_ns, None)?)
         })
     }
 }

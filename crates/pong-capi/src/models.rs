@@ -29,7 +29,7 @@ pub unsafe extern "C" fn pong_load_model(
         with_world(world, |inner| {
             let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
             memory::require_for_file(Path::new(path))?;
-            let loaded = pong_model::load(Path::new(path), inner.world.extensions())?;
+            let loaded = pong_model::load(Path::new(path), inner.phase.scene().extensions())?;
             out.set(inner.add_model(loaded, ModelSource::File(Path::new(path).to_owned()))?);
             Ok(())
         })
@@ -68,7 +68,8 @@ pub unsafe extern "C" fn pong_load_model_text(
                 return Err(Failure::new(pong_status::ModelError, message));
             };
             memory::require_for_text(bytes, mesh_dir.map(Path::new))?;
-            let loaded = pong_model::parse(text, name, mesh_dir.map(Path::new), inner.world.extensions())?;
+            let loaded =
+                pong_model::parse(text, name, mesh_dir.map(Path::new), inner.phase.scene().extensions())?;
             let source = ModelSource::Text { text: text.to_owned(), mesh_dir: mesh_dir.map(PathBuf::from) };
             out.set(inner.add_model(loaded, source)?);
             Ok(())
@@ -88,7 +89,8 @@ pub unsafe extern "C" fn pong_allow_files_below(
     unsafe {
         with_world(world, |inner| {
             let folder = text(folder, "folder")?;
-            Ok(inner.world.allow_files_below(folder)?)
+            inner.phase.set_up("allow a folder")?.allow_files_below(folder);
+            Ok(())
         })
     }
 }
@@ -96,7 +98,7 @@ pub unsafe extern "C" fn pong_allow_files_below(
 impl Inner {
     fn add_model(&mut self, model: Model, source: ModelSource) -> Outcome<pong_model_id> {
         let model = Arc::new(model);
-        let id = self.world.add_model(Arc::clone(&model))?;
+        let id = self.phase.set_up("add a model")?.add_model(Arc::clone(&model));
         self.names.add_model(id, &model);
         self.sources.push(source);
         Ok(id.into())

@@ -21,8 +21,9 @@ pub unsafe extern "C" fn pong_create_object(
         with_world(world, |inner| {
             let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
             require_for_object(inner.names.group_count(model)?)?;
-            let id = inner.world.create_object(model.id(), name)?;
-            let interfaces = inner.world.interfaces(id)?;
+            let builder = inner.phase.set_up("create an object")?;
+            let id = builder.create_object(model.id(), name)?;
+            let interfaces = builder.scene().interfaces(id)?;
             inner.names.add_object(id, name, model.id(), &interfaces);
             inner.states.reserve(interfaces.len());
             out.set(id.into());
@@ -42,7 +43,7 @@ pub unsafe extern "C" fn pong_find_object(
     unsafe {
         with_world(world, |inner| {
             let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
-            out.set(inner.world.object(name)?.into());
+            out.set(inner.phase.scene().object(name)?.into());
             Ok(())
         })
     }
@@ -73,7 +74,8 @@ pub unsafe extern "C" fn pong_clear_contact_history(
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            inner.world.clear_contact_history(object.id())?;
+            inner.names.object(object)?;
+            inner.phase.frames_mut("forget an Object")?.clear_contact_history(object.id())?;
             inner.tell_log(|log| log.forgot(object.id()));
             Ok(())
         })

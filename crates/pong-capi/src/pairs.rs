@@ -21,7 +21,7 @@ pub unsafe extern "C" fn pong_pair_objects(
     unsafe {
         setting_up(world, |inner| {
             let out = Out::optional(pair, "pair")?;
-            let id = inner.world.pair(a.id(), b.id())?;
+            let id = inner.phase.set_up("pair objects")?.pair(a.id(), b.id())?;
             inner.pair_count += 1;
             if let Some(out) = out {
                 out.set(id.into());
@@ -43,8 +43,9 @@ pub unsafe extern "C" fn pong_pair_by_name(
     unsafe {
         setting_up(world, |inner| {
             let out = Out::optional(pair, "pair")?;
-            let (a, b) = (inner.world.object(text(a, "a")?)?, inner.world.object(text(b, "b")?)?);
-            let id = inner.world.pair(a, b)?;
+            let scene = inner.phase.scene();
+            let (a, b) = (scene.object(text(a, "a")?)?, scene.object(text(b, "b")?)?);
+            let id = inner.phase.set_up("pair objects")?.pair(a, b)?;
             inner.pair_count += 1;
             if let Some(out) = out {
                 out.set(id.into());
@@ -66,7 +67,7 @@ pub unsafe extern "C" fn pong_set_pair_enabled(
     unsafe {
         with_world(world, |inner| {
             let enabled = yes_or_no(enabled)?;
-            inner.world.set_pair_enabled(pair.id(), enabled)?;
+            inner.phase.set_pair_enabled(pair.id(), enabled)?;
             inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
             Ok(())
         })

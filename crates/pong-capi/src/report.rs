@@ -3,9 +3,10 @@
 use crate::counters::Counters;
 use crate::guard::with_world;
 use crate::handle::pong_world;
+use crate::phase::Phase;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use pong_engine::{FrameReport, Stage, StageTimes, StatusBits, Work, WorkTimes};
+use pong_engine::{FrameReport, Stage, StageTimes, StatusBits, Work, WorkTimes, World};
 use std::ffi::{CStr, c_char};
 
 /// The frame had more contacts than the world's capacity: the deepest were kept.
@@ -105,14 +106,17 @@ pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut 
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(report, "report")?.set(report_of(&inner.world, &inner.counters));
+            Out::new(report, "report")?.set(report_of(&inner.phase, &inner.counters));
             Ok(())
         })
     }
 }
 
-fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
-    let (frame, counts, memory) = (world.report(), world.counts(), world.memory());
+fn report_of(phase: &Phase, counters: &Counters) -> pong_report {
+    let world = phase.sealed();
+    let (frame, counts) = (phase.report(), world.map(World::counts).unwrap_or_default());
+    let memory = world.map(World::memory).unwrap_or_default();
+    let times = world.map(World::stage_times).unwrap_or_default();
     pong_report {
         flags: frame.status.bits(),
         contacts: frame.contacts,
@@ -126,8 +130,8 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         commits: counters.commits,
         evaluate_ns: counters.evaluate_ns,
         commit_ns: counters.commit_ns,
-        stage_ns: by_stage(&world.stage_times()),
-        work_ns: by_work(&world.stage_times().work),
+        stage_ns: by_stage(&times),
+        work_ns: by_work(&times.work),
         advised_capacity: advised_capacity(&frame, counters.contact_capacity),
         contacts_peak: memory.contacts_peak as u64,
         contacts_capacity: memory.contacts_capacity as u64,
@@ -135,7 +139,7 @@ fn report_of(world: &pong_engine::World, counters: &Counters) -> pong_report {
         arena_capacity: memory.arena_capacity as u64,
         scratch_peak: memory.scratch_peak as u64,
         scratch_capacity: memory.scratch_capacity as u64,
-        worker_timeouts: world.worker_timeouts(),
+        worker_timeouts: world.map_or(0, World::worker_timeouts),
         reserved: [0; 3],
     }
 }
@@ -220,7 +224,7 @@ pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut 
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            let energies = inner.world.ledger();
+            let energies = inner.phase.sealed().map(World::ledger).unwrap_or_default();
             Out::new(ledger, "ledger")?.set(pong_ledger {
                 stored: energies.stored,
                 work: energies.work,

@@ -43,16 +43,16 @@ pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_sea
     unsafe {
         setting_up(world, |inner| {
             let out = Out::optional(report, "report")?;
-            let sealed = inner.world.seal()?;
+            let sealed = inner.phase.seal()?;
             // Plan and masses were checked when they were told: nothing is refused any more.
-            let step = inner.advice.report(&inner.world)?;
+            let step = inner.advice.report(inner.phase.frames("plan the step")?)?;
             let of_step = step.iter().flat_map(|step| step.warnings.iter().map(ToString::to_string));
             let warnings = sealed.warnings.iter().map(ToString::to_string).chain(of_step);
             inner.seal_warnings = warnings.map(|warning| c_text(&printable(&warning))).collect();
             let of_step = step.iter().flat_map(|step| step.notes.iter().map(ToString::to_string));
             let notes = sealed.notes.iter().map(ToString::to_string).chain(of_step);
             inner.seal_notes = notes.map(|note| c_text(&printable(&note))).collect();
-            inner.workers = Some(sealed.workers.iter().map(Into::into).collect());
+            inner.workers = sealed.workers.iter().map(Into::into).collect();
             inner.counters.contact_capacity = sealed.contact_capacity as u64;
             inner.states.reserve(inner.names.interface_count());
             inner.pairs.reserve(inner.pair_count);

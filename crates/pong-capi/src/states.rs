@@ -47,7 +47,7 @@ pub unsafe extern "C" fn pong_set_states(
             inner.check_named_once(ids)?;
             inner.states.clear();
             inner.states.extend(ids.iter().zip(states).map(|(id, state)| (id.id(), State::from(*state))));
-            Ok(inner.world.set_states(&inner.states)?)
+            Ok(inner.phase.set_states(&inner.states)?)
         })
     }
 }
@@ -63,7 +63,7 @@ pub unsafe extern "C" fn pong_set_state(
     unsafe {
         with_world(world, |inner| {
             let state = State::from(*crate::pointers::one(state, "state")?);
-            Ok(inner.world.set_state(interface.id(), &state)?)
+            Ok(inner.phase.set_states(&[(interface.id(), state)])?)
         })
     }
 }
@@ -79,12 +79,12 @@ pub unsafe extern "C" fn pong_get_state(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(state, "state")?;
-            let Some((pose, twist)) = inner.world.state(interface.id())? else {
+            let Some(known) = inner.phase.state_as_set(interface.id())? else {
                 let path = inner.names.path(interface)?.to_string_lossy();
                 let message = format!("state of `{path}`: never set; set it first");
                 return Err(Failure::new(pong_status::UnsetState, message));
             };
-            out.set(pong_state::from_motion(&pose, &twist));
+            out.set(pong_state::from_motion(&known.pose(), &known.twist()));
             Ok(())
         })
     }

@@ -88,9 +88,9 @@ pub unsafe extern "C" fn pong_set_mass(
     unsafe {
         setting_up(world, |inner| {
             let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
-            inner.must_not_be_sealed("set a mass")?;
+            let scene = inner.phase.set_up("set a mass")?.scene();
             let mass = GroupMass { mass, inertia, mass_center };
-            Ok(inner.advice.set_mass(&inner.world, interface.id(), mass)?)
+            Ok(inner.advice.set_mass(scene, interface.id(), mass)?)
         })
     }
 }
@@ -104,9 +104,9 @@ pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pon
     unsafe {
         setting_up(world, |inner| {
             let plan = one(plan, "plan")?.check()?;
-            inner.must_not_be_sealed("plan the step")?;
+            let builder = inner.phase.set_up("plan the step")?;
             plan.check()?;
-            inner.world.leave_room_per_pair(pong_advise::BYTES_PER_PAIR)?;
+            builder.leave_room_per_pair(pong_advise::BYTES_PER_PAIR);
             inner.advice.plan = Some(plan);
             Ok(())
         })
@@ -128,7 +128,8 @@ pub unsafe extern "C" fn pong_check_step(
                 let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
                 return Err(Failure::new(pong_status::WrongPhase, message));
             };
-            let found = pong_advise::acting_report(&inner.world, plan, &inner.advice.masses())?;
+            let world = inner.phase.frames("inspect the scene")?;
+            let found = pong_advise::acting_report(world, plan, &inner.advice.masses())?;
             out.set(pong_step_check {
                 contacts: found.contacts as u64,
                 not_judged: found.not_judged as u64,

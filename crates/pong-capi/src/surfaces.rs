@@ -108,7 +108,7 @@ pub unsafe extern "C" fn pong_get_surface(
     unsafe {
         with_world(world, |inner| {
             let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
-            out.set(inner.world.surface(model.id(), name)?.into());
+            out.set(inner.phase.surface(model.id(), name)?.into());
             Ok(())
         })
     }
@@ -127,9 +127,9 @@ pub unsafe extern "C" fn pong_set_surface(
     unsafe {
         setting_up(world, |inner| {
             let (name, values) = (text(surface, "surface")?, one(values, "values")?);
-            let old = inner.world.surface(model.id(), name)?;
+            let old = inner.phase.surface(model.id(), name)?;
             let new = values.applied_to(old)?;
-            inner.world.set_surface(model.id(), &new)?;
+            inner.phase.set_surface(model.id(), &new)?;
             inner.tell_log(|log| log.surface_set(model.id(), &new));
             Ok(())
         })

@@ -1,11 +1,11 @@
 //! How often what was tested in the last frame, and what that found.
 
 use crate::guard::with_world;
-use crate::handle::pong_world;
+use crate::handle::{Inner, pong_world};
 use crate::names::no_such;
 use crate::pointers::Out;
 use crate::status::pong_status;
-use pong_engine::{FrameCounts, Tally};
+use pong_engine::{FrameCounts, Tally, World};
 use std::ffi::c_char;
 
 /// `what` of a tally of tests of the bounding volumes that models give.
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut 
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            Out::new(count, "count")?.set(tallies(&inner.world.counts()).count());
+            Out::new(count, "count")?.set(tallies(&counts_of(inner)).count());
             Ok(())
         })
     }
@@ -57,12 +57,17 @@ pub unsafe extern "C" fn pong_get_tally(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(tally, "tally")?;
-            let counts = inner.world.counts();
+            let counts = counts_of(inner);
             let found = tallies(&counts).nth(index);
             out.set(found.ok_or_else(|| no_such("tally", index, tallies(&counts).count()))?);
             Ok(())
         })
     }
+}
+
+/// None of anything before the seal.
+fn counts_of(inner: &Inner) -> FrameCounts {
+    inner.phase.sealed().map(World::counts).unwrap_or_default()
 }
 
 fn tallies(counts: &FrameCounts) -> impl Iterator<Item = pong_tally> + '_ {

@@ -9,7 +9,7 @@ use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
 pub use crate::worker::pong_worker;
-use pong_engine::{EngineError, LaneWork, WorkerStart};
+use pong_engine::{LaneWork, WorkerStart};
 use pong_threads::Grant;
 use std::ffi::c_char;
 use std::time::Duration;
@@ -29,8 +29,7 @@ pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            inner.started("wake the workers")?;
-            inner.world.prewake(Duration::from_micros(at_most_us));
+            inner.phase.frames_mut("wake the workers")?.prewake(Duration::from_micros(at_most_us));
             Ok(())
         })
     }
@@ -43,8 +42,7 @@ pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
     // SAFETY: see "Safety of all entries" in lib.rs.
     unsafe {
         with_world(world, |inner| {
-            inner.started("let the workers sleep")?;
-            inner.world.quiesce();
+            inner.phase.frames_mut("let the workers sleep")?.quiesce();
             Ok(())
         })
     }
@@ -58,7 +56,8 @@ pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(count, "count")?;
-            out.set(inner.started("count the workers")?.len());
+            inner.phase.frames("count the workers")?;
+            out.set(inner.workers.len());
             Ok(())
         })
     }
@@ -76,10 +75,10 @@ pub unsafe extern "C" fn pong_get_worker(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(worker, "worker")?;
-            inner.started("ask for a worker")?;
+            let world = inner.phase.frames("ask for a worker")?;
             let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
-            let LaneWork { blocks, busy_ns } = inner.world.lane_work().nth(index).unwrap_or_default();
-            let work_ns = inner.world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
+            let LaneWork { blocks, busy_ns } = world.lane_work().nth(index).unwrap_or_default();
+            let work_ns = world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
             out.set(pong_worker { blocks, busy_ns, work_ns, ..asked });
             Ok(())
         })
@@ -105,13 +104,9 @@ pub unsafe extern "C" fn pong_worker_text(
 }
 
 impl Inner {
-    fn started(&self, call: &'static str) -> Outcome<&[Started]> {
-        let cure = "seal the world first";
-        Ok(self.workers.as_deref().ok_or(EngineError::WrongPhase { call, cure })?)
-    }
-
     fn worker(&self, index: usize) -> Outcome<&Started> {
-        let workers = self.started("ask for a worker")?;
+        self.phase.frames("ask for a worker")?;
+        let workers = &self.workers;
         let found = index.checked_sub(1).and_then(|index| workers.get(index));
         found.ok_or_else(|| {
             let message = format!(

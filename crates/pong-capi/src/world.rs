@@ -12,9 +12,10 @@ use crate::host_data::UserData;
 use crate::law_adapters::LawFaults;
 use crate::memory;
 use crate::names::Names;
+use crate::phase::Phase;
 use crate::pointers::{Out, one};
 use crate::status::pong_status;
-use pong_engine::World;
+use pong_engine::WorldBuilder;
 use std::ffi::CString;
 use std::sync::{Mutex, PoisonError, TryLockError};
 
@@ -32,19 +33,19 @@ pub unsafe extern "C" fn pong_create_world(
         let config = unsafe { one(config, "config")? };
         let wanted = config.check()?;
         memory::require_little()?;
-        let mut world = World::new(wanted.engine);
+        let mut builder = WorldBuilder::new(wanted.engine);
         if wanted.times {
-            world.set_clock(clock::now_ns);
+            builder.set_clock(clock::now_ns);
         }
         let inner = Inner {
-            world,
+            phase: Phase::SetUp(builder),
             names: Names::default(),
             user_data: UserData::default(),
             advice: Advice::default(),
             seal_warnings: Vec::new(),
             seal_notes: Vec::new(),
             remedy: CString::default(),
-            workers: None,
+            workers: Vec::new(),
             pair_count: 0,
             states: Vec::new(),
             pairs: Vec::new(),
@@ -75,7 +76,8 @@ pub unsafe extern "C" fn pong_destroy_world(world: *mut pong_world) -> pong_stat
         // SAFETY: `pong_create_world` made it by `Box::into_raw`, and the caller destroys it once.
         let world = unsafe { Box::from_raw(world) };
         let mut inner = world.inner.into_inner().unwrap_or_else(PoisonError::into_inner);
-        match inner.world.end_workers() {
+        let Phase::Frames(world) = &mut inner.phase else { return Ok(()) };
+        match world.end_workers() {
             0 => Ok(()),
             left => {
                 let message = format!(

@@ -6,6 +6,7 @@ use crate::handle::{Inner, pong_world};
 use crate::ids::pong_interface_id;
 use crate::pointers::{Out, OutArray, apart, array};
 use crate::status::pong_status;
+use pong_engine::EngineError;
 
 /// In which frame a wrench is expressed: PONG_REFERENCE_FRAME_GROUP or PONG_REFERENCE_FRAME_COMMON.
 pub type pong_reference_frame = i32;
@@ -83,7 +84,12 @@ impl Inner {
     fn wrench(&self, id: pong_interface_id, frame: pong_reference_frame) -> Outcome<pong_wrench> {
         self.law_faults.check()?;
         let common = frame == PONG_REFERENCE_FRAME_COMMON;
-        let wrench = if common { self.world.wrench_common(id.id())? } else { self.world.wrench(id.id())? };
+        let Some(world) = self.phase.sealed() else {
+            self.names.path(id)?;
+            let cure = "evaluate or step a frame first";
+            return Err(EngineError::WrongPhase { call: "get a wrench", cure }.into());
+        };
+        let wrench = if common { world.wrench_common(id.id())? } else { world.wrench(id.id())? };
         Ok(pong_wrench { force: wrench.force.into(), moment: wrench.moment.into() })
     }
 }

@@ -1,7 +1,7 @@
 //! What a call of set-up asks for beforehand is enough for what it takes, and not far more.
 
 use pong::memory::of_text;
-use pong_engine::{Config, WorkerSettings, World, WrenchCoupling};
+use pong_engine::{Config, WorkerSettings, WorldBuilder, WrenchCoupling};
 use pong_geometry::extension::Extensions;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -129,17 +129,17 @@ fn what_a_text_asks_for_is_enough_and_not_far_more() {
 }
 
 /// A world of two models that is ready to be sealed; of one model, paired with itself.
-fn world(config: Config, files: &[&str]) -> World {
+fn world(config: Config, files: &[&str]) -> WorldBuilder {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models");
-    let mut world = World::new(config);
+    let mut builder = WorldBuilder::new(config);
     let mut objects = Vec::new();
     for (index, file) in files.iter().enumerate() {
-        let model = pong_model::load(&root.join(file), world.extensions()).unwrap();
-        let model = world.add_model(Arc::new(model)).unwrap();
-        objects.push(world.create_object(model, &format!("o{index}")).unwrap());
+        let model = pong_model::load(&root.join(file), builder.scene().extensions()).unwrap();
+        let model = builder.add_model(Arc::new(model));
+        objects.push(builder.create_object(model, &format!("o{index}")).unwrap());
     }
-    world.pair(objects[0], objects[objects.len() - 1]).unwrap();
-    world
+    builder.pair(objects[0], objects[objects.len() - 1]).unwrap();
+    builder
 }
 
 #[test]
@@ -162,8 +162,8 @@ fn what_a_seal_asks_for_is_enough_and_not_far_more() {
         ] {
             let config = Config { contact_capacity, workers, accounts, ..Config::default() };
             let told = format!("{files:?} {config:?}");
-            let mut world = world(config, files);
-            let (report, taken) = peak_of(|| world.seal().unwrap());
+            let builder = world(config, files);
+            let ((_world, report), taken) = peak_of(|| builder.seal().unwrap());
             println!("{taken} taken, {} asked for: {told}", report.memory);
             assert!(taken <= report.memory, "{taken} bytes taken, {} asked for: {told}", report.memory);
             // A stack for each worker is beside what is counted here, and so is what is asked for small things.

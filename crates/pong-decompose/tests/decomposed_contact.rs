@@ -1,7 +1,7 @@
 //! Decomposed shapes in the engine: cavities are empty, seams are not felt.
 
 use pong_decompose::DecomposeOptions;
-use pong_engine::{Config, State, World};
+use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_import::DefaultSurface;
@@ -35,14 +35,14 @@ fn forces(test: &str, cubes: &[[i32; 3]], radius: f64, places: &[[f64; 3]]) -> V
 }
 
 fn force(shape: pong_model::Model, probe: pong_model::Model, place: Vec3) -> Vec3 {
-    let mut world = World::new(Config::default());
+    let mut builder = WorldBuilder::new(Config::default());
     let objects = [(probe, "probe"), (shape, "shape")].map(|(model, name)| {
-        let model = world.add_model(Arc::new(model)).unwrap();
-        world.create_object(model, name).unwrap()
+        let model = builder.add_model(Arc::new(model));
+        builder.create_object(model, name).unwrap()
     });
-    world.pair(objects[0], objects[1]).unwrap();
-    let [probe, shape] = objects.map(|object| world.interface(object, "").unwrap());
-    world.seal().unwrap();
+    builder.pair(objects[0], objects[1]).unwrap();
+    let [probe, shape] = objects.map(|object| builder.scene().interface(object, "").unwrap());
+    let (mut world, _) = builder.seal().unwrap();
     let at = |place: Vec3| State { position: place.into(), ..State::identity() };
     world.set_states(&[(probe, at(place)), (shape, at(Vec3::zeros()))]).unwrap();
     world.evaluate().unwrap();

@@ -53,7 +53,7 @@ pub struct ContactSide {
     pub object: ObjectId,
     /// The movable group.
     pub interface: InterfaceId,
-    /// The primitive: index into its movable group's list (see [`World::primitive_path`](crate::World::primitive_path)).
+    /// The primitive: index into its movable group's list (see [`Scene::primitive_path`](crate::Scene::primitive_path)).
     pub primitive: u32,
     /// Which element of the primitive: the triangle of a mesh, counted from its first; 0 otherwise.
     pub element: u32,

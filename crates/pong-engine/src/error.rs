@@ -25,7 +25,7 @@ pub enum EngineError {
         /// What is there twice.
         what: String,
     },
-    /// A call that the world's phase does not allow.
+    /// A call that comes too early, as one for a wrench before the first frame.
     WrongPhase {
         /// The call.
         call: &'static str,

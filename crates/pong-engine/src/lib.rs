@@ -1,6 +1,6 @@
 //! State in, wrench out: the contact engine.
 //!
-//! A [`World`] is set up (models → objects → pairs), sealed, and then run in frames:
+//! A [`WorldBuilder`] takes models, Objects and pairs; [`WorldBuilder::seal`] makes a [`World`] of them, which is run in frames:
 //!
 //! | stage of a frame | file | from → to |
 //! |---|---|---|
@@ -17,6 +17,7 @@
 
 #![forbid(unsafe_code)]
 
+mod builder;
 mod contact;
 mod energy;
 mod error;
@@ -32,6 +33,7 @@ mod sealed;
 mod state;
 mod world;
 
+pub use builder::{SealError, WorldBuilder};
 pub use contact::{Contact, ContactSide, Ledger};
 pub use energy::account::{EnergyAccount, PairEnergyAccount, Verdict, WrenchCoupling};
 pub use error::EngineError;
@@ -49,7 +51,7 @@ pub use report::{
     FrameCounts, FrameReport, MemoryReport, Stage, StageTimes, StatusBits, Tally, TunnellingReport, Work,
     WorkTimes,
 };
-pub use scene::{Config, State, WorkerSettings};
+pub use scene::{Config, Scene, State, WorkerSettings};
 pub use seal::{MetIn, SealReport, SetupNote, SetupWarning, leave_room_for_small_things, require_memory};
 pub use state::StateError;
 pub use world::World;

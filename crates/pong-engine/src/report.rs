@@ -52,7 +52,7 @@ pub struct TunnellingReport {
     /// The movable group that moved through the other, by which of the two is A.
     pub interface: InterfaceId,
     /// Its primitive: index into the movable group's list (see
-    /// [`World::primitive_path`](crate::World::primitive_path)).
+    /// [`Scene::primitive_path`](crate::Scene::primitive_path)).
     pub primitive: u32,
     /// The movable group it went through.
     pub through: InterfaceId,

@@ -35,7 +35,7 @@ pub(crate) struct Running {
     pub evaluated: bool,
     /// Whether `frame` belongs to the states, pairs and surfaces as they are set now, committed or not.
     pub current: bool,
-    clock: Clock,
+    pub clock: Clock,
     contacts_peak: usize,
 }
 
@@ -105,17 +105,12 @@ impl Running {
     }
 
     /// Computes a frame.
-    pub fn evaluate(
-        &mut self,
-        scene: &Scene,
-        states: &States,
-        clock: Clock,
-    ) -> Result<FrameReport, EngineError> {
+    pub fn evaluate(&mut self, scene: &Scene, states: &States) -> Result<FrameReport, EngineError> {
         frame::require_states(scene, &self.sealed, states)?;
-        self.clock = clock;
         // Should a law of the host's panic or a sum overflow, there is no frame until the next one.
         (self.evaluated, self.current, self.frame.computed) = (false, false, false);
-        let given = EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock };
+        let given =
+            EvaluationInput { scene, sealed: &self.sealed, states, memory: &self.memory, clock: self.clock };
         frame::evaluate(&given, self.pool.as_mut(), &mut self.frame);
         self.let_go_of_memory();
         self.contacts_peak = self.contacts_peak.max(self.frame.order.len());

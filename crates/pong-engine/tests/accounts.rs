@@ -343,14 +343,17 @@ fn accounts_are_kept_on_request_alone() {
     let size = |accounts| {
         let rig = Rig::with_config(Config { accounts, ..Config::default() }, &tip, &ground);
         assert_eq!(rig.world.pair_accounts().count(), usize::from(accounts.is_some()));
-        assert_eq!((rig.world.wrench_coupling(), rig.world.keeps_ledger()), (accounts, accounts.is_some()));
-        rig.world.state_size().unwrap()
+        assert_eq!(
+            (rig.world.scene().wrench_coupling(), rig.world.scene().keeps_ledger()),
+            (accounts, accounts.is_some())
+        );
+        rig.world.state_size()
     };
     assert!(size(None) < size(Some(WrenchCoupling::Stages)));
-    let mut world = World::new(Config {
+    let builder = WorldBuilder::new(Config {
         accounts: Some(WrenchCoupling::ZeroOrderHold { delay_frames: 17 }),
         ..Config::default()
     });
-    let error = world.seal().unwrap_err().to_string();
+    let error = builder.seal().err().unwrap().to_string();
     assert!(error.contains("17 frames late") && error.contains("at most 16"), "{error}");
 }

@@ -3,7 +3,7 @@
 
 use pong_engine::{
     Config, EngineError, FrictionProps, InterfaceId, Laws, NormalForce, NormalInput, State, StateError,
-    World, combine_surfaces,
+    World, WorldBuilder, combine_surfaces,
 };
 use pong_geometry::extension::Extensions;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
@@ -30,13 +30,13 @@ impl Rig {
         let mut laws = Laws::default();
         laws.add_normal("steep", Arc::new(Steep));
         let config = Config { ledger: true, contact_capacity: Some(2), ..Config::default() };
-        let mut world = World::with_extensions(config, Extensions::new(), laws);
-        let model = pong_model::parse(&text, "ball", None, world.extensions()).unwrap();
-        let model = world.add_model(Arc::new(model)).unwrap();
-        let objects = ["a", "b"].map(|name| world.create_object(model, name).unwrap());
-        world.pair(objects[0], objects[1]).unwrap();
-        world.seal().unwrap();
-        let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+        let mut builder = WorldBuilder::with_extensions(config, Extensions::new(), laws);
+        let model = pong_model::parse(&text, "ball", None, builder.scene().extensions()).unwrap();
+        let model = builder.add_model(Arc::new(model));
+        let objects = ["a", "b"].map(|name| builder.create_object(model, name).unwrap());
+        builder.pair(objects[0], objects[1]).unwrap();
+        let (world, _) = builder.seal().unwrap();
+        let interfaces = objects.map(|object| world.scene().interface(object, "").unwrap());
         let mut rig = Self { world, interfaces };
         rig.set(0, [0.0; 3], 0.0);
         rig.set(1, [1.9, 0.1, 0.0], 0.1);
@@ -50,7 +50,7 @@ impl Rig {
     }
 
     fn saved(&self) -> Vec<u8> {
-        let mut block = vec![0; self.world.state_size().unwrap()];
+        let mut block = vec![0; self.world.state_size()];
         self.world.save_state(&mut block).unwrap();
         block
     }
@@ -197,7 +197,7 @@ fn the_stiffest_contact_has_a_force() {
 #[test]
 fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
     let mut rig = Rig::new("1e6", SOFT);
-    let model = rig.world.models().next().unwrap().0;
+    let model = rig.world.scene().models().next().unwrap().0;
     let good = rig.world.surface(model, "s").unwrap().clone();
     for k in [1.01e100, f64::MAX, 0.99e-100, 5e-324] {
         let bad = Surface { stiffness: k, ..good.clone() };

@@ -59,13 +59,13 @@ fn custom_laws() -> (String, String) {
 
 fn sealed_with(laws: Laws) -> Result<(World, [InterfaceId; 2]), EngineError> {
     let (a, b) = custom_laws();
-    let mut world =
-        World::with_extensions(Config { ledger: true, ..Config::default() }, Extensions::new(), laws);
-    let models = [load(&mut world, &a), load(&mut world, &b)];
-    let objects = [world.create_object(models[0], "a")?, world.create_object(models[1], "b")?];
-    world.pair(objects[0], objects[1])?;
-    world.seal()?;
-    let interfaces = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+    let mut builder =
+        WorldBuilder::with_extensions(Config { ledger: true, ..Config::default() }, Extensions::new(), laws);
+    let models = [load(&mut builder, &a), load(&mut builder, &b)];
+    let objects = [builder.create_object(models[0], "a")?, builder.create_object(models[1], "b")?];
+    builder.pair(objects[0], objects[1])?;
+    let (world, _) = builder.seal()?;
+    let interfaces = [world.scene().interface(objects[0], "")?, world.scene().interface(objects[1], "")?];
     Ok((world, interfaces))
 }
 
@@ -84,7 +84,7 @@ fn registered_laws_are_used_and_their_state_is_saved() {
     let first = place(&mut world, 0.0);
     assert!((first - Vec3::new(0.0, 0.0, 120.0)).norm() < 1e-9, "{first:?}");
     place(&mut world, 0.01);
-    let mut block = vec![0; world.state_size().unwrap()];
+    let mut block = vec![0; world.state_size()];
     world.save_state(&mut block).unwrap();
     let last = place(&mut world, 0.03);
     assert!((last - Vec3::new(-15.0, 0.0, 120.0)).norm() < 1e-9, "{last:?}");
@@ -119,14 +119,14 @@ fn a_registered_friction_law_is_given_the_pair_and_kept_in_the_plane() {
     let own = |k: f64| surface(k, "friction: Custom(name: \"witness\", parameters: [500.0])");
     let mut laws = Laws::default();
     laws.add_friction("witness", Arc::new(Witness));
-    let mut world = World::with_extensions(Config::default(), Extensions::new(), laws);
-    let tip = load(&mut world, &model("tip", &own(3e5), "Point(name: \"p\", position: (0,0,0))"));
+    let mut builder = WorldBuilder::with_extensions(Config::default(), Extensions::new(), laws);
+    let tip = load(&mut builder, &model("tip", &own(3e5), "Point(name: \"p\", position: (0,0,0))"));
     let floor = model("floor", &own(1e5), "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)");
-    let floor = load(&mut world, &floor);
-    let objects = [world.create_object(tip, "a").unwrap(), world.create_object(floor, "b").unwrap()];
-    world.pair(objects[0], objects[1]).unwrap();
-    world.seal().unwrap();
-    let [tip, floor] = objects.map(|object| world.interface(object, "").unwrap());
+    let floor = load(&mut builder, &floor);
+    let objects = [builder.create_object(tip, "a").unwrap(), builder.create_object(floor, "b").unwrap()];
+    builder.pair(objects[0], objects[1]).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
+    let [tip, floor] = objects.map(|object| world.scene().interface(object, "").unwrap());
     world.set_state(floor, &State::identity()).unwrap();
     world.set_state(tip, &at(Vec3::new(0.0, 0.0, -2e-3), Quat::identity())).unwrap();
     world.step().unwrap();
@@ -218,7 +218,7 @@ fn extensions(with_volume_test: bool) -> Extensions {
 
 fn post_world(with_volume_test: bool) -> Result<(World, [InterfaceId; 2]), EngineError> {
     let extensions = extensions(with_volume_test);
-    let mut world = World::with_extensions(Config::default(), extensions.clone(), Laws::default());
+    let mut builder = WorldBuilder::with_extensions(Config::default(), extensions.clone(), Laws::default());
     let steel = surface(2e5, "");
     let tip = model("tip", &steel, "Point(name: \"p\", position: (0,0,0))")
         .replace("root: (", "root: (bound: Custom(\"Everywhere\"), ");
@@ -230,12 +230,12 @@ fn post_world(with_volume_test: bool) -> Result<(World, [InterfaceId; 2]), Engin
     for (name, text) in [("tip", tip), ("post", post)] {
         let parsed =
             pong_model::parse(&text, name, None, &extensions).unwrap_or_else(|errors| panic!("{errors}"));
-        let id = world.add_model(Arc::new(parsed))?;
-        objects.push(world.create_object(id, name)?);
+        let id = builder.add_model(Arc::new(parsed));
+        objects.push(builder.create_object(id, name)?);
     }
-    world.pair(objects[0], objects[1])?;
-    world.seal()?;
-    let interfaces = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+    builder.pair(objects[0], objects[1])?;
+    let (world, _) = builder.seal()?;
+    let interfaces = [world.scene().interface(objects[0], "")?, world.scene().interface(objects[1], "")?];
     Ok((world, interfaces))
 }
 

@@ -4,7 +4,7 @@
 mod common;
 
 use common::*;
-use pong_engine::{Config, State, World};
+use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::{Pose, Quat, Vec3};
 
 const K: f64 = 2e5;
@@ -224,23 +224,23 @@ fn the_order_of_pairing_does_not_matter() {
     let knob = b.lines().find(|line| line.contains("knob")).unwrap();
     let b = b.replace(knob, "");
     let mut worlds = [false, true].map(|swapped| {
-        let mut world = World::new(Config::default());
-        let models = [load(&mut world, &a), load(&mut world, &b)];
+        let mut builder = WorldBuilder::new(Config::default());
+        let models = [load(&mut builder, &a), load(&mut builder, &b)];
         let objects =
-            [world.create_object(models[0], "a").unwrap(), world.create_object(models[1], "b").unwrap()];
+            [builder.create_object(models[0], "a").unwrap(), builder.create_object(models[1], "b").unwrap()];
         if swapped {
-            world.pair(objects[1], objects[0]).unwrap();
+            builder.pair(objects[1], objects[0]).unwrap();
         } else {
-            world.pair(objects[0], objects[1]).unwrap();
+            builder.pair(objects[0], objects[1]).unwrap();
         }
-        world.seal().unwrap();
+        let (world, _) = builder.seal().unwrap();
         (world, objects)
     });
     let mut random = Random(17);
     for _ in 0..30 {
         let states = some_motion(&mut random, 1.0);
         let frames = worlds.each_mut().map(|(world, objects)| {
-            let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+            let interfaces = objects.map(|object| world.scene().interface(object, "").unwrap());
             world.set_states(&[(interfaces[0], states[0]), (interfaces[1], states[1])]).unwrap();
             world.step().unwrap();
             let forces: Vec<_> =

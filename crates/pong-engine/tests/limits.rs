@@ -336,15 +336,16 @@ fn ten_thousand_contacts_of_one_ball() {
 fn a_capacity_that_takes_too_much_memory_is_refused() {
     let refusal = |wanted: usize, workers: Option<WorkerSettings>| {
         let scene = brush(10);
-        let mut world = World::new(Config { contact_capacity: Some(wanted), workers, ..Config::default() });
+        let mut builder =
+            WorldBuilder::new(Config { contact_capacity: Some(wanted), workers, ..Config::default() });
         let mut object = |text: &String| {
-            let model = pong_model::parse(text, "scene.ron", None, world.extensions()).unwrap();
-            let model = world.add_model(std::sync::Arc::new(model)).unwrap();
-            world.create_object(model, "object").or_else(|_| world.create_object(model, "other")).unwrap()
+            let model = pong_model::parse(text, "scene.ron", None, builder.scene().extensions()).unwrap();
+            let model = builder.add_model(std::sync::Arc::new(model));
+            builder.create_object(model, "object").or_else(|_| builder.create_object(model, "other")).unwrap()
         };
         let objects: Vec<_> = scene.models.iter().map(&mut object).collect();
-        world.pair(objects[0], objects[1]).unwrap();
-        let refused = world.seal().err()?.to_string();
+        builder.pair(objects[0], objects[1]).unwrap();
+        let refused = builder.seal().err()?.to_string();
         assert!(refused.contains("contact capacity") && refused.contains("GiB"), "{refused}");
         let most = refused.split("give at most ").nth(1).unwrap().split(' ').next().unwrap();
         Some(most.parse::<usize>().unwrap())

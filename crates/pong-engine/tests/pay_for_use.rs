@@ -37,7 +37,7 @@ fn tell(stage: &mut Stage<'_>, frame: usize) -> Told {
         counts: stage.world.counts(),
         memory: stage.world.memory(),
         contacts: stage.world.contact_count(),
-        state_size: stage.world.state_size().unwrap(),
+        state_size: stage.world.state_size(),
     }
 }
 
@@ -166,18 +166,18 @@ fn what_nobody_asked_for_is_not_measured() {
 #[test]
 fn memory_follows_what_may_meet() {
     let sized = |idle: usize| {
-        let mut world = World::new(Config::default());
+        let mut builder = WorldBuilder::new(Config::default());
         let ball = "Sphere(name: \"b\", center: (0,0,0), radius: 0.1)";
-        let small = load(&mut world, &common::model("ball", &common::surface(1e5, ""), ball));
+        let small = load(&mut builder, &common::model("ball", &common::surface(1e5, ""), ball));
         let mut parts = Parts::new(78);
         parts.points(2000, [0.0; 3], [1.0; 3]);
-        let large = load(&mut world, &common::model("cloud", &common::surface(1e5, ""), &parts.joined()));
-        let pair = ["a", "b"].map(|name| world.create_object(small, name).unwrap());
-        world.pair(pair[0], pair[1]).unwrap();
+        let large = load(&mut builder, &common::model("cloud", &common::surface(1e5, ""), &parts.joined()));
+        let pair = ["a", "b"].map(|name| builder.create_object(small, name).unwrap());
+        builder.pair(pair[0], pair[1]).unwrap();
         for index in 0..idle {
-            world.create_object(large, &format!("idle_{index}")).unwrap();
+            builder.create_object(large, &format!("idle_{index}")).unwrap();
         }
-        let report = world.seal().unwrap();
+        let (world, report) = builder.seal().unwrap();
         (report.group_pairs, report.contact_capacity, report.state_size, world.memory())
     };
     assert_eq!(sized(0), sized(1000));

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Random, Rig, at, load, model, moving, surface};
-use pong_engine::{Config, EngineError, FrictionPreload, State, World};
+use pong_engine::{Config, EngineError, FrictionPreload, State, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 
 const MU: f64 = 0.4;
@@ -113,15 +113,15 @@ fn only_bristles_of_the_pair_are_preloaded() {
         place(&mut rig, Quat::identity(), Vec3::zeros(), Vec3::x(), 0.0, false);
         assert_eq!(rig.world.preload_friction(rig.pair, &FrictionPreload::Sliding).unwrap(), 0);
     }
-    let mut world = World::new(Config::default());
-    let models = [feet(&bristle()), floor()].map(|text| load(&mut world, &text));
-    let objects =
-        [(0, "one"), (0, "two"), (1, "floor")].map(|(m, name)| world.create_object(models[m], name).unwrap());
-    let pairs = [0, 1].map(|i| world.pair(objects[i], objects[2]).unwrap());
-    world.seal().unwrap();
+    let mut builder = WorldBuilder::new(Config::default());
+    let models = [feet(&bristle()), floor()].map(|text| load(&mut builder, &text));
+    let objects = [(0, "one"), (0, "two"), (1, "floor")]
+        .map(|(m, name)| builder.create_object(models[m], name).unwrap());
+    let pairs = [0, 1].map(|i| builder.pair(objects[i], objects[2]).unwrap());
+    let (mut world, _) = builder.seal().unwrap();
     let sliding = moving(Vec3::new(0.0, 0.0, -DEPTH), Quat::identity(), Vec3::x(), Vec3::zeros());
     for (object, state) in objects.into_iter().zip([sliding, sliding, State::identity()]) {
-        world.set_state(world.interface(object, "").unwrap(), &state).unwrap();
+        world.set_state(world.scene().interface(object, "").unwrap(), &state).unwrap();
     }
     assert_eq!(world.preload_friction(pairs[1], &FrictionPreload::Sliding).unwrap(), 3);
     world.evaluate().unwrap();
@@ -133,20 +133,19 @@ fn only_bristles_of_the_pair_are_preloaded() {
 
 #[test]
 fn preloads_that_cannot_be_are_refused() {
-    let mut world = World::new(Config::default());
-    let models = [feet(&bristle()), floor()].map(|text| load(&mut world, &text));
+    let mut builder = WorldBuilder::new(Config::default());
+    let models = [feet(&bristle()), floor()].map(|text| load(&mut builder, &text));
     let objects =
-        [world.create_object(models[0], "a").unwrap(), world.create_object(models[1], "b").unwrap()];
-    let pair = world.pair(objects[0], objects[1]).unwrap();
+        [builder.create_object(models[0], "a").unwrap(), builder.create_object(models[1], "b").unwrap()];
+    let pair = builder.pair(objects[0], objects[1]).unwrap();
     let sliding = FrictionPreload::Sliding;
-    assert!(matches!(world.preload_friction(pair, &sliding), Err(EngineError::WrongPhase { .. })));
-    world.seal().unwrap();
+    let (mut world, _) = builder.seal().unwrap();
     assert!(matches!(world.preload_friction(pair, &sliding), Err(EngineError::UnsetState { .. })));
     let mut rig = Rig::new(&feet(&bristle()), &floor());
     assert!(matches!(rig.world.preload_friction(pair, &sliding), Err(EngineError::UnknownId { .. })));
     rig.place_a(Vec3::new(0.0, 0.0, -DEPTH), Quat::identity());
-    let before = rig.world.state_used().unwrap();
+    let before = rig.world.state_used();
     let wrong = FrictionPreload::Holding(Vec3::new(f64::NAN, 0.0, 0.0));
     assert!(matches!(rig.world.preload_friction(rig.pair, &wrong), Err(EngineError::BadValue { .. })));
-    assert_eq!(rig.world.state_used().unwrap(), before);
+    assert_eq!(rig.world.state_used(), before);
 }

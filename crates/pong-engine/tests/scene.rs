@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use pong_engine::{Config, EngineError, SetupWarning, State, StatusBits, World};
+use pong_engine::{Config, EngineError, SetupWarning, State, StatusBits, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 use pong_model::{FrictionLaw, NormalLaw};
 
@@ -34,19 +34,20 @@ fn hand() -> String {
 
 #[test]
 fn one_model_makes_many_independent_objects() {
-    let mut world = World::new(Config::default());
-    let (tips, floor) = (load(&mut world, &tip()), load(&mut world, &floor()));
-    let ground = world.create_object(floor, "ground").unwrap();
+    let mut builder = WorldBuilder::new(Config::default());
+    let (tips, floor) = (load(&mut builder, &tip()), load(&mut builder, &floor()));
+    let ground = builder.create_object(floor, "ground").unwrap();
     let objects: Vec<_> = (0..100)
         .map(|i| {
-            let object = world.create_object(tips, &format!("tip{i}")).unwrap();
-            world.pair(object, ground).unwrap();
+            let object = builder.create_object(tips, &format!("tip{i}")).unwrap();
+            builder.pair(object, ground).unwrap();
             object
         })
         .collect();
-    world.seal().unwrap();
-    let interfaces: Vec<_> = objects.iter().map(|object| world.interface(*object, "").unwrap()).collect();
-    world.set_state(world.interface(ground, "").unwrap(), &State::identity()).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
+    let interfaces: Vec<_> =
+        objects.iter().map(|object| world.scene().interface(*object, "").unwrap()).collect();
+    world.set_state(world.scene().interface(ground, "").unwrap(), &State::identity()).unwrap();
     for (i, interface) in interfaces.iter().enumerate() {
         world.set_state(*interface, &at(Vec3::new(0.0, 0.0, -1e-4 * i as f64), Quat::identity())).unwrap();
     }
@@ -59,18 +60,19 @@ fn one_model_makes_many_independent_objects() {
 
 #[test]
 fn every_movable_group_has_its_own_interface() {
-    let mut world = World::new(Config::default());
-    let (hands, floor) = (load(&mut world, &hand()), load(&mut world, &floor()));
+    let mut builder = WorldBuilder::new(Config::default());
+    let (hands, floor) = (load(&mut builder, &hand()), load(&mut builder, &floor()));
     let (hand, ground) =
-        (world.create_object(hands, "hand").unwrap(), world.create_object(floor, "ground").unwrap());
-    world.pair(hand, ground).unwrap();
-    world.pair(hand, hand).unwrap();
-    world.seal().unwrap();
-    assert_eq!(world.interfaces(hand).unwrap().len(), 3);
-    let [palm, left, right] = ["", "left", "palm/right"].map(|path| world.interface(hand, path).unwrap());
-    let authored = world.authored_pose(right).unwrap();
+        (builder.create_object(hands, "hand").unwrap(), builder.create_object(floor, "ground").unwrap());
+    builder.pair(hand, ground).unwrap();
+    builder.pair(hand, hand).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
+    assert_eq!(world.scene().interfaces(hand).unwrap().len(), 3);
+    let [palm, left, right] =
+        ["", "left", "palm/right"].map(|path| world.scene().interface(hand, path).unwrap());
+    let authored = world.scene().authored_pose(right).unwrap();
     assert_eq!(authored.position, Vec3::new(0.3, 0.0, 0.0));
-    world.set_state(world.interface(ground, "").unwrap(), &State::identity()).unwrap();
+    world.set_state(world.scene().interface(ground, "").unwrap(), &State::identity()).unwrap();
     world.set_state(palm, &at(Vec3::new(0.0, 0.0, 2.0), Quat::identity())).unwrap();
     world.set_state(left, &at(Vec3::new(0.0, 0.0, -1e-3), Quat::identity())).unwrap();
     world.set_state(right, &at(Vec3::new(0.19, 0.0, 0.5), Quat::identity())).unwrap();
@@ -81,7 +83,7 @@ fn every_movable_group_has_its_own_interface() {
     world.set_state(right, &at(Vec3::new(0.19, 0.0, -1e-3), Quat::identity())).unwrap();
     world.step().unwrap();
     assert!((world.wrench(left).unwrap().force.x + 5e4 * 0.01).abs() < 1e-6);
-    let unknown = world.interface(hand, "thumb").unwrap_err().to_string();
+    let unknown = world.scene().interface(hand, "thumb").unwrap_err().to_string();
     assert!(unknown.contains("hand/thumb") && unknown.contains("palm/left"), "{unknown}");
 }
 
@@ -102,7 +104,7 @@ fn a_ray_stops_at_the_first_surface_of_an_object() {
     assert_eq!(contacts.len(), 1);
     assert!((contacts[0].depth - 0.4).abs() < 1e-15);
     assert_eq!(
-        rig.world.primitive_path(contacts[0].b.interface, contacts[0].b.primitive).unwrap(),
+        rig.world.scene().primitive_path(contacts[0].b.interface, contacts[0].b.primitive).unwrap(),
         "walls/near"
     );
 }
@@ -161,30 +163,26 @@ fn surface_values_change_between_frames_and_laws_do_not() {
 }
 
 #[test]
-fn calls_in_the_wrong_phase_or_of_another_world_are_refused() {
-    let mut world = World::new(Config::default());
-    assert!(matches!(world.step(), Err(EngineError::WrongPhase { .. })));
-    assert!(matches!(world.commit(), Err(EngineError::WrongPhase { .. })));
-    let tips = load(&mut world, &tip());
-    let object = world.create_object(tips, "a").unwrap();
-    assert!(matches!(world.create_object(tips, "a"), Err(EngineError::Duplicate { .. })));
+fn calls_that_come_twice_too_early_or_of_another_world_are_refused() {
+    let mut builder = WorldBuilder::new(Config::default());
+    let tips = load(&mut builder, &tip());
+    let object = builder.create_object(tips, "a").unwrap();
+    assert!(matches!(builder.create_object(tips, "a"), Err(EngineError::Duplicate { .. })));
     for unfit in ["", "a/b"] {
-        assert!(matches!(world.create_object(tips, unfit), Err(EngineError::BadValue { .. })));
+        assert!(matches!(builder.create_object(tips, unfit), Err(EngineError::BadValue { .. })));
     }
-    assert!(matches!(world.pair(object, object), Err(EngineError::BadValue { .. })));
+    assert!(matches!(builder.pair(object, object), Err(EngineError::BadValue { .. })));
     let other = Rig::new(&tip(), &floor());
-    assert!(matches!(world.pair(object, other.objects[1]), Err(EngineError::UnknownId { .. })));
-    assert!(matches!(world.interface(other.objects[0], ""), Err(EngineError::UnknownId { .. })));
-    let second = world.create_object(tips, "b").unwrap();
-    world.pair(object, second).unwrap();
-    assert!(matches!(world.pair(second, object), Err(EngineError::Duplicate { .. })));
+    assert!(matches!(builder.pair(object, other.objects[1]), Err(EngineError::UnknownId { .. })));
+    assert!(matches!(builder.scene().interface(other.objects[0], ""), Err(EngineError::UnknownId { .. })));
+    let second = builder.create_object(tips, "b").unwrap();
+    builder.pair(object, second).unwrap();
+    assert!(matches!(builder.pair(second, object), Err(EngineError::Duplicate { .. })));
     // Points meet points: nothing to test, and that is said.
-    let report = world.seal().unwrap();
+    let (world, report) = builder.seal().unwrap();
     assert!(report.warnings.iter().any(|w| matches!(w, SetupWarning::NothingToTest { .. })));
     assert!(report.warnings.iter().any(|w| matches!(w, SetupWarning::IgnoredPair { .. })));
-    assert!(matches!(world.seal(), Err(EngineError::WrongPhase { .. })));
-    assert!(matches!(world.create_object(tips, "c"), Err(EngineError::WrongPhase { .. })));
-    let interface = world.interface(object, "").unwrap();
+    let interface = world.scene().interface(object, "").unwrap();
     assert!(matches!(world.wrench(interface), Err(EngineError::WrongPhase { .. })));
 }
 
@@ -194,19 +192,45 @@ fn surfaces_that_do_not_go_together_are_all_named_at_seal() {
         let surfaces = "\"s\": (stiffness: inf, normal: Linear(damping: 0)), \"t\": (stiffness: 1e5, normal: HuntCrossley(dissipation: 0.1, exponent: 1.0))";
         model(name, surfaces, primitive)
     };
-    let mut world = World::new(Config::default());
+    let mut builder = WorldBuilder::new(Config::default());
     let a = load(
-        &mut world,
+        &mut builder,
         &two_rigid(
             "a",
             "Point(name: \"p\", position: (0,0,0)), Point(name: \"q\", position: (1,0,0), surface: \"t\")",
         ),
     );
-    let b = load(&mut world, &two_rigid("b", "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)"));
-    let (a, b) = (world.create_object(a, "a").unwrap(), world.create_object(b, "b").unwrap());
-    world.pair(a, b).unwrap();
-    let Err(EngineError::Seal { problems }) = world.seal() else { panic!("sealed") };
+    let b = load(&mut builder, &two_rigid("b", "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)"));
+    let (a, b) = (builder.create_object(a, "a").unwrap(), builder.create_object(b, "b").unwrap());
+    builder.pair(a, b).unwrap();
+    let error = builder.seal().err().unwrap();
+    let EngineError::Seal { problems } = error.error() else { panic!("{error}") };
     assert_eq!(problems.len(), 2, "{problems:?}");
+}
+
+/// Nothing is lost: what is wrong can be mended in the builder that comes back.
+#[test]
+fn a_refused_seal_gives_the_builder_back() {
+    let rigid = "\"s\": (stiffness: inf, normal: Linear(damping: 0), friction: None)";
+    let mut builder = WorldBuilder::new(Config::default());
+    let tip = load(&mut builder, &model("tip", rigid, "Point(name: \"p\", position: (0,0,0))"));
+    let floor =
+        load(&mut builder, &model("floor", rigid, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)"));
+    let objects = [tip, floor].map(|model| builder.create_object(model, &format!("{model:?}")).unwrap());
+    builder.pair(objects[0], objects[1]).unwrap();
+    let roots = objects.map(|object| builder.scene().interface(object, "").unwrap());
+    builder.set_states(&[(roots[1], State::identity())]).unwrap();
+    let (mut builder, error) = builder.seal().err().unwrap().into_parts();
+    assert!(error.to_string().contains("tip/s") && error.to_string().contains("rigid"), "{error}");
+    assert_eq!((builder.scene().objects().len(), builder.scene().pairs().len()), (2, 1));
+    let soft = pong_model::Surface { stiffness: 1e5, ..builder.surface(tip, "s").unwrap().clone() };
+    builder.set_surface(tip, &soft).unwrap();
+    let (mut world, report) = builder.seal().unwrap();
+    assert_eq!(report.group_pairs, 1);
+    assert_eq!(world.state_as_set(roots[1]), Ok(Some(&State::identity())));
+    world.set_state(roots[0], &at(Vec3::new(0.0, 0.0, -1e-3), Quat::identity())).unwrap();
+    world.step().unwrap();
+    assert!((world.wrench(roots[0]).unwrap().force.z - 100.0).abs() < 1e-9);
 }
 
 /// Stored + work + dissipated: the ledger closes over a bounce, with and without damping.

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Rig, load, model, surface};
-use pong_engine::{Config, EngineError, SealReport, SetupNote, SetupWarning, World};
+use pong_engine::{Config, EngineError, SealReport, SetupNote, SetupWarning, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
 
 const TIP: &str = "Point(name: \"p\", position: (0, 0, 0))";
@@ -15,17 +15,17 @@ fn with_pairs(text: &str, pairs: &str) -> String {
 
 /// Objects of the models, each paired with each other one.
 fn seal(texts: &[&str]) -> Result<SealReport, Vec<String>> {
-    let mut world = World::new(Config::default());
+    let mut builder = WorldBuilder::new(Config::default());
     let mut objects = Vec::new();
     for (index, text) in texts.iter().enumerate() {
-        let model = load(&mut world, text);
-        objects.push(world.create_object(model, &format!("o{index}")).unwrap());
+        let model = load(&mut builder, text);
+        objects.push(builder.create_object(model, &format!("o{index}")).unwrap());
     }
     for (index, a) in objects.iter().enumerate() {
-        objects[index + 1..].iter().for_each(|b| _ = world.pair(*a, *b).unwrap());
+        objects[index + 1..].iter().for_each(|b| _ = builder.pair(*a, *b).unwrap());
     }
-    match world.seal() {
-        Ok(report) => Ok(report),
+    match builder.seal().map_err(EngineError::from) {
+        Ok((_, report)) => Ok(report),
         Err(EngineError::Seal { problems }) => Err(problems),
         Err(other) => panic!("{other}"),
     }
@@ -140,21 +140,21 @@ fn a_silent_rigid_floor_is_the_one_that_repeats_the_other() {
 /// 200 Objects of two models: every warning once, with how many pairs it is about.
 #[test]
 fn a_warning_about_two_models_is_told_once() {
-    let mut world = World::new(Config::default());
+    let mut builder = WorldBuilder::new(Config::default());
     let soft = surface(1e5, "");
-    let floor = load(&mut world, &model("floor", &soft, FLOOR));
+    let floor = load(&mut builder, &model("floor", &soft, FLOOR));
     let plate = load(
-        &mut world,
+        &mut builder,
         &model("plate", &soft, "Triangle(name: \"t\", vertices: ((0, 0, 0), (1, 0, 0), (0, 1, 0)))"),
     );
-    let floor = world.create_object(floor, "floor").unwrap();
+    let floor = builder.create_object(floor, "floor").unwrap();
     for index in 0..200 {
-        let object = world.create_object(plate, &format!("plate {index}")).unwrap();
+        let object = builder.create_object(plate, &format!("plate {index}")).unwrap();
         // Whichever is named first.
         let (a, b) = if index % 2 == 0 { (object, floor) } else { (floor, object) };
-        world.pair(a, b).unwrap();
+        builder.pair(a, b).unwrap();
     }
-    let report = world.seal().unwrap();
+    let (_, report) = builder.seal().unwrap();
     let told: Vec<String> = report.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(
         told,

@@ -3,7 +3,9 @@
 mod common;
 
 use common::{Rig, at, load, model, surface};
-use pong_engine::{Config, EngineError, Laws, NormalForce, NormalInput, ObjectId, State, StatusBits, World};
+use pong_engine::{
+    Config, EngineError, Laws, NormalForce, NormalInput, ObjectId, State, StatusBits, World, WorldBuilder,
+};
 use pong_geometry::extension::{Extensions, PrimitiveRef};
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::CustomPrimitive;
@@ -46,17 +48,17 @@ fn blobs(kind_a: &str, kind_b: &str) -> Extensions {
 
 /// A world of two Objects at the origin, in one order of pairing or the other.
 fn two(extensions: Extensions, primitives: [&str; 2], reversed: bool) -> World {
-    let mut world = World::with_extensions(Config::default(), extensions, Laws::default());
+    let mut builder = WorldBuilder::with_extensions(Config::default(), extensions, Laws::default());
     let models = primitives.map(|text| {
         let text = model("m", &surface(1e5, ""), text);
-        let model = pong_model::parse(&text, "m.ron", None, world.extensions());
-        world.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}")))).unwrap()
+        let model = pong_model::parse(&text, "m.ron", None, builder.scene().extensions());
+        builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}"))))
     });
-    let objects: [ObjectId; 2] = [0, 1].map(|i| world.create_object(models[i], ["a", "b"][i]).unwrap());
-    world.pair(objects[usize::from(reversed)], objects[usize::from(!reversed)]).unwrap();
-    world.seal().unwrap();
+    let objects: [ObjectId; 2] = [0, 1].map(|i| builder.create_object(models[i], ["a", "b"][i]).unwrap());
+    builder.pair(objects[usize::from(reversed)], objects[usize::from(!reversed)]).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
     for object in objects {
-        let interface = world.interface(object, "").unwrap();
+        let interface = world.scene().interface(object, "").unwrap();
         world.set_state(interface, &State::identity()).unwrap();
     }
     world
@@ -122,13 +124,13 @@ fn a_frame_in_which_a_law_panicked_is_no_frame() {
     let mut laws = Laws::default();
     laws.add_normal("moody", law.clone());
     let own = surface(1e5, "normal: Custom(name: \"moody\", parameters: [])");
-    let mut world = World::with_extensions(Config::default(), Extensions::new(), laws);
+    let mut builder = WorldBuilder::with_extensions(Config::default(), Extensions::new(), laws);
     let models = ["Point(name: \"p\", position: (0,0,-1e-3))", FLOOR]
-        .map(|parts| load(&mut world, &model("m", &own, parts)));
-    let objects = [0, 1].map(|i| world.create_object(models[i], ["a", "b"][i]).unwrap());
-    world.pair(objects[0], objects[1]).unwrap();
-    world.seal().unwrap();
-    let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+        .map(|parts| load(&mut builder, &model("m", &own, parts)));
+    let objects = [0, 1].map(|i| builder.create_object(models[i], ["a", "b"][i]).unwrap());
+    builder.pair(objects[0], objects[1]).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
+    let interfaces = objects.map(|object| world.scene().interface(object, "").unwrap());
     interfaces.iter().for_each(|&i| world.set_state(i, &State::identity()).unwrap());
     for _ in 0..2 {
         law.0.store(true, Relaxed);
@@ -147,24 +149,24 @@ fn a_frame_in_which_a_law_panicked_is_no_frame() {
 #[test]
 fn pairs_committed_at_different_times_that_are_too_many_ask_for_enough() {
     let touching = |capacity: usize| {
-        let mut world = World::new(Config { contact_capacity: Some(capacity), ..Config::default() });
+        let mut builder = WorldBuilder::new(Config { contact_capacity: Some(capacity), ..Config::default() });
         let balls: String =
             (0..3).map(|i| format!("Sphere(name: \"b{i}\", center: ({i},0,0), radius: 0.1),")).collect();
         let (balls, floor) = (
-            load(&mut world, &model("a", &surface(1e5, ""), &balls)),
-            load(&mut world, &model("b", &surface(1e5, ""), FLOOR)),
+            load(&mut builder, &model("a", &surface(1e5, ""), &balls)),
+            load(&mut builder, &model("b", &surface(1e5, ""), FLOOR)),
         );
-        let floor = world.create_object(floor, "floor").unwrap();
-        let floor_root = world.interface(floor, "").unwrap();
-        world.set_state(floor_root, &State::identity()).unwrap();
+        let floor = builder.create_object(floor, "floor").unwrap();
+        let floor_root = builder.scene().interface(floor, "").unwrap();
+        builder.set_states(&[(floor_root, State::identity())]).unwrap();
         let above: Vec<_> =
-            (0..3).map(|k| world.create_object(balls, &format!("balls {k}")).unwrap()).collect();
-        let pairs: Vec<_> = above.iter().map(|&balls| world.pair(balls, floor).unwrap()).collect();
-        world.seal().unwrap();
+            (0..3).map(|k| builder.create_object(balls, &format!("balls {k}")).unwrap()).collect();
+        let pairs: Vec<_> = above.iter().map(|&balls| builder.pair(balls, floor).unwrap()).collect();
+        let (mut world, _) = builder.seal().unwrap();
         for (now, &pair) in pairs.iter().enumerate() {
             for (k, &balls) in above.iter().enumerate() {
                 let height = if k == now { 0.09 } else { 1.0 };
-                let root = world.interface(balls, "").unwrap();
+                let root = world.scene().interface(balls, "").unwrap();
                 world.set_state(root, &at(Vec3::new(0.0, 0.0, height), Quat::identity())).unwrap();
             }
             world.evaluate().unwrap();

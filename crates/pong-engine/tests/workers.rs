@@ -103,7 +103,7 @@ impl Brush {
         let mut laws = Laws::default();
         laws.add_normal("trapped", Arc::new(Trapped(Arc::clone(&trap))));
         let config = Config { contact_capacity: Some(3000), ledger: true, workers, ..Config::default() };
-        let mut world = World::with_extensions(config, Extensions::new(), laws);
+        let mut builder = WorldBuilder::with_extensions(config, Extensions::new(), laws);
         let rest = "normal: Custom(name: \"trapped\", parameters: []), friction: Bristle(mu: 0.5)";
         let own = surface(1e4, rest);
         let mut random = Random(21);
@@ -114,14 +114,14 @@ impl Brush {
             })
             .collect();
         let models = [
-            load(&mut world, &model("brush", &own, &points.join(","))),
-            load(&mut world, &model("floor", &own, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)")),
+            load(&mut builder, &model("brush", &own, &points.join(","))),
+            load(&mut builder, &model("floor", &own, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)")),
         ];
         let objects = [(models[0], "brush"), (models[1], "floor")];
-        let [brush, floor] = objects.map(|(model, name)| world.create_object(model, name).unwrap());
-        world.pair(brush, floor).unwrap();
-        let report = world.seal().unwrap();
-        let [brush, floor] = [brush, floor].map(|object| world.interface(object, "").unwrap());
+        let [brush, floor] = objects.map(|(model, name)| builder.create_object(model, name).unwrap());
+        builder.pair(brush, floor).unwrap();
+        let (mut world, report) = builder.seal().unwrap();
+        let [brush, floor] = [brush, floor].map(|object| world.scene().interface(object, "").unwrap());
         world.set_state(floor, &State::identity()).unwrap();
         Self { world, model: models[0], brush, trap, report }
     }
@@ -140,7 +140,7 @@ impl Brush {
         let mut hash = Hash::default();
         hash.wrench(&self.world.wrench(self.brush).unwrap());
         self.world.contacts_iter().for_each(|contact| hash.contact(&contact));
-        let mut block = vec![0; self.world.state_size().unwrap()];
+        let mut block = vec![0; self.world.state_size()];
         self.world.save_state(&mut block).unwrap();
         hash.bytes(&block);
         hash
@@ -274,10 +274,10 @@ fn contact_state_changes_around_a_held_worker() {
             assert_eq!(held.step(frame), free.step(frame));
             frame += 1;
         }
-        let mut blocks = [&held.world, &free.world].map(|world| vec![0; world.state_size().unwrap()]);
+        let mut blocks = [&held.world, &free.world].map(|world| vec![0; world.state_size()]);
         for round in 0..20 {
             for (brush, block) in [&mut held, &mut free].into_iter().zip(&mut blocks) {
-                let object = brush.world.object("brush").unwrap();
+                let object = brush.world.scene().object("brush").unwrap();
                 match round % 4 {
                     0 => brush.world.save_state(block).unwrap(),
                     1 => brush.world.clear_contact_history(object).unwrap(),
@@ -336,7 +336,7 @@ fn a_panic_on_the_caller_leaves_the_world_usable() {
             for frame in 0..4 {
                 assert_eq!(brush.step(frame), expected[frame as usize]);
             }
-            let mut block = vec![0; brush.world.state_size().unwrap()];
+            let mut block = vec![0; brush.world.state_size()];
             brush.world.save_state(&mut block).unwrap();
             brush.place(4);
             brush.trap.panics_on_caller.store(true, Ordering::SeqCst);
@@ -344,7 +344,7 @@ fn a_panic_on_the_caller_leaves_the_world_usable() {
             brush.trap.panics_on_caller.store(false, Ordering::SeqCst);
             assert!(!brush.world.is_evaluated());
             // Contact state can still be changed, more than once.
-            let object = brush.world.object("brush").unwrap();
+            let object = brush.world.scene().object("brush").unwrap();
             for _ in 0..3 {
                 brush.world.clear_contact_history(object).unwrap();
                 brush.world.restore_state(&block).unwrap();

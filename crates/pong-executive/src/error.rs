@@ -1,6 +1,6 @@
 //! What can go wrong, told as thing, cause and cure.
 
-use pong_engine::EngineError;
+use pong_engine::{EngineError, SealError};
 
 /// An error of the executive.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,5 +54,11 @@ impl std::error::Error for ExecutiveError {}
 impl From<EngineError> for ExecutiveError {
     fn from(error: EngineError) -> Self {
         Self::Engine(error)
+    }
+}
+
+impl From<SealError> for ExecutiveError {
+    fn from(error: SealError) -> Self {
+        Self::Engine(error.into())
     }
 }

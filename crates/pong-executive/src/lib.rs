@@ -5,11 +5,10 @@
 //!
 //! ```
 //! use pong_executive::{Integrator, MassProperties, RigidBody, Simulation, Vec3};
-//! use pong_engine::{Config, World};
+//! use pong_engine::{Config, WorldBuilder};
 //!
 //! # fn main() -> Result<(), pong_executive::ExecutiveError> {
-//! let mut world = World::new(Config::default());
-//! world.seal()?;
+//! let (world, _) = WorldBuilder::new(Config::default()).seal()?;
 //! let mut simulation = Simulation::new(world, Integrator::RungeKutta4, 1e-3)?;
 //! simulation.set_gravity(Vec3::new(0.0, 0.0, -9.81));
 //! let ball = simulation.add_body(RigidBody::free("ball", MassProperties::sphere(1.0, 0.1)))?;
@@ -65,4 +64,4 @@ pub use stability::{group_mass, longest_stable_step};
 pub use watch::StepWatch;
 
 #[doc(no_inline)]
-pub use pong_engine::World;
+pub use pong_engine::{World, WorldBuilder};

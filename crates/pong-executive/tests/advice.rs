@@ -4,7 +4,7 @@ use pong_advise::{
     Accuracy, ContactAdvice, ContactWish, GroupMass, StepPlan, StepWarning, WrenchCoupling, advise_contact,
     step_report,
 };
-use pong_engine::{Config, World};
+use pong_engine::{Config, World, WorldBuilder};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
@@ -109,24 +109,26 @@ fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<S
                 friction: Bristle(mu: 0.5, stiffness: {friction_stiffness:?}, damping: {friction_damping:?})) }},
             root: (name: "point", surface: "soft", primitives: [Point(name: "tip", position: (0.0, 0.0, 0.0))]))"#
     );
-    let mut world = World::new(Config::default());
+    let mut builder = WorldBuilder::new(Config::default());
     let objects = [("point", point.as_str()), ("ground", GROUND)].map(|(name, text)| {
         let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-        let model = world.add_model(Arc::new(model)).unwrap();
-        world.create_object(model, name).unwrap()
+        let model = builder.add_model(Arc::new(model));
+        builder.create_object(model, name).unwrap()
     });
-    world.pair(objects[0], objects[1]).unwrap();
+    builder.pair(objects[0], objects[1]).unwrap();
     let masses = [GroupMass::point(wish.mass), GroupMass::immovable()];
-    let interfaces = objects.map(|object| world.interface(object, "").unwrap());
+    let interfaces = objects.map(|object| builder.scene().interface(object, "").unwrap());
     let masses: Vec<_> = interfaces.into_iter().zip(masses).collect();
-    assert_eq!(world.seal().unwrap().warnings, []);
+    let (world, report) = builder.seal().unwrap();
+    assert_eq!(report.warnings, []);
     let warnings = step_report(&world, &StepPlan::new(step, wish.coupling), &masses).unwrap().warnings;
     (world, warnings)
 }
 
 /// Greatest depth and rebound speed of a mass that touches at a phase of the step.
 fn bounce(world: World, wish: &ContactWish, step: f64, phase: f64) -> (f64, f64) {
-    let interfaces: Vec<_> = world.objects().map(|object| world.interface(object, "").unwrap()).collect();
+    let interfaces: Vec<_> =
+        world.scene().objects().map(|object| world.scene().interface(object, "").unwrap()).collect();
     let mut simulation = Simulation::new(world, integrator(wish.coupling), step).unwrap();
     let start = Pose { position: Vec3::z() * (wish.speed * step * phase), ..Pose::identity() };
     let falling = Twist { linear: Vec3::z() * -wish.speed, angular: Vec3::zeros() };

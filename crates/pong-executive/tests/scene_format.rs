@@ -116,19 +116,20 @@ fn a_scene_is_built_with_something_else_than_it_says() {
         ..Variation::default()
     };
     let built = scene.build_varied(&variation).unwrap();
-    let names: Vec<&str> = built.simulation.world().models().map(|(_, model)| model.name.as_str()).collect();
+    let names: Vec<&str> =
+        built.simulation.world().scene().models().map(|(_, model)| model.name.as_str()).collect();
     assert_eq!(names, ["tip again", "ground again"]);
     assert_eq!(built.simulation.integrator(), Integrator::SemiImplicitEuler);
     assert_eq!((built.simulation.step_length(), built.steps), (3e-4, 1000));
     let plain = scene.build().unwrap();
-    let ball = plain.simulation.world().models().next().unwrap().1.name.clone();
+    let ball = plain.simulation.world().scene().models().next().unwrap().1.name.clone();
     assert_eq!((ball.as_str(), plain.simulation.step_length()), ("ball", 1e-4));
     // A model at hand is taken for its file, which need not be there.
-    let at_hand = plain.simulation.world().models().next().unwrap().1.clone();
+    let at_hand = plain.simulation.world().scene().models().next().unwrap().1.clone();
     let instead = |file: &Path| file.ends_with("ball.ron").then(|| at_hand.clone());
     let variation = Variation { instead: Some(&instead), ..Variation::default() };
     let built = scene.build_varied(&variation).unwrap();
-    let first = built.simulation.world().models().next().unwrap().1.clone();
+    let first = built.simulation.world().scene().models().next().unwrap().1.clone();
     assert!(std::sync::Arc::ptr_eq(&first, &at_hand));
     let unknown = scene.build_varied(&Variation { alternative: Some("line"), ..Variation::default() });
     let told = unknown.err().unwrap().to_string();

@@ -1,7 +1,7 @@
 //! Contacts that act together need shorter steps than any of them alone: at 0.99 times the step that the adviser calls
 //! surely stable nothing grows, at 1.01 times it everything does. The scenes are such that its bound is exact.
 
-use pong_engine::{Config, World};
+use pong_engine::{Config, WorldBuilder};
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
@@ -39,20 +39,21 @@ impl Rig {
         rest: Pose,
         twist: Twist,
     ) -> Self {
-        let mut world = World::new(Config::default());
+        let mut builder = WorldBuilder::new(Config::default());
         let mut objects = Vec::new();
         let texts = std::iter::once((body, 0.0)).chain(others.iter().map(|(text, at)| (text.as_str(), *at)));
         for (i, (text, _)) in texts.clone().enumerate() {
             let model =
                 pong_model::parse(text, "m", None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-            let model = world.add_model(Arc::new(model)).unwrap();
-            objects.push(world.create_object(model, &format!("o{i}")).unwrap());
+            let model = builder.add_model(Arc::new(model));
+            objects.push(builder.create_object(model, &format!("o{i}")).unwrap());
         }
         for other in &objects[1..] {
-            world.pair(objects[0], *other).unwrap();
+            builder.pair(objects[0], *other).unwrap();
         }
-        world.seal().unwrap();
-        let interfaces: Vec<_> = objects.iter().map(|object| world.interface(*object, "").unwrap()).collect();
+        let (world, _) = builder.seal().unwrap();
+        let interfaces: Vec<_> =
+            objects.iter().map(|object| world.scene().interface(*object, "").unwrap()).collect();
         let mut simulation = Simulation::new(world, integrator, step).unwrap();
         simulation.set_gravity(load / mass.mass);
         let moving = RigidBody::free("body", mass).at(rest).moving(twist).touching(interfaces[0]);

@@ -2,7 +2,7 @@
 
 use crate::scene::{Scene, Shape};
 use crate::text;
-use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World};
+use pong_engine::{Config, InterfaceId, ObjectId, State, StatusBits, WorkerSettings, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Vec3, Wrench};
 use pong_model::Fnv;
@@ -67,22 +67,23 @@ impl Stage {
         let settings = WorkerSettings { workers, oversubscribe: true, ..WorkerSettings::default() };
         let workers = (workers > 0).then_some(settings);
         let contact_capacity = capacity(scene);
-        let mut world = World::new(Config { workers, contact_capacity, ..Config::default() });
+        let mut builder = WorldBuilder::new(Config { workers, contact_capacity, ..Config::default() });
         let mut add = |body: usize, name: &str| -> Result<ObjectId, Refusal> {
             let text = text::model(&scene.bodies[body], name, name);
             let model = pong_model::parse(&text, &format!("{name}.ron"), None, &Extensions::new());
             let model = model.map_err(|errors| errors.to_string())?;
-            let model = world.add_model(Arc::new(model)).map_err(|error| error.to_string())?;
-            world.create_object(model, name).map_err(|error| error.to_string())
+            let model = builder.add_model(Arc::new(model));
+            builder.create_object(model, name).map_err(|error| error.to_string())
         };
         let objects = [add(0, "a")?, add(1, "b")?];
         let [first, second] = if scene.swapped { [objects[1], objects[0]] } else { objects };
-        let mut begin = || {
-            world.pair(first, second)?;
-            world.seal()?;
-            Ok([world.interface(objects[0], "")?, world.interface(objects[1], "")?])
+        let begin = || {
+            builder.pair(first, second)?;
+            let (world, _) = builder.seal()?;
+            let groups = [world.scene().interface(objects[0], "")?, world.scene().interface(objects[1], "")?];
+            Ok((world, groups))
         };
-        let groups = begin().map_err(|error: pong_engine::EngineError| error.to_string())?;
+        let (world, groups) = begin().map_err(|error: pong_engine::EngineError| error.to_string())?;
         Ok(Self { world, objects, groups })
     }
 

@@ -127,3 +127,9 @@ impl From<pong_engine::EngineError> for LogError {
         Self::Engine(error)
     }
 }
+
+impl From<pong_engine::SealError> for LogError {
+    fn from(error: pong_engine::SealError) -> Self {
+        Self::Engine(error.into())
+    }
+}

@@ -88,13 +88,13 @@ fn what_the_host_did_between_frames_is_done_again() {
         scene.place(n);
         scene.world.step().unwrap();
     }
-    let (model, _) = scene.world.models().next().unwrap();
+    let (model, _) = scene.world.scene().models().next().unwrap();
     let mut rubber = scene.world.surface(model, "rubber").unwrap().clone();
     rubber.stiffness = 1e4 / 3.0;
     scene.world.set_surface(model, &rubber).unwrap();
     let mut recorder =
         Recorder::start(&scene.world, &place, &scene.sources, &RecordOptions::default()).unwrap();
-    let mut block = vec![0; scene.world.state_size().unwrap()];
+    let mut block = vec![0; scene.world.state_size()];
     for n in 50..300 {
         match n {
             80 => {
@@ -243,21 +243,22 @@ fn a_law_of_the_hosts_is_asked_for_by_name() {
         laws.add_normal("foam", std::sync::Arc::new(Foam));
         laws
     };
-    let mut world = pong_engine::World::with_extensions(Default::default(), Default::default(), laws());
+    let mut builder =
+        pong_engine::WorldBuilder::with_extensions(Default::default(), Default::default(), laws());
     let model = pong_model::parse(text, "pad", None, &Default::default()).unwrap();
-    let model = world.add_model(std::sync::Arc::new(model)).unwrap();
-    let a = world.create_object(model, "a").unwrap();
-    let b = world.create_object(model, "b").unwrap();
-    world.pair(a, b).unwrap();
-    world.seal().unwrap();
+    let model = builder.add_model(std::sync::Arc::new(model));
+    let a = builder.create_object(model, "a").unwrap();
+    let b = builder.create_object(model, "b").unwrap();
+    builder.pair(a, b).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
     let source = pong_record::ModelSource::Text { text: text.to_owned(), mesh_dir: None };
     let place = folder.join("log");
     let mut recorder = Recorder::start(&world, &place, &[source], &RecordOptions::default()).unwrap();
     for n in 0..20 {
         let mut state = pong_engine::State::identity();
-        world.set_state(world.interface(a, "").unwrap(), &state).unwrap();
+        world.set_state(world.scene().interface(a, "").unwrap(), &state).unwrap();
         state.position[2] = 0.21 - 0.001 * f64::from(n);
-        world.set_state(world.interface(b, "").unwrap(), &state).unwrap();
+        world.set_state(world.scene().interface(b, "").unwrap(), &state).unwrap();
         world.step().unwrap();
         recorder.evaluated();
         recorder.committed();

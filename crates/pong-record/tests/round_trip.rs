@@ -67,8 +67,8 @@ fn states_wrenches_and_contacts_come_back_with_the_same_bits() {
         assert!(frame.contacts.iter().zip(listed).all(|(row, contact)| same_contact(row, contact)));
         for (row, contact) in frame.contacts.iter().zip(listed) {
             for (primitive, side) in [(row.primitive_a, &contact.a), (row.primitive_b, &contact.b)] {
-                let object = scene.world.object_name(side.object).unwrap();
-                let path = scene.world.primitive_path(side.interface, side.primitive).unwrap();
+                let object = scene.world.scene().object_name(side.object).unwrap();
+                let path = scene.world.scene().primitive_path(side.interface, side.primitive).unwrap();
                 assert_eq!(log.run().primitive_name(primitive as usize).unwrap(), format!("{object}/{path}"));
             }
         }

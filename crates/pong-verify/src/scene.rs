@@ -1,7 +1,7 @@
 //! Model files → sealed world → simulation.
 
 use crate::case::Failure;
-use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World};
+use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World, WorldBuilder};
 use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Vec3};
 use pong_geometry::extension::Extensions;
 use pong_model::{FrictionLaw, NormalLaw, Surface};
@@ -61,13 +61,13 @@ files![
 
 /// A world being set up from files.
 pub struct Scene {
-    pub world: World,
+    pub world: WorldBuilder,
     models: Vec<(String, ModelId)>,
 }
 
 impl Scene {
     pub fn new(ledger: bool) -> Self {
-        Self { world: World::new(Config { ledger, ..Config::default() }), models: Vec::new() }
+        Self { world: WorldBuilder::new(Config { ledger, ..Config::default() }), models: Vec::new() }
     }
 
     /// An Object from a model file; a file used twice is loaded once.
@@ -84,7 +84,7 @@ impl Scene {
         let (_, text) = found.ok_or_else(|| format!("there is no model file `{file}`"))?;
         let model = pong_model::parse(text, &format!("{file}.ron"), None, &Extensions::new())
             .map_err(|errors| errors.to_string())?;
-        let id = self.world.add_model(Arc::new(model))?;
+        let id = self.world.add_model(Arc::new(model));
         self.models.push((file.to_owned(), id));
         Ok(id)
     }
@@ -106,13 +106,13 @@ impl Scene {
 
     /// The root's Interface of an Object.
     pub fn root(&self, object: ObjectId) -> Result<InterfaceId, Failure> {
-        Ok(self.world.interface(object, "")?)
+        Ok(self.world.scene().interface(object, "")?)
     }
 
     /// Ends set-up.
-    pub fn seal(mut self) -> Result<World, Failure> {
-        self.world.seal()?;
-        Ok(self.world)
+    pub fn seal(self) -> Result<World, Failure> {
+        let (world, _) = self.world.seal()?;
+        Ok(world)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::named::Named;
 use super::stiffness;
 use crate::text::{count, number};
-use pong_engine::{Config, EngineError, SealReport, World, has_tester};
+use pong_engine::{Config, EngineError, SealReport, WorldBuilder, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{MovableGroup, printable};
 use std::collections::BTreeMap;
@@ -50,17 +50,18 @@ pub(super) fn description(a: &Named, b: &Named) -> Result<String, Vec<String>> {
 }
 
 fn sealed(a: &Named, b: &Named) -> Result<SealReport, EngineError> {
-    let mut world = World::new(Config::default());
-    let model = world.add_model(Arc::clone(&a.model))?;
-    let first = world.create_object(model, &a.name)?;
+    let mut builder = WorldBuilder::new(Config::default());
+    let model = builder.add_model(Arc::clone(&a.model));
+    let first = builder.create_object(model, &a.name)?;
     let second = if Arc::ptr_eq(&a.model, &b.model) {
         first
     } else {
-        let model = world.add_model(Arc::clone(&b.model))?;
-        world.create_object(model, &b.name)?
+        let model = builder.add_model(Arc::clone(&b.model));
+        builder.create_object(model, &b.name)?
     };
-    world.pair(first, second)?;
-    world.seal()
+    builder.pair(first, second)?;
+    let (_, report) = builder.seal()?;
+    Ok(report)
 }
 
 /// The pairs of movable groups that are tested.

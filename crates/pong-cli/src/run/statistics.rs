@@ -165,8 +165,8 @@ impl Statistics {
 fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
     let world = simulation.world();
     let passage = world.tunnelling()?;
-    let element = world.primitive_path(passage.interface, passage.primitive).ok()?;
-    let through = world.interface_path(passage.through).ok()?;
+    let element = world.scene().primitive_path(passage.interface, passage.primitive).ok()?;
+    let through = world.scene().interface_path(passage.through).ok()?;
     Some(format!("`{element}` through `{through}` at {} s", simulation.time()))
 }
 

@@ -8,7 +8,7 @@ mod testable;
 mod warnings;
 
 pub use memory::{leave_room_for_small_things, require_memory};
-pub(crate) use surfaces::{check_surface_change, surface_tables};
+pub(crate) use surfaces::surface_tables;
 pub(crate) use testable::can_be_tested;
 pub use warnings::{MetIn, SetupNote, SetupWarning};
 

@@ -2,11 +2,10 @@
 
 use super::testable::{can_be_tested, kind_name};
 use super::warnings::SetupNote;
-use crate::error::EngineError;
 use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, SurfaceTable};
-use pong_model::{FrictionLaw, LARGEST, Model, MovableGroup, NormalLaw, PairOverride, Surface, pair_entries};
+use pong_model::{FrictionLaw, Model, MovableGroup, PairOverride, Surface, pair_entries};
 use std::collections::BTreeSet;
 
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
@@ -161,72 +160,4 @@ pub(super) fn law_state_len(tables: &[SurfaceTable]) -> usize {
         _ => 0,
     });
     lens.max().unwrap_or(0)
-}
-
-/// Refuses a change of law, and values that no surface may have.
-pub(crate) fn check_surface_change(old: &Surface, new: &Surface) -> Result<(), EngineError> {
-    let bad = |cause: &str| {
-        Err(EngineError::BadValue { what: format!("surface `{}`", new.name), cause: cause.to_owned() })
-    };
-    let same_normal = match (&old.normal, &new.normal) {
-        (NormalLaw::Linear { .. }, NormalLaw::Linear { .. }) => true,
-        (NormalLaw::HuntCrossley { exponent: a, .. }, NormalLaw::HuntCrossley { exponent: b, .. }) => a == b,
-        (NormalLaw::Custom { name: a, .. }, NormalLaw::Custom { name: b, .. }) => a == b,
-        (NormalLaw::Inherited, NormalLaw::Inherited) => true,
-        _ => false,
-    };
-    let same_friction = match (&old.friction, &new.friction) {
-        (FrictionLaw::None, FrictionLaw::None)
-        | (FrictionLaw::Inherited, FrictionLaw::Inherited)
-        | (FrictionLaw::Bristle { .. }, FrictionLaw::Bristle { .. })
-        | (FrictionLaw::Coulomb { .. }, FrictionLaw::Coulomb { .. }) => true,
-        (FrictionLaw::Custom { name: a, .. }, FrictionLaw::Custom { name: b, .. }) => a == b,
-        _ => false,
-    };
-    if !same_normal || !same_friction {
-        return bad("values may change between frames, laws may not; keep the law and change its numbers");
-    }
-    if new.inherits() && new.stiffness.is_finite() {
-        return bad(
-            "it is rigid and takes a law from what it meets, so it stays rigid; name the laws in the model",
-        );
-    }
-    if new.stiffness.is_nan() || new.stiffness <= 0.0 {
-        return bad("the stiffness must be positive (infinite means rigid)");
-    }
-    let bristle = match &new.friction {
-        FrictionLaw::Bristle { stiffness, .. } => *stiffness,
-        _ => None,
-    };
-    let springs =
-        [Some(new.stiffness).filter(|k| k.is_finite()), bristle.filter(|k| k.is_finite() && *k > 0.0)];
-    if springs.into_iter().flatten().any(|k| !Surface::can_be_so_stiff(k)) {
-        let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
-        return bad(&format!(
-            "stiffnesses must lie within {least:e} and {most:e} N/m, beyond which forces are no numbers"
-        ));
-    }
-    let numbers: &[f64] = match &new.normal {
-        NormalLaw::Linear { damping, ramp } => &[*damping, *ramp],
-        NormalLaw::HuntCrossley { dissipation, .. } => &[*dissipation],
-        NormalLaw::Custom { parameters, .. } => parameters,
-        NormalLaw::Inherited => &[],
-    };
-    let custom = matches!(new.normal, NormalLaw::Custom { .. });
-    if numbers.iter().any(|x| !x.is_finite() || (!custom && !(0.0..=LARGEST).contains(x))) {
-        return bad(&format!("damping values must lie within 0 and {LARGEST:e}"));
-    }
-    let rough: &[f64] = match &new.friction {
-        FrictionLaw::None | FrictionLaw::Inherited => &[],
-        FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
-            &[*mu, *static_excess, stiffness.unwrap_or(0.0), *damping]
-        }
-        FrictionLaw::Coulomb { mu, slip_speed } if *slip_speed > 0.0 => &[*mu, *slip_speed],
-        FrictionLaw::Coulomb { .. } => return bad("the slip speed must be positive"),
-        FrictionLaw::Custom { .. } => &[],
-    };
-    if rough.iter().any(|x| !(0.0..=LARGEST).contains(x)) {
-        return bad(&format!("friction values must lie within 0 and {LARGEST:e}"));
-    }
-    Ok(())
 }

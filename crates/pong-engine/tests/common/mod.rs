@@ -1,7 +1,7 @@
 //! Small scenes for the tests, written as an author would write them.
 #![allow(dead_code)]
 
-use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World};
+use pong_engine::{Config, InterfaceId, ModelId, ObjectId, PairId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use std::sync::Arc;
@@ -53,9 +53,9 @@ pub fn surface(stiffness: f64, rest: &str) -> String {
     format!("\"s\": (stiffness: {stiffness:?}, {rest})")
 }
 
-pub fn load(world: &mut World, text: &str) -> ModelId {
+pub fn load(builder: &mut WorldBuilder, text: &str) -> ModelId {
     let model = pong_model::parse(text, "test.ron", None, &Extensions::new());
-    world.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}")))).unwrap()
+    builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}"))))
 }
 
 impl Rig {
@@ -64,13 +64,13 @@ impl Rig {
     }
 
     pub fn with_config(config: Config, a: &str, b: &str) -> Self {
-        let mut world = World::new(config);
-        let models = [a, b].map(|text| load(&mut world, text));
+        let mut builder = WorldBuilder::new(config);
+        let models = [a, b].map(|text| load(&mut builder, text));
         let objects =
-            [world.create_object(models[0], "a").unwrap(), world.create_object(models[1], "b").unwrap()];
-        let pair = world.pair(objects[0], objects[1]).unwrap();
-        let interfaces = objects.map(|object| world.interface(object, "").unwrap());
-        world.seal().unwrap();
+            [builder.create_object(models[0], "a").unwrap(), builder.create_object(models[1], "b").unwrap()];
+        let pair = builder.pair(objects[0], objects[1]).unwrap();
+        let interfaces = objects.map(|object| builder.scene().interface(object, "").unwrap());
+        let (world, _) = builder.seal().unwrap();
         Self { world, models, objects, interfaces, pair }
     }
 

@@ -4,7 +4,7 @@
 
 use pong_engine::{
     Config, Contact, ContactSide, InterfaceId, ObjectId, PairId, State, StatusBits, WorkerSettings, World,
-    WrenchCoupling,
+    WorldBuilder, WrenchCoupling,
 };
 use pong_geometry::{Vec3, Wrench};
 use std::sync::Arc;
@@ -104,23 +104,28 @@ impl Scene {
     pub fn set_up(&self, workers: Option<WorkerSettings>) -> Stage<'_> {
         let Self { contact_capacity, ledger, accounts, .. } = *self;
         let config = Config { contact_capacity, ledger, accounts, workers };
-        let mut world = match self.own_kinds {
-            true => World::with_extensions(config, crate::own_kinds::extensions(), crate::own_kinds::laws()),
-            false => World::new(config),
+        let mut builder = match self.own_kinds {
+            true => WorldBuilder::with_extensions(
+                config,
+                crate::own_kinds::extensions(),
+                crate::own_kinds::laws(),
+            ),
+            false => WorldBuilder::new(config),
         };
         let add = |text: &String| {
-            let model = pong_model::parse(text, "scene.ron", None, world.extensions());
+            let model = pong_model::parse(text, "scene.ron", None, builder.scene().extensions());
             let model = model.unwrap_or_else(|errors| panic!("{}: {errors}", self.name));
-            world.add_model(Arc::new(model)).unwrap()
+            builder.add_model(Arc::new(model))
         };
         let models: Vec<_> = self.models.iter().map(add).collect();
         let create = |(index, model): (usize, &usize)| {
-            world.create_object(models[*model], &format!("object_{index}")).unwrap()
+            builder.create_object(models[*model], &format!("object_{index}")).unwrap()
         };
         let objects: Vec<_> = self.objects.iter().enumerate().map(create).collect();
-        let pairs = self.pairs.iter().map(|&(a, b)| world.pair(objects[a], objects[b]).unwrap()).collect();
-        world.seal().unwrap_or_else(|error| panic!("{}: {error}", self.name));
-        let groups: Vec<_> = objects.iter().flat_map(|object| world.interfaces(*object).unwrap()).collect();
+        let pairs = self.pairs.iter().map(|&(a, b)| builder.pair(objects[a], objects[b]).unwrap()).collect();
+        let (world, _) = builder.seal().unwrap_or_else(|error| panic!("{}: {error}", self.name));
+        let groups: Vec<_> =
+            objects.iter().flat_map(|object| world.scene().interfaces(*object).unwrap()).collect();
         assert_eq!(groups.len(), self.paths.len(), "{}: one path per movable group", self.name);
         Stage { scene: self, world, models, objects, pairs, groups }
     }
@@ -186,7 +191,7 @@ impl Stage<'_> {
     }
 
     pub fn saved(&self) -> Vec<u8> {
-        let mut block = vec![0; self.world.state_size().unwrap()];
+        let mut block = vec![0; self.world.state_size()];
         self.world.save_state(&mut block).unwrap();
         block
     }

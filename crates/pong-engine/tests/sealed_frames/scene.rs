@@ -94,8 +94,8 @@ pub struct Seen {
 impl Bench {
     pub fn new(config: Config) -> Self {
         let extensions = extensions();
-        let mut world = World::with_extensions(config, extensions.clone(), laws());
-        world.set_clock(ticks);
+        let mut builder = WorldBuilder::with_extensions(config, extensions.clone(), laws());
+        builder.set_clock(ticks);
         let rubber = surface(
             1e5,
             "normal: Linear(damping: 100.0, ramp: 1e-4), friction: Bristle(mu: 0.4, static_excess: 0.5)",
@@ -117,25 +117,25 @@ impl Bench {
         ];
         let models = texts.map(|text| {
             let model = pong_model::parse(&text, "test.ron", None, &extensions);
-            world.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}")))).unwrap()
+            builder.add_model(Arc::new(model.unwrap_or_else(|errors| panic!("{errors}\n{text}"))))
         });
         // A mover before and one behind the ground: both orders of A and B.
         let objects =
             [(0, "first"), (1, "ground"), (0, "second"), (2, "floor"), (3, "probe"), (4, "counter")]
-                .map(|(model, name)| world.create_object(models[model], name).unwrap());
+                .map(|(model, name)| builder.create_object(models[model], name).unwrap());
         let [first, ground, second, floor, probe, counter] = objects;
         let pairs = [(first, ground), (ground, second), (first, floor), (probe, counter), (second, first)]
-            .map(|(a, b)| world.pair(a, b).unwrap());
-        world.seal().unwrap();
+            .map(|(a, b)| builder.pair(a, b).unwrap());
+        let (world, _) = builder.seal().unwrap();
         let (mut interfaces, mut kinds) = (Vec::new(), Vec::new());
         for object in [first, second, ground, floor, probe, counter] {
-            let bodies = &world.model_of(object).unwrap().bodies;
+            let bodies = &world.scene().model_of(object).unwrap().bodies;
             kinds
                 .extend(bodies.iter().map(|body| body.primitives.iter().map(|p| p.kind).collect::<Vec<_>>()));
-            interfaces.extend(world.interfaces(object).unwrap());
+            interfaces.extend(world.scene().interfaces(object).unwrap());
         }
         let states = interfaces.iter().map(|interface| (*interface, State::identity())).collect();
-        let block = vec![0; world.state_size().unwrap()];
+        let block = vec![0; world.state_size()];
         let seen = Seen::default();
         Self { world, movers: [first, second], interfaces, kinds, pairs: pairs.into(), states, block, seen }
     }

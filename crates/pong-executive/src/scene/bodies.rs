@@ -46,9 +46,9 @@ fn tell_missing(
         return;
     }
     let Some(object) = setting.objects[index] else { return };
-    for interface in setting.world.interfaces(object).unwrap_or_default() {
+    for interface in setting.world.scene().interfaces(object).unwrap_or_default() {
         if !bodies.iter().any(|body| body.interface == Some(interface)) {
-            let path = setting.world.interface_path(interface).unwrap_or_default();
+            let path = setting.world.scene().interface_path(interface).unwrap_or_default();
             let cause = format!("the movable group `{path}` has no body");
             let cure = "list it in `bodies`, if only with motion: Fixed";
             faults.note(format!("objects/{}", entry.name), cause, cure);
@@ -94,7 +94,7 @@ impl ObjectBodies<'_> {
         faults: &mut Faults<'_>,
     ) -> Pose {
         let given = pose(&entry.position.unwrap_or_default(), &entry.orientation, thing, faults);
-        let authored = interface.and_then(|id| self.setting.world.authored_pose(id).ok());
+        let authored = interface.and_then(|id| self.setting.world.scene().authored_pose(id).ok());
         let authored = authored.map_or(Pose::identity(), |x_rg| self.root.compose(&x_rg));
         let by_author = !entry.group.is_empty();
         Pose {

@@ -135,7 +135,8 @@ pub(super) fn preload(
             faults.note(&thing, cause, "name a pair of `pairs`, in its order");
             continue;
         };
-        let (pair, _) = simulation.world().pairs().nth(place).expect("every pair of the scene was made");
+        let (pair, _) =
+            simulation.world().scene().pairs().nth(place).expect("every pair of the scene was made");
         let preload = match friction {
             FrictionEntry::Sliding => FrictionPreload::Sliding,
             FrictionEntry::Holding(force) => FrictionPreload::Holding((*force).into()),

@@ -170,23 +170,22 @@ impl Scene {
         let loads = effects::loads(document, &setting, &bodies, &mut faults);
         let springs = effects::springs(document, &setting, &bodies, &mut faults);
         setting.pair(document, &mut faults);
-        let seal = setting.seal(&mut faults);
-        if !faults.list.is_empty() {
+        let (sealed, mut made) = setting.seal(&mut faults);
+        let Some((world, seal)) = sealed.filter(|_| faults.list.is_empty()) else {
             return faults.unless_any(None);
-        }
-        let world = std::mem::replace(&mut setting.world, World::new(pong_engine::Config::default()));
+        };
         let simulation = assemble(document, world, bodies, loads, springs);
         let mut simulation = simulation.map_err(|error| faults.note_line("scene", &error.to_string())).ok();
         if let Some(simulation) = &mut simulation {
-            effects::preload(document, simulation, &mut setting.warnings, &mut faults);
+            effects::preload(document, simulation, &mut made.warnings, &mut faults);
         }
-        let built = simulation.zip(seal).map(|(simulation, seal)| BuiltScene {
+        let built = simulation.map(|simulation| BuiltScene {
             name: document.name.clone(),
-            objects: scene_objects(document, &setting, &simulation),
+            objects: scene_objects(document, &made.objects, &simulation),
             simulation,
-            model_files: std::mem::take(&mut setting.model_files),
+            model_files: made.model_files,
             seal,
-            warnings: setting.warnings,
+            warnings: made.warnings,
             steps: libm::round(document.duration / document.step) as u64,
             record_every: document.record_every,
             ledger: document.ledger,
@@ -218,13 +217,13 @@ fn assemble(
 
 fn scene_objects(
     document: &Document,
-    setting: &setting::Setting,
+    objects: &[Option<ObjectId>],
     simulation: &Simulation,
 ) -> Vec<SceneObject> {
-    let entries = document.objects.iter().zip(&setting.objects);
+    let entries = document.objects.iter().zip(objects);
     let made = entries.filter_map(|(entry, object)| object.map(|object| (entry, object)));
     made.map(|(entry, object)| {
-        let interfaces = simulation.world().interfaces(object).unwrap_or_default();
+        let interfaces = simulation.world().scene().interfaces(object).unwrap_or_default();
         let body_of = |interface| {
             simulation.bodies().find(|(_, body)| body.interface == Some(interface)).map(|(id, _)| id)
         };

@@ -4,18 +4,27 @@ use super::document::Document;
 use super::error::Faults;
 use super::variation::Variation;
 use crate::integrate::Integrator;
-use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World};
+use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub(crate) struct Setting {
-    pub world: World,
+    pub world: WorldBuilder,
     /// For each object of the file; `None` where it could not be made, which has been told.
     pub objects: Vec<Option<ObjectId>>,
     /// Model of each object that could be made.
     pub models: Vec<Option<Arc<Model>>>,
+    /// The file of each model of the world, in the world's order.
+    pub model_files: Vec<PathBuf>,
+    pub warnings: Vec<String>,
+}
+
+/// What a setting made beside the world.
+pub(crate) struct Made {
+    /// For each object of the file; `None` where it could not be made.
+    pub objects: Vec<Option<ObjectId>>,
     /// The file of each model of the world, in the world's order.
     pub model_files: Vec<PathBuf>,
     pub warnings: Vec<String>,
@@ -38,7 +47,7 @@ impl Setting {
             accounts: Integrator::from(document.integrator).wrench_coupling().filter(|_| document.ledger),
         };
         let mut setting = Self {
-            world: World::with_extensions(config, extensions.clone(), Laws::default()),
+            world: WorldBuilder::with_extensions(config, extensions.clone(), Laws::default()),
             objects: Vec::new(),
             models: Vec::new(),
             model_files: Vec::new(),
@@ -48,7 +57,7 @@ impl Setting {
         setting.warnings =
             named.iter().flat_map(|(_, model)| model.iter().flat_map(|m| m.warnings.clone())).collect();
         setting.create_objects(document, &named, faults);
-        let files = setting.world.models().map(|(_, added)| {
+        let files = setting.world.scene().models().map(|(_, added)| {
             let name = named.iter().find(|(_, model)| model.as_ref().is_some_and(|m| Arc::ptr_eq(m, added)));
             let file = name.and_then(|(name, _)| document.models.iter().find(|(other, _)| other == name));
             folder.join(file.map_or("", |(_, file)| file))
@@ -73,14 +82,8 @@ impl Setting {
             }
             let model = found.and_then(|index| named[index].1.clone().map(|model| (index, model)));
             let made = model.as_ref().and_then(|(index, model)| {
-                let made = match ids[*index] {
-                    Some(id) => Ok(id),
-                    None => self.world.add_model(Arc::clone(model)),
-                };
-                let made = made.and_then(|id| {
-                    ids[*index] = Some(id);
-                    self.world.create_object(id, &entry.name)
-                });
+                let id = *ids[*index].get_or_insert_with(|| self.world.add_model(Arc::clone(model)));
+                let made = self.world.create_object(id, &entry.name);
                 made.map_err(|error| faults.note_line(&thing, &error.to_string())).ok()
             });
             self.objects.push(made);
@@ -105,7 +108,7 @@ impl Setting {
         };
         // An object that could not be made has been told.
         let id = self.objects[index]?;
-        match self.world.interface(id, path) {
+        match self.world.scene().interface(id, path) {
             Ok(interface) => Some(interface),
             Err(error) => {
                 faults.note_line(thing, &error.to_string());
@@ -130,15 +133,16 @@ impl Setting {
         }
     }
 
-    pub fn seal(&mut self, faults: &mut Faults<'_>) -> Option<SealReport> {
-        match self.world.seal() {
-            Ok(report) => return Some(report),
-            Err(EngineError::Seal { problems }) => {
+    /// The sealed world, and what is left of the setting.
+    pub fn seal(self, faults: &mut Faults<'_>) -> (Option<(World, SealReport)>, Made) {
+        let Self { world, objects, model_files, warnings, .. } = self;
+        let sealed = world.seal().map_err(EngineError::from).map_err(|error| match error {
+            EngineError::Seal { problems } => {
                 problems.iter().for_each(|problem| faults.note_line("pairs", problem));
             }
-            Err(error) => faults.note_line("pairs", &error.to_string()),
-        }
-        None
+            error => faults.note_line("pairs", &error.to_string()),
+        });
+        (sealed.ok(), Made { objects, model_files, warnings })
     }
 }
 

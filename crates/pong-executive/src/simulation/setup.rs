@@ -20,7 +20,7 @@ impl Simulation {
                 let cure = "give each movable group one body";
                 return Err(ExecutiveError::invalid(what, "its Interface already has a body", cure));
             }
-            self.system.world.interface_path(interface)?;
+            self.system.world.scene().interface_path(interface)?;
         }
         let mut inertia = None;
         match &body.motion {

@@ -137,7 +137,7 @@ impl Simulation {
         let mut energy = self.system.energy(&self.states);
         energy.spring_loss = self.spring_loss;
         energy.work_in = self.work_in;
-        if let Some(work) = self.contact_work.filter(|_| self.world().keeps_ledger()) {
+        if let Some(work) = self.contact_work.filter(|_| self.world().scene().keeps_ledger()) {
             energy.contact_loss = -work - energy.contacts;
         }
         energy

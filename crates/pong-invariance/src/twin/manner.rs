@@ -61,7 +61,7 @@ pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
                 answers.push(stage.step(states)?);
             }
             let mut block = Vec::new();
-            stage.world.save_state_packed(&mut block).map_err(|error| error.to_string())?;
+            stage.world.save_state_packed(&mut block);
             let mut other = Stage::set_up(scene, 0)?;
             other.world.restore_state(&block).map_err(|error| error.to_string())?;
             for states in &scene.frames[half..] {

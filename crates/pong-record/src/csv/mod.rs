@@ -35,7 +35,7 @@ impl Look {
     /// Gathers what the rows refer to.
     ///
     /// # Errors
-    /// A world that is not sealed.
+    /// Whatever the engine refuses.
     pub fn new(world: &World) -> Result<Self, LogError> {
         let run = describe(world, Vec::new(), &RecordOptions::default())?;
         Ok(Self { run, capture: Capture::new(world, false)? })

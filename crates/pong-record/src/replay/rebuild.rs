@@ -3,7 +3,7 @@
 use super::options::ReplayOptions;
 use crate::error::LogError;
 use crate::read::Log;
-use pong_engine::{Config, ModelId, World};
+use pong_engine::{Config, ModelId, Scene, World, WorldBuilder};
 use pong_model::Model;
 use std::sync::Arc;
 
@@ -29,8 +29,10 @@ pub(super) fn world(
         workers: options.workers.clone(),
         accounts: run.energy_accounts.map(Into::into),
     };
-    let mut world = World::with_extensions(config, options.extensions.clone(), options.laws.clone());
-    if let Some(law) = run.laws.iter().find(|law| !world.law_names().any(|known| known == law.as_str())) {
+    let mut builder = WorldBuilder::with_extensions(config, options.extensions.clone(), options.laws.clone());
+    if let Some(law) =
+        run.laws.iter().find(|law| !builder.scene().law_names().any(|known| known == law.as_str()))
+    {
         let cause = format!("force law `{law}` was the host's own and is not in the log");
         return Err(LogError::refused(
             cause,
@@ -40,10 +42,10 @@ pub(super) fn world(
     let mut models = Vec::new();
     for (index, model) in run.models.iter().enumerate() {
         if let Some(at_hand) = other.instead.and_then(|instead| instead(index)) {
-            models.push(world.add_model(at_hand)?);
+            models.push(builder.add_model(at_hand));
             continue;
         }
-        let loaded = load_model(&world, log, index, &model.name, model.hash)?;
+        let loaded = load_model(builder.scene(), log, index, &model.name, model.hash)?;
         let wanted = match other.rewrite {
             None => Ok(loaded),
             Some(rewrite) => rewrite(index, loaded),
@@ -52,25 +54,25 @@ pub(super) fn world(
             let (cause, cure) = line.split_once("; ").unwrap_or((&line, "leave the model as it is"));
             LogError::Model { name: model.name.clone(), cause: cause.to_owned(), cure: cure.to_owned() }
         })?;
-        models.push(world.add_model(Arc::new(wanted))?);
+        models.push(builder.add_model(Arc::new(wanted)));
     }
     let mut objects = Vec::new();
     for object in &run.objects {
-        objects.push(world.create_object(models[object.model], &object.name)?);
+        objects.push(builder.create_object(models[object.model], &object.name)?);
     }
     for [a, b] in &run.pairs {
-        world.pair(objects[*a], objects[*b])?;
+        builder.pair(objects[*a], objects[*b])?;
     }
-    world.seal()?;
+    let (world, _) = builder.seal()?;
     check(&world, log, options)?;
     Ok((world, models))
 }
 
-fn load_model(world: &World, log: &Log, index: usize, name: &str, hash: u64) -> Result<Model, LogError> {
+fn load_model(scene: &Scene, log: &Log, index: usize, name: &str, hash: u64) -> Result<Model, LogError> {
     let path = log.model_path(index).unwrap_or_default();
     let fails =
         |cause: String, cure: &str| LogError::Model { name: name.to_owned(), cause, cure: cure.to_owned() };
-    let model = pong_model::load(&path, world.extensions()).map_err(|errors| {
+    let model = pong_model::load(&path, scene.extensions()).map_err(|errors| {
         fails(
             errors.to_string(),
             "use another copy of the log; kinds of the host's own need a program that knows them",
@@ -84,10 +86,10 @@ fn load_model(world: &World, log: &Log, index: usize, name: &str, hash: u64) -> 
 }
 
 fn check(world: &World, log: &Log, options: &ReplayOptions) -> Result<(), LogError> {
-    let (run, hash) = (log.run(), world.scene_hash()?);
+    let (run, hash) = (log.run(), world.scene_hash());
     let mut columns = 0;
-    for object in world.objects() {
-        columns += world.interfaces(object)?.len();
+    for object in world.scene().objects() {
+        columns += world.scene().interfaces(object)?.len();
     }
     if columns != run.bodies.len() {
         let cause = format!("it has {} bodies, its models have {columns}", run.bodies.len());

@@ -41,17 +41,17 @@ impl Replay {
         world: World,
         models: Vec<ModelId>,
     ) -> Result<Self, LogError> {
-        let objects: Vec<ObjectId> = world.objects().collect();
+        let objects: Vec<ObjectId> = world.scene().objects().collect();
         let mut bodies = Vec::new();
         for object in &objects {
-            bodies.extend(world.interfaces(*object)?);
+            bodies.extend(world.scene().interfaces(*object)?);
         }
         let mut events = log.events().to_vec();
         // Word of events that were lost comes later than they would have.
         events.sort_by_key(|event| event.frame);
         Ok(Self {
             comparison: Comparison::new(Capture::new(&world, false)?, bodies.clone(), options.tolerance),
-            pairs: world.pairs().map(|(pair, _)| pair).collect(),
+            pairs: world.scene().pairs().map(|(pair, _)| pair).collect(),
             world,
             models,
             objects,

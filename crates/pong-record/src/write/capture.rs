@@ -22,9 +22,9 @@ impl Capture {
         let mut bodies = Vec::new();
         let mut first_primitive = Vec::new();
         let mut primitives = 0;
-        for object in world.objects() {
-            bodies.extend(world.interfaces(object)?);
-            for body in &world.model_of(object)?.bodies {
+        for object in world.scene().objects() {
+            bodies.extend(world.scene().interfaces(object)?);
+            for body in &world.scene().model_of(object)?.bodies {
                 first_primitive.push(primitives);
                 primitives += body.primitives.len() as u32;
             }

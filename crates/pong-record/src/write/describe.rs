@@ -15,9 +15,9 @@ pub(crate) fn describe(
 ) -> Result<Run, EngineError> {
     let mut objects = Vec::new();
     let (mut bodies, mut primitives) = (Vec::new(), Vec::new());
-    for object in world.objects() {
-        let name = world.object_name(object)?;
-        let model = world.model_of(object)?;
+    for object in world.scene().objects() {
+        let name = world.scene().object_name(object)?;
+        let model = world.scene().model_of(object)?;
         let first = bodies.len();
         for body in &model.bodies {
             primitives.extend(body.primitives.iter().map(|primitive| RunPrimitive {
@@ -33,7 +33,7 @@ pub(crate) fn describe(
                 parent: body.parent.map(|parent| first + parent as usize),
             });
         }
-        objects.push(RunObject { name: name.to_owned(), model: world.model_id_of(object)?.index() });
+        objects.push(RunObject { name: name.to_owned(), model: world.scene().model_id_of(object)?.index() });
     }
     let names = [FrameRow::TABLE, StateRow::TABLE, WrenchRow::TABLE, ContactRow::TABLE];
     let names = names.into_iter().chain(options.energies.then_some(EnergyRow::TABLE));
@@ -43,18 +43,18 @@ pub(crate) fn describe(
         name: options.name.clone(),
         writer: options.writer.clone(),
         engine: env!("CARGO_PKG_VERSION").to_owned(),
-        scene_hash: world.scene_hash()?,
+        scene_hash: world.scene_hash(),
         step: options.step,
         commits_per_frame: options.commits_per_frame,
         integrator: options.integrator.clone(),
-        contact_capacity: Some(world.contact_capacity()? as u64),
-        ledger: world.keeps_ledger(),
-        energy_accounts: world.wrench_coupling().map(Into::into),
-        laws: world.law_names().map(str::to_owned).collect(),
+        contact_capacity: Some(world.contact_capacity() as u64),
+        ledger: world.scene().keeps_ledger(),
+        energy_accounts: world.scene().wrench_coupling().map(Into::into),
+        laws: world.scene().law_names().map(str::to_owned).collect(),
         models,
         objects,
         bodies,
-        pairs: world.pairs().map(|(_, pair)| pair.map(|object| object.index())).collect(),
+        pairs: world.scene().pairs().map(|(_, pair)| pair.map(|object| object.index())).collect(),
         primitives,
         tables: names.map(|name| (name.to_owned(), RunTable { file: file(name), rows: None })).collect(),
         finished: false,

@@ -27,17 +27,18 @@ pub(super) const FOLDER: &str = "models";
 
 /// Copies the models of a world into the folder of a log, and makes sure that the copies are what the world has.
 pub(super) fn keep(world: &World, sources: &[ModelSource], folder: &Path) -> Result<Vec<RunModel>, LogError> {
-    if sources.len() != world.models().len() {
-        let cause = format!("{} sources are given for {} models", sources.len(), world.models().len());
+    if sources.len() != world.scene().models().len() {
+        let cause =
+            format!("{} sources are given for {} models", sources.len(), world.scene().models().len());
         return Err(LogError::refused(
             cause,
             "give one for each model, in the order in which they were added",
         ));
     }
     let mut taken = BTreeSet::new();
-    let models = world.models().zip(sources);
+    let models = world.scene().models().zip(sources);
     models
-        .map(|((_, model), source)| keep_one(world.extensions(), model, source, folder, &mut taken))
+        .map(|((_, model), source)| keep_one(world.scene().extensions(), model, source, folder, &mut taken))
         .collect()
 }
 

@@ -92,17 +92,17 @@ impl Recorder {
     /// may begin at any time.
     ///
     /// # Errors
-    /// A folder that cannot be written or holds a log, a model whose files have changed, a world that is not sealed.
+    /// A folder that cannot be written or holds a log, a model whose files have changed.
     pub fn start(
         world: &World,
         folder: &Path,
         models: &[ModelSource],
         options: &RecordOptions,
     ) -> Result<Self, LogError> {
-        let state_size = world.state_size()?;
+        let state_size = world.state_size();
         let mut capture = Capture::new(world, options.energies)?;
-        let frame = capture.size(world.contact_capacity()?);
-        let pairs = world.pairs().len();
+        let frame = capture.size(world.contact_capacity());
+        let pairs = world.scene().pairs().len();
         let line = LINE + pairs * DIGITS_OF_A_PAIR;
         let least = (2 * message::room(&[line, frame])).max(message::room(&[BLOCK_HEAD + state_size]));
         let wanted = options.buffer_bytes.unwrap_or(BUFFER).max(least) + ROOM_FOR_EVENTS;
@@ -343,19 +343,19 @@ impl Recorder {
     }
 
     fn tell_how_it_begins(&mut self, world: &World, mut block: Vec<u8>) -> Result<(), LogError> {
-        for (id, model) in world.models() {
+        for (id, model) in world.scene().models() {
             let surfaces = world.surfaces(id)?.iter().zip(&model.surfaces);
             for (surface, _) in surfaces.filter(|(now, authored)| now != authored) {
                 self.surface_set(id, surface);
             }
         }
-        for (pair, _) in world.pairs() {
+        for (pair, _) in world.scene().pairs() {
             if !world.pair_enabled(pair)? {
                 self.pair_switched(pair, false);
             }
         }
         if world.has_contact_state() {
-            world.save_state_packed(&mut block)?;
+            world.save_state_packed(&mut block);
             self.restored(&block);
         }
         Ok(())

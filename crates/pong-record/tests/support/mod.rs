@@ -2,7 +2,7 @@
 
 #![allow(dead_code)] // Each test uses some of it.
 
-use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World};
+use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::{Path, PathBuf};
@@ -41,17 +41,17 @@ pub fn scene(folder: &Path) -> Scene {
     std::fs::write(given.join("ground.ron"), GROUND).unwrap();
     std::fs::write(given.join("floor.obj"), FLOOR).unwrap();
     let ext = Extensions::new();
-    let mut world = World::new(Config { contact_capacity: Some(64), ..Config::default() });
+    let mut builder = WorldBuilder::new(Config { contact_capacity: Some(64), ..Config::default() });
     let cart_model = pong_model::parse(CART, "cart", None, &ext).unwrap();
-    let cart_model = world.add_model(Arc::new(cart_model)).unwrap();
+    let cart_model = builder.add_model(Arc::new(cart_model));
     let ground_model = pong_model::load(&given.join("ground.ron"), &ext).unwrap();
-    let ground_model = world.add_model(Arc::new(ground_model)).unwrap();
-    let cart = world.create_object(cart_model, "cart").unwrap();
-    let ground = world.create_object(ground_model, "ground").unwrap();
-    let pair = world.pair(cart, ground).unwrap();
-    world.seal().unwrap();
-    let mut bodies = world.interfaces(cart).unwrap();
-    bodies.extend(world.interfaces(ground).unwrap());
+    let ground_model = builder.add_model(Arc::new(ground_model));
+    let cart = builder.create_object(cart_model, "cart").unwrap();
+    let ground = builder.create_object(ground_model, "ground").unwrap();
+    let pair = builder.pair(cart, ground).unwrap();
+    let (world, _) = builder.seal().unwrap();
+    let mut bodies = world.scene().interfaces(cart).unwrap();
+    bodies.extend(world.scene().interfaces(ground).unwrap());
     let text = ModelSource::Text { text: CART.to_owned(), mesh_dir: None };
     Scene { world, bodies, cart, pair, sources: vec![text, ModelSource::File(given.join("ground.ron"))] }
 }

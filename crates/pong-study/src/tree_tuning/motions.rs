@@ -52,9 +52,9 @@ pub(crate) struct Snapshot {
 
 impl Snapshot {
     pub fn take(world: &World, reader: &mut Reader) -> Result<Self, EngineError> {
-        let block = reader.block(world)?.to_vec();
-        let pairs = world.pairs().map(|(pair, _)| world.pair_enabled(pair));
-        let surfaces = world.models().map(|(model, _)| Ok(world.surfaces(model)?.to_vec()));
+        let block = reader.block(world).to_vec();
+        let pairs = world.scene().pairs().map(|(pair, _)| world.pair_enabled(pair));
+        let surfaces = world.scene().models().map(|(model, _)| Ok(world.surfaces(model)?.to_vec()));
         Ok(Self {
             block,
             enabled: pairs.collect::<Result<_, _>>()?,
@@ -64,13 +64,13 @@ impl Snapshot {
 
     /// Gives a world of the same calls what is known here.
     pub fn restore(&self, world: &mut World) -> Result<(), EngineError> {
-        let pairs: Vec<_> = world.pairs().map(|(pair, _)| pair).collect();
+        let pairs: Vec<_> = world.scene().pairs().map(|(pair, _)| pair).collect();
         for (pair, enabled) in pairs.into_iter().zip(&self.enabled) {
             if world.pair_enabled(pair)? != *enabled {
                 world.set_pair_enabled(pair, *enabled)?;
             }
         }
-        let models: Vec<_> = world.models().map(|(model, _)| model).collect();
+        let models: Vec<_> = world.scene().models().map(|(model, _)| model).collect();
         for (model, surfaces) in models.into_iter().zip(&self.surfaces) {
             for surface in surfaces {
                 if world.surface(model, &surface.name)? != surface {

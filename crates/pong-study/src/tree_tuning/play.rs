@@ -48,8 +48,8 @@ impl Held {
 /// All movable groups of a world.
 pub(crate) fn bodies(world: &World) -> Result<Vec<InterfaceId>, EngineError> {
     let mut bodies = Vec::new();
-    for object in world.objects() {
-        bodies.extend(world.interfaces(object)?);
+    for object in world.scene().objects() {
+        bodies.extend(world.scene().interfaces(object)?);
     }
     Ok(bodies)
 }
@@ -57,7 +57,7 @@ pub(crate) fn bodies(world: &World) -> Result<Vec<InterfaceId>, EngineError> {
 impl Player {
     pub fn new(held: Held) -> Result<Self, EngineError> {
         let bodies = bodies(held.world())?;
-        let pairs = held.world().pairs().map(|(pair, _)| pair).collect();
+        let pairs = held.world().scene().pairs().map(|(pair, _)| pair).collect();
         Ok(Self { held, bodies, pairs, states: Vec::new() })
     }
 

@@ -179,13 +179,13 @@ fn run_time(_: Length) -> Outcome {
         refused += usize::from(named && tried.world.report() == before);
         different += usize::from(roll(&mut clean, frame)? != roll(&mut tried, frame)?);
     }
-    let mut fresh = pong_engine::World::new(pong_engine::Config::default());
+    let mut fresh = pong_engine::WorldBuilder::new(pong_engine::Config::default());
     let text = model(&spring(1e5), "Point(name: \"x\", position: (0,0,0))");
     let parsed = pong_model::parse(&text, "extreme.ron", None, &Extensions::new());
-    let id = fresh.add_model(std::sync::Arc::new(parsed.map_err(|errors| errors.to_string())?))?;
+    let id = fresh.add_model(std::sync::Arc::new(parsed.map_err(|errors| errors.to_string())?));
     let (a, b) = (fresh.create_object(id, "left")?, fresh.create_object(id, "right")?);
     fresh.pair(a, b)?;
-    fresh.seal()?;
+    let (mut fresh, _) = fresh.seal()?;
     let unset = fresh.evaluate().is_err_and(|error| error.to_string().contains("left/part"));
     Ok(vec![
         Row::count("bad states refused by name of 1000", 1000, refused),

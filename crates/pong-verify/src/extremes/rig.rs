@@ -1,7 +1,7 @@
 //! Small scenes of two Objects, written as an author would write them.
 
 use crate::case::Failure;
-use pong_engine::{Config, Contact, InterfaceId, State, World};
+use pong_engine::{Config, Contact, InterfaceId, State, World, WorldBuilder};
 use pong_executive::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_geometry::extension::Extensions;
 use std::sync::Arc;
@@ -18,16 +18,16 @@ impl Rig {
     }
 
     pub fn with(config: Config, a: &str, b: &str) -> Result<Self, Failure> {
-        let mut world = World::new(config);
+        let mut builder = WorldBuilder::new(config);
         let mut objects = Vec::new();
         for (name, text) in [("a", a), ("b", b)] {
             let model = pong_model::parse(text, "extreme.ron", None, &Extensions::new());
-            let model = world.add_model(Arc::new(model.map_err(|errors| errors.to_string())?))?;
-            objects.push(world.create_object(model, name)?);
+            let model = builder.add_model(Arc::new(model.map_err(|errors| errors.to_string())?));
+            objects.push(builder.create_object(model, name)?);
         }
-        world.pair(objects[0], objects[1])?;
-        world.seal()?;
-        let sides = [world.interface(objects[0], "")?, world.interface(objects[1], "")?];
+        builder.pair(objects[0], objects[1])?;
+        let (mut world, _) = builder.seal()?;
+        let sides = [world.scene().interface(objects[0], "")?, world.scene().interface(objects[1], "")?];
         world.set_states(&sides.map(|side| (side, State::identity())))?;
         Ok(Self { world, sides })
     }

@@ -117,7 +117,7 @@ fn aim(random: &mut Random, from: f64) -> Shot {
 fn fly(rig: &mut Rig, shot: &Shot, clear: f64) -> Result<(bool, Vec3), Failure> {
     let (mut place, mut velocity, mut told) = (shot.place, shot.velocity, false);
     for interface in rig.sides {
-        rig.world.clear_contact_history(rig.world.object(if interface == rig.sides[0] {
+        rig.world.clear_contact_history(rig.world.scene().object(if interface == rig.sides[0] {
             "a"
         } else {
             "b"
@@ -240,7 +240,7 @@ fn misses(_: Length) -> Outcome {
 /// Straight on for as many frames as it takes to be beyond the wall: whether a passage was told, and a contact found.
 fn pass_by(rig: &mut Rig, shot: &Shot) -> Result<(bool, bool), Failure> {
     for name in ["a", "b"] {
-        rig.world.clear_contact_history(rig.world.object(name)?)?;
+        rig.world.clear_contact_history(rig.world.scene().object(name)?)?;
     }
     let (mut told, mut touched) = (false, false);
     // The way to the wall and as far again, a few hundred frames at most: slow ones begin close by.

@@ -4,7 +4,7 @@ use crate::contact::{Contact, ContactSide};
 use crate::energy::account::EnergyAccount;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact::FrameContact;
-use crate::ids::{InterfaceId, ObjectId, PairId, WorldStamp};
+use crate::ids::{InterfaceId, ObjectId, PairId};
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::ContactRole;
@@ -16,9 +16,8 @@ impl EvaluationBuffers {
         &'a self,
         scene: &'a Scene,
         sealed: &'a Sealed,
-        stamp: WorldStamp,
     ) -> impl Iterator<Item = Contact> + 'a {
-        self.pushing().map(move |contact| self.list_contact(contact, scene, sealed, stamp))
+        self.pushing().map(move |contact| self.list_contact(contact, scene, sealed))
     }
 
     /// Accounts of the contacts that push, in key order.
@@ -32,13 +31,7 @@ impl EvaluationBuffers {
         })
     }
 
-    fn list_contact(
-        &self,
-        contact: &FrameContact,
-        scene: &Scene,
-        sealed: &Sealed,
-        stamp: WorldStamp,
-    ) -> Contact {
+    fn list_contact(&self, contact: &FrameContact, scene: &Scene, sealed: &Sealed) -> Contact {
         let pair = &sealed.group_pairs[contact.found.key.group_pair as usize];
         let flipped = contact.found.key.flipped as usize;
         let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
@@ -46,8 +39,8 @@ impl EvaluationBuffers {
         let x_wb = &self.poses[body_b];
         let to_common = |v: &Vec3| x_wb.orientation * v;
         let side = |body: usize, primitive: u32, element: u32, arm: Vec3| ContactSide {
-            object: ObjectId::new(stamp, scene.bodies[body].object),
-            interface: InterfaceId::new(stamp, body),
+            object: ObjectId::new(scene.stamp, scene.bodies[body].object),
+            interface: InterfaceId::new(scene.stamp, body),
             primitive,
             element: element - scene.body(body).primitives[primitive as usize].elements.start,
             arm,
@@ -55,7 +48,7 @@ impl EvaluationBuffers {
         let arm_a = to_common(&(contact.point - x_ba.translation));
         let arm_b = to_common(&contact.point);
         Contact {
-            pair: PairId::new(stamp, pair.pair),
+            pair: PairId::new(scene.stamp, pair.pair),
             a: side(body_a, contact.found.key.primitive_a, contact.found.element_a, arm_a),
             b: side(body_b, contact.found.primitive_b, contact.found.element_b, arm_b),
             feature: contact.found.feature.0,

@@ -1,7 +1,7 @@
 //! Logs whose host did more than to hand in states.
 
 use super::{BALL, Folder, Ready, SHEET, model};
-use pong_engine::{Config, State, World};
+use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::PathBuf;
@@ -10,20 +10,20 @@ use std::sync::Arc;
 /// A log of 300 frames in which a pair is switched, a surface set, a ball forgotten, and not every frame committed.
 fn log(folder: &Folder) -> PathBuf {
     let ext = Extensions::new();
-    let mut world = World::new(Config { contact_capacity: Some(64), ..Config::default() });
+    let mut builder = WorldBuilder::new(Config { contact_capacity: Some(64), ..Config::default() });
     let mut objects = Vec::new();
     let mut sources = Vec::new();
     for (name, root) in [("ball", BALL), ("sheet", SHEET)] {
         let text = model(name, root);
         let loaded = pong_model::parse(&text, name, None, &ext).unwrap();
-        let id = world.add_model(Arc::new(loaded)).unwrap();
-        objects.push((id, world.create_object(id, name).unwrap()));
+        let id = builder.add_model(Arc::new(loaded));
+        objects.push((id, builder.create_object(id, name).unwrap()));
         sources.push(ModelSource::Text { text, mesh_dir: None });
     }
     let (ball, sheet) = (objects[0].1, objects[1].1);
-    let pair = world.pair(ball, sheet).unwrap();
-    world.seal().unwrap();
-    let bodies = [world.interfaces(ball).unwrap()[0], world.interfaces(sheet).unwrap()[0]];
+    let pair = builder.pair(ball, sheet).unwrap();
+    let (mut world, _) = builder.seal().unwrap();
+    let bodies = [world.scene().interfaces(ball).unwrap()[0], world.scene().interfaces(sheet).unwrap()[0]];
     let place = folder.0.join("log");
     let mut recorder = Recorder::start(&world, &place, &sources, &RecordOptions::default()).unwrap();
     for n in 0..300_u32 {

@@ -1,53 +1,9 @@
-//! Everything that set-up decides, and the states that the host sets.
+//! The states that the host sets.
 
-use crate::energy::account::WrenchCoupling;
-use crate::law::registry::Laws;
-use pong_geometry::extension::Extensions;
+use super::Scene;
+use crate::error::EngineError;
+use crate::ids::InterfaceId;
 use pong_geometry::{Pose, Twist, Vec3};
-use pong_model::{Model, MovableGroup};
-pub use pong_threads::Settings as WorkerSettings;
-use std::sync::Arc;
-
-/// Settings of a world.
-#[derive(Clone, Debug, Default)]
-pub struct Config {
-    /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
-    /// 65,536. When a frame has more,
-    /// the deepest are kept and a status bit is set.
-    pub contact_capacity: Option<usize>,
-    /// Whether energies are kept (docs/theory.md, 6).
-    pub ledger: bool,
-    /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
-    /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).
-    pub accounts: Option<WrenchCoupling>,
-    /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
-    /// are the same bits.
-    pub workers: Option<WorkerSettings>,
-}
-
-/// An instance of a model.
-#[derive(Clone, Debug)]
-pub(crate) struct Object {
-    pub name: String,
-    pub model: usize,
-    /// Its movable groups are consecutive bodies from this one on.
-    pub first_body: usize,
-}
-
-/// One movable group of one Object.
-#[derive(Clone, Debug)]
-pub(crate) struct GroupInstance {
-    pub object: usize,
-    /// Index into the model's bodies.
-    pub body: usize,
-}
-
-/// Two Objects that are tested.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ObjectPair {
-    pub a: usize,
-    pub b: usize,
-}
 
 /// What the host sets at any time.
 #[derive(Clone, Debug, Default)]
@@ -58,35 +14,29 @@ pub(crate) struct States {
     pub enabled: Vec<bool>,
 }
 
-/// Everything that set-up decides and that nothing changes once the world is sealed.
-pub(crate) struct Scene {
-    pub config: Config,
-    pub extensions: Extensions,
-    pub laws: Laws,
-    pub models: Vec<Arc<Model>>,
-    pub objects: Vec<Object>,
-    pub bodies: Vec<GroupInstance>,
-    pub pairs: Vec<ObjectPair>,
-    /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
-    pub room_per_pair: usize,
-}
-
-impl Scene {
-    /// The model's body behind a movable group.
-    pub fn body(&self, instance: usize) -> &MovableGroup {
-        let instance = &self.bodies[instance];
-        &self.models[self.objects[instance.object].model].bodies[instance.body]
+impl States {
+    /// Sets the states of movable groups: all of them, or, if any is refused, none. Answers whether any differs from the one
+    /// that was set before.
+    pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
+        for (interface, state) in states {
+            let body = scene.body_index(*interface)?;
+            check_state(state)
+                .map_err(|cause| EngineError::BadState { interface: scene.body_name(body), cause })?;
+        }
+        let mut changed = false;
+        for (interface, state) in states {
+            let known = &mut self.bodies[scene.body_index(*interface)?];
+            if known.as_ref() != Some(state) {
+                *known = Some(*state);
+                changed = true;
+            }
+        }
+        Ok(changed)
     }
 
-    /// The model behind a movable group.
-    pub fn model_of_body(&self, instance: usize) -> &Model {
-        &self.models[self.objects[self.bodies[instance].object].model]
-    }
-
-    /// `object/path` of a movable group, for messages.
-    pub fn body_name(&self, instance: usize) -> String {
-        let object = &self.objects[self.bodies[instance].object];
-        format!("{}/{}", object.name, self.body(instance).path)
+    /// The state last set for a movable group, as it was set; `None` if never.
+    pub fn of(&self, scene: &Scene, interface: InterfaceId) -> Result<Option<&State>, EngineError> {
+        Ok(self.bodies[scene.body_index(interface)?].as_ref())
     }
 }
 
@@ -143,7 +93,7 @@ impl State {
 }
 
 /// What is wrong with a state, if anything.
-pub(crate) fn check_state(state: &State) -> Result<(), String> {
+fn check_state(state: &State) -> Result<(), String> {
     let named: [(&str, &[f64]); 4] = [
         ("position", &state.position),
         ("orientation", &state.orientation),

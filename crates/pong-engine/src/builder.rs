@@ -1,0 +1,276 @@
+//! Set-up: models, Objects and pairs, until they are sealed into a world.
+
+use crate::error::EngineError;
+use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
+use crate::law::registry::Laws;
+use crate::report::Clock;
+use crate::running::Running;
+use crate::scene::{Config, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
+use crate::seal::{self, SealReport};
+use crate::world::World;
+use pong_geometry::extension::Extensions;
+use pong_model::{Model, Surface};
+use std::sync::Arc;
+
+/// A world in set-up: it takes models, Objects, pairs and laws, and [`seal`](Self::seal) makes a [`World`] of them, which
+/// computes frames. What belongs to frames is no method of the builder, and set-up is none of the world, so that a call in
+/// the wrong phase does not compile.
+///
+/// A frame before the seal:
+///
+/// ```compile_fail,E0599
+/// use pong_engine::{Config, WorldBuilder};
+///
+/// let mut builder = WorldBuilder::new(Config::default());
+/// builder.evaluate();
+/// ```
+///
+/// A pair after it:
+///
+/// ```compile_fail,E0599
+/// # use pong_engine::{Config, EngineError, ObjectId, WorldBuilder};
+/// # fn late(a: ObjectId, b: ObjectId) -> Result<(), EngineError> {
+/// let (mut world, _) = WorldBuilder::new(Config::default()).seal()?;
+/// world.pair(a, b);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// The right order:
+///
+/// ```
+/// # use pong_engine::{Config, EngineError, State, WorldBuilder};
+/// # use std::sync::Arc;
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// let text = r#"(format: "pong-model", version: 1, name: "ball", surfaces: {"steel": (stiffness: 1e6)},
+///     root: (name: "ball", surface: "steel", primitives: [Sphere(name: "s", center: (0, 0, 0), radius: 0.1)]))"#;
+/// let mut builder = WorldBuilder::new(Config::default());
+/// let model = pong_model::parse(text, "ball.ron", None, builder.scene().extensions())?;
+/// let model = builder.add_model(Arc::new(model));
+/// let (a, b) = (builder.create_object(model, "a")?, builder.create_object(model, "b")?);
+/// builder.pair(a, b)?;
+/// let (mut world, report) = builder.seal()?;
+/// assert_eq!(report.group_pairs, 1);
+/// for (object, x) in [(a, 0.0), (b, 1.0)] {
+///     let interface = world.scene().interface(object, "")?;
+///     world.set_state(interface, &State { position: [x, 0.0, 0.0], ..State::identity() })?;
+/// }
+/// world.step()?;
+/// assert_eq!(world.contact_count(), 0);
+/// # Ok(())
+/// # }
+/// ```
+pub struct WorldBuilder {
+    scene: Scene,
+    surfaces: Surfaces,
+    states: States,
+    clock: Clock,
+}
+
+impl WorldBuilder {
+    /// An empty world.
+    pub fn new(config: Config) -> Self {
+        Self::with_extensions(config, Extensions::new(), Laws::default())
+    }
+
+    /// An empty world that knows the user's own kinds of primitives and bounding volumes, and laws.
+    pub fn with_extensions(config: Config, extensions: Extensions, laws: Laws) -> Self {
+        Self {
+            scene: Scene::empty(config, extensions, laws),
+            surfaces: Surfaces::default(),
+            states: States::default(),
+            clock: Clock::default(),
+        }
+    }
+
+    /// What was set up so far, with names and ids.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Lets models that are loaded with these [`extensions`](Scene::extensions) read the meshes that they name from this
+    /// folder and those below it too; without it what lies outside a model's own folder, through a link, is refused.
+    pub fn allow_files_below(&mut self, folder: impl Into<std::path::PathBuf>) {
+        self.scene.extensions.allow_files_below(folder);
+    }
+
+    /// The registered force laws, to add more.
+    pub fn laws_mut(&mut self) -> &mut Laws {
+        &mut self.scene.laws
+    }
+
+    /// Adds a model.
+    pub fn add_model(&mut self, model: Arc<Model>) -> ModelId {
+        self.surfaces.add(&model);
+        self.scene.models.push(model);
+        ModelId::new(self.scene.stamp, self.scene.models.len() - 1)
+    }
+
+    /// Creates an Object from a model. Objects of one model are independent.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::BadValue`] for a name that is empty or holds
+    /// `/`, [`EngineError::Duplicate`] for one that another Object has.
+    pub fn create_object(&mut self, model: ModelId, name: &str) -> Result<ObjectId, EngineError> {
+        let model = self.scene.model_index(model)?;
+        if name.is_empty() || name.contains('/') {
+            let cause = "a name must not be empty nor hold `/`, which separates an object from its groups";
+            return Err(EngineError::BadValue { what: format!("object `{name}`"), cause: cause.to_owned() });
+        }
+        let scene = &mut self.scene;
+        if scene.objects.iter().any(|object| object.name == name) {
+            return Err(EngineError::Duplicate { what: format!("object `{name}`") });
+        }
+        let object = scene.objects.len();
+        let first_body = scene.bodies.len();
+        scene.objects.push(Object { name: name.to_owned(), model, first_body });
+        let bodies = scene.models[model].bodies.len();
+        scene.bodies.extend((0..bodies).map(|body| GroupInstance { object, body }));
+        self.states.bodies.resize(first_body + bodies, None);
+        Ok(ObjectId::new(scene.stamp, object))
+    }
+
+    /// Declares that two Objects may touch. An Object paired with itself has its movable groups tested against
+    /// each other.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object of another world, [`EngineError::Duplicate`] for a pair that is there already,
+    /// [`EngineError::BadValue`] for an Object of one movable group that is paired with itself.
+    pub fn pair(&mut self, a: ObjectId, b: ObjectId) -> Result<PairId, EngineError> {
+        let scene = &mut self.scene;
+        let (a, b) = (scene.object_index(a)?, scene.object_index(b)?);
+        let names = format!("pair (`{}`, `{}`)", scene.objects[a].name, scene.objects[b].name);
+        if scene.pairs.iter().any(|pair| (pair.a, pair.b) == (a, b) || (pair.a, pair.b) == (b, a)) {
+            return Err(EngineError::Duplicate { what: names });
+        }
+        if a == b && scene.models[scene.objects[a].model].bodies.len() < 2 {
+            let cause = "an Object paired with itself needs two movable groups; mark one as movable or leave the \
+                         pair out";
+            return Err(EngineError::BadValue { what: names, cause: cause.to_owned() });
+        }
+        scene.pairs.push(ObjectPair { a, b });
+        self.states.enabled.push(true);
+        Ok(PairId::new(scene.stamp, scene.pairs.len() - 1))
+    }
+
+    /// Switches a pair on, as it begins, or off. See [`World::set_pair_enabled`].
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a pair of another world.
+    pub fn set_pair_enabled(&mut self, pair: PairId, enabled: bool) -> Result<(), EngineError> {
+        let pair = self.scene.pair_index(pair)?;
+        self.states.enabled[pair] = enabled;
+        Ok(())
+    }
+
+    /// Replaces the values of a surface of a model (found by its name), for all its Objects. Laws may not change.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has no surface of
+    /// this name, [`EngineError::BadValue`] for another law or a value that no surface may have.
+    pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
+        self.surfaces.replace(self.scene.model_index(model)?, surface)?;
+        Ok(())
+    }
+
+    /// A surface of a model as it is now.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
+    pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
+        self.surfaces.named(self.scene.model_index(model)?, name)
+    }
+
+    /// Sets states with which the world begins; they may as well be set once it is sealed ([`World::set_states`]).
+    ///
+    /// # Errors
+    /// As [`World::set_states`].
+    pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
+        self.states.set(&self.scene, states)?;
+        Ok(())
+    }
+
+    /// The state last set for a movable group, as it was set; `None` if never.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface of another world.
+    pub fn state_as_set(&self, interface: InterfaceId) -> Result<Option<&State>, EngineError> {
+        self.states.of(&self.scene, interface)
+    }
+
+    /// Has the seal make sure that so much memory (bytes) is left for each pair of movable groups that it lists: for a host
+    /// that asks about every pair right after it, as with `pong_advise::step_report`.
+    pub fn leave_room_per_pair(&mut self, bytes: usize) {
+        self.scene.room_per_pair = bytes;
+    }
+
+    /// Gives the world a clock, in ns, with which it times its workers and the stages of its frames
+    /// ([`World::stage_times`]). Without one it never asks the time.
+    pub fn set_clock(&mut self, now_ns: fn() -> u64) {
+        self.clock = Clock(Some(now_ns));
+    }
+
+    /// Ends set-up: checks that everything that may meet can be tested and combined, sizes all memory of the frames
+    /// and takes it, and starts the workers. From here on frames take no memory and give none back.
+    ///
+    /// # Errors
+    /// A [`SealError`], which holds the builder as it was, and the reason: [`EngineError::Seal`] with every fault of the scene,
+    /// [`EngineError::OutOfMemory`], or [`EngineError::Workers`].
+    #[expect(clippy::result_large_err, reason = "a refusal for want of memory must not ask for a box")]
+    pub fn seal(self) -> Result<(World, SealReport), SealError> {
+        let (sealed, tables, mut report) = match seal::seal(&self.scene, &self.surfaces.of_models) {
+            Ok(made) => made,
+            Err(error) => return Err(SealError { error, builder: self }),
+        };
+        let scene = Arc::new(self.scene);
+        match Running::start(&scene, sealed, tables, self.clock) {
+            Ok(running) => {
+                report.workers = running.worker_starts().to_vec();
+                Ok((World::new(scene, self.surfaces, self.states, running), report))
+            }
+            Err(error) => {
+                // A worker that the system has not run yet may still hold the scene; then the builder gets a copy.
+                let builder = Self { scene: Arc::unwrap_or_clone(scene), ..self };
+                Err(SealError { error, builder })
+            }
+        }
+    }
+}
+
+/// Why a world could not be sealed, and the builder as it was: mend it and seal it again.
+pub struct SealError {
+    error: EngineError,
+    builder: WorldBuilder,
+}
+
+impl SealError {
+    /// Why.
+    pub fn error(&self) -> &EngineError {
+        &self.error
+    }
+
+    /// The builder as it was before the seal, and why it was refused.
+    pub fn into_parts(self) -> (WorldBuilder, EngineError) {
+        (self.builder, self.error)
+    }
+}
+
+impl std::fmt::Debug for SealError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl std::fmt::Display for SealError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        std::fmt::Display::fmt(&self.error, f)
+    }
+}
+
+impl std::error::Error for SealError {}
+
+impl From<SealError> for EngineError {
+    fn from(refused: SealError) -> Self {
+        refused.error
+    }
+}

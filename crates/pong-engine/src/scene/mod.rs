@@ -1,0 +1,108 @@
+//! Everything that set-up decides, and what the host may change between frames: states and values of surfaces.
+
+mod names;
+mod states;
+mod surfaces;
+
+use crate::energy::account::WrenchCoupling;
+use crate::ids::WorldStamp;
+use crate::law::registry::Laws;
+use pong_geometry::extension::Extensions;
+use pong_model::{Model, MovableGroup};
+pub use pong_threads::Settings as WorkerSettings;
+pub use states::State;
+pub(crate) use states::States;
+use std::sync::Arc;
+pub(crate) use surfaces::Surfaces;
+
+/// Settings of a world.
+#[derive(Clone, Debug, Default)]
+pub struct Config {
+    /// Most contacts of a frame; `None` takes the worst case of the scene, at least 256 and at most
+    /// 65,536. When a frame has more,
+    /// the deepest are kept and a status bit is set.
+    pub contact_capacity: Option<usize>,
+    /// Whether energies are kept (docs/theory.md, 6).
+    pub ledger: bool,
+    /// Whether accounts of contacts and of pairs are kept too, and what the host does with wrenches, which decides what
+    /// work they do. Keeps the ledger as well. See [`World::pair_accounts`](crate::World::pair_accounts).
+    pub accounts: Option<WrenchCoupling>,
+    /// Workers that share a frame's work with the calling thread; `None` for the calling thread alone. The results
+    /// are the same bits.
+    pub workers: Option<WorkerSettings>,
+}
+
+/// An instance of a model.
+#[derive(Clone, Debug)]
+pub(crate) struct Object {
+    pub name: String,
+    pub model: usize,
+    /// Its movable groups are consecutive bodies from this one on.
+    pub first_body: usize,
+}
+
+/// One movable group of one Object.
+#[derive(Clone, Debug)]
+pub(crate) struct GroupInstance {
+    pub object: usize,
+    /// Index into the model's bodies.
+    pub body: usize,
+}
+
+/// Two Objects that are tested.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ObjectPair {
+    pub a: usize,
+    pub b: usize,
+}
+
+/// The scene of a world: its models, Objects, pairs, laws and configuration, with their names and ids. A
+/// [`WorldBuilder`](crate::WorldBuilder) makes it; nothing changes it once the world is sealed.
+#[derive(Clone)]
+pub struct Scene {
+    /// In every id of the scene.
+    pub(crate) stamp: WorldStamp,
+    pub(crate) config: Config,
+    pub(crate) extensions: Extensions,
+    pub(crate) laws: Laws,
+    pub(crate) models: Vec<Arc<Model>>,
+    pub(crate) objects: Vec<Object>,
+    pub(crate) bodies: Vec<GroupInstance>,
+    pub(crate) pairs: Vec<ObjectPair>,
+    /// Memory that the host wants to find left after the seal, for each pair of movable groups, bytes.
+    pub(crate) room_per_pair: usize,
+}
+
+impl Scene {
+    /// A scene of nothing.
+    pub(crate) fn empty(config: Config, extensions: Extensions, laws: Laws) -> Self {
+        Self {
+            stamp: WorldStamp::fresh(),
+            config: Config { ledger: config.ledger || config.accounts.is_some(), ..config },
+            extensions,
+            laws,
+            models: Vec::new(),
+            objects: Vec::new(),
+            bodies: Vec::new(),
+            pairs: Vec::new(),
+            room_per_pair: 0,
+        }
+    }
+
+    /// The model's body behind a movable group.
+    pub(crate) fn body(&self, instance: usize) -> &MovableGroup {
+        let instance = &self.bodies[instance];
+        &self.models[self.objects[instance.object].model].bodies[instance.body]
+    }
+
+    /// The model behind a movable group.
+    pub(crate) fn model_of_body(&self, instance: usize) -> &Model {
+        &self.models[self.objects[self.bodies[instance].object].model]
+    }
+
+    /// `object/path` of a movable group, for messages.
+    pub(crate) fn body_name(&self, instance: usize) -> String {
+        let object = &self.objects[self.bodies[instance].object];
+        format!("{}/{}", object.name, self.body(instance).path)
+    }
+}

@@ -1,0 +1,187 @@
+//! Names and ids: from one to the other, and to what they stand for.
+
+use super::Scene;
+use crate::energy::account::WrenchCoupling;
+use crate::error::EngineError;
+use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
+use pong_geometry::Pose;
+use pong_geometry::extension::Extensions;
+use pong_model::Model;
+use std::sync::Arc;
+
+impl Scene {
+    /// The user's own kinds that this scene knows: load models with them.
+    pub fn extensions(&self) -> &Extensions {
+        &self.extensions
+    }
+
+    /// Names of the registered force laws.
+    pub fn law_names(&self) -> impl Iterator<Item = &str> {
+        self.laws.names()
+    }
+
+    /// Whether energies are kept.
+    pub fn keeps_ledger(&self) -> bool {
+        self.config.ledger
+    }
+
+    /// What the host does with wrenches, if accounts are kept ([`Config::accounts`](crate::Config::accounts)).
+    pub fn wrench_coupling(&self) -> Option<WrenchCoupling> {
+        self.config.accounts
+    }
+
+    /// All models in the order in which they were added.
+    pub fn models(&self) -> impl ExactSizeIterator<Item = (ModelId, &Arc<Model>)> {
+        self.models.iter().enumerate().map(|(index, model)| (ModelId::new(self.stamp, index), model))
+    }
+
+    /// All Objects in the order in which they were created. Their Interfaces follow each other in that order too.
+    pub fn objects(&self) -> impl ExactSizeIterator<Item = ObjectId> + '_ {
+        (0..self.objects.len()).map(|index| ObjectId::new(self.stamp, index))
+    }
+
+    /// All pairs with their Objects in the order in which they were declared.
+    pub fn pairs(&self) -> impl ExactSizeIterator<Item = (PairId, [ObjectId; 2])> + '_ {
+        let object = |index| ObjectId::new(self.stamp, index);
+        let pairs = self.pairs.iter().enumerate();
+        pairs.map(move |(index, pair)| (PairId::new(self.stamp, index), [object(pair.a), object(pair.b)]))
+    }
+
+    /// The Object of a name.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownName`] if no Object has it.
+    pub fn object(&self, name: &str) -> Result<ObjectId, EngineError> {
+        match self.objects.iter().position(|object| object.name == name) {
+            Some(index) => Ok(ObjectId::new(self.stamp, index)),
+            None => Err(EngineError::UnknownName {
+                what: "object",
+                name: name.to_owned(),
+                known: self.objects.iter().map(|object| object.name.clone()).collect(),
+            }),
+        }
+    }
+
+    /// Name of an Object.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn object_name(&self, object: ObjectId) -> Result<&str, EngineError> {
+        Ok(&self.objects[self.object_index(object)?].name)
+    }
+
+    /// The model an Object was made from.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn model_of(&self, object: ObjectId) -> Result<&Arc<Model>, EngineError> {
+        Ok(&self.models[self.objects[self.object_index(object)?].model])
+    }
+
+    /// The id of the model an Object was made from.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn model_id_of(&self, object: ObjectId) -> Result<ModelId, EngineError> {
+        Ok(ModelId::new(self.stamp, self.objects[self.object_index(object)?].model))
+    }
+
+    /// The two Objects of a pair, in the order in which they were named.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn objects_of(&self, pair: PairId) -> Result<[ObjectId; 2], EngineError> {
+        let pair = &self.pairs[self.pair_index(pair)?];
+        Ok([pair.a, pair.b].map(|index| ObjectId::new(self.stamp, index)))
+    }
+
+    /// The Interface of a movable group by its path in the model, `root/arm/latch`, or by its bare name where
+    /// only one movable group has it. An empty path is the root.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object that this scene did not give out, [`EngineError::UnknownName`] for a path that
+    /// leads to no movable group and for a bare name that several have.
+    pub fn interface(&self, object: ObjectId, path: &str) -> Result<InterfaceId, EngineError> {
+        let object = &self.objects[self.object_index(object)?];
+        let bodies = &self.models[object.model].bodies;
+        let by_path = bodies.iter().position(|body| body.path == path);
+        let by_name = || {
+            let mut named = bodies.iter().enumerate().filter(|(_, body)| body.name == path);
+            named.next().filter(|_| named.next().is_none()).map(|(index, _)| index)
+        };
+        let found = if path.is_empty() { Some(0) } else { by_path.or_else(by_name) };
+        match found {
+            Some(body) => Ok(InterfaceId::new(self.stamp, object.first_body + body)),
+            None => Err(EngineError::UnknownName {
+                what: "movable group",
+                name: format!("{}/{path}", object.name),
+                known: bodies.iter().map(|body| body.path.clone()).collect(),
+            }),
+        }
+    }
+
+    /// All Interfaces of an Object, the root's first.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn interfaces(&self, object: ObjectId) -> Result<Vec<InterfaceId>, EngineError> {
+        let object = &self.objects[self.object_index(object)?];
+        let count = self.models[object.model].bodies.len();
+        Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
+    }
+
+    /// `object/path` of a movable group, as messages name it.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn interface_name(&self, interface: InterfaceId) -> Result<String, EngineError> {
+        Ok(self.body_name(self.body_index(interface)?))
+    }
+
+    /// Path of an Interface's movable group in its model.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn interface_path(&self, interface: InterfaceId) -> Result<&str, EngineError> {
+        Ok(&self.body(self.body_index(interface)?).path)
+    }
+
+    /// Path of a primitive, as a contact names it: by its index in the movable group's list.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Interface that this scene did not give out, or an index beyond the list.
+    pub fn primitive_path(&self, interface: InterfaceId, primitive: u32) -> Result<&str, EngineError> {
+        let body = self.body(self.body_index(interface)?);
+        let info = body.primitives.get(primitive as usize);
+        Ok(&info.ok_or(EngineError::UnknownId { what: "primitive" })?.path)
+    }
+
+    /// Pose at which the model's author placed a movable group, m, in the frame of the root group; the identity for the root.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn authored_pose(&self, interface: InterfaceId) -> Result<Pose, EngineError> {
+        let body = self.body(self.body_index(interface)?);
+        Ok(body.initial_pose.unwrap_or_else(Pose::identity))
+    }
+
+    pub(crate) fn model_index(&self, id: ModelId) -> Result<usize, EngineError> {
+        let index = id.index_in(self.stamp).filter(|i| *i < self.models.len());
+        index.ok_or(EngineError::UnknownId { what: "model" })
+    }
+
+    pub(crate) fn object_index(&self, id: ObjectId) -> Result<usize, EngineError> {
+        let index = id.index_in(self.stamp).filter(|i| *i < self.objects.len());
+        index.ok_or(EngineError::UnknownId { what: "object" })
+    }
+
+    pub(crate) fn pair_index(&self, id: PairId) -> Result<usize, EngineError> {
+        let index = id.index_in(self.stamp).filter(|i| *i < self.pairs.len());
+        index.ok_or(EngineError::UnknownId { what: "pair" })
+    }
+
+    pub(crate) fn body_index(&self, id: InterfaceId) -> Result<usize, EngineError> {
+        let index = id.index_in(self.stamp).filter(|i| *i < self.bodies.len());
+        index.ok_or(EngineError::UnknownId { what: "interface" })
+    }
+}

@@ -1,0 +1,81 @@
+//! What may change between frames: pairs on and off, values of surfaces, the contacts' past.
+
+use super::World;
+use crate::error::EngineError;
+use crate::ids::{ModelId, ObjectId, PairId};
+use crate::seal;
+use pong_model::Surface;
+
+impl World {
+    /// Switches a pair on or off. A pair that is off has no contacts, and when it is switched on again it has no
+    /// past.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a pair of another world.
+    pub fn set_pair_enabled(&mut self, pair: PairId, enabled: bool) -> Result<(), EngineError> {
+        let pair = self.scene.pair_index(pair)?;
+        if self.states.enabled[pair] != enabled {
+            self.states.enabled[pair] = enabled;
+            self.running.forget(|groups| groups.pair == pair);
+        }
+        Ok(())
+    }
+
+    /// Whether a pair is tested.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a pair of another world.
+    pub fn pair_enabled(&self, pair: PairId) -> Result<bool, EngineError> {
+        Ok(self.states.enabled[self.scene.pair_index(pair)?])
+    }
+
+    /// Drops an Object's contact state: after a teleport or a reset nothing of its past counts.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an Object of another world.
+    pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
+        let object = self.scene.object_index(object)?;
+        let bodies = &self.scene.bodies;
+        self.running
+            .forget(|pair| bodies[pair.first].object == object || bodies[pair.second].object == object);
+        Ok(())
+    }
+
+    /// Replaces the values of a surface of a model (found by its name), for all its Objects. Laws may not change.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if the model has no surface of
+    /// this name, [`EngineError::BadValue`] for another law or a value that no surface may have, [`EngineError::Seal`] if it
+    /// cannot be combined with a surface that it may meet. The surface is as it was then.
+    pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
+        let model = self.scene.model_index(model)?;
+        let before = self.surfaces.replace(model, surface)?;
+        let pairs = &self.running.sealed.group_pairs;
+        match seal::surface_tables(&self.scene, &self.surfaces.of_models, pairs) {
+            Ok(tables) => {
+                self.running.set_tables(tables);
+                Ok(())
+            }
+            Err(problems) => {
+                self.surfaces.put_back(model, before);
+                Err(EngineError::Seal { problems })
+            }
+        }
+    }
+
+    /// A surface of a model as it is now.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world, [`EngineError::UnknownName`] if it has no such surface.
+    pub fn surface(&self, model: ModelId, name: &str) -> Result<&Surface, EngineError> {
+        self.surfaces.named(self.scene.model_index(model)?, name)
+    }
+
+    /// All surfaces of a model as they are now.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for a model of another world.
+    pub fn surfaces(&self, model: ModelId) -> Result<&[Surface], EngineError> {
+        Ok(&self.surfaces.of_models[self.scene.model_index(model)?])
+    }
+}
