@@ -25,8 +25,9 @@ impl Pose {
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
         let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
         let sign = 1.0_f64.copysign(first);
-        let [w, x, y, z] = wxyz.map(|part| sign * part + 0.0);
-        Self { position, orientation: Quat::new_normalize(Quaternion::new(w, x, y, z)) }
+        let part = |index: usize| sign * wxyz[index] + 0.0;
+        let quaternion = Quaternion::new(part(0), part(1), part(2), part(3));
+        Self { position, orientation: Quat::new_normalize(quaternion) }
     }
 
     /// `x_wg · x_gh = x_wh`.

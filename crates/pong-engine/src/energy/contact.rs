@@ -75,6 +75,7 @@ impl ContactEnergies {
     ///
     /// # Errors
     /// [`Full`] if there is no room.
+    #[inline]
     pub fn push(&mut self, energy: Option<ContactEnergyRef<'_>>) -> Result<(), Full> {
         let Some(ContactEnergyRef { energy, delayed }) = energy.filter(|_| self.kept) else { return Ok(()) };
         self.energies.push(*energy)?;

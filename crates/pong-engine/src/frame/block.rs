@@ -21,6 +21,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
+use std::sync::atomic::{Ordering, compiler_fence};
 
 /// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches, with room for so many
 /// interferences of one chunk, and laws of so many numbers per contact.
@@ -179,6 +180,9 @@ fn test_chunk<S: Simd, L: Laps>(
         for number in candidates.of(of_a.lane) {
             let candidate = candidates.pair(number);
             let batch = reach[candidate.reach as usize].batch;
+            // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
+            // loop moves more numbers than they need.
+            compiler_fence(Ordering::SeqCst);
             let mut near = 1;
             if chunk.items.len() > 1 {
                 near = chunk.reach(simd, candidates.box_b(number));

@@ -205,6 +205,7 @@ impl ContactMemory {
     ///
     /// # Errors
     /// [`Full`] if there is no room; the memory stays as it is.
+    #[inline]
     pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
         debug_assert_eq!(remembered.law_state.len(), self.law_state_len);
         debug_assert!(self.records.last().is_none_or(|last| last.key <= remembered.record.key));

@@ -20,7 +20,7 @@
 
 use super::Interference;
 use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls};
-use super::segment_bounds::{Bounds, SegmentPlanes};
+use super::segment_bounds::{Bounds, Missed, SegmentPlanes};
 use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
 use crate::primitive::{Containment, FacePlanes, LineSegment, Polyhedron};
 use crate::simd::{Finder, First, FirstOf, LANES, Simd, is_moderate, run_at_level};
@@ -93,10 +93,13 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     polyhedron: &Polyhedron,
 ) -> PieceContacts {
     let planes = SegmentPlanes::new(simd, segment, polyhedron);
-    let Some(inside) = planes.inside_part::<F, N>() else {
-        let walls = polyhedron.planes();
-        let misses = walls.all_active || planes.is_far_outside::<N>(walls.wall_slack);
-        return if misses { [None, None] } else { along_walls(segment, polyhedron) };
+    let inside = match planes.inside_part::<F, N>() {
+        Ok(inside) => inside,
+        Err(missed) => {
+            let has_walls = !polyhedron.planes().all_active;
+            let may_be_at_walls = missed == Missed::Perhaps && has_walls && !planes.misses_wide_walls::<N>();
+            return if may_be_at_walls { along_walls(segment, polyhedron) } else { [None, None] };
+        }
     };
     let mut search = Search { segment, polyhedron, inside: inside.ends, best: None };
     let moderate =
@@ -208,15 +211,18 @@ impl Search<'_> {
     /// What the best face carries.
     fn contacts(&self) -> PieceContacts {
         let Some(best) = &self.best else { return [None, None] };
-        match [self.carried(best, 0), self.carried(best, 1)] {
-            [None, Some((found, end))] | [Some((found, end)), None] => match end {
-                0 => [Some(found), None],
-                _ => [None, Some(found)],
-            },
+        let at_ends = [self.carried(best, 0), self.carried(best, 1)];
+        let is_lone = at_ends[0].is_some() != at_ends[1].is_some();
+        let mut contacts = [None, None];
+        for (found_at, found) in at_ends.into_iter().enumerate() {
             // What belongs to an end that has a contact already is found by the piece behind the wall, at that end.
-            [first, second] => [first.filter(|(_, end)| *end == 0), second.filter(|(_, end)| *end == 1)]
-                .map(|at| at.map(|(found, _)| found)),
+            if let Some((found, end)) = found
+                && (is_lone || end == found_at)
+            {
+                contacts[end] = Some(found);
+            }
         }
+        contacts
     }
 
     /// What is carried where the segment leaves at an end, and which end has it if there is nothing else.

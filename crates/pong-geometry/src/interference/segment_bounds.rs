@@ -23,6 +23,15 @@ pub(super) struct InsidePart {
     tops: [f64; 2],
 }
 
+/// How a segment misses a polyhedron.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Missed {
+    /// One plane keeps all of it out: that of an inner wall by more than the slack of walls.
+    ByFar,
+    /// It may be within the slack of inner walls.
+    Perhaps,
+}
+
 impl<'a, S: Simd> SegmentPlanes<'a, S> {
     #[inline(always)]
     pub fn new(simd: S, segment: &'a LineSegment, polyhedron: &'a Polyhedron) -> Self {
@@ -30,9 +39,12 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         Self { simd, polyhedron, segment, ends }
     }
 
-    /// Clips the segment to the solid; `None` if no point of it lies inside.
+    /// Clips the segment to the solid.
+    ///
+    /// # Errors
+    /// How it misses, if no point of it lies inside.
     #[inline(always)]
-    pub fn inside_part<F: Finder<S>, const N: usize>(&self) -> Option<InsidePart> {
+    pub fn inside_part<F: Finder<S>, const N: usize>(&self) -> Result<InsidePart, Missed> {
         let simd = self.simd;
         let mut crossed = 0;
         let mut tops = [simd.splat(f64::NEG_INFINITY); 2];
@@ -40,8 +52,9 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         for index in 0..self.polyhedron.planes().count::<N>() {
             let block = self.polyhedron.planes().block(index);
             let heights = [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])];
-            if self.is_outside(block, heights) {
-                return None;
+            let outside = self.outside(block, heights);
+            if outside != 0 {
+                return Err(self.missed_by(block, heights, outside));
             }
             tops = [simd.larger(heights[0], tops[0]), simd.larger(heights[1], tops[1])];
             if N <= FacePlanes::IN_REGISTERS {
@@ -63,9 +76,9 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         }
         let ends = ends.found();
         if ends[0].at < ends[1].at {
-            Some(InsidePart { ends, tops: [simd.largest(tops[0]), simd.largest(tops[1])] })
+            Ok(InsidePart { ends, tops: [simd.largest(tops[0]), simd.largest(tops[1])] })
         } else {
-            None
+            Err(Missed::Perhaps)
         }
     }
 
@@ -94,34 +107,53 @@ impl<'a, S: Simd> SegmentPlanes<'a, S> {
         simd.bits(simd.below(simd.splat(0.0), simd.larger(first, second))) != 0
     }
 
-    /// Whether both ends are above one of the planes, or run along it where it is not closed.
+    /// The planes that both ends are above, or run along where they are not closed.
     #[inline(always)]
-    fn is_outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> bool {
+    fn outside(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2]) -> LaneBits {
         let (simd, zero) = (self.simd, self.simd.splat(0.0));
         let outside = simd.bits(simd.and(simd.at_least(first, zero), simd.at_least(second, zero)));
         let along_closed = match block.closed {
             0 => 0,
             closed => closed & simd.bits(simd.and(simd.equal(first, zero), simd.equal(second, zero))),
         };
-        outside & !along_closed != 0
+        outside & !along_closed
     }
 
-    /// Whether one plane keeps the whole segment out: that of an inner wall by more than a slack (m). Most segments that
-    /// miss a piece do, and need no look at what is within rounding of its walls.
+    /// How the segment misses a polyhedron that some planes of a block keep it out of. Most segments that miss do so by far,
+    /// and need no look at what is within the slack of walls.
     #[inline(always)]
-    pub fn is_far_outside<const N: usize>(&self, slack: f64) -> bool {
-        let (simd, zero, room) = (self.simd, self.simd.splat(0.0), self.simd.splat(slack));
+    fn missed_by(&self, block: &PlaneBlock, [first, second]: [S::Eight; 2], outside: LaneBits) -> Missed {
+        if outside & block.active != 0 {
+            return Missed::ByFar;
+        }
+        let (simd, slack) = (self.simd, self.simd.splat(self.polyhedron.planes().wall_slack));
+        let beyond = simd.bits(simd.and(simd.at_least(first, slack), simd.at_least(second, slack)));
+        if beyond != 0 { Missed::ByFar } else { Missed::Perhaps }
+    }
+
+    /// Whether no point of the segment would lie inside if the inner walls stood out by their slack: in the bits of
+    /// [`inside_of_wide_walls`](super::segment_at_walls::inside_of_wide_walls).
+    #[inline(always)]
+    pub fn misses_wide_walls<const N: usize>(&self) -> bool {
+        let (simd, zero) = (self.simd, self.simd.splat(0.0));
+        let slack = simd.splat(self.polyhedron.planes().wall_slack);
+        let nowhere = simd.splat(f64::NEG_INFINITY);
+        // Where it enters, and of where it leaves the opposite number: the largest of each counts.
+        let (mut entering, mut leaving) = (zero, simd.splat(-1.0));
         for index in 0..self.polyhedron.planes().count::<N>() {
             let block = self.polyhedron.planes().block(index);
-            let heights = [block.heights(simd, &self.ends[0]), block.heights(simd, &self.ends[1])];
-            let both = |least| {
-                simd.bits(simd.and(simd.at_least(heights[0], least), simd.at_least(heights[1], least)))
-            };
-            if both(room) | (both(zero) & block.active) != 0 {
+            let room = simd.select(simd.mask(block.active), zero, slack);
+            let first = simd.sub(block.heights(simd, &self.ends[0]), room);
+            let second = simd.sub(block.heights(simd, &self.ends[1]), room);
+            if simd.bits(simd.and(simd.at_least(first, zero), simd.at_least(second, zero))) != 0 {
                 return true;
             }
+            let at = simd.ratio(first, simd.sub(first, second));
+            entering = simd.larger(simd.select(simd.below(second, first), at, nowhere), entering);
+            let back = simd.sub(zero, at);
+            leaving = simd.larger(simd.select(simd.below(first, second), back, nowhere), leaving);
         }
-        false
+        simd.largest(entering) >= -simd.largest(leaving)
     }
 
     /// Bounds for all faces of a polyhedron of no more than `N` blocks. Those above `limit` need not be exact.

@@ -88,14 +88,14 @@ impl Wedge {
     ///
     /// While a tip is inside, the crossing belongs to the other end; so nothing changes where a tip passes out.
     pub fn farther_out(&self, segment: &LineSegment, end: usize) -> usize {
-        let heights = [0, 1].map(|plane| [0, 1].map(|tip: usize| self.height(plane, &segment.ends[tip])));
-        let [down, up] = [|[a, b]: [f64; 2]| b < a, |[a, b]: [f64; 2]| a < b];
-        if !(down(heights[0]) && up(heights[1]) || up(heights[0]) && down(heights[1])) {
+        let heights = |plane| (self.height(plane, &segment.ends[0]), self.height(plane, &segment.ends[1]));
+        let ((first, second), (other_first, other_second)) = (heights(0), heights(1));
+        if !(second < first && other_first < other_second || first < second && other_second < other_first) {
             return end;
         }
-        let at = heights.map(|[first, second]| first / (first - second));
+        let at = first / (first - second) + other_first / (other_first - other_second);
         // Before the one and behind the other lies as much as the two parameters are apart from 0 and from 1.
-        usize::from(at[0] + at[1] < 1.0 - Self::TIE)
+        usize::from(at < 1.0 - Self::TIE)
     }
 }
 

@@ -114,18 +114,8 @@ impl CandidatePairs {
 
     /// Numbers of the candidate pairs of a chunk.
     #[inline(always)]
-    pub fn of(&self, chunk: usize) -> impl Iterator<Item = usize> + '_ {
-        /// The lowest bit of every pair in a word.
-        const LOWEST: u64 = 0x0101_0101_0101_0101;
-        let of_word = move |word: &[LaneBits; LANES]| u64::from_le_bytes(*word) >> chunk & LOWEST;
-        self.chunks.iter().enumerate().flat_map(move |(place, word)| {
-            let mut bits = of_word(word);
-            std::iter::from_fn(move || {
-                let bit = bits.trailing_zeros() as usize;
-                bits &= bits.wrapping_sub(1);
-                (bit < u64::BITS as usize).then_some(place * LANES + bit / 8)
-            })
-        })
+    pub fn of(&self, chunk: usize) -> NumbersOfChunk<'_> {
+        NumbersOfChunk { words: &self.chunks, chunk, next: 0, bits: 0 }
     }
 
     /// A pair.
@@ -280,6 +270,34 @@ impl CandidatePairs {
                 }
             }
         }
+    }
+}
+
+/// Numbers of the candidate pairs of one chunk, in their order.
+pub(crate) struct NumbersOfChunk<'a> {
+    words: &'a [[LaneBits; LANES]],
+    chunk: usize,
+    /// The word that comes next.
+    next: usize,
+    /// What is left of the word in hand: the lowest bit of every pair that the chunk has.
+    bits: u64,
+}
+
+impl Iterator for NumbersOfChunk<'_> {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        /// The lowest bit of every pair in a word.
+        const LOWEST: u64 = 0x0101_0101_0101_0101;
+        while self.bits == 0 {
+            let word = self.words.get(self.next)?;
+            self.bits = u64::from_le_bytes(*word) >> self.chunk & LOWEST;
+            self.next += 1;
+        }
+        let bit = self.bits.trailing_zeros() as usize;
+        self.bits &= self.bits - 1;
+        Some((self.next - 1) * LANES + bit / LaneBits::BITS as usize)
     }
 }
 

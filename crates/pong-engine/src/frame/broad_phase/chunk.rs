@@ -117,14 +117,21 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         Sphere { center, radius: self.radii[lane] }
     }
 
-    /// One element; `None` for kinds that are never A in the table.
-    pub fn carried(&self, lane: usize) -> Option<TransformedPrimitive> {
-        let center = Vec3::new(self.centers.x[lane], self.centers.y[lane], self.centers.z[lane]);
+    /// A point or a sphere of a chunk of such.
+    #[inline(always)]
+    pub fn ball(&self, lane: usize) -> Option<TransformedPrimitive> {
+        let sphere = self.sphere(lane);
         match self.kind {
-            PrimitiveKind::Point => Some(TransformedPrimitive::Point(Point { position: center })),
-            PrimitiveKind::Sphere => Some(TransformedPrimitive::Sphere(self.sphere(lane))),
-            _ => self.carried.get(lane).copied(),
+            PrimitiveKind::Point => Some(TransformedPrimitive::Point(Point { position: sphere.center })),
+            PrimitiveKind::Sphere => Some(TransformedPrimitive::Sphere(sphere)),
+            _ => None,
         }
+    }
+
+    /// One element of another kind; `None` for kinds that are never A in the table.
+    #[inline(always)]
+    pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {
+        self.carried.get(lane)
     }
 }
 

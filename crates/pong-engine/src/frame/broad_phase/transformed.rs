@@ -16,6 +16,7 @@ pub(crate) enum TransformedPrimitive {
 
 impl TransformedPrimitive {
     /// `None` for kinds that are never A in the table.
+    #[inline(always)]
     pub fn new(body: &MovableGroup, item: Item, x_ba: &Transform) -> Option<Self> {
         let i = item.element as usize;
         Some(match body.primitives[item.primitive as usize].kind {

@@ -41,8 +41,14 @@ pub(crate) fn assign_weights(
     }
     let mut outcome = Ok(());
     found.sort_unstable_by_key(ContactCandidate::order);
-    keep_first_ray_hits(found, context);
-    keep_one_side_of_rims(found, context);
+    let kind_of = |found: &ContactCandidate| context.body_a.primitives[found.key.primitive_a as usize].kind;
+    // All elements of a chunk are of one kind.
+    let Some(kind_a) = found.first().map(kind_of) else { return Ok(()) };
+    match kind_a {
+        PrimitiveKind::Ray => keep_first_ray_hits(found, context),
+        PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => keep_one_side_of_rims(found, context),
+        _ => {}
+    }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
         if group.iter().any(is_at_wall) {
             match group[0].half {
@@ -51,7 +57,6 @@ pub(crate) fn assign_weights(
             }
         }
         if group[0].shares && group.len() > 1 {
-            let kind_a = context.body_a.primitives[group[0].key.primitive_a as usize].kind;
             let triangles = &context.body_b.triangles;
             settle_fallbacks(group);
             match (kind_a, group[0].kind_b) {

@@ -4,7 +4,7 @@
 
 use super::element_pair::{ElementPair, Findings, Waiting};
 use super::on_triangle::thickness_for_sphere;
-use super::pair_table::{kind_pair, sphere_triangle};
+use super::pair_table::{Test, sphere_triangle, test_of};
 use super::registered;
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::input::PairContext;
@@ -39,8 +39,11 @@ impl<'a> Target<'a> {
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
         let before = found.seen;
-        for lane in lanes(near) {
-            self.test_one(chunk, lane, found);
+        if near != 0 {
+            let test = test_of(chunk.kind, self.kind_b);
+            for lane in lanes(near) {
+                self.test_one(test, chunk, lane, found);
+            }
         }
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
@@ -81,16 +84,25 @@ impl<'a> Target<'a> {
         }
     }
 
-    fn test_one(&self, chunk: &Chunk<'_, '_, '_>, lane: usize, found: &mut Findings<'_>) {
+    #[inline(always)]
+    fn test_one(&self, test: Option<Test>, chunk: &Chunk<'_, '_, '_>, lane: usize, found: &mut Findings<'_>) {
         let pair = ElementPair {
             context: self.context,
             item_a: chunk.items[lane],
             item_b: self.item_b,
             kind_b: self.kind_b,
         };
-        match (chunk.carried(lane), kind_pair(chunk.kind, self.kind_b)) {
-            (Some(a), Some(row)) => (row.test)(&pair, &a, found),
-            (None, _) | (Some(_), None) => registered::test(&pair, found),
+        let ball;
+        let a = match chunk.ball(lane) {
+            Some(one) => {
+                ball = one;
+                Some(&ball)
+            }
+            None => chunk.carried(lane),
+        };
+        match (test, a) {
+            (Some(test), Some(a)) => test(&pair, a, found),
+            (None, _) | (_, None) => registered::test(&pair, found),
         }
     }
 }

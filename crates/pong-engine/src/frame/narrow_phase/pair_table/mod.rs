@@ -94,6 +94,23 @@ pub(crate) fn kind_pair(a: PrimitiveKind, b: PrimitiveKind) -> Option<&'static K
     ROWS.get(PLACES[a as usize][b as usize] as usize)
 }
 
+/// The tests of all pairs, by the numbers of the two kinds: a frame looks here for every two elements that may touch.
+const TESTS: [[Option<Test>; KINDS]; KINDS] = {
+    let mut tests = [[None; KINDS]; KINDS];
+    let mut row = 0;
+    while row < ROWS.len() {
+        tests[ROWS[row].a as usize][ROWS[row].b as usize] = Some(ROWS[row].test);
+        row += 1;
+    }
+    tests
+};
+
+/// The contact tester of a pair, if the table has one.
+#[inline]
+pub(crate) fn test_of(a: PrimitiveKind, b: PrimitiveKind) -> Option<Test> {
+    TESTS[a as usize][b as usize]
+}
+
 /// Most contacts of one primitive of a kind, as A, with one shell.
 pub(crate) fn most_contacts(a: PrimitiveKind) -> usize {
     let registered = if a == Custom { REGISTERED.1 } else { 0 };
