@@ -200,7 +200,7 @@ def shortest_circle(arrows, members):
 
 
 # Files that stand in circles since before this check, crate by crate: a number may fall, never rise. Other crates have none.
-LEFT = {"pong-geometry": 14, "pong-invariance": 4}
+LEFT = {"pong-invariance": 2}
 
 
 def check(root):

@@ -1,6 +1,6 @@
 //! Fitting a box along the frame's axes: exact, from the least and greatest coordinates.
 
-use super::Volume;
+use super::volume::Volume;
 use crate::Vec3;
 
 /// The box around points, margin included; `None` if there are none.

@@ -1,7 +1,7 @@
 //! Two boxes, each along the axes of its own frame: the frames may be turned, so this is box against box.
 
-use super::FromAToB;
 use super::box_box::boxes_overlap;
+use super::volume::FromAToB;
 use crate::Vec3;
 
 #[inline]

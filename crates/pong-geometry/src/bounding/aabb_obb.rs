@@ -1,7 +1,7 @@
 //! A box along its frame's axes against one along its own, in either order.
 
-use super::FromAToB;
 use super::box_box::boxes_overlap;
+use super::volume::FromAToB;
 use crate::{Mat3, Vec3};
 
 /// A is axis-aligned; B is (centre, axes, half extents).

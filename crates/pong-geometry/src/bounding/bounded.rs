@@ -1,6 +1,6 @@
 //! What a bounding volume needs to know of the things in it: primitives, point clouds and other volumes.
 
-use super::{Bounded, Volume};
+use super::volume::{Bounded, Volume};
 use crate::Vec3;
 use crate::primitive::{CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, Ray, Sphere};
 
@@ -255,4 +255,18 @@ fn corners_by_support(support: impl Fn(&Vec3) -> f64, out: &mut Vec<Vec3>) {
     let corners =
         SIGNS.map(|sign| sign.zip_zip_map(&along, &against, |s, hi, lo| if s > 0.0 { hi } else { -lo }));
     out.extend(corners);
+}
+
+/// Support of all things together.
+pub(super) fn support(things: &[&dyn Bounded], direction: &Vec3) -> f64 {
+    largest(things.iter().map(|thing| thing.support(direction)))
+}
+
+/// The points that represent all things together.
+pub(super) fn representatives(things: &[&dyn Bounded]) -> Vec<Vec3> {
+    let mut points = Vec::new();
+    for thing in things {
+        thing.representatives(&mut points);
+    }
+    points
 }

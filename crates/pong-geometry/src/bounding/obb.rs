@@ -1,9 +1,9 @@
 //! Fitting a box along its own axes: for given axes it is exact, by the supports along them; the axes are the best
 //! of the frame's, the principal ones, and what turning the best of these still gains.
 
-use super::fit::{representatives, support};
+use super::bounded::{representatives, support};
 use super::principal_axes::{orthonormal, plane_rotation, principal_axes};
-use super::{Bounded, Volume};
+use super::volume::{Bounded, Volume};
 use crate::{Mat3, Vec3};
 
 /// The smallest box found around things, without margin.

@@ -1,7 +1,7 @@
 //! Two boxes (centre, axes, half extents), each along its own axes.
 
-use super::FromAToB;
 use super::box_box::boxes_overlap;
+use super::volume::FromAToB;
 use crate::{Mat3, Vec3};
 
 #[inline]

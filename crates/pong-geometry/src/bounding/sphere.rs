@@ -1,9 +1,8 @@
 //! Fitting a ball: its radius is exact for its centre, `max over things of farthest(centre)`; the centre is near
 //! that of the smallest ball.
 
-use super::bounded::largest;
-use super::fit::representatives;
-use super::{Bounded, Volume};
+use super::bounded::{largest, representatives};
+use super::volume::{Bounded, Volume};
 use crate::Vec3;
 
 /// The smallest ball found around things, without margin; `box_center` is the centre of the box around them.

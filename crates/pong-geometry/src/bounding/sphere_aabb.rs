@@ -1,7 +1,7 @@
 //! Ball against a box along its frame's axes: apart if the box's point nearest to the ball's centre is farther from
 //! it than the radius.
 
-use super::FromAToB;
+use super::volume::FromAToB;
 use crate::Vec3;
 
 /// Ball in A's frame, box in B's.

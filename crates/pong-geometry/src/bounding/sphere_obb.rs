@@ -1,7 +1,7 @@
 //! Ball against a box along its own axes: as against an axis-aligned one, seen in those axes.
 
-use super::FromAToB;
 use super::sphere_aabb::{ball_reaches_box, into_a};
+use super::volume::FromAToB;
 use crate::{Mat3, Vec3};
 
 /// Ball in A's frame, box (centre, axes, half extents) in B's.

@@ -1,6 +1,6 @@
 //! Ball against ball: apart if `|c_A − c_B| > r_A + r_B`.
 
-use super::FromAToB;
+use super::volume::FromAToB;
 use crate::Vec3;
 
 #[inline]

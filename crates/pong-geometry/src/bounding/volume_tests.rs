@@ -6,7 +6,7 @@ use super::obb_obb::obb_obb;
 use super::sphere_aabb::{aabb_sphere, sphere_aabb};
 use super::sphere_obb::{obb_sphere, sphere_obb};
 use super::sphere_sphere::sphere_sphere;
-use super::{FromAToB, Volume};
+use super::volume::{FromAToB, Volume};
 use crate::extension::{Extensions, VolumeTest};
 
 /// The built-in pair tests together with those a user has registered.

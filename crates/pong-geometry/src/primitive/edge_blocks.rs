@@ -1,6 +1,6 @@
 //! The edges and vertices of a polyhedron that may push, eight at a time.
 
-use super::{EdgePush, PolyhedronParts};
+use super::polyhedron_parts::{EdgePush, PolyhedronParts, PolyhedronVertex};
 use crate::Vec3;
 use crate::simd::{LANES, LaneBits, Simd, Splat};
 
@@ -165,7 +165,7 @@ fn box_around(edges: &[Edge]) -> (Vec3, Vec3) {
 impl VertexBlock {
     /// All vertices, in blocks.
     pub fn all(parts: &PolyhedronParts) -> Vec<Self> {
-        let block = |vertices: &[super::PolyhedronVertex]| Self {
+        let block = |vertices: &[PolyhedronVertex]| Self {
             position: eight(vertices, |vertex| vertex.position),
             pushes: vertices
                 .iter()

@@ -1,6 +1,6 @@
 //! The planes of a polyhedron's faces, coordinate by coordinate.
 
-use super::PolyhedronFace;
+use super::polyhedron_parts::PolyhedronFace;
 use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
 /// Faces in blocks of eight, in their order.

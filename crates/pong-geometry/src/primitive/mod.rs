@@ -6,15 +6,16 @@ mod curved;
 mod edge_blocks;
 mod face_planes;
 mod polyhedron;
+mod polyhedron_parts;
 mod simple;
 mod triangles;
 
 pub use curved::{Ellipsoid, Sphere};
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
-pub use polyhedron::{
-    Containment, EdgePush, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex,
-    RimEdge,
+pub use polyhedron::{Containment, Polyhedron};
+pub use polyhedron_parts::{
+    EdgePush, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
 };
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};

@@ -1,6 +1,6 @@
 //! Eight boxes in single precision against a box or a ball.
 
-use super::{LANES, LaneBits, Portable};
+use super::lanes::{LANES, LaneBits};
 
 /// Eight boxes, coordinate by coordinate: the least by axis, then the greatest.
 pub type EightBoxes = [[[f32; LANES]; 3]; 2];
@@ -15,102 +15,9 @@ pub trait BoxSimd: Copy {
     fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits;
 }
 
-impl BoxSimd for Portable {
-    #[inline(always)]
-    fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
-        let [least, greatest] = boxes;
-        let mut met = 0;
-        for lane in 0..LANES {
-            let mut apart = false;
-            for axis in 0..3 {
-                apart |= (least[axis][lane] > high[axis]) | (greatest[axis][lane] < low[axis]);
-            }
-            met |= LaneBits::from(!apart) << lane;
-        }
-        met
-    }
-
-    #[inline(always)]
-    fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
-        let larger = |a: f32, b: f32| if a > b { a } else { b };
-        let [least, greatest] = boxes;
-        let mut near = 0;
-        for lane in 0..LANES {
-            let mut distance_square = 0.0;
-            for axis in 0..3 {
-                let (before, after) = (least[axis][lane] - place[axis], place[axis] - greatest[axis][lane]);
-                let beside = larger(larger(before, after), 0.0);
-                distance_square += beside * beside;
-            }
-            near |= LaneBits::from(distance_square <= square) << lane;
-        }
-        near
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-mod x86 {
-    use super::super::x86::{Avx2, Avx512};
-    use super::{BoxSimd, EightBoxes, LaneBits};
-    use pulp::cast;
-    use pulp::core_arch::x86::Avx;
-    use std::arch::x86_64::{__m256, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ};
-
-    #[inline(always)]
-    fn boxes_met(avx: Avx, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
-        let [least, greatest] = boxes;
-        let apart_along = |axis: usize| -> __m256 {
-            let beyond = avx._mm256_cmp_ps::<_CMP_GT_OQ>(cast(least[axis]), avx._mm256_set1_ps(high[axis]));
-            let before = avx._mm256_cmp_ps::<_CMP_LT_OQ>(cast(greatest[axis]), avx._mm256_set1_ps(low[axis]));
-            avx._mm256_or_ps(beyond, before)
-        };
-        let apart = avx._mm256_or_ps(avx._mm256_or_ps(apart_along(0), apart_along(1)), apart_along(2));
-        !(avx._mm256_movemask_ps(apart) as LaneBits)
-    }
-
-    #[inline(always)]
-    fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
-        let [least, greatest] = boxes;
-        let mut distance_square = avx._mm256_setzero_ps();
-        for axis in 0..3 {
-            let place = avx._mm256_set1_ps(place[axis]);
-            let before = avx._mm256_sub_ps(cast(least[axis]), place);
-            let after = avx._mm256_sub_ps(place, cast(greatest[axis]));
-            let beside = avx._mm256_max_ps(avx._mm256_max_ps(before, after), avx._mm256_setzero_ps());
-            distance_square = avx._mm256_add_ps(distance_square, avx._mm256_mul_ps(beside, beside));
-        }
-        let near = avx._mm256_cmp_ps::<_CMP_LE_OQ>(distance_square, avx._mm256_set1_ps(square));
-        avx._mm256_movemask_ps(near) as LaneBits
-    }
-
-    impl BoxSimd for Avx2 {
-        #[inline(always)]
-        fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
-            boxes_met(self.0.avx, boxes, low, high)
-        }
-
-        #[inline(always)]
-        fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
-            boxes_near(self.0.avx, boxes, place, square)
-        }
-    }
-
-    impl BoxSimd for Avx512 {
-        #[inline(always)]
-        fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
-            boxes_met(self.0.avx, boxes, low, high)
-        }
-
-        #[inline(always)]
-        fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
-            boxes_near(self.0.avx, boxes, place, square)
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::{Kernel, Level, Simd, run, set_level};
+    use super::super::{Kernel, Level, Portable, Simd, run, set_level};
     use super::*;
 
     struct Met<'a>(&'a EightBoxes, [f32; 3], [f32; 3]);

@@ -1,6 +1,7 @@
 //! The largest of many numbers, and where it stands first.
 
-use super::{LANES, Simd};
+use super::arithmetic::Simd;
+use super::lanes::LANES;
 
 /// Takes numbers, eight at a time in blocks that are counted from 0, and finds the largest; of equal ones the first.
 pub trait Finder<S: Simd>: Copy {

@@ -5,75 +5,25 @@
 //! nothing is summed across lanes: the level changes the time, never the answer. (The payload of a NaN is not part of
 //! the answer.)
 
+mod arithmetic;
 mod boxes;
 mod first;
+mod lanes;
 mod portable;
 mod splat;
 #[cfg(target_arch = "x86_64")]
 mod x86;
+#[cfg(target_arch = "x86_64")]
+mod x86_boxes;
 
+pub use arithmetic::{Kernel, Simd};
 pub use boxes::{BoxSimd, EightBoxes};
 pub use first::{Finder, First, FirstOf, Found};
+pub use lanes::{LANES, LaneBits};
 pub use portable::Portable;
 pub use splat::{MODERATE, Splat, is_moderate};
 
 use std::sync::atomic::{AtomicU8, Ordering};
-
-/// How many numbers are worked on at a time.
-pub const LANES: usize = 8;
-
-/// One bit per lane: the lowest is lane 0.
-pub type LaneBits = u8;
-
-/// Arithmetic on eight numbers.
-///
-/// Comparisons with a NaN are false, as they are for `f64`.
-#[allow(missing_docs)]
-pub trait Simd: BoxSimd {
-    /// Eight numbers.
-    type Eight: Copy;
-    /// Eight truths.
-    type Mask: Copy;
-
-    fn splat(self, value: f64) -> Self::Eight;
-    fn load(self, values: &[f64; LANES]) -> Self::Eight;
-    fn store(self, values: Self::Eight) -> [f64; LANES];
-    fn add(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// `a / b`, and `a` where `b` is zero: a quotient that nobody looks at must not raise a floating-point exception.
-    #[inline(always)]
-    fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
-        self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(1.0), b))
-    }
-    fn sqrt(self, values: Self::Eight) -> Self::Eight;
-    /// `a < b`.
-    fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
-    /// `a ≥ b`.
-    fn at_least(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
-    /// `a = b`; the two zeros are equal.
-    fn equal(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
-    /// The larger: `if a > b { a } else { b }`.
-    fn larger(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// The largest of the eight, where none is a NaN; of two zeros either.
-    fn largest(self, values: Self::Eight) -> f64;
-    fn bits(self, mask: Self::Mask) -> LaneBits;
-    fn mask(self, bits: LaneBits) -> Self::Mask;
-    fn and(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
-    /// `a` where the mask holds, else `b`.
-    fn select(self, mask: Self::Mask, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-}
-
-/// Work that can be done at any level. Mark `run` and all that it calls with a [`Simd`] `#[inline(always)]`:
-/// instructions of a level are used only in what is inlined. That goes for closures too, those handed to `map` among
-/// them: loops and `match` do better.
-pub trait Kernel {
-    /// What it hands back.
-    type Output;
-    /// Does the work.
-    fn run<S: Simd>(self, simd: S) -> Self::Output;
-}
 
 /// A set of instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,6 +1,8 @@
 //! Plain arrays: what the other levels must agree with.
 
-use super::{LANES, LaneBits, Simd};
+use super::arithmetic::Simd;
+use super::boxes::{BoxSimd, EightBoxes};
+use super::lanes::{LANES, LaneBits};
 
 /// The level that every machine has.
 #[derive(Clone, Copy, Debug)]
@@ -101,5 +103,38 @@ impl Simd for Portable {
             }
         }
         out
+    }
+}
+
+impl BoxSimd for Portable {
+    #[inline(always)]
+    fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
+        let [least, greatest] = boxes;
+        let mut met = 0;
+        for lane in 0..LANES {
+            let mut apart = false;
+            for axis in 0..3 {
+                apart |= (least[axis][lane] > high[axis]) | (greatest[axis][lane] < low[axis]);
+            }
+            met |= LaneBits::from(!apart) << lane;
+        }
+        met
+    }
+
+    #[inline(always)]
+    fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
+        let larger = |a: f32, b: f32| if a > b { a } else { b };
+        let [least, greatest] = boxes;
+        let mut near = 0;
+        for lane in 0..LANES {
+            let mut distance_square = 0.0;
+            for axis in 0..3 {
+                let (before, after) = (least[axis][lane] - place[axis], place[axis] - greatest[axis][lane]);
+                let beside = larger(larger(before, after), 0.0);
+                distance_square += beside * beside;
+            }
+            near |= LaneBits::from(distance_square <= square) << lane;
+        }
+        near
     }
 }

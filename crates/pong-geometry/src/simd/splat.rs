@@ -1,6 +1,7 @@
 //! One vector against eight others.
 
-use super::{LANES, Simd};
+use super::arithmetic::Simd;
+use super::lanes::LANES;
 use crate::Vec3;
 
 /// Eight vectors in registers; to begin with one, eight times.

@@ -1,7 +1,8 @@
 //! x86-64: one register of eight numbers (AVX-512) or two of four (AVX2). The crate `pulp` hands out its tokens only
 //! where the machine has the instructions, which makes their use safe.
 
-use super::{Kernel, LANES, LaneBits, Simd};
+use super::arithmetic::{Kernel, Simd};
+use super::lanes::{LANES, LaneBits};
 use pulp::cast;
 use pulp::x86::{V3, V4};
 use std::arch::x86_64::{__m128d, __m256d, __m256i, __m512d, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LT_OQ};

@@ -1,11 +1,9 @@
 //! Twins that are the same scene, played in another way.
 
-use super::{Manner, Twin};
-use crate::play::{Answer, Refusal, Stage};
+use super::Twin;
+use super::playing::Manner;
 use crate::random::Random;
 use crate::scene::Scene;
-use pong_engine::State;
-use pong_geometry::{Pose, Vec3};
 
 /// Evaluations between that are thrown away.
 pub fn thrown_away(scene: &Scene, random: &mut Random) -> Option<Twin> {
@@ -25,62 +23,4 @@ pub fn forgotten(scene: &Scene, _: &mut Random) -> Option<Twin> {
 /// With workers.
 pub fn workers(scene: &Scene, random: &mut Random) -> Option<Twin> {
     Some(Twin::played(scene, Manner::Workers(1 + random.below(3))))
-}
-
-/// Plays a scene in a world of its own.
-///
-/// # Errors
-///
-/// The scene cannot be loaded or played; the text is the engine's message.
-pub fn play(scene: &Scene, manner: Manner) -> Result<Vec<Answer>, Refusal> {
-    let workers = if let Manner::Workers(count) = manner { count } else { 0 };
-    let mut stage = Stage::set_up(scene, workers)?;
-    match manner {
-        Manner::Plain | Manner::Forgotten | Manner::Workers(_) => stage.play(&scene.frames),
-        Manner::ThrownAway(seed) => {
-            let mut random = Random::new(seed, 0, 0);
-            let mut answers = Vec::new();
-            for states in &scene.frames {
-                for _ in 0..random.below(3) {
-                    let other = random.pick(&scene.frames);
-                    stage.evaluate(&shaken(&other, scene.size, &mut random))?;
-                }
-                answers.push(stage.evaluate(states)?);
-                for _ in 0..random.below(2) {
-                    stage.evaluate(&shaken(states, scene.size, &mut random))?;
-                    stage.evaluate(states)?;
-                }
-                stage.commit()?;
-            }
-            Ok(answers)
-        }
-        Manner::Restored => {
-            let half = scene.frames.len() / 2;
-            let mut answers = Vec::new();
-            for states in &scene.frames[..half] {
-                answers.push(stage.step(states)?);
-            }
-            let mut block = Vec::new();
-            stage.world.save_state_packed(&mut block);
-            let mut other = Stage::set_up(scene, 0)?;
-            other.world.restore_state(&block).map_err(|error| error.to_string())?;
-            for states in &scene.frames[half..] {
-                answers.push(other.step(states)?);
-            }
-            Ok(answers)
-        }
-    }
-}
-
-/// Other states nearby.
-fn shaken(states: &[State; 2], size: f64, random: &mut Random) -> [State; 2] {
-    states.map(|state| {
-        let pose = state.pose();
-        let shift: Vec3 = random.vector(0.2 * size);
-        let pose = Pose {
-            position: pose.position + shift,
-            orientation: random.small_rotation(0.3) * pose.orientation,
-        };
-        State::from_motion(&pose, &state.twist())
-    })
 }

@@ -2,7 +2,10 @@
 
 pub mod manner;
 pub mod place;
+mod playing;
 pub mod shape;
+
+pub use playing::Manner;
 
 use crate::play::{Answer, Refusal, Stage};
 use crate::scene::Scene;
@@ -36,22 +39,6 @@ pub struct Back {
     pub origins: [Vec3; 2],
 }
 
-/// How a scene is played.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Manner {
-    /// Every frame evaluated and committed.
-    #[default]
-    Plain,
-    /// Other states are evaluated between, and thrown away.
-    ThrownAway(u64),
-    /// The contact state is saved after half of the frames and restored into a new world.
-    Restored,
-    /// In a world that has played other frames before and was made to forget them.
-    Forgotten,
-    /// With so many workers.
-    Workers(usize),
-}
-
 impl Twin {
     /// The same scene, to be changed.
     pub fn of(scene: &Scene) -> Self {
@@ -77,7 +64,7 @@ impl Twin {
         {
             return stage.play(&self.scene.frames);
         }
-        manner::play(&self.scene, self.manner)
+        playing::play(&self.scene, self.manner)
     }
 
     /// A frame's wrenches as the first scene would tell them.

@@ -1,0 +1,59 @@
+//! x86-64: eight boxes in one register of single precision numbers, at both levels.
+
+use super::boxes::{BoxSimd, EightBoxes};
+use super::lanes::LaneBits;
+use super::x86::{Avx2, Avx512};
+use pulp::cast;
+use pulp::core_arch::x86::Avx;
+use std::arch::x86_64::{__m256, _CMP_GT_OQ, _CMP_LE_OQ, _CMP_LT_OQ};
+
+#[inline(always)]
+fn boxes_met(avx: Avx, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
+    let [least, greatest] = boxes;
+    let apart_along = |axis: usize| -> __m256 {
+        let beyond = avx._mm256_cmp_ps::<_CMP_GT_OQ>(cast(least[axis]), avx._mm256_set1_ps(high[axis]));
+        let before = avx._mm256_cmp_ps::<_CMP_LT_OQ>(cast(greatest[axis]), avx._mm256_set1_ps(low[axis]));
+        avx._mm256_or_ps(beyond, before)
+    };
+    let apart = avx._mm256_or_ps(avx._mm256_or_ps(apart_along(0), apart_along(1)), apart_along(2));
+    !(avx._mm256_movemask_ps(apart) as LaneBits)
+}
+
+#[inline(always)]
+fn boxes_near(avx: Avx, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
+    let [least, greatest] = boxes;
+    let mut distance_square = avx._mm256_setzero_ps();
+    for axis in 0..3 {
+        let place = avx._mm256_set1_ps(place[axis]);
+        let before = avx._mm256_sub_ps(cast(least[axis]), place);
+        let after = avx._mm256_sub_ps(place, cast(greatest[axis]));
+        let beside = avx._mm256_max_ps(avx._mm256_max_ps(before, after), avx._mm256_setzero_ps());
+        distance_square = avx._mm256_add_ps(distance_square, avx._mm256_mul_ps(beside, beside));
+    }
+    let near = avx._mm256_cmp_ps::<_CMP_LE_OQ>(distance_square, avx._mm256_set1_ps(square));
+    avx._mm256_movemask_ps(near) as LaneBits
+}
+
+impl BoxSimd for Avx2 {
+    #[inline(always)]
+    fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
+        boxes_met(self.0.avx, boxes, low, high)
+    }
+
+    #[inline(always)]
+    fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
+        boxes_near(self.0.avx, boxes, place, square)
+    }
+}
+
+impl BoxSimd for Avx512 {
+    #[inline(always)]
+    fn boxes_met(self, boxes: &EightBoxes, low: &[f32; 3], high: &[f32; 3]) -> LaneBits {
+        boxes_met(self.0.avx, boxes, low, high)
+    }
+
+    #[inline(always)]
+    fn boxes_near(self, boxes: &EightBoxes, place: &[f32; 3], square: f32) -> LaneBits {
+        boxes_near(self.0.avx, boxes, place, square)
+    }
+}
