@@ -16,7 +16,7 @@
 #define PONG_CHECK_ABI() pong_check_abi(PONG_ABI_VERSION, PONG_LAYOUT_HASH)
 
 /// Number of the binary interface: the N of libpong.so.N.
-#define PONG_ABI_VERSION 0
+#define PONG_ABI_VERSION 1
 
 /// The wrench is evaluated again at every stage of an integrator of higher order (the classic Runge-Kutta method).
 #define PONG_COUPLING_STAGES 1
@@ -757,6 +757,7 @@ uint32_t pong_abi_version(void);
 uint64_t pong_layout_hash(void);
 
 /// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+/// A header of an earlier release of the same ABI fits.
 pong_status pong_check_abi(uint32_t abi_version, uint64_t hash);
 
 /// The default settings.

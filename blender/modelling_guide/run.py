@@ -113,7 +113,7 @@ class Page:
         libraries = [f"-L{library}", "-lpong", f"-Wl,-rpath,{library}", "-o", str(program)]
         subprocess.run([*command, *libraries], check=True)
         environment = {**os.environ, "LD_LIBRARY_PATH": str(Path.cwd())}
-        link = Path("libpong.so.0")
+        link = Path("libpong.so.1")
         if not link.exists():
             link.symlink_to(library / "libpong.so")
         done = subprocess.run([program], check=True, capture_output=True, text=True, env=environment)

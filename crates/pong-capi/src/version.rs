@@ -1,6 +1,7 @@
 //! Which library this is, and whether the header fits it.
 
 pub use crate::abi::PONG_ABI_VERSION;
+use crate::abi::fits;
 use crate::failure::Failure;
 use crate::guard::guarded;
 use crate::layout::layout_hash;
@@ -29,15 +30,16 @@ pub extern "C" fn pong_layout_hash() -> u64 {
 }
 
 /// Whether header and library fit: call it first, as PONG_CHECK_ABI(). PONG_STATUS_CONFIG if they do not.
+/// A header of an earlier release of the same ABI fits.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_check_abi(abi_version: u32, hash: u64) -> pong_status {
     guarded(|| {
-        if abi_version == PONG_ABI_VERSION && hash == layout_hash() {
+        if fits(abi_version, hash, layout_hash()) {
             return Ok(());
         }
         let message = format!(
             "pong.h is of ABI {abi_version} with layout {hash:#x}, the library of ABI {PONG_ABI_VERSION} with layout \
-             {:#x}; compile against the pong.h of version {}",
+             {:#x}; compile against the pong.h of version {}, or install the library of the header's release",
             layout_hash(),
             env!("CARGO_PKG_VERSION")
         );

@@ -20,7 +20,7 @@ class Wheel(unittest.TestCase):
             names = wheel.namelist()
             metadata = wheel.read(next(name for name in names if name.endswith("METADATA"))).decode()
         self.assertIn("-py3-none-", pathlib.Path(WHEEL).name)
-        for name in ("libpong_contact.so", "libpong.so.0"):
+        for name in ("libpong_contact.so", "libpong.so.1"):
             self.assertIn(f"pong_mujoco/binaries/{mujoco.__version__}/{name}", names)
         self.assertTrue(any(name.endswith("THIRD_PARTY_LICENSES.md") for name in names))
         self.assertIn(f"Requires-Dist: mujoco=={mujoco.__version__}", metadata)
