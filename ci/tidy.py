@@ -24,12 +24,13 @@ ARROWS = {
     "pong-study": {"pong-report", "pong-geometry", "pong-model", "pong-engine", "pong-executive", "pong-record"},
     "pong-import": {"pong-geometry", "pong-model"},
     "pong-decompose": {"pong-geometry", "pong-import", "pong-model"},
+    "pong-doctor": {"pong-geometry", "pong-threads"},
     "pong-invariance": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-testkit": set(),
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
     "pong-capi": {"pong-advise", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {
-        "pong-advise", "pong-decompose", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
+        "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
         "pong-verify", "pong-report", "pong-study", "pong-view",
     },
 }

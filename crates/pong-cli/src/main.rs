@@ -10,9 +10,11 @@
 mod advise;
 mod check;
 mod decompose;
+mod doctor;
 mod folders;
 mod import;
 mod log;
+mod man_pages;
 mod replay;
 mod run;
 mod terminal;
@@ -22,7 +24,7 @@ mod tune;
 mod verify;
 mod view;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use std::process::ExitCode;
 
 /// Contact dynamics from the terminal.
@@ -38,9 +40,11 @@ enum Command {
     Advise(advise::Arguments),
     Check(check::Arguments),
     Decompose(decompose::Arguments),
+    Doctor(doctor::Arguments),
     Import(import::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
+    ManPages(man_pages::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
     Tune(tune::Arguments),
@@ -57,9 +61,11 @@ fn main() -> ExitCode {
         Command::Advise(arguments) => advise::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
+        Command::Doctor(arguments) => doctor::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),
+        Command::ManPages(arguments) => man_pages::main(&arguments, Cli::command()),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
         Command::Tune(arguments) => tune::main(&arguments),
