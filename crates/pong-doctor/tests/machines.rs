@@ -1,4 +1,4 @@
-//! What is found on machines whose files are recorded in `machines/`.
+//! What is found on machines whose files are recorded in `recorded/`.
 
 use pong_doctor::{Files, Finding, State, examine};
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ struct Record(BTreeMap<String, String>);
 
 impl Record {
     fn read(name: &str) -> Self {
-        let path = format!("{}/tests/machines/{name}.txt", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/tests/recorded/{name}.txt", env!("CARGO_MANIFEST_DIR"));
         let text = std::fs::read_to_string(path).unwrap();
         let files = text.split("==> ").skip(1).map(|file| {
             let (path, text) = file.split_once('\n').unwrap();
