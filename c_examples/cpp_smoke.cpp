@@ -98,6 +98,8 @@ void list_and_restore(pong::World& world) {
             "the contact names the sphere");
     world.restore_contact_state(saved);
     require(world.save_contact_state() == saved, "the contact state survives a round trip");
+    const pong::World clone = world.clone();
+    require(clone.save_contact_state() == saved && clone.get() != world.get(), "a clone remembers the same");
 }
 
 void look(pong::World& world) {

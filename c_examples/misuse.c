@@ -136,10 +136,13 @@ static void names_and_ids(scene *s)
 
 static void order_before_seal(scene *s)
 {
+    pong_world *clone = s->world;
     pong_wrench wrench;
     size_t size;
     pong_worker worker;
     const char *text;
+    REFUSED(pong_clone_world(s->world, &clone), WRONG_PHASE, "seal the world first");
+    TEST(clone == NULL);
     REFUSED(pong_prewake(s->world, 100), WRONG_PHASE, "seal");
     REFUSED(pong_quiesce(s->world), WRONG_PHASE, "seal");
     REFUSED(pong_worker_count(s->world, &size), WRONG_PHASE, "seal");

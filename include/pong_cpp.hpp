@@ -113,6 +113,15 @@ public:
         world_.reset(made);
     }
 
+    /// Another world of this sealed one, as it stands; both are independent from here on. See pong_clone_world().
+    World clone() const {
+        World made(nullptr);
+        pong_world* world = nullptr;
+        check(pong_clone_world(get(), &world));
+        made.world_.reset(world);
+        return made;
+    }
+
     /// For calls that this class does not have.
     pong_world* get() const noexcept { return world_.get(); }
 
@@ -309,6 +318,8 @@ public:
     }
 
 private:
+    explicit World(std::nullptr_t) noexcept {}
+
     struct Destroy {
         void operator()(pong_world* world) const noexcept { pong_destroy_world(world); }
     };

@@ -1,4 +1,4 @@
-/* The calls that the other programs do not make: names, user data, contacts, contact state, surfaces, pairs, energies,
+/* The calls that the other programs do not make: names, user data, contacts, contact state, clones, surfaces, pairs, energies,
  * limits, report, workers, threads. */
 #include "crowd.h"
 #include <math.h>
@@ -159,6 +159,43 @@ static void preload(scene *s)
     OK(pong_preload_friction(s->world, s->pair, NULL, NULL));
     REFUSED(pong_preload_friction(s->world, s->pair, not_finite, &count), BAD_VALUE, "NaN");
     OK(pong_clear_contact_history(s->world, s->ball));
+}
+
+/* A clone goes on to the same bits, then its own way. */
+static void clones(scene *s)
+{
+    pong_world *clone = NULL, *nothing = s->world;
+    pong_wrench mine, its;
+    uint64_t value = 0;
+    size_t i;
+    const char *text = "";
+    memset(&its, 0, sizeof its);
+    OK(pong_set_object_user_data(s->world, s->ball, 7));
+    slide_to(s, 0.0);
+    OK(pong_clone_world(s->world, &clone));
+    REFUSED(pong_get_wrench(clone, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &its), WRONG_PHASE, "evaluate");
+    OK(pong_get_object_user_data(clone, s->ball, &value));
+    TEST(value == 7);
+    OK(pong_object_name(clone, s->ball, &text));
+    TEST(strcmp(text, "ball") == 0);
+    for (i = 1; i < 20; i += 1) {
+        mine = slide_to(s, 1e-4 * (double)i);
+        OK(pong_set_states(clone, s->interfaces, s->states, 3));
+        OK(pong_step(clone));
+        OK(pong_get_wrench(clone, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &its));
+        TEST(memcmp(&mine, &its, sizeof mine) == 0 && mine.force[0] < 0.0);
+    }
+    OK(pong_clear_contact_history(clone, s->ball));
+    OK(pong_step(clone));
+    OK(pong_get_wrench(clone, s->interfaces[0], PONG_REFERENCE_FRAME_COMMON, &its));
+    mine = slide_to(s, 1e-4 * 19.0);
+    TEST(mine.force[0] < its.force[0]);
+    OK(pong_destroy_world(clone));
+    TEST(slide_to(s, 1e-4 * 20.0).force[0] < 0.0);
+    REFUSED(pong_clone_world(s->world, NULL), NULL_ARGUMENT, "`clone`");
+    REFUSED(pong_clone_world(NULL, &nothing), NULL_ARGUMENT, "`world`");
+    TEST(nothing == NULL);
+    OK(pong_set_object_user_data(s->world, s->ball, 0));
 }
 
 static void surfaces(scene *s)
@@ -589,6 +626,7 @@ int main(void)
     frames(&s);
     contact_state(&s);
     preload(&s);
+    clones(&s);
     surfaces(&s);
     pairs_and_rates(&s);
     threads(&s);

@@ -5,7 +5,7 @@ use pong_engine::{EngineError, InterfaceId, Scene, World};
 use std::collections::BTreeMap;
 
 /// What the adviser was told before the seal.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Advice {
     masses: BTreeMap<InterfaceId, GroupMass>,
     pub plan: Option<StepPlan>,

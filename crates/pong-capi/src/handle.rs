@@ -3,7 +3,7 @@
 use crate::advice::Advice;
 use crate::counters::Counters;
 use crate::host_data::UserData;
-use crate::law_adapters::LawFaults;
+use crate::law_adapters::{Callback, LawFaults};
 use crate::names::Names;
 use crate::phase::Phase;
 use crate::worker::Started;
@@ -40,8 +40,8 @@ pub(crate) struct Inner {
     pub pairs: Vec<PairId>,
     pub counters: Counters,
     pub law_faults: LawFaults,
-    /// Names of the registered laws: of the normal force and of friction.
-    pub law_names: [Vec<String>; 2],
+    /// The registered laws.
+    pub callbacks: Vec<Callback>,
     /// Where each model came from.
     pub sources: Vec<ModelSource>,
     pub log: Option<Recorder>,

@@ -4,7 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::floating_point::lent;
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input, pong_normal_law};
 use crate::status::pong_status;
-use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, NormalForce, NormalInput};
+use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, Laws, NormalForce, NormalInput};
 use pong_geometry::Vec3;
 use std::ffi::c_void;
 use std::sync::Arc;
@@ -51,6 +51,19 @@ impl LawFaults {
         fault
     }
 
+    /// The same laws for another world, their faults noted here.
+    pub fn watch_again(&mut self, callbacks: &[Callback]) -> (Vec<Callback>, Laws) {
+        let (mut callbacks, mut laws) = (callbacks.to_vec(), Laws::default());
+        for callback in &mut callbacks {
+            match callback {
+                Callback::Normal { name, law } => law.fault = self.watch(name),
+                Callback::Friction { name, law } => law.fault = self.watch(name),
+            }
+            callback.add_to(&mut laws);
+        }
+        (callbacks, laws)
+    }
+
     /// Takes note of what an evaluation has shown.
     pub fn collect(&mut self) {
         self.failed = None;
@@ -73,8 +86,25 @@ impl LawFaults {
     }
 }
 
+/// A law given by callback, as it was registered.
+#[derive(Clone, Debug)]
+pub(crate) enum Callback {
+    Normal { name: String, law: NormalCallback },
+    Friction { name: String, law: FrictionCallback },
+}
+
+impl Callback {
+    /// Adds it to the laws of a world.
+    pub fn add_to(&self, laws: &mut Laws) {
+        match self {
+            Self::Normal { name, law } => laws.add_normal(name, Arc::new(law.clone())),
+            Self::Friction { name, law } => laws.add_friction(name, Arc::new(law.clone())),
+        }
+    }
+}
+
 /// A normal force law given by callback.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct NormalCallback {
     pub force: unsafe extern "C" fn(*const pong_normal_input, *mut c_void) -> f64,
     pub stored: pong_normal_law,
@@ -106,7 +136,7 @@ fn c_input(input: &NormalInput<'_>) -> pong_normal_input {
 }
 
 /// A friction law given by callback.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct FrictionCallback {
     pub evaluate:
         unsafe extern "C" fn(*const pong_friction_input, *mut f64, *mut pong_friction_output, *mut c_void),

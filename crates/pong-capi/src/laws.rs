@@ -3,12 +3,11 @@
 use crate::failure::{Failure, Outcome};
 use crate::guard::setting_up;
 use crate::handle::{Inner, pong_world};
-use crate::law_adapters::{FrictionCallback, NormalCallback, User};
+use crate::law_adapters::{Callback, FrictionCallback, NormalCallback, User};
 use crate::law_types::{pong_friction_law, pong_normal_law};
 use crate::pointers::text;
 use crate::status::pong_status;
 use std::ffi::{c_char, c_void};
-use std::sync::Arc;
 
 /// Adds a normal force law that models then name as Custom(name: "...", parameters: [...]). Before sealing.
 ///
@@ -29,11 +28,13 @@ pub unsafe extern "C" fn pong_register_normal_law(
         setting_up(world, |inner| {
             let name = text(name, "name")?;
             let force = force.ok_or_else(|| no_function("force"))?;
-            inner.claim_law_name(NORMAL, name)?;
+            inner.check_new_law(
+                name,
+                |known| matches!(known, Callback::Normal { name: n, .. } if n == name),
+            )?;
             let fault = inner.law_faults.watch(name);
-            let law = Arc::new(NormalCallback { force, stored, user: User(user), fault });
-            inner.phase.set_up("register a law")?.laws_mut().add_normal(name, law);
-            Ok(())
+            let law = NormalCallback { force, stored, user: User(user), fault };
+            inner.register(Callback::Normal { name: name.to_owned(), law })
         })
     }
 }
@@ -59,18 +60,18 @@ pub unsafe extern "C" fn pong_register_friction_law(
                 );
                 return Err(Failure::new(pong_status::BadValue, message));
             }
-            inner.claim_law_name(FRICTION, name)?;
+            inner.check_new_law(
+                name,
+                |known| matches!(known, Callback::Friction { name: n, .. } if n == name),
+            )?;
             let fault = inner.law_faults.watch(name);
-            let law = Arc::new(FrictionCallback { evaluate, state_len, user: User(user), fault });
-            inner.phase.set_up("register a law")?.laws_mut().add_friction(name, law);
-            Ok(())
+            let law = FrictionCallback { evaluate, state_len, user: User(user), fault };
+            inner.register(Callback::Friction { name: name.to_owned(), law })
         })
     }
 }
 
 const MOST_NUMBERS: usize = 64;
-const NORMAL: usize = 0;
-const FRICTION: usize = 1;
 
 fn no_function(name: &str) -> Failure {
     Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a function"))
@@ -78,13 +79,18 @@ fn no_function(name: &str) -> Failure {
 
 impl Inner {
     /// Refuses a law that may not be added.
-    fn claim_law_name(&mut self, kind: usize, name: &str) -> Outcome {
+    fn check_new_law(&mut self, name: &str, is_same: impl Fn(&Callback) -> bool) -> Outcome {
         self.phase.set_up("register a law")?;
-        if self.law_names[kind].iter().any(|known| known == name) {
+        if self.callbacks.iter().any(is_same) {
             let message = format!("law `{name}`: already there; use another name");
             return Err(Failure::new(pong_status::Duplicate, message));
         }
-        self.law_names[kind].push(name.to_owned());
+        Ok(())
+    }
+
+    fn register(&mut self, callback: Callback) -> Outcome {
+        callback.add_to(self.phase.set_up("register a law")?.laws_mut());
+        self.callbacks.push(callback);
         Ok(())
     }
 }

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `version.rs` | version, layout check |
 //! | `status.rs`, `message.rs` | status numbers, the last message |
-//! | `config.rs`, `world.rs` | create and destroy a world |
+//! | `config.rs`, `world.rs`, `clone.rs` | create, destroy and clone a world |
 //! | `phase.rs` | set-up or frames: refuses calls in the wrong phase |
 //! | `laws.rs`, `law_types.rs` | force laws by callback |
 //! | `models.rs`, `objects.rs`, `pairs.rs`, `interfaces.rs`, `primitives.rs` | set-up and look-up |
@@ -35,6 +35,7 @@ mod abi;
 pub mod accounts;
 mod advice;
 mod clock;
+pub mod clone;
 pub mod config;
 pub mod contact_state;
 pub mod contacts;

@@ -11,7 +11,7 @@ use std::ffi::CString;
 use std::sync::Arc;
 
 /// All names. A `CString` does not move when the collection around it grows, so its pointer stays good.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Names {
     models: HashMap<u64, Arc<ModelNames>>,
     objects: HashMap<u64, CString>,
@@ -33,6 +33,7 @@ struct BodyNames {
 }
 
 /// Where the names of an Interface are.
+#[derive(Clone)]
 struct InterfaceNames {
     object: ObjectId,
     model: Arc<ModelNames>,

@@ -51,7 +51,7 @@ pub unsafe extern "C" fn pong_create_world(
             pairs: Vec::new(),
             counters: Counters::default(),
             law_faults: LawFaults::default(),
-            law_names: [Vec::new(), Vec::new()],
+            callbacks: Vec::new(),
             sources: Vec::new(),
             log: None,
         };

@@ -223,7 +223,7 @@ impl WorldBuilder {
             Err(error) => return Err(SealError { error, builder: self }),
         };
         let scene = Arc::new(self.scene);
-        match Running::start(&scene, sealed, tables, self.clock) {
+        match Running::start(&scene, Arc::new(sealed), Arc::new(tables), self.clock) {
             Ok(running) => {
                 report.workers = running.worker_starts().to_vec();
                 Ok((World::new(scene, self.surfaces, self.states, running), report))

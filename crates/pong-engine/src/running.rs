@@ -43,11 +43,10 @@ impl Running {
     /// Takes all memory and starts the workers.
     pub fn start(
         scene: &Arc<Scene>,
-        sealed: Sealed,
-        tables: Vec<SurfaceTable>,
+        sealed: Arc<Sealed>,
+        tables: Arc<Vec<SurfaceTable>>,
         clock: Clock,
     ) -> Result<Self, EngineError> {
-        let (sealed, tables) = (Arc::new(sealed), Arc::new(tables));
         let pairs = sealed.group_pairs.len();
         let memory = || {
             let memory = ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.law_state_len);
@@ -97,6 +96,18 @@ impl Running {
             sealed,
             tables,
         })
+    }
+
+    /// Another of the same sealed scene, with these values of surfaces, that remembers the same contacts. It has memory and
+    /// workers of its own and no frame yet.
+    pub fn start_clone(
+        &self,
+        scene: &Arc<Scene>,
+        tables: Arc<Vec<SurfaceTable>>,
+    ) -> Result<Self, EngineError> {
+        let mut clone = Self::start(scene, Arc::clone(&self.sealed), tables, self.clock)?;
+        Arc::get_mut(&mut clone.memory).expect("nobody else has it yet").copy_from(&self.memory);
+        Ok(clone)
     }
 
     /// What is set now is no longer what the last frame was computed from.

@@ -3,10 +3,13 @@
 use super::frames::finite;
 use super::laws;
 use super::session::{Session, Sure, read_text};
+use super::set_up::COSTS_MAX;
+use pong::clone::pong_clone_world;
 use pong::contact_state::{
     pong_contact_state_size, pong_contact_state_used, pong_preload_friction, pong_restore_contact_state,
     pong_save_contact_state,
 };
+use pong::frames::pong_step;
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::objects::pong_clear_contact_history;
 use pong::pairs::pong_set_pair_enabled;
@@ -14,6 +17,7 @@ use pong::surfaces::{
     pong_get_surface, pong_set_surface, pong_surface_count, pong_surface_name, pong_surface_values,
 };
 use pong::workers::{pong_prewake, pong_quiesce};
+use pong::world::pong_destroy_world;
 use std::ffi::c_char;
 
 /// Surfaces of the models, and another.
@@ -21,13 +25,14 @@ const SURFACES: [&str; 6] = ["rubber", "rock", "wall", "own", "foam", "nope"];
 
 impl Session<'_> {
     pub fn between_frames(&mut self) {
-        match self.input.below(9) {
+        match self.input.below(10) {
             0 => self.save(),
             1 | 2 => self.restore(),
             3 => self.forget(),
             4 => self.switch_pair(),
             5 | 6 => self.surface(),
             7 => self.wake(),
+            8 => self.clone_world(),
             _ => self.preload(),
         }
     }
@@ -40,6 +45,37 @@ impl Session<'_> {
             // Whether the frame there is counts is for the next evaluation to say.
             host.has_frame = false;
         }
+    }
+
+    /// A clone that remembers the same, takes a frame and is destroyed.
+    fn clone_world(&mut self) {
+        let (world, known) = self.world();
+        let sealed = self.host().is_some_and(|host| host.sealed);
+        if sealed && self.costs >= COSTS_MAX {
+            return;
+        }
+        self.costs += u32::from(sealed);
+        let place = self.place();
+        let sure = known.and(place.sure).only_if(sealed);
+        // SAFETY: here and below: living worlds, places and texts, as the safety contract of all entries says.
+        if !self.call("clone", sure, || unsafe { pong_clone_world(world, place.pointer) }) {
+            return;
+        }
+        let clone = place.get();
+        let mut blocks = [Vec::new(), Vec::new()];
+        for (world, block) in [world, clone].into_iter().zip(&mut blocks) {
+            let mut size = 0;
+            self.call("used", Sure::Right, || unsafe { pong_contact_state_used(world, &mut size) });
+            block.resize(size, 0);
+            let pointer = block.as_mut_ptr().cast();
+            self.call("save", Sure::Right, || unsafe { pong_save_contact_state(world, pointer, size) });
+        }
+        assert!(blocks[0] == blocks[1], "a clone remembers something else");
+        // A law that calls its own world back would call the first one, which is free.
+        if self.host().is_some_and(|host| !host.behaviour.calls_back()) {
+            self.call("step", Sure::Unknown, || unsafe { pong_step(clone) });
+        }
+        self.call("destroy", Sure::Right, || unsafe { pong_destroy_world(clone) });
     }
 
     fn save(&mut self) {

@@ -27,6 +27,11 @@ impl Behaviour {
         self.kind.store(kind % KINDS, Ordering::Relaxed);
     }
 
+    /// Whether the laws call their world back.
+    pub fn calls_back(&self) -> bool {
+        self.kind.load(Ordering::Relaxed) == CALLS_BACK
+    }
+
     pub fn user(&self) -> *mut c_void {
         std::ptr::from_ref(self).cast_mut().cast()
     }

@@ -5,7 +5,7 @@ use cbindgen::{Builder, DocumentationStyle, EnumConfig, ItemType, Language, Rena
 use std::path::Path;
 
 /// Source files in the order in which a reader of the header should meet them.
-const FILES: [&str; 29] = [
+const FILES: [&str; 30] = [
     "status",
     "abi",
     "version",
@@ -16,6 +16,7 @@ const FILES: [&str; 29] = [
     "wrenches",
     "handle",
     "world",
+    "clone",
     "law_types",
     "laws",
     "models",

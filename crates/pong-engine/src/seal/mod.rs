@@ -23,7 +23,8 @@ use pong_geometry::bounding::VolumeTests;
 use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
 use std::collections::BTreeSet;
-use surfaces::{friction_lost, law_state_len};
+use surfaces::friction_lost;
+pub(crate) use surfaces::law_state_len;
 use warnings::warnings;
 
 /// What sealing tells the host.
@@ -116,6 +117,17 @@ pub(crate) fn seal(
         notes: friction_lost(scene, surfaces, &tables).into_iter().collect(),
     };
     Ok((sealed, tables, report))
+}
+
+/// Asks for the memory that the frames of another world of a sealed scene take.
+pub(crate) fn require_memory_of_clone(scene: &Scene, sealed: &Sealed) -> Result<(), EngineError> {
+    let Sealed { limits, contact_capacity, law_state_len, .. } = sealed;
+    let pairs = sealed.group_pairs.len();
+    require_memory(
+        "clone: the frames",
+        memory::for_frames(scene, pairs, limits, *contact_capacity, *law_state_len),
+        "destroy worlds that are not needed, or seal the first with a smaller `contact_capacity`",
+    )
 }
 
 /// How many pairs of movable groups [`group_pairs`] lists.

@@ -154,7 +154,8 @@ fn table_entry<'m>(
     })
 }
 
-pub(super) fn law_state_len(tables: &[SurfaceTable]) -> usize {
+/// Most numbers that a registered friction law of the tables remembers of a contact.
+pub(crate) fn law_state_len(tables: &[SurfaceTable]) -> usize {
     let lens = tables.iter().flat_map(|table| &table.props).flatten().map(|props| match &props.friction {
         FrictionProps::Custom { law, .. } => law.state_len(),
         _ => 0,

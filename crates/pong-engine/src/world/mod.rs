@@ -8,8 +8,10 @@
 //! | `energy.rs` | energies of the last commit |
 //! | `contact_state.rs` | the contact state as a block of bytes |
 //! | `workers.rs` | workers, and the times of a frame |
+//! | `clone.rs` | another world of the same sealed scene |
 
 mod changes;
+mod clone;
 mod contact_state;
 mod energy;
 mod frame;

@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::report::{Clock, MemoryReport, StageTimes, WorkTimes};
-use pong_threads::LaneWork;
+use pong_threads::{LaneWork, WorkerStart};
 
 impl World {
     /// Gives the world another clock, in ns, for the stages of its frames ([`stage_times`](Self::stage_times)); the workers
@@ -10,6 +10,11 @@ impl World {
     /// ([`WorldBuilder::set_clock`](crate::WorldBuilder::set_clock)).
     pub fn set_clock(&mut self, now_ns: fn() -> u64) {
         self.running.clock = Clock(Some(now_ns));
+    }
+
+    /// How every worker started: its core and priority, or why it has none. Empty without workers.
+    pub fn worker_starts(&self) -> &[WorkerStart] {
+        self.running.worker_starts()
     }
 
     /// Wakes the workers shortly before a frame: they look for its work until it comes or `at_most` has passed. For
