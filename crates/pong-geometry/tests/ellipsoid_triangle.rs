@@ -32,7 +32,28 @@ fn pushing(e: &Ellipsoid, set: &TriangleSet, thickness: f64) -> Vec<TriangleCont
     let (mut firm, spare): (Vec<_>, Vec<_>) = contacts(e, set, thickness).into_iter().partition(is_firm);
     let deepest = firm.iter().map(|c| c.interference.depth).fold(0.0, f64::max);
     firm.extend(spare.into_iter().filter(|c| c.interference.depth * (1.0 - 1e-9) > deepest));
+    let all = firm.clone();
+    firm.retain(|contact| !all.iter().any(|other| yields(contact, other)));
     firm
+}
+
+/// Whether a face, or what has the centre behind it, yields to a less deep contact that meets it convexly: the tester finds
+/// both, and the sharing of loads, which knows which of them push, keeps the less deep (docs/theory.md, 2.2).
+fn yields(contact: &TriangleContact, other: &TriangleContact) -> bool {
+    let (here, there) = (touched(contact), touched(other));
+    let [depth, less] = [contact, other].map(|c| c.interference.depth);
+    let is_before = contact.interference.feature > other.interference.feature;
+    let is_less_deep = less < depth * (1.0 - 1e-12) || (less < depth * (1.0 + 1e-12) && is_before);
+    let apart = there - here;
+    let slack = 1e-9 * apart.norm();
+    let is_one_place = apart.norm() < 1e-9;
+    let meet_convexly = if is_one_place {
+        !contact.interference.feature.is_face() || !other.interference.feature.is_face()
+    } else {
+        contact.interference.normal.dot(&apart) <= slack && other.interference.normal.dot(&apart) >= -slack
+    };
+    let may_yield = contact.interference.feature.is_face() || contact.standing == Standing::Behind;
+    may_yield && is_less_deep && meet_convexly
 }
 
 fn smallest_radius(semi_axes: &Vec3) -> f64 {

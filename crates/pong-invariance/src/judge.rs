@@ -5,7 +5,7 @@ use crate::jump;
 use crate::make::path;
 use crate::play::Answer;
 use crate::random::Random;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Friction, Scene, Shape};
 use crate::twin::Twin;
 use pong_geometry::{Vec3, Wrench};
 
@@ -87,18 +87,35 @@ pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
     if worst.is_nan() { f64::INFINITY } else { worst }
 }
 
+/// What folds leave uncertain of a force. Normal force and friction turn with the normal, and damping sees another part of
+/// the velocity. A bristle remembers the contact plane in which it was stretched.
+fn of_folds(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {
+    let frame = answers.len() - 1;
+    let remembers =
+        |body: usize| matches!(base.scene.bodies[body].surface.friction, Friction::Bristle { .. });
+    let since = if remembers(0) || remembers(1) { 0 } else { frame };
+    let turned = (since..=frame).map(|frame| turned_by_a_fold(base, twin, frame, &answers[frame]));
+    let [a, b] = &base.scene.frames[frame];
+    let norm = |v: [f64; 3]| Vec3::from(v).norm();
+    let speed = (Vec3::from(a.linear_velocity) - Vec3::from(b.linear_velocity)).norm()
+        + (norm(a.angular_velocity) + norm(b.angular_velocity)) * base.scene.size;
+    let force = std::f64::consts::SQRT_2 * largest + base.scene.damping() * speed;
+    force * turned.fold(0.0, f64::max)
+}
+
 /// How uncertain the direction of a shared push is. Two faces folded by a small angle θ divide a push by the difference of
 /// their depths; rounding moves each by ε of a size, and the place where they balance by ε/θ of it. The direction turns by that
-/// over the depth, and by no more than θ.
+/// over the depth, and by no more than θ. The planes of thin triangles are known as well as their heights.
 fn turned_by_a_fold(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> f64 {
     /// Steeper folds are known well enough.
-    const STEEP: f64 = 1e-4;
+    const STEEP: f64 = 1e-3;
     let back = twin.back.turn.inverse();
     let far = base.scene.frames[frame]
         .iter()
         .flat_map(|state| state.position)
         .fold(0.0, |m: f64, x| m.max(x.abs()));
-    let moved = 64.0 * (f64::EPSILON * (base.scene.size + far) + twin.rounding);
+    let thin = thinnest(&base.scene).min(thinnest(&twin.scene));
+    let moved = 64.0 * (f64::EPSILON * (base.scene.size + far) / thin + twin.rounding);
     let mine = base.answers[frame].contacts.iter().map(|touch| (touch.normal, touch.depth));
     let all: Vec<_> =
         mine.clone().chain(answer.contacts.iter().map(|touch| (back * touch.normal, touch.depth))).collect();
@@ -169,16 +186,27 @@ pub fn compare(base: &mut Base, twin: &Twin, is_bits: bool, random: &mut Random)
         }
         let largest = base.largest(frame).max(answer.largest / twin.back.force);
         let mut allowance = Allowance::of(base, twin, largest);
-        allowance.force += largest * turned_by_a_fold(base, twin, frame, answer);
+        allowance.force += of_folds(base, twin, &answers[..=frame], largest);
         let read = twin.read(answer, &base.scene, frame);
         if allowance.exceeded(&first.wrenches, &read) > 1.0 {
             let difference = distance(&first.wrenches, &read, allowance.lever);
             let found = finding(base, twin, frame, difference / largest, answer);
-            let is_at_a_jump = jump::is_there(base, twin, frame, &read, &allowance, random);
+            let depth = least_depth(base, twin, frame, answer);
+            let is_at_a_jump = jump::is_there(base, twin, (frame, depth), &read, &allowance, random);
             return if is_at_a_jump { Verdict::AtAJump(found) } else { Verdict::Differs(found) };
         }
     }
     Verdict::Agrees
+}
+
+/// The least depth of a contact up to a frame, of the twin's answer in it as well, m. What is deeper than a thousandth of the
+/// scene's size is deep enough.
+fn least_depth(base: &Base, twin: &Twin, frame: usize, answer: &Answer) -> f64 {
+    let size = base.scene.size;
+    let scale = size / twin.scene.size;
+    let mine = base.answers[..=frame].iter().flat_map(|answer| &answer.contacts).map(|touch| touch.depth);
+    let all = mine.chain(answer.contacts.iter().map(|touch| touch.depth * scale));
+    all.fold(1e-3 * size, f64::min)
 }
 
 fn finding(base: &Base, twin: &Twin, frame: usize, relative: f64, answer: &Answer) -> Finding {

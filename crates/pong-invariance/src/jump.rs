@@ -22,11 +22,12 @@ const LONGEST_STEP: f64 = 1e-6;
 /// The shortest, where rounding still is far below.
 const SHORTEST_STEP: f64 = 1e-12;
 
-/// Whether the difference of a twin's frame is that of a jump of the first scene.
+/// Whether the difference of a twin's frame is that of a jump of the first scene. `depth` is the least of a contact in either
+/// answer, m.
 pub fn is_there(
     base: &mut Base,
     twin: &Twin,
-    frame: usize,
+    (frame, depth): (usize, f64),
     read: &[Wrench; 2],
     allowance: &Allowance,
     random: &mut Random,
@@ -36,9 +37,7 @@ pub fn is_there(
     let difference = distance(&first, read, lever);
     let size = base.scene.size;
     // So far that what changes smoothly stays well below the difference: depths change by the step.
-    let deepest = base.answers[..=frame].iter().flat_map(|answer| &answer.contacts);
-    let deepest = deepest.map(|touch| touch.depth).fold(1e-3 * size, f64::min);
-    let smooth = 0.02 * difference / base.largest(frame).max(difference) * deepest / size;
+    let smooth = 0.02 * difference / base.largest(frame).max(difference) * depth / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
     let mut settled: Vec<[Wrench; 2]> = Vec::new();
     for round in 1..=ROUNDS {

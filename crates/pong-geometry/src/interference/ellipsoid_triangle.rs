@@ -5,9 +5,9 @@
 //! no single nearest point: what decides between features is where the deepest point's foot lies and between which
 //! normals a minimum lies. While the depth is less than the smallest radius of curvature, as for a sphere, exactly one
 //! of the features that meet convexly claims a place. Deeper, several may; then only the less deep pushes, as in a
-//! polyhedron: a face yields to its edges' minima, and to a convex neighbour that is less deep and holds its own foot.
-//! So depth stays continuous where one hands over to the other. With the centre behind more faces push than may: which of
-//! them count is for the sharing to say, which sees them all.
+//! polyhedron, and so does with the centre behind. Which of them count is for the sharing to say, which sees them all and
+//! knows which of them push: what yielded to an edge that is barred would leave nothing, and what yields to its own edges
+//! alone would depend on how the surface is cut.
 //!
 //! "In front" is measured at the centre: above the face, or above the plane through the edge or vertex across the
 //! normal at hand. What only rounding keeps from pushing is emitted as spare.
@@ -21,6 +21,7 @@
 //! Degenerate cases: centre in the plane, on an edge or a vertex counts as in front; there the nearest surface point's
 //! normal decides.
 
+use super::behind_triangle::has_behind;
 use super::ellipsoid_math::{
     NormalFoot, nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse,
     second_nearest_on_ellipsoid,
@@ -32,7 +33,6 @@ use super::triangle_features::{
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{Ellipsoid, TriangleSet};
-use std::cell::OnceCell;
 
 /// How far outside its feature a foot may lie, as a share of the sizes involved, and still be emitted as spare.
 const FOOT_SLACK: f64 = 1e-12;
@@ -135,19 +135,9 @@ impl EllipsoidOnTriangles {
         }
         let extent = view.corners.iter().map(|c| (c - ellipsoid.center).amax()).fold(0.0, f64::max);
         let foot_slack = FOOT_SLACK * (extent + prepared.largest + ellipsoid.center.amax());
-        let (edges, minima) = (TriangleEdges::new(set, view), Default::default());
-        let tester = Tester {
-            ellipsoid,
-            prepared,
-            set,
-            view,
-            edges,
-            minima,
-            height,
-            half_width,
-            thickness,
-            foot_slack,
-        };
+        let edges = TriangleEdges::new(set, view);
+        let tester =
+            Tester { ellipsoid, prepared, set, view, edges, height, half_width, thickness, foot_slack };
         tester.emit_face(emit);
         for k in 0..3 {
             tester.emit_edge(k, emit);
@@ -179,8 +169,6 @@ struct Tester<'a> {
     set: &'a TriangleSet,
     view: &'a TriangleView,
     edges: TriangleEdges<'a>,
-    /// Of each edge, once asked for.
-    minima: [OnceCell<[Option<EdgeMinimum>; 2]>; 3],
     /// Of the centre above the face, m.
     height: f64,
     half_width: f64,
@@ -208,9 +196,6 @@ impl Tester<'_> {
         if !holds && !self.stands_in(&foot) {
             return;
         }
-        if (0..3).any(|k| self.edge_is_less_deep(k, depth)) {
-            return;
-        }
         let is_lost = || (0..3).any(|k| self.is_lost(k, &foot));
         let standing = match (holds, behind) {
             (true, true) => Standing::Behind,
@@ -220,34 +205,6 @@ impl Tester<'_> {
             (false, false) => Standing::Spare,
         };
         self.push(depth, &self.view.normal, Feature::face(self.view.index as usize), standing, emit);
-    }
-
-    /// Whether edge `k`, or the face that meets this one convexly there, pushes instead of this face.
-    fn edge_is_less_deep(&self, k: usize, depth: f64) -> bool {
-        match self.edges.class(k) {
-            EdgeClass::Silent { .. } => false,
-            EdgeClass::Free => self.minimum_less_deep_than(k, depth),
-            EdgeClass::Convex { neighbor, normal, .. } => {
-                let other = TriangleView { index: neighbor, corners: self.set.corners(neighbor), normal };
-                let height = other.height(&self.ellipsoid.center);
-                let other_depth = self.prepared.widened(&normal).norm() - height;
-                let less = self.is_less_deep((other_depth, neighbor), (depth, self.view.index));
-                let edges = || TriangleEdges::new(self.set, &other);
-                if less && holds_foot(&edges(), &self.foot_on(&normal, other_depth)) {
-                    return true;
-                }
-                let bound = self.prepared.arc_bound(&[self.view.normal, normal], &[self.height, height]);
-                bound < depth * (1.0 - DEPTH_SLACK) && self.minimum_less_deep_than(k, depth)
-            }
-        }
-    }
-
-    /// Whether the first of two faces, given with their depths, pushes before the second. Of two that rounding alone
-    /// tells apart it is the lower, however the scene is turned. Both faces come to the same conclusion.
-    fn is_less_deep(&self, (depth, face): (f64, u32), (other_depth, other_face): (f64, u32)) -> bool {
-        let rounding = FOOT_SLACK * (self.prepared.largest + self.ellipsoid.center.amax());
-        let difference = depth - other_depth;
-        difference < -rounding || (difference <= rounding && face < other_face)
     }
 
     /// Whether the foot lies within rounding of concave edges and nowhere else outside: on the line of a valley the face
@@ -271,7 +228,8 @@ impl Tester<'_> {
         }
         if self.is_behind(self.height) {
             return !(0..3).any(|k| lost(&k))
-                || (0..3).all(|k| !self.center_is_beyond(k) || self.is_beyond_and_behind_both(k));
+                || !(0..3).any(|k| self.center_is_beyond(k))
+                || has_behind(&self.edges, &self.ellipsoid.center, self.thickness, self.foot_slack);
         }
         (0..3).filter(lost).all(|k| !self.center_is_beyond(k))
     }
@@ -296,19 +254,6 @@ impl Tester<'_> {
         self.edges.beyond(k, &self.ellipsoid.center) > self.foot_slack
     }
 
-    /// Whether a centre beyond edge `k` is beyond and behind the other face as well, and no farther than the thickness from
-    /// the edge.
-    fn is_beyond_and_behind_both(&self, k: usize) -> bool {
-        let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
-        let other_height = TriangleView::new(self.set, neighbor).height(&self.ellipsoid.center);
-        let beyond_other = outward.dot(&(self.ellipsoid.center - self.view.edge_ends(k)[0]));
-        let is_near = || {
-            let within = self.thickness - self.foot_slack;
-            self.edges.square_from_edge(k, &self.ellipsoid.center) < within * within
-        };
-        beyond_other > self.foot_slack && self.is_behind(other_height) && is_near()
-    }
-
     /// Whether a centre of this height is behind; what only rounding puts there is in the plane, and so in front.
     fn is_behind(&self, height: f64) -> bool {
         height < -self.foot_slack
@@ -317,13 +262,6 @@ impl Tester<'_> {
     /// Where the deepest point comes to lie once the ellipsoid is pushed out.
     fn foot_on(&self, normal: &Vec3, depth: f64) -> Vec3 {
         self.prepared.deepest(normal) + normal * depth
-    }
-
-    fn minimum_less_deep_than(&self, k: usize, depth: f64) -> bool {
-        let less_deep = |minimum: &EdgeMinimum| {
-            minimum.standing != Standing::Spare && minimum.depth < depth * (1.0 - DEPTH_SLACK)
-        };
-        self.edge_minima(k).iter().flatten().any(less_deep)
     }
 
     fn emit_edge(&self, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
@@ -337,11 +275,7 @@ impl Tester<'_> {
     }
 
     /// The minima over the normals that edge `k` may push along.
-    fn edge_minima(&self, k: usize) -> &[Option<EdgeMinimum>; 2] {
-        self.minima[k].get_or_init(|| self.find_edge_minima(k))
-    }
-
-    fn find_edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
+    fn edge_minima(&self, k: usize) -> [Option<EdgeMinimum>; 2] {
         if self.misses_edge(k) {
             return [None, None];
         }
@@ -472,7 +406,7 @@ impl Tester<'_> {
         let height = normal.dot(&(self.ellipsoid.center - p));
         if self.is_behind(height) {
             let within = -height < self.thickness - self.foot_slack;
-            return (strictly && within).then_some(Standing::Behind);
+            return within.then_some(if strictly { Standing::Behind } else { Standing::SpareBehind });
         }
         Some(if strictly { Standing::Front } else { Standing::Spare })
     }

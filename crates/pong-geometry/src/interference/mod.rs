@@ -3,6 +3,7 @@
 //! Every test takes A already carried into the frame of B's movable group and hands out [`Interference`]s in
 //! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
 
+mod behind_triangle;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;
 pub mod ellipsoid_polyhedron;

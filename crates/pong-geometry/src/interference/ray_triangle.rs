@@ -18,7 +18,18 @@ use crate::primitive::{Ray, TriangleSet};
 /// Where a ray hits a triangle. `reach` (m) is how far behind the ray's origin the triangle may lie.
 #[inline(always)]
 pub fn ray_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
-    let corners = set.corners(triangle);
+    hit_corners(ray, set.corners(triangle), triangle, reach)
+}
+
+/// Where a ray hits the back of a triangle. It does exactly where it would hit the triangle turned over.
+#[inline]
+pub fn ray_back_of_triangle(ray: &Ray, set: &TriangleSet, triangle: u32, reach: f64) -> Option<RayHit> {
+    let [first, second, third] = set.corners(triangle);
+    hit_corners(ray, [first, third, second], triangle, reach)
+}
+
+#[inline(always)]
+fn hit_corners(ray: &Ray, corners: [Vec3; 3], triangle: u32, reach: f64) -> Option<RayHit> {
     if !passes_inside(ray, &corners) {
         return None;
     }

@@ -3,6 +3,7 @@
 //! Degenerate cases: centre in the plane counts as in front; centre on a convex edge or vertex pushes along the
 //! mean of the normals that meet there.
 
+use super::behind_triangle::has_behind;
 use super::triangle_features::{
     EdgeClass, Standing, TriangleContact, TriangleEdges, TriangleView, vertex_pushes, walk_fan,
 };
@@ -10,6 +11,10 @@ use super::triangle_reach::InReach;
 use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
 use crate::primitive::{Sphere, TriangleSet};
+
+/// How far beyond an edge a centre behind the face may lie, as a share of the coordinates, and still be emitted as spare:
+/// some thousand roundings.
+const FOOT_SLACK: f64 = 1e-12;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
 ///
@@ -56,8 +61,15 @@ fn emit_features(
     });
     // In front nobody owns what is clearly beyond an edge.
     let nobodys = near.in_front && near.beyond.contains(&true);
-    if !nobodys && (0..3).all(|k| !beyond[k] || edges.has_beyond(k, &sphere.center, thickness)) {
-        emit_face(sphere, view, height, thickness, emit);
+    let has_beyond = || match height > 0.0 {
+        true => (0..3).all(|k| !beyond[k] || edges.has_on_seam(k, &sphere.center)),
+        false => has_behind(&edges, &sphere.center, thickness, 0.0),
+    };
+    if !nobodys && (!beyond.contains(&true) || has_beyond()) {
+        emit_face(sphere, view, height, thickness, &mut *emit);
+    } else if height < 0.0 && !near.beyond.contains(&true) && hardly_beyond(sphere, &edges, beyond) {
+        let spare = |contact| emit(TriangleContact { standing: Standing::SpareBehind, ..contact });
+        emit_face(sphere, view, height, thickness, spare);
     }
     for k in (0..3).filter(|&k| beyond[k]) {
         emit_edge(sphere, &edges, k, height, emit);
@@ -67,12 +79,21 @@ fn emit_features(
     }
 }
 
+/// Whether rounding alone puts a centre behind a triangle beyond some of its edges, all of them silent: behind a vertex of a
+/// flat surface each triangle may say that another has the centre. In front the vertex pushes there.
+fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
+    let arm = sphere.center - edges.view.corners[0];
+    let slack = FOOT_SLACK * (arm.amax() + sphere.center.amax());
+    let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });
+    (0..3).filter(|&k| beyond[k]).all(|k| edges.beyond(k, &sphere.center) <= slack && is_silent(k))
+}
+
 fn emit_face(
     sphere: &Sphere,
     view: &TriangleView,
     height: f64,
     thickness: f64,
-    emit: &mut dyn FnMut(TriangleContact),
+    mut emit: impl FnMut(TriangleContact),
 ) {
     let depth = sphere.radius - height;
     let behind = height < 0.0;

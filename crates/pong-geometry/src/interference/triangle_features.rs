@@ -205,12 +205,6 @@ impl<'a> TriangleEdges<'a> {
         self.outward(k).dot(&(p - self.view.edge_ends(k)[0]))
     }
 
-    /// Square of the distance of a point from the line of edge `k`, m².
-    pub fn square_from_edge(&self, k: usize, p: &Vec3) -> f64 {
-        let (beyond, height) = (self.beyond(k, p), self.view.height(p));
-        beyond * beyond + height * height
-    }
-
     /// Whether a point lies beyond edge `k`; a NaN does.
     #[inline]
     pub fn is_beyond(&self, k: usize, p: &Vec3) -> bool {
@@ -218,23 +212,14 @@ impl<'a> TriangleEdges<'a> {
         beyond > 0.0 || beyond.is_nan()
     }
 
-    /// Whether a point beyond edge `k` still belongs to this triangle: it does where it lies beyond both faces of a silent
-    /// edge. Behind the two that is the wedge between their prisms, and each has it as far as `thickness` (m) from the
-    /// edge: which is the lower must not decide which way the point is pushed. In front it is the seam that rounding leaves,
-    /// and the lower has it; but two faces folded to less than a right angle have such points outside the fold, where
-    /// neither pushes.
-    pub fn has_beyond(&self, k: usize, p: &Vec3, thickness: f64) -> bool {
+    /// Whether a point in front of the triangle and beyond edge `k` still belongs to it: on the seam that rounding leaves at a
+    /// silent edge, beyond both of its faces, the lower has it. But two faces folded to less than a right angle have such
+    /// points outside the fold, where neither pushes.
+    pub fn has_on_seam(&self, k: usize, p: &Vec3) -> bool {
         let EdgeClass::Silent { neighbor, outward } = self.class(k) else { return false };
-        if outward.dot(&(p - self.view.edge_ends(k)[0])) <= 0.0 {
-            return false;
-        }
-        let other = TriangleView::new(self.set, neighbor);
-        let is_behind = self.view.height(p) <= 0.0 && other.height(p) <= 0.0;
-        if is_behind {
-            self.square_from_edge(k, p) < thickness * thickness
-        } else {
-            self.view.index < neighbor && self.view.normal.dot(&other.normal) > 0.0
-        }
+        outward.dot(&(p - self.view.edge_ends(k)[0])) > 0.0
+            && self.view.index < neighbor
+            && self.view.normal.dot(&self.set.normal(neighbor)) > 0.0
     }
 }
 
@@ -259,7 +244,7 @@ pub fn walk_fan(set: &TriangleSet, triangle: u32, corner: usize, visit: &mut dyn
 
 /// As [`walk_fan`], as long as `visit` says so; `None` if it ended the walk.
 #[inline]
-fn walk_fan_while(
+pub(super) fn walk_fan_while(
     set: &TriangleSet,
     triangle: u32,
     corner: usize,

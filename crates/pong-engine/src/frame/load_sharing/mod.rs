@@ -8,14 +8,17 @@ pub(crate) mod solver;
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
-use pieces::{are_convex, are_one_place, drop_what_the_body_lacks, pushes_before, touch_convexly, touched};
+use pieces::{
+    are_convex, are_in_both_planes, are_one_place, drop_what_the_body_lacks, next_deeper, pushes_before,
+    touch_convexly, touched,
+};
 use pong_arena::{Arena, Full, List};
 use pong_geometry::Vec3;
 use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 use pong_geometry::primitive::{Containment, Polyhedron, PolyhedronFace, PrimitiveKind, TriangleSet};
 use ray_hits::keep_first_ray_hits;
-use rims::keep_one_side_of_rims;
+use rims::{keep_one_side_of_rims, keep_one_way_at_places};
 use solver::{SharedContact, share_within};
 
 /// Relative: depths this close are as deep as each other.
@@ -46,7 +49,10 @@ pub(crate) fn assign_weights(
     let Some(kind_a) = found.first().map(kind_of) else { return Ok(()) };
     match kind_a {
         PrimitiveKind::Ray => keep_first_ray_hits(found, context),
-        PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => keep_one_side_of_rims(found, context),
+        PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => {
+            keep_one_side_of_rims(found, context);
+            keep_one_way_at_places(found);
+        }
         _ => {}
     }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
@@ -58,7 +64,7 @@ pub(crate) fn assign_weights(
         }
         if group[0].shares && group.len() > 1 {
             let triangles = &context.body_b.triangles;
-            settle_fallbacks(group);
+            settle_fallbacks(group, kind_a);
             match (kind_a, group[0].kind_b) {
                 (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
                     drop_what_the_body_lacks(group, &context.body_b.polyhedra);
@@ -190,23 +196,34 @@ fn share_surface(
 
 /// A fallback contact counts where no other has its place; then it is what rounding has made it miss.
 ///
-/// Another wall that the same ball touches does not have the place, however deep it is.
-fn settle_fallbacks(group: &mut [ContactCandidate]) {
+/// Another wall that the same ball touches does not have the place, however deep it is. Of an ellipsoid a deeper contact in
+/// the same place is another minimum there, and not what rounding has made this one miss.
+fn settle_fallbacks(group: &mut [ContactCandidate], kind_a: PrimitiveKind) {
     let is_fallback = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Fallback | CandidateStatus::BackFaceFallback)
     };
     let counts = |contact: &ContactCandidate| {
         matches!(contact.status, CandidateStatus::Front | CandidateStatus::BackFace)
     };
-    for i in 0..group.len() {
-        if !is_fallback(&group[i]) {
+    if !group.iter().any(is_fallback) {
+        return;
+    }
+    // Faces first: where rounding has made a face and its edge miss one place, the face yields to what is less deep, and an
+    // edge would not.
+    let count = group.len();
+    for (is_face, i) in [true, false].into_iter().flat_map(|is_face| (0..count).map(move |i| (is_face, i))) {
+        let fallback = &group[i];
+        if !is_fallback(fallback) || fallback.feature.is_face() != is_face {
             continue;
         }
-        let fallback = &group[i];
         let (least, place) = (fallback.depth * (1.0 - FALLBACK_DEPTH_SLACK), touched(fallback));
+        let most = match kind_a {
+            PrimitiveKind::Ellipsoid => fallback.depth * (1.0 + FALLBACK_DEPTH_SLACK),
+            _ => f64::INFINITY,
+        };
         let has_place = |other: &ContactCandidate| {
             let pushes = counts(other) && other.role == ContactRole::Active;
-            pushes && other.depth >= least && are_one_place(&touched(other), &place)
+            pushes && (least..=most).contains(&other.depth) && are_one_place(&touched(other), &place)
         };
         group[i].status = match (group.iter().any(has_place), fallback.status) {
             (true, _) => CandidateStatus::Culled,
@@ -217,16 +234,19 @@ fn settle_fallbacks(group: &mut [ContactCandidate]) {
 }
 
 /// An ellipsoid so deep that a face and another feature that meets it convexly both have a minimum is pushed by the less
-/// deep alone, however many triangles lie between the two. Which face that yields is in the model must not matter: a face
+/// deep alone, and so is one with its centre behind an edge or a vertex, however many triangles lie between the two. Which face that yields is in the model must not matter: a face
 /// that is cut no longer has the edge to which it yields.
 fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     let counts = |contact: &ContactCandidate| {
         contact.role == ContactRole::Active
             && matches!(contact.status, CandidateStatus::Front | CandidateStatus::BackFace)
     };
-    for i in 0..group.len() {
+    let mut last = None;
+    while let Some(i) = next_deeper(group, last) {
+        last = Some(i);
         let contact = &group[i];
-        if !counts(contact) || !is_triangles_face(contact) {
+        let may_yield = is_triangles_face(contact) || contact.status == CandidateStatus::BackFace;
+        if !counts(contact) || !may_yield {
             continue;
         }
         let covers = |other: &ContactCandidate| {
@@ -243,14 +263,20 @@ fn drop_deeper_faces(group: &mut [ContactCandidate]) {
 
 /// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
-    for i in 0..group.len() {
+    if !group.iter().any(|contact| contact.status == CandidateStatus::BackFace) {
+        return;
+    }
+    let mut last = None;
+    while let Some(i) = next_deeper(group, last) {
+        last = Some(i);
         let contact = &group[i];
-        if contact.status != CandidateStatus::BackFace {
+        if contact.status != CandidateStatus::BackFace || !is_triangles_face(contact) {
             continue;
         }
         let is_covered = group.iter().any(|other| {
-            let counts = other.role == ContactRole::Active && is_triangles_face(other);
+            let counts = other.role == ContactRole::Active && other.status != CandidateStatus::Culled;
             counts
+                && is_triangles_face(other)
                 && pushes_before(other, contact)
                 && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other, triangles))
         });
@@ -274,13 +300,13 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
     })
 }
 
-/// Whether two faces meet convexly, however many triangles lie between the two that push: the centre is behind both, and
-/// where each is touched lies below the plane of the other. Beside a concave edge it lies above; in the wedge behind one
-/// both are touched in the edge.
+/// Whether two faces meet convexly, however many triangles lie between the two that push: where each is touched lies below
+/// the plane of the other. Beside a concave edge it lies above; in the wedge behind one both are touched in the edge, or
+/// in pieces of it that lie in both planes.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
-    let are_faces = other.status == CandidateStatus::BackFace && is_triangles_face(contact);
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
-    are_faces && are_convex([&on(contact), &on(other)], [&contact.normal, &other.normal])
+    let (places, normals) = ([&on(contact), &on(other)], [&contact.normal, &other.normal]);
+    are_convex(places, normals) && !are_in_both_planes(places, normals)
 }
 
 /// A stand-in counts only where nothing else is as deep.

@@ -9,6 +9,8 @@ const DEPTH_SLACK: f64 = 1e-12;
 /// Relative to the distance of two places: how far in front of a plane a place counts as in it. A fold that single
 /// precision can hold is steeper.
 const PLANE_SLACK: f64 = 1e-9;
+/// Relative to the coordinates: by how much rounding alone moves a place, some tens of units in the last place.
+const ROUNDING: f64 = 1e-14;
 /// Relative to the coordinates: places this close are one place, where the pieces of a flat face meet.
 const PLACE_SLACK: f64 = 1e-9;
 
@@ -26,7 +28,9 @@ pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &
             .filter(|contact| stands_in(contact))
             .for_each(|contact| contact.status = CandidateStatus::Culled);
     }
-    for i in 0..group.len() {
+    let mut last = None;
+    while let Some(i) = next_deeper(group, last) {
+        last = Some(i);
         let contact = &group[i];
         let is_covered = group.iter().any(|other| {
             let counts = other.status != CandidateStatus::Culled;
@@ -36,6 +40,16 @@ pub(crate) fn drop_what_the_body_lacks(group: &mut [ContactCandidate], pieces: &
             group[i].status = CandidateStatus::Culled;
         }
     }
+}
+
+/// The least deep of the contacts that are deeper than the one at `last`; of equally deep ones they follow each other in
+/// their order. What covers a contact is thus known to count itself before it is asked: otherwise the order of the model
+/// would decide where one contact is covered by a second, and the second by a third.
+pub(super) fn next_deeper(group: &[ContactCandidate], last: Option<usize>) -> Option<usize> {
+    let place = |index: usize| (group[index].depth, index);
+    let follows = |index: &usize| last.is_none_or(|last| place(*index) > place(last));
+    let less = |a: usize, b: usize| if place(b) < place(a) { b } else { a };
+    (0..group.len()).filter(follows).reduce(less)
 }
 
 /// Whether the first contact is less deep; of two equally deep ones the first in the order of sums is.
@@ -49,6 +63,13 @@ pub(crate) fn pushes_before(contact: &ContactCandidate, other: &ContactCandidate
 fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
     if contact.status == CandidateStatus::StandIn && other.status == CandidateStatus::StandIn {
         // The feet lie beside the pieces and say nothing; the faces themselves do.
+        return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
+    }
+    if contact.feature.is_face()
+        && other.feature.is_face()
+        && are_one_place(&touched(contact), &touched(other))
+    {
+        // Where the pieces meet, two faces are touched in one place: that says nothing, the faces themselves do.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
     touch_convexly(contact, other)
@@ -70,10 +91,20 @@ pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidat
 /// To push out of either is then to push out of both. One place does not.
 pub(super) fn are_convex([here, there]: [&Vec3; 2], [normal, other_normal]: [&Vec3; 2]) -> bool {
     let apart = there - here;
-    let distance = apart.norm();
-    !are_one_place(here, there)
-        && normal.dot(&apart) <= PLANE_SLACK * distance
-        && other_normal.dot(&apart) >= -PLANE_SLACK * distance
+    let slack = plane_slack(here, there);
+    !are_one_place(here, there) && normal.dot(&apart) <= slack && other_normal.dot(&apart) >= -slack
+}
+
+/// Whether each of two places lies in the plane through the other across its normal.
+pub(super) fn are_in_both_planes([here, there]: [&Vec3; 2], normals: [&Vec3; 2]) -> bool {
+    let apart = there - here;
+    let slack = plane_slack(here, there);
+    normals.iter().all(|normal| normal.dot(&apart).abs() <= slack)
+}
+
+/// How far in front of a plane through one place another counts as in it, m.
+fn plane_slack(here: &Vec3, there: &Vec3) -> f64 {
+    PLANE_SLACK * (there - here).norm() + ROUNDING * (here.amax() + there.amax())
 }
 
 /// Whether only rounding keeps two places apart.

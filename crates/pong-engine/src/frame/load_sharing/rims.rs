@@ -1,5 +1,6 @@
 //! The rim of a two-sided surface, which its front and its back have in common (docs/theory.md, 2.2).
 
+use super::pieces::{are_one_place, touched};
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::ContactRole;
@@ -17,6 +18,40 @@ pub(super) fn keep_one_side_of_rims(found: &mut [ContactCandidate], context: &Pa
             }
         }
     }
+}
+
+/// Cosine below which two normals count as opposite: where the centre is near the place, rounding turns the direction.
+const OPPOSITE_COSINE_MAX: f64 = -0.999;
+
+/// No place pushes both ways. Where a face ends that has the centre behind it, the edge or vertex there pushes what is on the
+/// other side the opposite way, and so does the other side of a two-sided triangle; on the border rounding may find both:
+/// the face that has the centre behind it counts.
+pub(super) fn keep_one_way_at_places(found: &mut [ContactCandidate]) {
+    for index in 0..found.len() {
+        if !is_behind_a_face(&found[index]) {
+            continue;
+        }
+        let behind = found[index];
+        let place = touched(&behind);
+        let is_opposite = |other: &ContactCandidate| {
+            (other.key.primitive_a, other.element_a) == (behind.key.primitive_a, behind.element_a)
+                && (other.kind_b, other.role) == (PrimitiveKind::Triangle, ContactRole::Active)
+                && other.normal.dot(&behind.normal) < OPPOSITE_COSINE_MAX
+                && are_one_place(&touched(other), &place)
+        };
+        for other in found.iter_mut().filter(|other| is_opposite(other)) {
+            other.status = CandidateStatus::Culled;
+        }
+    }
+}
+
+/// Whether a face pushes a centre that is behind it.
+fn is_behind_a_face(contact: &ContactCandidate) -> bool {
+    contact.kind_b == PrimitiveKind::Triangle
+        && contact.shares
+        && contact.feature.is_face()
+        && contact.role == ContactRole::Active
+        && matches!(contact.status, CandidateStatus::BackFace | CandidateStatus::BackFaceFallback)
 }
 
 /// Whether an edge or a vertex of a back pushes.

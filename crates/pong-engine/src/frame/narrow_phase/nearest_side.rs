@@ -57,11 +57,9 @@ impl Nearby<'_> {
         let Interference { depth, normal, point_a, feature } = &contact.interference;
         let arm = self.center - point_a;
         let (height, rounding) = (normal.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center.amax()));
-        if self.is_mirror() && height <= rounding {
-            return true;
-        }
+        let rounding = if self.is_mirror() { -rounding } else { rounding };
         let (set, triangle) = (&self.body.triangles, self.item.element);
-        height < -rounding && !is_in_front_of_a_face(&self.center, set, triangle, *feature, rounding)
+        height <= -rounding && !is_in_front_of_a_face(&self.center, set, triangle, *feature, rounding)
     }
 
     /// The surface that the triangle belongs to; that of its front, if it is a back.

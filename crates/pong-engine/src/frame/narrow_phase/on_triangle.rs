@@ -54,7 +54,8 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, feature: Feature) -> bool {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
     let mut touched = false;
     let mut note = |contact: TriangleContact| {
-        touched |= contact.interference.feature == feature && contact.standing == Standing::Behind;
+        let is_behind = matches!(contact.standing, Standing::Behind | Standing::StandIn);
+        touched |= contact.interference.feature == feature && is_behind;
     };
     match TransformedPrimitive::new(pair.body_a(), pair.item_a, &since.x_ba) {
         Some(TransformedPrimitive::Sphere(sphere)) => {

@@ -7,7 +7,7 @@ use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
 };
-use pong_geometry::interference::ray_triangle::ray_triangle;
+use pong_geometry::interference::ray_triangle::{ray_back_of_triangle, ray_triangle};
 use pong_geometry::interference::triangle_features::{
     Standing, TriangleContact, TriangleView, is_in_front_of_a_face, place_on_feature,
 };
@@ -231,8 +231,10 @@ impl TriangleEntry<'_> {
         crossed.from_behind < crossed.from_front
     }
 
-    /// The last crossings of the surface by the straight line since the last commit. A line that begins within rounding
-    /// of the surface begins in front of it.
+    /// The last crossings of the surface by the straight line since the last commit.
+    ///
+    /// One line tells the crossings from either side, so that both sides of a two-sided triangle tell the same of it. A line
+    /// that begins or ends within rounding of the surface begins or ends in front of it; of a two-sided triangle on its front.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
         let path = self.center - earlier;
         let length = path.norm();
@@ -240,26 +242,32 @@ impl TriangleEntry<'_> {
         if length == 0.0 {
             return last;
         }
-        let ray = |origin: Vec3, direction: Vec3| Ray {
-            origin,
-            direction,
-            length,
+        let (before, after) = (ROUNDING * earlier.amax(), ROUNDING * self.center.amax());
+        let ray = Ray {
+            origin: *earlier,
+            direction: path / length,
+            length: length + after,
             reach: None,
             response: RayResponse::Normal,
         };
-        let before = ROUNDING * earlier.amax();
-        let forward = ray(*earlier, path / length);
-        let backward = ray(self.center, -path / length);
         visit_triangles(self.body, &earlier.inf(&self.center), &earlier.sup(&self.center), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);
             if set.triangles[triangle as usize].shell != shell {
                 return;
             }
-            if let Some(hit) = ray_triangle(&backward, set, triangle, 0.0) {
-                last.from_behind = last.from_behind.min(hit.distance);
-            }
-            if let Some(hit) = ray_triangle(&forward, set, triangle, before) {
+            let is_mirror = Nearby { item, ..self.nearby() }.is_mirror();
+            // From the side to which a centre within the surface belongs, or to it.
+            let leaves = |distance: f64| distance < length - after;
+            let comes = |distance: f64| distance > before;
+            if let Some(hit) = ray_triangle(&ray, set, triangle, before)
+                && if is_mirror { comes(hit.distance) } else { leaves(hit.distance) }
+            {
                 last.from_front = last.from_front.min(length - hit.distance);
+            }
+            if let Some(hit) = ray_back_of_triangle(&ray, set, triangle, before)
+                && if is_mirror { leaves(hit.distance) } else { comes(hit.distance) }
+            {
+                last.from_behind = last.from_behind.min(length - hit.distance);
             }
         });
         last
