@@ -1,9 +1,9 @@
-"""Licences of the crates that are linked into libpong and pong, as THIRD_PARTY_LICENSES.md.
+"""Licences of the crates that are linked into libpong, pong and the Python wheel, as THIRD_PARTY_LICENSES.md.
 
     python3 ci/licenses.py            is the file current?
     python3 ci/licenses.py --write    renews it
 
-What is linked is found by `cargo tree`: from the C interface and the program on, by normal dependencies of the platform that
+What is linked is found by `cargo tree`: from the C interface, the program and the Python module on, by normal dependencies of the platform that
 is built for; what only runs at build time (build scripts, derive macros) is not in the product.
 """
 
@@ -15,7 +15,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 OUT = ROOT / "THIRD_PARTY_LICENSES.md"
-PRODUCTS = ("pong-capi", "pong-cli")
+# Folder of a workspace -> its products.
+PRODUCTS = {".": ("pong-capi", "pong-cli"), "hosts/python": ("pong-python",)}
 PLATFORM = "x86_64-unknown-linux-gnu"
 # Of licences that may be chosen from, in this order: that of Pong itself first.
 CHOICE = ("Apache-2.0", "MIT", "BSD-3-Clause", "BSD-2-Clause", "ISC", "Zlib", "BSL-1.0", "CC0-1.0", "Unlicense", "0BSD")
@@ -23,7 +24,7 @@ FILE_OF = {"Apache-2.0": "apache", "MIT": "mit", "BSD": "bsd", "Zlib": "zlib", "
 
 HEAD = """# Licences of what is linked into Pong
 
-libpong and the program `pong` contain the crates below and the Rust standard library (MIT or Apache-2.0, copyright The Rust
+libpong, the program `pong` and the Python module `pong` contain the crates below and the Rust standard library (MIT or Apache-2.0, copyright The Rust
 Project Developers). Where a crate may be had under one of several licences, it is taken under the first of Apache-2.0, MIT
 that it offers. Pong itself is under [Apache-2.0](LICENSE). This file is written by `ci/licenses --write`.
 
@@ -54,22 +55,23 @@ SOFTWARE.
 """
 
 
-def metadata():
+def metadata(folder):
     command = ["cargo", "metadata", "--format-version", "1", "--locked", "--filter-platform", PLATFORM]
-    return json.loads(subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout)
+    return json.loads(subprocess.run(command, cwd=ROOT / folder, check=True, capture_output=True, text=True).stdout)
 
 
-def linked(meta):
+def linked():
     """Packages in the products that are not ours, by name and version."""
-    command = ["cargo", "tree", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--target", PLATFORM]
-    command += ["--format", "{p}"] + [part for product in PRODUCTS for part in ("--package", product)]
-    tree = subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    used = {tuple(line.split(" ")[:2]) for line in tree.splitlines() if line.strip()}
-    others = [package for package in meta["packages"] if package["source"] is not None]
-    return sorted(
-        (package for package in others if (package["name"], "v" + package["version"]) in used),
-        key=lambda package: (package["name"], package["version"]),
-    )
+    found = {}
+    for folder, products in PRODUCTS.items():
+        command = ["cargo", "tree", "--locked", "--edges", "normal,no-proc-macro", "--prefix", "none", "--target", PLATFORM]
+        command += ["--format", "{p}"] + [part for product in products for part in ("--package", product)]
+        tree = subprocess.run(command, cwd=ROOT / folder, check=True, capture_output=True, text=True).stdout
+        used = {tuple(line.split(" ")[:2]) for line in tree.splitlines() if line.strip()}
+        for package in metadata(folder)["packages"]:
+            if package["source"] is not None and (package["name"], "v" + package["version"]) in used:
+                found[package["name"], package["version"]] = package
+    return [package for _, package in sorted(found.items())]
 
 
 def chosen(expression):
@@ -103,9 +105,9 @@ def normal(text):
 APACHE_TERMS = "END OF TERMS AND CONDITIONS"
 
 
-def written(meta):
+def written():
     texts, rows, missing = [], [], []
-    for package in linked(meta):
+    for package in linked():
         name, licence = f"{package['name']} {package['version']}", package["license"] or "see its text"
         numbers = []
         for taken in chosen(licence):
@@ -141,7 +143,7 @@ def written(meta):
 
 
 def main():
-    text, missing = written(metadata())
+    text, missing = written()
     for line in missing:
         print(line)
     if sys.argv[1:] == ["--write"]:

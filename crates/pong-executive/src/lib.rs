@@ -47,6 +47,7 @@ mod simulation;
 mod spring;
 mod stability;
 mod state;
+mod statistics;
 mod system;
 mod watch;
 
@@ -61,6 +62,7 @@ pub use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
 pub use simulation::{Observer, Simulation};
 pub use spring::{Spring, SpringEnd};
 pub use stability::{group_mass, longest_stable_step};
+pub use statistics::{BodyStatistics, RunStatistics};
 pub use watch::StepWatch;
 
 #[doc(no_inline)]

@@ -143,7 +143,7 @@ fn what_the_host_did_between_frames_is_done_again() {
 
     // Each event counts: without it the replay differs.
     let events = std::fs::read_to_string(place.join("events.jsonl")).unwrap();
-    let kinds = ["\"surface\"", "\"pair\"", "\"forget\"", "\"restore\"", "\"commit\""];
+    let kinds = ["\"surface\"", "\"pair\"", "\"clear_contact_history\"", "\"restore\"", "\"commit\""];
     for kind in kinds {
         let left: Vec<&str> = events.lines().filter(|line| !line.contains(kind)).collect();
         assert!(left.len() < events.lines().count(), "no event {kind}");

@@ -60,7 +60,9 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     for warning in built.simulation.energy_warnings() {
         tell(format!("warning: {warning}"));
     }
-    for advice in [statistics.incomplete_advice(), statistics.tunnelling_advice()].into_iter().flatten() {
+    for advice in
+        [statistics.run.incomplete_advice(), statistics.run.tunnelling_advice()].into_iter().flatten()
+    {
         tell(format!("warning: {advice}"));
     }
     match ended {

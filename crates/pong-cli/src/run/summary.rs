@@ -33,7 +33,7 @@ fn heading(built: &BuiltScene, statistics: &Statistics) -> String {
         simulation.integrator(),
         count(simulation.bodies().len(), "body", "bodies"),
         count(built.seal.group_pairs, "pair of movable groups", "pairs of movable groups"),
-        count(statistics.most_contacts, "contact at once", "contacts at once"),
+        count(statistics.run.most_contacts, "contact at once", "contacts at once"),
     )
 }
 
@@ -60,7 +60,7 @@ fn ends(simulation: &Simulation) -> String {
 
 fn contacts(simulation: &Simulation, statistics: &Statistics) -> String {
     let row = |(id, name): (BodyId, String)| {
-        let body = &statistics.bodies[id.index()];
+        let body = &statistics.run.bodies[id.index()];
         vec![
             name,
             number(body.peak_force),
@@ -77,7 +77,7 @@ fn contacts(simulation: &Simulation, statistics: &Statistics) -> String {
 }
 
 fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
-    let (first, last) = (&statistics.first_energy, &statistics.last_energy);
+    let (first, last) = (&statistics.run.first_energy, &statistics.run.last_energy);
     let mut text = format!(
         "Energy: kinetic {} → {} J, potential {} → {} J, springs {} → {} J",
         number(first.kinetic),
@@ -93,7 +93,7 @@ fn energies(built: &BuiltScene, statistics: &Statistics) -> String {
             number(last.contacts),
             number(last.contact_loss),
             number(last.balance() - first.balance()),
-            number(statistics.worst_balance),
+            number(statistics.run.worst_balance),
         );
         if last.contact_made != first.contact_made {
             let made = number(last.contact_made - first.contact_made);

@@ -229,7 +229,10 @@ impl Recorder {
     pub fn forgot(&mut self, object: ObjectId) {
         let (frame, object) = (self.next, object.index());
         self.line.clear();
-        let _ = write!(self.line, "{{\"frame\":{frame},\"event\":\"forget\",\"object\":{object}}}");
+        let _ = write!(
+            self.line,
+            "{{\"frame\":{frame},\"event\":\"clear_contact_history\",\"object\":{object}}}"
+        );
         self.event();
     }
 

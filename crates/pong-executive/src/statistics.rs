@@ -1,0 +1,155 @@
+//! What a run comes to, gathered instant by instant: peaks, impulses, energies, what frames left out.
+
+use crate::energy::Energy;
+use crate::simulation::Simulation;
+use pong_engine::{Contact, InterfaceId, StatusBits};
+use pong_geometry::{Vec3, Wrench};
+use std::collections::BTreeMap;
+
+/// One body over the whole run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyStatistics {
+    /// Largest contact force, N.
+    pub peak_force: f64,
+    /// Largest contact moment about the origin of the group, N·m.
+    pub peak_moment: f64,
+    /// Largest depth of a contact of the body, m.
+    pub peak_depth: f64,
+    /// Most contacts of the body at once.
+    pub most_contacts: usize,
+    /// ∫ contact force dt by the trapezoid rule, N·s, along the common axes.
+    pub impulse: Vec3,
+    last_force: Vec3,
+}
+
+/// All bodies and the run itself.
+#[derive(Clone, Debug)]
+pub struct RunStatistics {
+    /// The bodies in their order in the simulation.
+    pub bodies: Vec<BodyStatistics>,
+    by_interface: BTreeMap<InterfaceId, usize>,
+    /// Most contacts at once.
+    pub most_contacts: usize,
+    /// Energies at the first instant, J.
+    pub first_energy: Energy,
+    /// Energies at the last instant, J.
+    pub last_energy: Energy,
+    /// Largest distance of the balance of energies from its first value, J.
+    pub worst_balance: f64,
+    /// The capacity that would have been enough, if frames left contacts out.
+    pub contacts_wanted: Option<u32>,
+    /// Steps in which something went through something else.
+    pub tunnelled: u64,
+    /// The first of them in words; empty if there is none.
+    pub first_tunnelled: String,
+}
+
+impl RunStatistics {
+    /// Of a simulation whose [initial states](Simulation::commit_initial_states) are committed: its first instant.
+    pub fn new(simulation: &Simulation) -> Self {
+        let bodies = simulation.bodies();
+        let none = BodyStatistics {
+            peak_force: 0.0,
+            peak_moment: 0.0,
+            peak_depth: 0.0,
+            most_contacts: 0,
+            impulse: Vec3::zeros(),
+            last_force: Vec3::zeros(),
+        };
+        let mut statistics = Self {
+            bodies: vec![none; bodies.len()],
+            by_interface: bodies.filter_map(|(id, body)| Some((body.interface?, id.index()))).collect(),
+            most_contacts: 0,
+            first_energy: Energy::default(),
+            last_energy: Energy::default(),
+            worst_balance: 0.0,
+            contacts_wanted: None,
+            tunnelled: 0,
+            first_tunnelled: String::new(),
+        };
+        statistics.observe(simulation);
+        statistics.bodies.iter_mut().for_each(|body| body.impulse = Vec3::zeros());
+        statistics.first_energy = statistics.last_energy;
+        statistics.worst_balance = 0.0;
+        statistics
+    }
+
+    /// Takes in the instant after a step.
+    pub fn observe(&mut self, simulation: &Simulation) {
+        for (id, _) in simulation.bodies() {
+            self.bodies[id.index()].feel(&simulation.contact_wrench(id), simulation.step_length());
+        }
+        let world = simulation.world();
+        if world.contact_count() > 0 {
+            self.count(&world.contacts());
+        }
+        let report = world.report();
+        if report.status.contains(StatusBits::TUNNELLED) {
+            self.tunnelled += 1;
+            if self.tunnelled == 1 {
+                self.first_tunnelled = tunnelling_in_words(simulation).unwrap_or_default();
+            }
+        }
+        if report.status.leaves_contacts_out() {
+            self.contacts_wanted = self.contacts_wanted.max(Some(report.contacts_wanted));
+        }
+        self.last_energy = simulation.energy();
+        let change = self.last_energy.balance() - self.first_energy.balance();
+        self.worst_balance = self.worst_balance.max(change.abs());
+    }
+
+    fn count(&mut self, contacts: &[Contact]) {
+        let mut counts = vec![0; self.bodies.len()];
+        for contact in contacts {
+            for interface in [contact.a.interface, contact.b.interface] {
+                if let Some(&body) = self.by_interface.get(&interface) {
+                    counts[body] += 1;
+                    let peak = &mut self.bodies[body].peak_depth;
+                    *peak = peak.max(contact.depth);
+                }
+            }
+        }
+        for (body, count) in self.bodies.iter_mut().zip(counts) {
+            body.most_contacts = body.most_contacts.max(count);
+        }
+        self.most_contacts = self.most_contacts.max(contacts.len());
+    }
+
+    /// What to do if something went through something else between two steps.
+    pub fn tunnelling_advice(&self) -> Option<String> {
+        (self.tunnelled > 0).then(|| {
+            format!(
+                "in {} steps something went right through something else, and contacts were missed; first {}; \
+                 make the step shorter, the wall thicker or the surfaces stiffer",
+                self.tunnelled, self.first_tunnelled
+            )
+        })
+    }
+
+    /// What to do if frames had to leave contacts out.
+    pub fn incomplete_advice(&self) -> Option<String> {
+        let wanted = self.contacts_wanted?;
+        Some(format!(
+            "some frames had more contacts than the world keeps, and the shallowest were left out; \
+             set contact_capacity: {wanted} in the scene"
+        ))
+    }
+}
+
+/// Which element went through which body, and when.
+fn tunnelling_in_words(simulation: &Simulation) -> Option<String> {
+    let world = simulation.world();
+    let passage = world.tunnelling()?;
+    let element = world.scene().primitive_path(passage.interface, passage.primitive).ok()?;
+    let through = world.scene().interface_path(passage.through).ok()?;
+    Some(format!("`{element}` through `{through}` at {} s", simulation.time()))
+}
+
+impl BodyStatistics {
+    fn feel(&mut self, wrench: &Wrench, step: f64) {
+        self.peak_force = self.peak_force.max(wrench.force.norm());
+        self.peak_moment = self.peak_moment.max(wrench.moment.norm());
+        self.impulse += (self.last_force + wrench.force) * (0.5 * step);
+        self.last_force = wrench.force;
+    }
+}

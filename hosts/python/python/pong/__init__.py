@@ -1,0 +1,96 @@
+"""Contact dynamics: states go in, wrenches come out.
+
+    builder = pong.WorldBuilder()
+    builder.create_object(builder.add_model("ball.ron"), "ball")
+    builder.create_object(builder.add_model("ground.ron"), "ground")
+    builder.pair("ball", "ground")
+    world = builder.seal()
+    world.set_states(states)            # an array: a row of 13 numbers for each Interface
+    world.step()
+    wrenches = world.wrenches()         # an array: a row of 6 numbers for each Interface
+
+docs/python.md tells the rest.
+"""
+
+from enum import IntFlag
+
+from ._log import Log
+from ._pong import (
+    CONTACT_DTYPE,
+    AddedModel,
+    BadValueError,
+    Case,
+    ContactStateError,
+    DuplicateError,
+    EngineError,
+    FrameReport,
+    Interface,
+    LogError,
+    Model,
+    ModelError,
+    NotFiniteError,
+    NotFoundError,
+    Object,
+    Pair,
+    PhaseError,
+    PongError,
+    ResourceError,
+    Row,
+    Run,
+    RunError,
+    Scene,
+    SceneError,
+    SealError,
+    Simulation,
+    StateError,
+    World,
+    WorldBuilder,
+    __version__,
+    advise_contact,
+    verify,
+)
+
+__all__ = [
+    "CONTACT_DTYPE",
+    "AddedModel",
+    "BadValueError",
+    "Case",
+    "ContactStateError",
+    "DuplicateError",
+    "EngineError",
+    "FrameReport",
+    "Interface",
+    "Log",
+    "LogError",
+    "Model",
+    "ModelError",
+    "NotFiniteError",
+    "NotFoundError",
+    "Object",
+    "Pair",
+    "PhaseError",
+    "PongError",
+    "ResourceError",
+    "Row",
+    "Run",
+    "RunError",
+    "Scene",
+    "SceneError",
+    "SealError",
+    "Simulation",
+    "StateError",
+    "Status",
+    "World",
+    "WorldBuilder",
+    "__version__",
+    "advise_contact",
+    "verify",
+]
+
+
+class Status(IntFlag):
+    """What a frame had to leave out, or missed: `Status(report.status)`."""
+
+    CONTACT_LIMIT = 1
+    LOAD_SHARING_LIMIT = 2
+    TUNNELLED = 4

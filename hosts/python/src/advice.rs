@@ -1,0 +1,58 @@
+//! Stiffness and damping for a wanted bounce (docs/advise.md).
+
+use crate::builder::coupling;
+use crate::errors::of_engine;
+use pong_advise::{Accuracy, ContactWish};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The values of a pair of surfaces that give a wanted depth and rebound, by name.
+#[pyfunction]
+#[pyo3(name = "advise_contact")]
+#[pyo3(signature = (
+    *, mass, speed, depth, restitution, coupling = "stages", delay_frames = 0, step = None,
+    depth_accuracy = 0.05, rebound_accuracy = 0.02,
+))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+pub(crate) fn advise_contact<'py>(
+    py: Python<'py>,
+    mass: f64,
+    speed: f64,
+    depth: f64,
+    restitution: f64,
+    coupling: &str,
+    delay_frames: u32,
+    step: Option<f64>,
+    depth_accuracy: f64,
+    rebound_accuracy: f64,
+) -> PyResult<Bound<'py, PyDict>> {
+    let wish = ContactWish {
+        mass,
+        speed,
+        depth,
+        restitution,
+        coupling: self::coupling("coupling", coupling, delay_frames)?,
+        step,
+        accuracy: Accuracy { depth: depth_accuracy, rebound: rebound_accuracy },
+    };
+    let advice = pong_advise::advise_contact(&wish).map_err(|error| of_engine(py, &error))?;
+    let told = PyDict::new(py);
+    let values = [
+        ("stiffness", advice.stiffness),
+        ("damping", advice.damping),
+        ("friction_stiffness", advice.friction_stiffness),
+        ("friction_damping", advice.friction_damping),
+        ("damping_ratio", advice.damping_ratio),
+        ("frequency", advice.frequency),
+        ("duration", advice.duration),
+        ("peak_force", advice.peak_force),
+        ("step", advice.step),
+        ("accurate_step", advice.accurate_step),
+        ("stable_step", advice.stable_step),
+        ("least_depth", advice.least_depth),
+    ];
+    for (name, value) in values {
+        told.set_item(name, value)?;
+    }
+    Ok(told)
+}

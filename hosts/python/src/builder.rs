@@ -1,0 +1,147 @@
+//! Set-up of a world.
+
+use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
+use crate::model::{Model, extensions};
+use crate::world::World;
+use pong_engine::{Config, Laws, WorkerSettings, WrenchCoupling};
+use pong_record::ModelSource;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+/// Sets a world up: models, Objects, pairs. `seal` makes the world of it.
+#[pyclass(frozen, module = "pong")]
+pub(crate) struct WorldBuilder {
+    /// `None` once it was sealed.
+    setup: Mutex<Option<Setup>>,
+}
+
+struct Setup {
+    world: pong_engine::World,
+    sources: Vec<ModelSource>,
+    folders: Vec<PathBuf>,
+}
+
+/// A model by itself or by its file.
+#[derive(FromPyObject)]
+enum ModelRef<'py> {
+    Model(PyRef<'py, Model>),
+    Path(PathBuf),
+}
+
+#[pymethods]
+impl WorldBuilder {
+    #[new]
+    #[pyo3(signature = (
+        *,
+        contact_capacity = None,
+        ledger = false,
+        accounts = None,
+        delay_frames = 0,
+        workers = 0,
+        allow_files_below = Vec::new(),
+    ))]
+    fn new(
+        contact_capacity: Option<usize>,
+        ledger: bool,
+        accounts: Option<&str>,
+        delay_frames: u32,
+        workers: usize,
+        allow_files_below: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let accounts = accounts.map(|name| coupling("accounts", name, delay_frames)).transpose()?;
+        let workers = (workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() });
+        let config = Config { contact_capacity, ledger, accounts, workers };
+        let extensions = extensions(allow_files_below.clone());
+        let world = pong_engine::World::with_extensions(config, extensions, Laws::default());
+        let setup = Setup { world, sources: Vec::new(), folders: allow_files_below };
+        Ok(Self { setup: Mutex::new(Some(setup)) })
+    }
+
+    /// Adds a model, or the model of a file.
+    fn add_model(&self, py: Python<'_>, model: ModelRef<'_>) -> PyResult<AddedModel> {
+        self.with(|setup| {
+            let (shared, source) = match model {
+                ModelRef::Model(model) => (Arc::clone(&model.model), model.source.clone()),
+                ModelRef::Path(path) => {
+                    let loaded = Model::load(py, path, setup.folders.clone())?;
+                    (loaded.model, loaded.source)
+                }
+            };
+            let name = shared.name.clone();
+            let id = setup.world.add_model(shared).map_err(|error| of_engine(py, &error))?;
+            setup.sources.push(source);
+            Ok(AddedModel { id, name })
+        })
+    }
+
+    /// Creates an Object from a model. Objects of one model are independent.
+    fn create_object(&self, py: Python<'_>, model: &AddedModel, name: &str) -> PyResult<Object> {
+        self.with(|setup| {
+            let id = setup.world.create_object(model.id, name).map_err(|error| of_engine(py, &error))?;
+            Ok(Object { id, name: name.to_owned() })
+        })
+    }
+
+    /// Declares that two Objects, given themselves or by name, may touch.
+    fn pair(&self, py: Python<'_>, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
+        self.with(|setup| {
+            let (a, b) = (a.resolve(py, &setup.world)?, b.resolve(py, &setup.world)?);
+            let id = setup.world.pair(a, b).map_err(|error| of_engine(py, &error))?;
+            let name =
+                |id| setup.world.object_name(id).map(str::to_owned).map_err(|error| of_engine(py, &error));
+            Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) })
+        })
+    }
+
+    /// The Interface of a movable group by its path or name. An empty path is the root.
+    #[pyo3(signature = (object, path = ""))]
+    fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
+        self.with(|setup| {
+            let object = object.resolve(py, &setup.world)?;
+            let id = setup.world.interface(object, path).map_err(|error| of_engine(py, &error))?;
+            ids::interface(py, &setup.world, id)
+        })
+    }
+
+    /// Ends set-up. The builder is used up; if the seal is refused, it can be mended and sealed again.
+    fn seal(&self, py: Python<'_>) -> PyResult<World> {
+        let mut place = self.lock()?;
+        let setup = place.as_mut().ok_or_else(sealed)?;
+        let report = py.detach(|| setup.world.seal()).map_err(|error| of_engine(py, &error))?;
+        let Setup { world, sources, .. } = place.take().expect("it was there a line above");
+        World::new(py, world, sources, &report)
+    }
+}
+
+impl WorldBuilder {
+    fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Option<Setup>>> {
+        self.setup.try_lock().map_err(|_| {
+            PhaseError::new_err(
+                "world builder: another thread is in a call of it; set a world up in one thread",
+            )
+        })
+    }
+
+    fn with<T>(&self, call: impl FnOnce(&mut Setup) -> PyResult<T>) -> PyResult<T> {
+        call(self.lock()?.as_mut().ok_or_else(sealed)?)
+    }
+}
+
+fn sealed() -> PyErr {
+    PhaseError::new_err("world builder: its world was sealed; make another builder for another world")
+}
+
+/// What a host does with wrenches, by name.
+pub(crate) fn coupling(thing: &str, name: &str, delay_frames: u32) -> PyResult<WrenchCoupling> {
+    match name {
+        "stages" => Ok(WrenchCoupling::Stages),
+        "semi_implicit" => Ok(WrenchCoupling::SemiImplicit),
+        "zero_order_hold" => Ok(WrenchCoupling::ZeroOrderHold { delay_frames }),
+        other => {
+            let cause = format!("there is no `{other}`");
+            Err(bad_value(thing, cause, "give \"stages\", \"semi_implicit\" or \"zero_order_hold\""))
+        }
+    }
+}

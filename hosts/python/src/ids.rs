@@ -1,0 +1,97 @@
+//! Models, Objects, pairs and Interfaces of a world, and how a call names them.
+
+use crate::errors::of_engine;
+use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, World};
+use pyo3::prelude::*;
+
+macro_rules! handle {
+    ($(#[$doc:meta])* $name:ident, $id:ident) => {
+        $(#[$doc])*
+        #[pyclass(frozen, eq, hash, module = "pong")]
+        #[derive(Clone, PartialEq, Eq, Hash)]
+        pub(crate) struct $name {
+            pub id: $id,
+            /// Its name.
+            #[pyo3(get)]
+            pub name: String,
+        }
+
+        #[pymethods]
+        impl $name {
+            /// Its place among those of its kind in its world, from 0.
+            #[getter]
+            fn index(&self) -> usize {
+                self.id.index()
+            }
+
+            fn __repr__(&self) -> String {
+                format!(concat!("<pong.", stringify!($name), " {:?}>"), self.name)
+            }
+        }
+    };
+}
+
+handle!(
+    /// A model that was added to a world.
+    AddedModel,
+    ModelId
+);
+handle!(
+    /// An Object: an instance of a model in a world.
+    Object,
+    ObjectId
+);
+handle!(
+    /// Two Objects that are tested against each other.
+    Pair,
+    PairId
+);
+handle!(
+    /// An Interface: the state in and the wrench out of one movable group of an Object. `name` is `object/path`.
+    Interface,
+    InterfaceId
+);
+
+/// An Object by itself or by its name.
+#[derive(FromPyObject)]
+pub(crate) enum ObjectRef<'py> {
+    Id(PyRef<'py, Object>),
+    Name(String),
+}
+
+impl ObjectRef<'_> {
+    /// Its id in a world.
+    pub fn resolve(&self, py: Python<'_>, world: &World) -> PyResult<ObjectId> {
+        match self {
+            Self::Id(object) => Ok(object.id),
+            Self::Name(name) => world.object(name).map_err(|error| of_engine(py, &error)),
+        }
+    }
+}
+
+/// An Interface of a world, with its name.
+pub(crate) fn interface(py: Python<'_>, world: &World, id: InterfaceId) -> PyResult<Interface> {
+    let name = world.interface_name(id).map_err(|error| of_engine(py, &error))?;
+    Ok(Interface { id, name })
+}
+
+/// All Interfaces of a world, in the order in which arrays have them.
+pub(crate) fn interfaces(py: Python<'_>, world: &World) -> PyResult<Vec<Interface>> {
+    let mut all = Vec::new();
+    for object in world.objects() {
+        for id in world.interfaces(object).map_err(|error| of_engine(py, &error))? {
+            all.push(interface(py, world, id)?);
+        }
+    }
+    Ok(all)
+}
+
+/// All pairs of a world, named `a, b`.
+pub(crate) fn pairs(py: Python<'_>, world: &World) -> PyResult<Vec<Pair>> {
+    let name = |object: ObjectId| {
+        world.object_name(object).map(str::to_owned).map_err(|error| of_engine(py, &error))
+    };
+    let pair =
+        |(id, [a, b]): (PairId, [ObjectId; 2])| Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) });
+    world.pairs().map(pair).collect()
+}

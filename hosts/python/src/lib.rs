@@ -1,0 +1,54 @@
+//! `pong._pong`: the engine, its scenes, logs and cases for Python (docs/python.md).
+//!
+//! | file | holds |
+//! |---|---|
+//! | `errors.rs` | the exceptions: one for each family of errors, each with the library's message |
+//! | `arrays.rs` | states and wrenches as NumPy arrays |
+//! | `contacts.rs` | contacts as a structured NumPy array |
+//! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and how a call names them |
+//! | `model.rs` | model files |
+//! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
+//! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
+//! | `log.rs` | what of a log is checked before NumPy maps its tables |
+//! | `advice.rs`, `verify.rs` | stiffness and damping for a wanted bounce; cases with known answers |
+
+mod advice;
+mod arrays;
+mod builder;
+mod contacts;
+mod errors;
+mod ids;
+mod log;
+mod model;
+mod recording;
+mod run;
+mod scene;
+mod simulation;
+mod verify;
+mod world;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    errors::register(module)?;
+    module.add("CONTACT_DTYPE", contacts::dtype(module.py())?)?;
+    module.add_class::<model::Model>()?;
+    module.add_class::<ids::AddedModel>()?;
+    module.add_class::<ids::Object>()?;
+    module.add_class::<ids::Pair>()?;
+    module.add_class::<ids::Interface>()?;
+    module.add_class::<builder::WorldBuilder>()?;
+    module.add_class::<world::World>()?;
+    module.add_class::<world::FrameReport>()?;
+    module.add_class::<scene::Scene>()?;
+    module.add_class::<simulation::Simulation>()?;
+    module.add_class::<run::Run>()?;
+    module.add_class::<verify::Case>()?;
+    module.add_class::<verify::Row>()?;
+    module.add_function(wrap_pyfunction!(verify::verify, module)?)?;
+    module.add_function(wrap_pyfunction!(advice::advise_contact, module)?)?;
+    module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
+    Ok(())
+}

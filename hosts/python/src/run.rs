@@ -1,0 +1,219 @@
+//! A run of a scene: its instants as arrays, its peaks, its log.
+
+use crate::arrays::{STATE, WRENCH, motion_row, wrench_row};
+use crate::errors::{of_executive, of_log};
+use crate::scene::integrator_text;
+use crate::simulation::energies;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pong_executive::scene::BuiltScene;
+use pong_executive::{ExecutiveError, RunStatistics, Simulation};
+use pong_record::{EnergyRow, LogError, ModelSource, RecordOptions, Recorder};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// How often a long run looks whether it is to be interrupted.
+const LOOK_EVERY: Duration = Duration::from_millis(100);
+
+/// What a run came to.
+#[pyclass(frozen, module = "pong", get_all)]
+pub(crate) struct Run {
+    /// Names of the bodies.
+    bodies: Vec<String>,
+    /// Times of the instants, s.
+    time: Py<PyAny>,
+    /// States: instants × bodies × 13.
+    states: Py<PyAny>,
+    /// Contact wrenches along the common axes: instants × bodies × 6.
+    wrenches: Py<PyAny>,
+    /// Contacts of each instant.
+    contacts: Py<PyAny>,
+    /// Largest contact force of each body over all steps, N.
+    peak_force: Py<PyAny>,
+    /// Largest contact moment, N·m.
+    peak_moment: Py<PyAny>,
+    /// Largest depth, m.
+    peak_depth: Py<PyAny>,
+    /// ∫ contact force dt of each body, N·s: bodies × 3.
+    impulse: Py<PyAny>,
+    /// Most contacts at once.
+    most_contacts: usize,
+    /// Energies at the end, J, by name.
+    energy: Py<PyDict>,
+    /// Largest distance of the balance of energies from its first value, J; what the ledger knows.
+    worst_balance: f64,
+    /// Steps in which something went right through something else.
+    tunnelled: u64,
+    /// What `pong run` warns of after a run.
+    warnings: Vec<String>,
+}
+
+/// A log to be written.
+pub(crate) struct RunLog {
+    pub folder: PathBuf,
+    pub overwrite: bool,
+}
+
+/// The instants that are kept.
+#[derive(Default)]
+struct Kept {
+    time: Vec<f64>,
+    states: Vec<f64>,
+    wrenches: Vec<f64>,
+    contacts: Vec<u64>,
+}
+
+impl Kept {
+    fn keep(&mut self, simulation: &Simulation) {
+        self.time.push(simulation.time());
+        for (id, _) in simulation.bodies() {
+            self.states.extend(motion_row(&simulation.pose(id), &simulation.twist(id)));
+            self.wrenches.extend(wrench_row(&simulation.contact_wrench(id)));
+        }
+        self.contacts.push(simulation.world().contact_count() as u64);
+    }
+}
+
+/// Why a run ended early.
+enum Failure {
+    Dynamics(ExecutiveError),
+    Log(LogError),
+    Interrupted(PyErr),
+}
+
+impl Failure {
+    fn raised(self, py: Python<'_>) -> PyErr {
+        match self {
+            Self::Dynamics(error) => of_executive(py, &error),
+            Self::Log(error) => of_log(py, &error),
+            Self::Interrupted(error) => error,
+        }
+    }
+}
+
+impl Run {
+    /// Runs some steps.
+    pub fn of(
+        py: Python<'_>,
+        built: &mut BuiltScene,
+        steps: u64,
+        every: u64,
+        log: Option<RunLog>,
+        bodies: &[String],
+    ) -> PyResult<Self> {
+        let done = py.detach(|| {
+            let mut recorder = log.map(|log| start_log(built, &log, every)).transpose()?;
+            let done = advance(built, steps, every, recorder.as_mut());
+            // What was recorded before a failure is what its cause is sought in.
+            let closed = recorder.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(Failure::Log));
+            let done = done?;
+            closed.map(|()| done)
+        });
+        let (kept, statistics) = done.map_err(|failure| failure.raised(py))?;
+        Self::told(py, kept, &statistics, bodies, built)
+    }
+
+    fn told(
+        py: Python<'_>,
+        kept: Kept,
+        statistics: &RunStatistics,
+        bodies: &[String],
+        built: &BuiltScene,
+    ) -> PyResult<Self> {
+        let (instants, count) = (kept.time.len(), bodies.len());
+        let of_bodies = |value: &dyn Fn(&pong_executive::BodyStatistics) -> f64| {
+            PyArray1::from_iter(py, statistics.bodies.iter().map(value)).into_any().unbind()
+        };
+        let cube = |values: Vec<f64>, width| -> PyResult<Py<PyAny>> {
+            Ok(PyArray1::from_vec(py, values).reshape([instants, count, width])?.into_any().unbind())
+        };
+        let impulses: Vec<Vec<f64>> =
+            statistics.bodies.iter().map(|body| body.impulse.as_slice().to_vec()).collect();
+        let impulse = PyArray2::from_vec2(py, &impulses).expect("an impulse has three components");
+        let advice = [statistics.incomplete_advice(), statistics.tunnelling_advice()];
+        let warnings = built.simulation.energy_warnings().into_iter().chain(advice.into_iter().flatten());
+        Ok(Self {
+            bodies: bodies.to_vec(),
+            time: PyArray1::from_vec(py, kept.time).into_any().unbind(),
+            states: cube(kept.states, STATE)?,
+            wrenches: cube(kept.wrenches, WRENCH)?,
+            contacts: PyArray1::from_vec(py, kept.contacts).into_any().unbind(),
+            peak_force: of_bodies(&|body| body.peak_force),
+            peak_moment: of_bodies(&|body| body.peak_moment),
+            peak_depth: of_bodies(&|body| body.peak_depth),
+            impulse: impulse.into_any().unbind(),
+            most_contacts: statistics.most_contacts,
+            energy: energies(py, &statistics.last_energy)?.unbind(),
+            worst_balance: statistics.worst_balance,
+            tunnelled: statistics.tunnelled,
+            warnings: warnings.collect(),
+        })
+    }
+}
+
+fn advance(
+    built: &mut BuiltScene,
+    steps: u64,
+    every: u64,
+    mut log: Option<&mut Recorder>,
+) -> Result<(Kept, RunStatistics), Failure> {
+    let ledger = built.ledger;
+    let simulation = &mut built.simulation;
+    simulation.commit_initial_states().map_err(Failure::Dynamics)?;
+    let mut statistics = RunStatistics::new(simulation);
+    let mut kept = Kept::default();
+    let mut looked = Instant::now();
+    for done in 0..=steps {
+        if done > 0 {
+            simulation.step().map_err(Failure::Dynamics)?;
+            statistics.observe(simulation);
+        }
+        if done.is_multiple_of(every) || done == steps {
+            kept.keep(simulation);
+        }
+        if let Some(log) = &mut log {
+            record(log, simulation, ledger, done.is_multiple_of(every)).map_err(Failure::Log)?;
+        }
+        if looked.elapsed() > LOOK_EVERY {
+            Python::attach(|py| py.check_signals()).map_err(Failure::Interrupted)?;
+            looked = Instant::now();
+        }
+    }
+    Ok((kept, statistics))
+}
+
+fn start_log(built: &BuiltScene, log: &RunLog, every: u64) -> Result<Recorder, Failure> {
+    let options = RecordOptions {
+        name: built.name.clone(),
+        writer: concat!("pong for Python ", env!("CARGO_PKG_VERSION")).to_owned(),
+        step: Some(built.simulation.step_length()),
+        commits_per_frame: Some(every),
+        integrator: Some(integrator_text(built.simulation.integrator())),
+        energies: built.ledger,
+        overwrite: log.overwrite,
+        ..RecordOptions::default()
+    };
+    let models: Vec<_> = built.model_files.iter().cloned().map(ModelSource::File).collect();
+    Recorder::start(built.simulation.world(), &log.folder, &models, &options).map_err(Failure::Log)
+}
+
+fn record(log: &mut Recorder, simulation: &Simulation, ledger: bool, wanted: bool) -> Result<(), LogError> {
+    log.evaluated();
+    log.committed();
+    if !wanted {
+        return Ok(());
+    }
+    let e = simulation.energy();
+    let energies = ledger.then(|| EnergyRow {
+        kinetic: e.kinetic,
+        potential: e.potential,
+        springs: e.springs,
+        contacts: e.contacts,
+        contact_loss: e.contact_loss,
+        spring_loss: e.spring_loss,
+        work_in: e.work_in,
+        balance: e.balance(),
+    });
+    log.record(simulation.world(), simulation.time(), 0, energies.as_ref())
+}

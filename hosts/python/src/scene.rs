@@ -1,0 +1,126 @@
+//! Scene files (docs/scene_format.md).
+
+use crate::errors::{bad_value, of_scene};
+use crate::model::extensions;
+use crate::simulation::Simulation;
+use pong_engine::WorkerSettings;
+use pong_executive::Integrator;
+use pong_executive::scene::Variation;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+/// A scene file as read. `build` loads its models and sets everything up.
+#[pyclass(frozen, module = "pong")]
+pub(crate) struct Scene {
+    scene: pong_executive::scene::Scene,
+}
+
+#[pymethods]
+impl Scene {
+    /// Reads a scene file; models are looked for beside it.
+    #[staticmethod]
+    #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
+    fn load(py: Python<'_>, path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
+        let read = pong_executive::scene::Scene::load(&path);
+        let scene = read.map_err(|errors| of_scene(py, &errors))?;
+        Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
+    }
+
+    /// Reads a scene from text. `name` is what errors call it; models are looked for in `folder`.
+    #[staticmethod]
+    #[pyo3(signature = (text, *, name = "scene", folder = PathBuf::new(), allow_files_below = Vec::new()))]
+    fn parse(
+        py: Python<'_>,
+        text: &str,
+        name: &str,
+        folder: PathBuf,
+        allow_files_below: Vec<PathBuf>,
+    ) -> PyResult<Self> {
+        let read = pong_executive::scene::Scene::parse(text, name, &folder);
+        let scene = read.map_err(|errors| of_scene(py, &errors))?;
+        Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
+    }
+
+    /// Name as given in the file.
+    #[getter]
+    fn name(&self) -> &str {
+        self.scene.name()
+    }
+
+    /// The step, s.
+    #[getter]
+    fn step(&self) -> f64 {
+        self.scene.step()
+    }
+
+    /// The duration, s.
+    #[getter]
+    fn duration(&self) -> f64 {
+        self.scene.duration()
+    }
+
+    /// The integrator, as the scene format spells it.
+    #[getter]
+    fn integrator(&self) -> String {
+        integrator_text(self.scene.integrator())
+    }
+
+    /// Names of the alternatives.
+    #[getter]
+    fn alternatives(&self) -> Vec<&str> {
+        self.scene.alternatives().collect()
+    }
+
+    /// Every model file that the scene names, those of its alternatives included.
+    #[getter]
+    fn model_files(&self) -> Vec<PathBuf> {
+        self.scene.model_files()
+    }
+
+    /// Loads the models and sets everything up, or tells everything that is wrong.
+    ///
+    /// `integrator` is "RungeKutta4", "SemiImplicitEuler" or "ZeroOrderHold" (with `substeps` and `delay_frames`).
+    #[pyo3(signature = (*, step = None, integrator = None, substeps = 1, delay_frames = 0, workers = 0, alternative = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn build(
+        &self,
+        py: Python<'_>,
+        step: Option<f64>,
+        integrator: Option<&str>,
+        substeps: u32,
+        delay_frames: u32,
+        workers: usize,
+        alternative: Option<&str>,
+    ) -> PyResult<Simulation> {
+        let integrator = match integrator {
+            None => None,
+            Some("RungeKutta4") => Some(Integrator::RungeKutta4),
+            Some("SemiImplicitEuler") => Some(Integrator::SemiImplicitEuler),
+            Some("ZeroOrderHold") => Some(Integrator::ZeroOrderHold { substeps, delay_frames }),
+            Some(other) => {
+                let cure = "give \"RungeKutta4\", \"SemiImplicitEuler\" or \"ZeroOrderHold\"";
+                return Err(bad_value("integrator", format!("there is no `{other}`"), cure));
+            }
+        };
+        let workers = (workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() });
+        let built = py.detach(|| {
+            let variation = Variation { step, integrator, workers, alternative, ..Variation::default() };
+            self.scene.build_varied(&variation)
+        });
+        Ok(Simulation::new(built.map_err(|errors| of_scene(py, &errors))?))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<pong.Scene {:?}>", self.scene.name())
+    }
+}
+
+/// An integrator as the scene format spells it.
+pub(crate) fn integrator_text(integrator: Integrator) -> String {
+    match integrator {
+        Integrator::ZeroOrderHold { substeps, delay_frames } => {
+            format!("ZeroOrderHold(substeps: {substeps}, delay_frames: {delay_frames})")
+        }
+        other => format!("{other:?}"),
+    }
+}

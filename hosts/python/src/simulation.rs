@@ -1,0 +1,288 @@
+//! A scene in the built-in executive.
+
+use crate::arrays::{self, Rows, STATE};
+use crate::contacts;
+use crate::errors::{PhaseError, bad_value, of_engine, of_executive};
+use crate::model::{surface_from, surface_values};
+use crate::run::{Run, RunLog};
+use crate::scene::integrator_text;
+use crate::world::FrameReport;
+use numpy::PyArray2;
+use pong_executive::scene::BuiltScene;
+use pong_executive::{BodyId, Energy};
+use pong_geometry::{Pose, Twist, Vec3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+/// A scene that runs: its bodies, integrator and world.
+///
+/// One thread at a time may call it. `step` and `run` release the GIL.
+#[pyclass(frozen, module = "pong")]
+pub(crate) struct Simulation {
+    built: Mutex<BuiltScene>,
+    bodies: Vec<String>,
+    ids: Vec<BodyId>,
+}
+
+impl Simulation {
+    pub(crate) fn new(built: BuiltScene) -> Self {
+        let (ids, bodies) = built.simulation.bodies().map(|(id, body)| (id, body.name.clone())).unzip();
+        Self { built: Mutex::new(built), bodies, ids }
+    }
+
+    fn lock(&self) -> PyResult<MutexGuard<'_, BuiltScene>> {
+        match self.built.try_lock() {
+            Ok(built) => Ok(built),
+            Err(TryLockError::Poisoned(built)) => Ok(built.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PhaseError::new_err(
+                "simulation: another thread is in a call of it; give each thread a simulation of its own",
+            )),
+        }
+    }
+
+    fn body(&self, name: &str) -> PyResult<BodyId> {
+        let place = self.bodies.iter().position(|body| body == name);
+        place.map(|place| self.ids[place]).ok_or_else(|| {
+            let cause = format!("there is no body `{name}`");
+            bad_value("body", cause, &format!("name one of: {}", self.bodies.join(", ")))
+        })
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// Name of the scene.
+    #[getter]
+    fn name(&self) -> PyResult<String> {
+        Ok(self.lock()?.name.clone())
+    }
+
+    /// Names of the bodies: the rows of `states` and `wrenches`.
+    #[getter]
+    fn bodies(&self) -> Vec<String> {
+        self.bodies.clone()
+    }
+
+    /// Time, s.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.simulation.time())
+    }
+
+    /// The step, s.
+    #[getter]
+    fn step_length(&self) -> PyResult<f64> {
+        Ok(self.lock()?.simulation.step_length())
+    }
+
+    /// Steps that make up the duration of the scene.
+    #[getter]
+    fn steps(&self) -> PyResult<u64> {
+        Ok(self.lock()?.steps)
+    }
+
+    /// Every how many steps the scene wants a record.
+    #[getter]
+    fn record_every(&self) -> PyResult<u64> {
+        Ok(self.lock()?.record_every)
+    }
+
+    /// The integrator, as the scene format spells it.
+    #[getter]
+    fn integrator(&self) -> PyResult<String> {
+        Ok(integrator_text(self.lock()?.simulation.integrator()))
+    }
+
+    /// Two simulations with equal hashes have the same world.
+    #[getter]
+    fn scene_hash(&self, py: Python<'_>) -> PyResult<u64> {
+        self.lock()?.simulation.world().scene_hash().map_err(|error| of_engine(py, &error))
+    }
+
+    /// What `pong run` warns of: models, seal, contacts that gain energy at the step.
+    #[getter]
+    fn warnings(&self) -> PyResult<Vec<String>> {
+        let built = self.lock()?;
+        let seal = built.seal.warnings.iter().map(ToString::to_string);
+        Ok(built.warnings.iter().cloned().chain(seal).chain(built.simulation.step_warnings()).collect())
+    }
+
+    /// Notes about contacts that may gain energy at the step if they act together.
+    #[getter]
+    fn notes(&self) -> PyResult<Vec<String>> {
+        let built = self.lock()?;
+        let seal = built.seal.notes.iter().map(ToString::to_string);
+        Ok(seal.chain(built.simulation.step_notes()).collect())
+    }
+
+    /// States of the bodies: a row of 13 numbers for each.
+    #[pyo3(signature = (out = None))]
+    fn states<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyArray2<f64>>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let built = self.lock()?;
+        let simulation = &built.simulation;
+        arrays::fill(py, out, self.ids.len(), |index| {
+            Ok(arrays::motion_row(&simulation.pose(self.ids[index]), &simulation.twist(self.ids[index])))
+        })
+    }
+
+    /// Contact wrenches on the bodies along the common axes: a row (force, moment about the group's origin) for each.
+    #[pyo3(signature = (out = None))]
+    fn wrenches<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyArray2<f64>>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let built = self.lock()?;
+        let wrench = |index: usize| built.simulation.contact_wrench(self.ids[index]);
+        arrays::fill(py, out, self.ids.len(), |index| Ok(arrays::wrench_row(&wrench(index))))
+    }
+
+    /// Contacts of the present instant: a structured array of `pong.CONTACT_DTYPE`.
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        contacts::array(py, self.lock()?.simulation.world())
+    }
+
+    /// The last frame in short.
+    fn report(&self) -> PyResult<FrameReport> {
+        Ok(self.lock()?.simulation.world().report().into())
+    }
+
+    /// Energies of the present instant, J, by name.
+    fn energy<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        energies(py, &self.lock()?.simulation.energy())
+    }
+
+    /// Puts free or fixed bodies elsewhere: a row of 13 numbers for each body named. The contacts' past stays.
+    fn set_states(&self, py: Python<'_>, states: Rows<'_>, bodies: Vec<String>) -> PyResult<()> {
+        let rows = arrays::rows("states", &states, bodies.len(), STATE)?;
+        let ids: Vec<BodyId> = bodies.iter().map(|name| self.body(name)).collect::<PyResult<_>>()?;
+        if let Some(value) = rows.iter().find(|value| !value.is_finite()) {
+            return Err(bad_value("states", format!("they hold {value}"), "give finite numbers"));
+        }
+        let mut built = self.lock()?;
+        for (row, (id, name)) in rows.rows().into_iter().zip(ids.iter().zip(&bodies)) {
+            let vector = |from: usize| Vec3::new(row[from], row[from + 1], row[from + 2]);
+            let orientation: [f64; 4] = std::array::from_fn(|i| row[3 + i]);
+            let norm = orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
+            // As the engine allows for states of a host.
+            if (norm - 1.0).abs() > 1e-3 {
+                let cause = format!("the quaternion of `{name}` has norm {norm}");
+                return Err(bad_value("states", cause, "give unit quaternions (w, x, y, z)"));
+            }
+            let twist = Twist { linear: vector(7), angular: vector(10) };
+            let set = built.simulation.set_motion(*id, Pose::new(vector(0), orientation), twist);
+            set.map_err(|error| of_executive(py, &error))?;
+        }
+        Ok(())
+    }
+
+    /// Sets gravity, m/s², along the common axes.
+    fn set_gravity(&self, gravity: [f64; 3]) -> PyResult<()> {
+        if let Some(value) = gravity.iter().find(|value| !value.is_finite()) {
+            return Err(bad_value("gravity", format!("it holds {value}"), "give finite numbers"));
+        }
+        self.lock()?.simulation.set_gravity(gravity.into());
+        Ok(())
+    }
+
+    /// Names of the models.
+    #[getter]
+    fn models(&self) -> PyResult<Vec<String>> {
+        Ok(self.lock()?.simulation.world().models().map(|(_, model)| model.name.clone()).collect())
+    }
+
+    /// The values of a surface of a model, by their names, as they are now.
+    fn surface<'py>(&self, py: Python<'py>, model: &str, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let built = self.lock()?;
+        let world = built.simulation.world();
+        let id = model_id(world, model)?;
+        surface_values(py, world.surface(id, name).map_err(|error| of_engine(py, &error))?)
+    }
+
+    /// Replaces the values of a surface. Laws may not change.
+    fn set_surface(
+        &self,
+        py: Python<'_>,
+        model: &str,
+        name: &str,
+        values: &Bound<'_, PyDict>,
+    ) -> PyResult<()> {
+        let surface = surface_from(py, name, values)?;
+        let mut built = self.lock()?;
+        let id = model_id(built.simulation.world(), model)?;
+        let set = built.simulation.world_mut().set_surface(id, &surface);
+        set.map_err(|error| of_engine(py, &error))
+    }
+
+    /// Advances by some steps.
+    #[pyo3(signature = (count = 1))]
+    fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
+        let mut built = self.lock()?;
+        let simulation = &mut built.simulation;
+        py.detach(|| (0..count).try_for_each(|_| simulation.step())).map_err(|error| of_executive(py, &error))
+    }
+
+    /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as the scene
+    /// says; the first and the last always. `log` is a folder for a response log of the same instants.
+    #[pyo3(signature = (steps = None, *, every = None, log = None, overwrite = false))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        steps: Option<u64>,
+        every: Option<u64>,
+        log: Option<PathBuf>,
+        overwrite: bool,
+    ) -> PyResult<Run> {
+        let mut built = self.lock()?;
+        let every = every.unwrap_or(built.record_every);
+        if every == 0 {
+            return Err(bad_value(
+                "every",
+                "it is 0",
+                "give the number of steps between instants, at least 1",
+            ));
+        }
+        let log = log.map(|folder| RunLog { folder, overwrite });
+        let left = built.steps.saturating_sub(steps_done(&built));
+        Run::of(py, &mut built, steps.unwrap_or(left), every, log, &self.bodies)
+    }
+}
+
+/// Steps since the start, at the present step.
+fn steps_done(built: &BuiltScene) -> u64 {
+    (built.simulation.time() / built.simulation.step_length()).round() as u64
+}
+
+fn model_id(world: &pong_engine::World, name: &str) -> PyResult<pong_engine::ModelId> {
+    let found = world.models().find(|(_, model)| model.name == name).map(|(id, _)| id);
+    found.ok_or_else(|| {
+        let known: Vec<String> = world.models().map(|(_, model)| model.name.clone()).collect();
+        let cure = format!("name one of: {}", known.join(", "));
+        bad_value("model", format!("there is no model `{name}`"), &cure)
+    })
+}
+
+/// Energies by name.
+pub(crate) fn energies<'py>(py: Python<'py>, energy: &Energy) -> PyResult<Bound<'py, PyDict>> {
+    let told = PyDict::new(py);
+    let terms = [
+        ("kinetic", energy.kinetic),
+        ("potential", energy.potential),
+        ("springs", energy.springs),
+        ("contacts", energy.contacts),
+        ("contact_loss", energy.contact_loss),
+        ("spring_loss", energy.spring_loss),
+        ("work_in", energy.work_in),
+        ("balance", energy.balance()),
+    ];
+    for (name, value) in terms {
+        told.set_item(name, value)?;
+    }
+    Ok(told)
+}

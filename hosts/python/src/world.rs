@@ -1,0 +1,475 @@
+//! A sealed world: frames.
+
+use crate::arrays::{self, Rows, STATE, WRENCH};
+use crate::contacts;
+use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
+use crate::model::{surface_from, surface_values};
+use crate::recording::{LogOptions, Recording};
+use numpy::PyArray2;
+use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
+use pong_record::ModelSource;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+/// A sealed world: states go in, wrenches come out.
+///
+/// One thread at a time may call it. `evaluate`, `commit` and `step` release the GIL.
+#[pyclass(frozen, module = "pong")]
+pub(crate) struct World {
+    inner: Mutex<Inner>,
+    /// All Interfaces, in the order of the rows of arrays.
+    interfaces: Vec<Interface>,
+    ids: Vec<InterfaceId>,
+    warnings: Vec<String>,
+    notes: Vec<String>,
+}
+
+pub(crate) struct Inner {
+    pub world: pong_engine::World,
+    pub sources: Vec<ModelSource>,
+    pub recording: Option<Recording>,
+    /// States on their way from an array into the world: its memory is used again.
+    states: Vec<(InterfaceId, State)>,
+}
+
+/// A frame in short.
+#[pyclass(frozen, eq, module = "pong", get_all)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct FrameReport {
+    /// What had to be left out or was missed, as the bits of `pong.Status`.
+    status: u32,
+    /// Contacts listed.
+    contacts: u32,
+    /// Contacts that would have been listed without the limit.
+    contacts_wanted: u32,
+}
+
+impl From<pong_engine::FrameReport> for FrameReport {
+    fn from(report: pong_engine::FrameReport) -> Self {
+        let pong_engine::FrameReport { status, contacts, contacts_wanted } = report;
+        Self { status: status.bits(), contacts, contacts_wanted }
+    }
+}
+
+#[pymethods]
+impl FrameReport {
+    /// Whether nothing was left out or missed.
+    #[getter]
+    fn is_complete(&self) -> bool {
+        self.status == 0
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { status, contacts, contacts_wanted } = self;
+        format!("<pong.FrameReport status={status} contacts={contacts} contacts_wanted={contacts_wanted}>")
+    }
+}
+
+impl World {
+    pub(crate) fn new(
+        py: Python<'_>,
+        world: pong_engine::World,
+        sources: Vec<ModelSource>,
+        report: &SealReport,
+    ) -> PyResult<Self> {
+        let interfaces = ids::interfaces(py, &world)?;
+        Ok(Self {
+            ids: interfaces.iter().map(|interface| interface.id).collect(),
+            interfaces,
+            warnings: report.warnings.iter().map(ToString::to_string).collect(),
+            notes: report.notes.iter().map(ToString::to_string).collect(),
+            inner: Mutex::new(Inner { world, sources, recording: None, states: Vec::new() }),
+        })
+    }
+
+    fn lock(&self) -> PyResult<MutexGuard<'_, Inner>> {
+        match self.inner.try_lock() {
+            Ok(inner) => Ok(inner),
+            // A law that panicked leaves the world usable.
+            Err(TryLockError::Poisoned(inner)) => Ok(inner.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PhaseError::new_err(
+                "world: another thread is in a call of it; give each thread a world of its own, or wait for the other call",
+            )),
+        }
+    }
+
+    /// The Interfaces that a call means: all, in their order, unless it names some.
+    fn chosen(&self, interfaces: Option<Vec<PyRef<'_, Interface>>>) -> Option<Vec<InterfaceId>> {
+        interfaces.map(|chosen| chosen.iter().map(|interface| interface.id).collect())
+    }
+}
+
+#[pymethods]
+impl World {
+    /// All Interfaces: the rows of `states` and `wrenches`.
+    #[getter]
+    fn interfaces(&self) -> Vec<Interface> {
+        self.interfaces.clone()
+    }
+
+    /// Warnings of the seal: pairs of kinds that meet but have no tester.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.warnings.clone()
+    }
+
+    /// Notes of the seal.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.notes.clone()
+    }
+
+    /// All Objects.
+    #[getter]
+    fn objects(&self, py: Python<'_>) -> PyResult<Vec<Object>> {
+        let inner = self.lock()?;
+        let object = |id| {
+            let name = inner.world.object_name(id).map_err(|error| of_engine(py, &error))?;
+            Ok(Object { id, name: name.to_owned() })
+        };
+        inner.world.objects().map(object).collect()
+    }
+
+    /// All pairs.
+    #[getter]
+    fn pairs(&self, py: Python<'_>) -> PyResult<Vec<Pair>> {
+        ids::pairs(py, &self.lock()?.world)
+    }
+
+    /// All models.
+    #[getter]
+    fn models(&self) -> PyResult<Vec<AddedModel>> {
+        let inner = self.lock()?;
+        let models = inner.world.models();
+        Ok(models.map(|(id, model)| AddedModel { id, name: model.name.clone() }).collect())
+    }
+
+    /// Most contacts of a frame.
+    #[getter]
+    fn contact_capacity(&self, py: Python<'_>) -> PyResult<usize> {
+        self.lock()?.world.contact_capacity().map_err(|error| of_engine(py, &error))
+    }
+
+    /// Two worlds with equal hashes can exchange contact state.
+    #[getter]
+    fn scene_hash(&self, py: Python<'_>) -> PyResult<u64> {
+        self.lock()?.world.scene_hash().map_err(|error| of_engine(py, &error))
+    }
+
+    /// The Interface of a movable group by its path or name. An empty path is the root.
+    #[pyo3(signature = (object, path = ""))]
+    fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
+        let inner = self.lock()?;
+        let object = object.resolve(py, &inner.world)?;
+        let id = inner.world.interface(object, path).map_err(|error| of_engine(py, &error))?;
+        ids::interface(py, &inner.world, id)
+    }
+
+    /// `object/path` of a primitive, as contacts name it.
+    fn primitive_path(&self, py: Python<'_>, interface: usize, primitive: u32) -> PyResult<String> {
+        let Some(id) = self.ids.get(interface) else {
+            let cause = format!("there is no Interface {interface}, the world has {}", self.ids.len());
+            return Err(bad_value("interface", cause, "take the number from a contact"));
+        };
+        let inner = self.lock()?;
+        let path = inner.world.primitive_path(*id, primitive).map_err(|error| of_engine(py, &error))?;
+        let object = self.interfaces[interface].name.split('/').next().unwrap_or_default();
+        Ok(format!("{object}/{path}"))
+    }
+
+    /// Sets states: an array of 13 columns, or the four parts apart. All are set, or, if any is refused, none.
+    #[pyo3(signature = (
+        states = None,
+        *,
+        position = None,
+        orientation = None,
+        linear_velocity = None,
+        angular_velocity = None,
+        interfaces = None,
+    ))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn set_states(
+        &self,
+        py: Python<'_>,
+        states: Option<Rows<'_>>,
+        position: Option<Rows<'_>>,
+        orientation: Option<Rows<'_>>,
+        linear_velocity: Option<Rows<'_>>,
+        angular_velocity: Option<Rows<'_>>,
+        interfaces: Option<Vec<PyRef<'_, Interface>>>,
+    ) -> PyResult<()> {
+        let chosen = self.chosen(interfaces);
+        let ids = chosen.as_deref().unwrap_or(&self.ids);
+        let mut inner = self.lock()?;
+        let Inner { world, states: room, .. } = &mut *inner;
+        room.clear();
+        let parts = [&position, &orientation, &linear_velocity, &angular_velocity];
+        match &states {
+            Some(array) if parts.iter().all(|part| part.is_none()) => {
+                arrays::states(&arrays::rows("states", array, ids.len(), STATE)?, ids, room);
+            }
+            None if position.is_some() => {
+                let count = ids.len();
+                let p = arrays::part("position", position.as_ref(), count, [0.0; 3])?;
+                let q = arrays::part("orientation", orientation.as_ref(), count, [1.0, 0.0, 0.0, 0.0])?;
+                let v = arrays::part("linear_velocity", linear_velocity.as_ref(), count, [0.0; 3])?;
+                let w = arrays::part("angular_velocity", angular_velocity.as_ref(), count, [0.0; 3])?;
+                room.extend(ids.iter().enumerate().map(|(i, id)| {
+                    let state = State {
+                        position: p[i],
+                        orientation: q[i],
+                        linear_velocity: v[i],
+                        angular_velocity: w[i],
+                    };
+                    (*id, state)
+                }));
+            }
+            given => {
+                let cause = match given {
+                    Some(_) => "an array of states and parts of states are given",
+                    None => "neither `states` nor `position` is given",
+                };
+                return Err(bad_value(
+                    "states",
+                    cause,
+                    "give one array of 13 columns, or `position` and the others",
+                ));
+            }
+        }
+        world.set_states(room).map_err(|error| of_engine(py, &error))
+    }
+
+    /// The states as they were set, a row for each Interface; a row of NaN where none was.
+    #[pyo3(signature = (out = None))]
+    fn states<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyArray2<f64>>>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let inner = self.lock()?;
+        arrays::fill(py, out, self.ids.len(), |index| {
+            let state = inner.world.state_as_set(self.ids[index]).map_err(|error| of_engine(py, &error))?;
+            let mut row = [f64::NAN; STATE];
+            if let Some(state) = state {
+                row[..3].copy_from_slice(&state.position);
+                row[3..7].copy_from_slice(&state.orientation);
+                row[7..10].copy_from_slice(&state.linear_velocity);
+                row[10..].copy_from_slice(&state.angular_velocity);
+            }
+            Ok(row)
+        })
+    }
+
+    /// Computes wrenches from the states and the committed contact state, and changes nothing else.
+    fn evaluate(&self, py: Python<'_>) -> PyResult<FrameReport> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        let report = py.detach(|| world.evaluate()).map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(Recording::evaluated);
+        Ok(report.into())
+    }
+
+    /// Accepts the states presently set, for all pairs or for some.
+    #[pyo3(signature = (pairs = None))]
+    fn commit(&self, py: Python<'_>, pairs: Option<Vec<PyRef<'_, Pair>>>) -> PyResult<()> {
+        let pairs: Option<Vec<_>> = pairs.map(|pairs| pairs.iter().map(|pair| pair.id).collect());
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        let done = py.detach(|| match &pairs {
+            None => world.commit(),
+            Some(pairs) => world.commit_pairs(pairs),
+        });
+        done.map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(|recording| recording.committed(pairs.as_deref()));
+        Ok(())
+    }
+
+    /// Evaluate and commit, for hosts that call once a frame.
+    fn step(&self, py: Python<'_>) -> PyResult<FrameReport> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        let report = py.detach(|| world.step()).map_err(|error| of_engine(py, &error))?;
+        if let Some(recording) = recording {
+            recording.evaluated();
+            recording.committed(None);
+        }
+        Ok(report.into())
+    }
+
+    /// Wrenches of the last frame, a row (force, moment) for each Interface, about the origin of its group.
+    #[pyo3(signature = (out = None, *, axes = "common"))]
+    fn wrenches<'py>(
+        &self,
+        py: Python<'py>,
+        out: Option<Bound<'py, PyArray2<f64>>>,
+        axes: &str,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let common = match axes {
+            "common" => true,
+            "group" => false,
+            other => {
+                return Err(bad_value(
+                    "axes",
+                    format!("there is no `{other}`"),
+                    "give \"common\" or \"group\"",
+                ));
+            }
+        };
+        let inner = self.lock()?;
+        arrays::fill::<WRENCH>(py, out, self.ids.len(), |index| {
+            let id = self.ids[index];
+            let wrench = if common { inner.world.wrench_common(id) } else { inner.world.wrench(id) };
+            Ok(arrays::wrench_row(&wrench.map_err(|error| of_engine(py, &error))?))
+        })
+    }
+
+    /// Contacts of the last frame: a structured array of `pong.CONTACT_DTYPE`.
+    fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        contacts::array(py, &self.lock()?.world)
+    }
+
+    /// The last frame in short.
+    fn report(&self) -> PyResult<FrameReport> {
+        Ok(self.lock()?.world.report().into())
+    }
+
+    /// What went right through something else since the last commit, in words; `None` if nothing did.
+    fn tunnelling(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        let inner = self.lock()?;
+        let Some(event) = inner.world.tunnelling() else { return Ok(None) };
+        let told = || -> Result<String, EngineError> {
+            let path = inner.world.primitive_path(event.interface, event.primitive)?;
+            let through = inner.world.interface_name(event.through)?;
+            Ok(format!("`{path}` through `{through}` (1 of {})", event.count))
+        };
+        told().map(Some).map_err(|error| of_engine(py, &error))
+    }
+
+    /// The committed contact state.
+    fn save_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let inner = self.lock()?;
+        let size = inner.world.state_used().map_err(|error| of_engine(py, &error))?;
+        PyBytes::new_with(py, size, |room| {
+            inner.world.save_state(room).map_err(|error| of_engine(py, &error))
+        })
+    }
+
+    /// Restores a contact state that a world built by the same calls saved.
+    fn restore_state(&self, py: Python<'_>, block: &[u8]) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        world.restore_state(block).map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(|recording| recording.restored(block));
+        Ok(())
+    }
+
+    /// Drops the contact state of an Object, after a teleport or a reset.
+    fn clear_contact_history(&self, py: Python<'_>, object: ObjectRef<'_>) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        let object = object.resolve(py, world)?;
+        world.clear_contact_history(object).map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(|recording| recording.forgot(object));
+        Ok(())
+    }
+
+    /// Switches a pair on or off.
+    fn set_pair_enabled(&self, py: Python<'_>, pair: &Pair, enabled: bool) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        world.set_pair_enabled(pair.id, enabled).map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(|recording| recording.pair_switched(pair.id, enabled));
+        Ok(())
+    }
+
+    /// The values of a surface of a model as they are now.
+    fn surface<'py>(&self, py: Python<'py>, model: &AddedModel, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let inner = self.lock()?;
+        surface_values(py, inner.world.surface(model.id, name).map_err(|error| of_engine(py, &error))?)
+    }
+
+    /// Replaces the values of a surface, for all Objects of the model. Laws may not change.
+    fn set_surface(
+        &self,
+        py: Python<'_>,
+        model: &AddedModel,
+        name: &str,
+        values: &Bound<'_, PyDict>,
+    ) -> PyResult<()> {
+        let surface = surface_from(py, name, values)?;
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        world.set_surface(model.id, &surface).map_err(|error| of_engine(py, &error))?;
+        recording.iter_mut().for_each(|recording| recording.surface_set(model.id, &surface));
+        Ok(())
+    }
+
+    /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without it, what
+    /// moves is taken to slide. Answers how many bristles were set.
+    #[pyo3(signature = (pair, holding = None))]
+    fn preload_friction(&self, py: Python<'_>, pair: &Pair, holding: Option<[f64; 3]>) -> PyResult<usize> {
+        let preload = match holding {
+            Some(force) => FrictionPreload::Holding(force.into()),
+            None => FrictionPreload::Sliding,
+        };
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        let set = world.preload_friction(pair.id, &preload).map_err(|error| of_engine(py, &error))?;
+        // For the log it is what a restored contact state is.
+        if let Some(recording) = recording {
+            let mut block = Vec::new();
+            world.save_state_packed(&mut block).map_err(|error| of_engine(py, &error))?;
+            recording.restored(&block);
+        }
+        Ok(set)
+    }
+
+    /// Energies of all contacts at the last commit, J. Zero unless the world keeps the ledger.
+    fn ledger<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let ledger = self.lock()?.world.ledger();
+        let told = PyDict::new(py);
+        told.set_item("stored", ledger.stored)?;
+        told.set_item("work", ledger.work)?;
+        told.set_item("dissipated", ledger.dissipated)?;
+        Ok(told)
+    }
+
+    /// Begins a response log in a folder.
+    #[pyo3(signature = (folder, *, name = "", step = None, commits_per_frame = None, overwrite = false, lose = false))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn start_log(
+        &self,
+        py: Python<'_>,
+        folder: PathBuf,
+        name: &str,
+        step: Option<f64>,
+        commits_per_frame: Option<u64>,
+        overwrite: bool,
+        lose: bool,
+    ) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let options = LogOptions { name: name.to_owned(), step, commits_per_frame, overwrite, lose };
+        inner.recording = Some(Recording::start(py, &inner, folder, options)?);
+        Ok(())
+    }
+
+    /// Records the frame last computed, at a time (s).
+    fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+        let mut inner = self.lock()?;
+        let Inner { world, recording, .. } = &mut *inner;
+        recording.as_mut().ok_or_else(no_log)?.record(py, world, time)
+    }
+
+    /// Writes what is left and closes the log. Answers how many frames it has.
+    fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
+        let recording = self.lock()?.recording.take().ok_or_else(no_log)?;
+        recording.finish(py)
+    }
+}
+
+fn no_log() -> PyErr {
+    PhaseError::new_err("log: none is open; call start_log first")
+}

@@ -1,0 +1,164 @@
+"""What goes wrong is an exception of its family, with thing, cause and cure, and nothing is half done."""
+
+import signal
+import threading
+
+import numpy as np
+import pytest
+from support import BALL, builder, scene_folder, touching, world
+
+import pong
+
+
+def told(family, call, *words):
+    with pytest.raises(family) as caught:
+        call()
+    assert type(caught.value) is family and isinstance(caught.value, pong.PongError)
+    text = str(caught.value)
+    for word in words:
+        assert word in text, f"{word!r} is not in {text!r}"
+    return caught.value
+
+
+def test_every_fault_of_a_model_is_listed():
+    broken = BALL.replace("radius: 0.1", "radius: -0.1").replace("mu: 0.6", "mu: -1")
+    error = told(pong.ModelError, lambda: pong.Model.parse(broken, name="broken.ron"), "broken.ron:3", "broken.ron:5")
+    assert len(error.errors) == 2
+    assert set(error.errors[0]) == {"file", "line", "column", "path", "rule", "cause", "cure"}
+    told(pong.ModelError, lambda: pong.Model.load("nowhere.ron"), "nowhere.ron", "name a model file")
+    told(pong.ModelError, lambda: builder().add_model("nowhere.ron"), "nowhere.ron")
+
+
+def test_names_and_ids_that_lead_nowhere():
+    w, other = world(), world()
+    told(pong.NotFoundError, lambda: w.interface("bell"), "bell", "known: ball, ground")
+    told(pong.NotFoundError, lambda: w.interface("ball", "arm"), "arm")
+    told(pong.NotFoundError, lambda: w.set_states(touching(0), interfaces=other.interfaces), "another world")
+    told(pong.NotFoundError, lambda: builder().pair("ball", "sky"), "sky")
+
+
+def test_a_name_given_twice():
+    made = builder()
+    model = made.add_model(pong.Model.parse(BALL))
+    told(pong.DuplicateError, lambda: made.create_object(model, "ball"), "object `ball`", "another name")
+    told(pong.DuplicateError, lambda: made.pair("ground", "ball"), "pair")
+
+
+def test_calls_at_the_wrong_time():
+    made = builder()
+    w = made.seal()
+    told(pong.PhaseError, made.seal, "sealed", "another builder")
+    told(pong.PhaseError, lambda: made.pair("ball", "ground"), "sealed")
+    told(pong.PhaseError, w.wrenches, "evaluate or step")
+    told(pong.PhaseError, w.stop_log, "start_log")
+
+
+def test_states_that_are_refused_change_nothing():
+    w = world()
+    told(pong.StateError, w.step, "ball/ball", "never set")
+    good = touching(1e-3)
+    w.set_states(good)
+    for column, value, word in ((0, np.nan, "NaN"), (9, np.inf, "inf"), (3, 2.0, "norm"), (1, 1e200, "1e200")):
+        bad = good.copy()
+        bad[1, column] = value
+        bad[0, 2] = 7.0
+        told(pong.StateError, lambda: w.set_states(bad), "ground/ground", word)
+        assert np.array_equal(w.states(), good)
+
+
+def test_arrays_of_another_shape():
+    w = world()
+    told(pong.BadValueError, lambda: w.set_states(np.zeros((2, 12))), "(2, 12)", "give one of shape (2, 13)")
+    told(pong.BadValueError, lambda: w.set_states(np.zeros((3, 13))), "(3, 13)")
+    told(pong.BadValueError, w.set_states, "states", "position")
+    told(pong.BadValueError, lambda: w.set_states(touching(0), position=np.zeros((2, 3))), "states")
+    told(pong.BadValueError, lambda: w.set_states(position=np.zeros((2, 3)), orientation=np.zeros((2, 3))), "orientation")
+    w.set_states(touching(1e-3))
+    w.step()
+    told(pong.BadValueError, lambda: w.wrenches(np.zeros((2, 7))), "out", "(2, 6)")
+    locked = np.zeros((2, 6))
+    locked.setflags(write=False)
+    told(pong.BadValueError, lambda: w.wrenches(locked), "out", "written")
+    told(pong.BadValueError, lambda: w.wrenches(axes="world"), "axes", "common")
+    with pytest.raises(ValueError, match="could not convert"):
+        w.set_states("states")
+    with pytest.raises((TypeError, ValueError), match="dimension"):
+        w.set_states(np.zeros(13))
+
+
+def test_contact_states_that_do_not_fit():
+    w = world()
+    w.set_states(touching(1e-3))
+    w.step()
+    block, wrenches = w.save_state(), w.wrenches()
+    told(pong.ContactStateError, lambda: w.restore_state(block[:-1]), "bytes")
+    told(pong.ContactStateError, lambda: w.restore_state(b"x" * len(block)), "contact state")
+    damaged = bytearray(block)
+    damaged[-20] ^= 1
+    told(pong.ContactStateError, lambda: w.restore_state(bytes(damaged)), "contact state")
+    assert w.save_state() == block and np.array_equal(w.wrenches(), wrenches)
+
+
+def test_surfaces_that_are_refused():
+    w = world()
+    ball = w.models[0]
+    values = w.surface(ball, "rubber")
+    told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", {"stiffness": 1.0}), "surface `rubber`", "normal")
+    told(pong.BadValueError, lambda: w.set_surface(ball, "rubber", values | {"stiffness": -1.0}), "stiffness")
+    told(pong.NotFoundError, lambda: w.surface(ball, "chalk"), "chalk", "rubber")
+    assert w.surface(ball, "rubber") == values
+
+
+def test_scenes_that_are_refused(tmp_path):
+    scene = scene_folder(tmp_path)
+    told(pong.SceneError, lambda: pong.Scene.load(tmp_path / "none.ron"), "none.ron")
+    text = scene.read_text().replace("mass: 1.0, ", "").replace('("ball", "ground")', '("ball", "sky")')
+    error = told(pong.SceneError, lambda: pong.Scene.parse(text, folder=tmp_path).build(), "mass", "sky")
+    assert len(error.errors) == 2 and error.errors[0]["cure"]
+    error = told(pong.SceneError, lambda: pong.Scene.parse(text.replace("mot", "not", 1)), "scene:")
+    assert error.errors[0]["line"]
+    told(pong.SceneError, lambda: pong.Scene.load(scene).build(step=-1.0), "step")
+    told(pong.BadValueError, lambda: pong.Scene.load(scene).build(integrator="Euler"), "Euler", "SemiImplicitEuler")
+    simulation = pong.Scene.load(scene).build()
+    told(pong.BadValueError, lambda: simulation.set_states(np.zeros((1, 13)), ["moon"]), "moon", "ball, ground")
+    told(pong.BadValueError, lambda: simulation.set_states(np.zeros((1, 13)), ["ball"]), "norm")
+    told(pong.BadValueError, lambda: simulation.run(every=0), "every")
+
+
+def test_a_run_that_diverges(tmp_path):
+    """A spring that no step of 1 s can hold: each step multiplies the motion, until no number holds it."""
+    spring = "springs: [(first: Ground(), second: On(body: \"ball\"), stiffness: (1e4, 1e4, 1e4, 0, 0, 0))],"
+    text = scene_folder(tmp_path).read_text().replace("step: 1e-4", f"{spring} step: 1.0")
+    simulation = pong.Scene.parse(text.replace("duration: 0.3", "duration: 1000.0"), folder=tmp_path).build()
+    told(pong.RunError, simulation.run, "body `ball`", "no longer finite", "shorten it")
+
+
+def test_cases_and_wishes_that_are_not_there():
+    told(pong.BadValueError, lambda: pong.verify(["V999"]), "V999", "V1")
+    wish = dict(mass=1.0, speed=1.0, depth=1e-3, restitution=0.5)
+    told(pong.BadValueError, lambda: pong.advise_contact(**wish | {"mass": -1.0}), "mass")
+    told(pong.BadValueError, lambda: pong.advise_contact(**wish, coupling="rk"), "coupling", "stages")
+
+
+def test_threads_that_share_a_simulation_are_told(tmp_path):
+    """The GIL is released: while one thread computes, another can ask, and is told that it must not."""
+    simulation = pong.Scene.load(scene_folder(tmp_path)).build()
+    thread = threading.Thread(target=simulation.run, args=(200_000,), kwargs={"every": 1000})
+    thread.start()
+    seen = ""
+    while thread.is_alive() and not seen:
+        try:
+            simulation.time
+        except pong.PhaseError as error:
+            seen = str(error)
+    thread.join()
+    assert "another thread" in seen and "a simulation of its own" in seen
+
+
+def test_a_run_can_be_interrupted(tmp_path):
+    """Ctrl-C ends a run that would take hours."""
+    simulation = pong.Scene.load(scene_folder(tmp_path)).build()
+    threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        simulation.run(10**10, every=10**9)
+    assert simulation.time > 0.0

@@ -1,0 +1,231 @@
+"""Frames: known answers, arrays in and out, what is remembered."""
+
+import numpy as np
+import pytest
+from support import DAMPING, STIFFNESS, builder, states, touching, turned, world
+
+import pong
+
+
+def test_force_of_a_sphere_on_a_plane_is_that_of_its_spring_and_damper():
+    w = world()
+    w.set_states(touching(1e-3, velocity=(0, 0, -0.2)))
+    report = w.step()
+    force = STIFFNESS * 1e-3 + DAMPING * 0.2
+    assert report.contacts == 1 and report.is_complete
+    np.testing.assert_allclose(w.wrenches(), [[0, 0, force, 0, 0, 0], [0, 0, -force, 0, 0, 0]], atol=1e-12 * force)
+
+
+def test_turned_and_moved_it_is_the_same_force():
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        q = rng.normal(size=4)
+        posed, turn = turned(touching(1e-3, velocity=(0.05, 0, -0.2)), q / np.linalg.norm(q), rng.uniform(-3, 3, 3))
+        w, still = world(), world()
+        w.set_states(posed)
+        still.set_states(touching(1e-3, velocity=(0.05, 0, -0.2)))
+        w.step(), still.step()
+        common, expected = w.wrenches(), still.wrenches()
+        np.testing.assert_allclose(common[:, :3], [turn(row[:3]) for row in expected], atol=1e-9)
+        # Along the axes of its own group the ball feels what it felt unturned.
+        np.testing.assert_allclose(w.wrenches(axes="group")[0], expected[0], atol=1e-9)
+
+
+def test_contacts_sum_to_the_wrench():
+    w = world()
+    w.set_states(touching(2e-3, velocity=(0.3, 0.1, -0.1), spin=(1, 2, 3)))
+    w.evaluate()
+    w.commit()
+    contacts = w.contacts()
+    assert contacts.dtype == pong.CONTACT_DTYPE and len(contacts) == 1
+    (contact,) = contacts
+    side = 0 if contact["interface_a"] == 0 else 1
+    sign = 1.0 if side == 0 else -1.0
+    arm = contact["arm_a"] if side == 0 else contact["arm_b"]
+    expected = np.concatenate([sign * contact["force"], np.cross(arm, sign * contact["force"])])
+    np.testing.assert_allclose(w.wrenches()[0], expected, rtol=1e-12, atol=1e-12)
+    assert contact["depth"] == pytest.approx(2e-3, rel=1e-12)
+    assert contact["depth_rate"] == pytest.approx(0.1, rel=1e-12)
+    np.testing.assert_allclose(np.abs(contact["normal"]), [0, 0, 1], atol=1e-15)
+    names = {w.primitive_path(contact[f"interface_{s}"], contact[f"primitive_{s}"]) for s in "ab"}
+    assert names == {"ball/ball/shell", "ground/ground/floor"}
+
+
+def test_parts_give_what_the_array_gives():
+    whole, parts = world(), world()
+    given = touching(1e-3, velocity=(0.1, 0.2, -0.3), spin=(1.0, -2.0, 0.5))
+    whole.set_states(given)
+    parts.set_states(
+        position=given[:, :3],
+        orientation=given[:, 3:7],
+        linear_velocity=given[:, 7:10],
+        angular_velocity=given[:, 10:],
+    )
+    whole.step(), parts.step()
+    assert np.array_equal(whole.wrenches(), parts.wrenches())
+    assert np.array_equal(parts.states(), given)
+
+
+def test_arrays_may_be_views_lists_and_single_precision():
+    expected = world()
+    expected.set_states(touching(0.25, velocity=(0, 0, -0.5)))
+    expected.step()
+    wide = np.zeros((4, 26))
+    wide[::2, ::2] = touching(0.25, velocity=(0, 0, -0.5))
+    for given in (wide[::2, ::2], touching(0.25, velocity=(0, 0, -0.5)).tolist(), np.asfortranarray(wide[::2, ::2])):
+        w = world()
+        w.set_states(given)
+        w.step()
+        assert np.array_equal(w.wrenches(), expected.wrenches())
+    single = world()
+    single.set_states(touching(0.25, velocity=(0, 0, -0.5)).astype(np.float32))
+    assert np.array_equal(single.states(), touching(0.25, velocity=(0, 0, -0.5)).astype(np.float32).astype(float))
+
+
+def test_results_go_into_the_memory_of_the_caller():
+    w = world()
+    w.set_states(touching(1e-3))
+    w.step()
+    room = np.full((2, 6), np.nan)
+    assert w.wrenches(room) is room and np.array_equal(room, w.wrenches())
+    # A view of a larger array, every second column.
+    wide = np.zeros((2, 12))
+    w.wrenches(wide[:, ::2])
+    assert np.array_equal(wide[:, ::2], room) and not wide[:, 1::2].any()
+    contacts = w.contacts()
+    assert contacts.base is not None, "contacts are a view of what the engine wrote"
+
+
+def test_some_interfaces_alone():
+    w = world()
+    ball, ground = w.interfaces
+    given = touching(1e-3)
+    w.set_states(given[1:], interfaces=[ground])
+    assert np.isnan(w.states()[0]).all() and np.array_equal(w.states()[1], given[1])
+    w.set_states(given[:1], interfaces=[w.interface("ball")])
+    assert (ball.name, ball.index) == ("ball/ball", 0) and ball == w.interface("ball")
+    w.step()
+    assert w.wrenches()[0, 2] == pytest.approx(STIFFNESS * 1e-3, rel=1e-12)
+
+
+def slide(w, steps, start=0):
+    """The ball dragged along the ground: friction builds up from frame to frame."""
+    rows = []
+    for step in range(start, start + steps):
+        given = touching(1e-3, velocity=(0.1, 0.02, 0))
+        given[0, 0], given[0, 1] = 1e-4 * step, 2e-5 * step
+        w.set_states(given)
+        w.step()
+        rows.append(w.wrenches())
+    return np.array(rows)
+
+
+def test_evaluate_is_pure_and_commit_is_not():
+    w = world()
+    slide(w, 3)
+    before = w.save_state()
+    given = touching(1.5e-3, velocity=(0.1, 0, 0))
+    w.set_states(given)
+    first = (w.evaluate(), w.wrenches())
+    w.set_states(touching(3e-3, velocity=(-1.0, 0, 0)))
+    w.evaluate()
+    assert w.save_state() == before
+    w.set_states(given)
+    assert w.evaluate() == first[0] and np.array_equal(w.wrenches(), first[1])
+    w.commit()
+    assert w.save_state() != before
+
+
+def test_a_restored_state_goes_on_to_the_same_bits():
+    whole = slide(world(), 10)
+    saving, restored = world(), world()
+    slide(saving, 5)
+    assert saving.scene_hash == restored.scene_hash
+    block = saving.save_state()
+    assert isinstance(block, bytes)
+    restored.restore_state(block)
+    assert np.array_equal(slide(restored, 5, start=5), whole[5:])
+    # What the comparison is worth: without the state the friction is another.
+    assert not np.array_equal(slide(world(), 5, start=5), whole[5:])
+
+
+def test_history_is_dropped_where_it_is_asked_for():
+    w, fresh = world(), world()
+    slide(w, 5)
+    w.clear_contact_history("ball")
+    assert np.array_equal(slide(w, 1, start=5), slide(fresh, 1, start=5))
+
+
+def test_a_pair_that_is_off_has_no_contacts():
+    w = world()
+    w.set_pair_enabled(w.pairs[0], False)
+    w.set_states(touching(1e-3))
+    assert w.step().contacts == 0 and not w.wrenches().any()
+    w.set_pair_enabled(w.pairs[0], True)
+    assert w.step().contacts == 1
+
+
+def test_surfaces_can_be_changed_between_frames():
+    w = world()
+    ball, ground = w.models
+    values = w.surface(ball, "rubber")
+    assert values["stiffness"] == STIFFNESS and w.surface(ground, "stone")["stiffness"] == float("inf")
+    values["stiffness"] = 2 * STIFFNESS
+    w.set_surface(ball, "rubber", values)
+    w.set_surface(ground, "stone", w.surface(ground, "stone"))
+    w.set_states(touching(1e-3))
+    w.step()
+    assert w.wrenches()[0, 2] == pytest.approx(2 * STIFFNESS * 1e-3, rel=1e-12)
+
+
+def test_friction_can_be_there_from_the_start():
+    w = world()
+    w.set_states(touching(1e-3))
+    assert w.preload_friction(w.pairs[0], holding=(3.0, 0, 0)) == 1
+    w.evaluate()
+    assert w.wrenches()[0, 0] == pytest.approx(3.0, rel=1e-9)
+
+
+def test_the_ledger_knows_what_is_stored():
+    w = world(ledger=True)
+    w.set_states(touching(1e-3))
+    w.step()
+    assert w.ledger()["stored"] == pytest.approx(0.5 * STIFFNESS * 1e-6, rel=1e-9)
+
+
+def test_what_is_left_out_is_told():
+    made = pong.WorldBuilder(contact_capacity=1)
+    text = """(format: "pong-model", version: 1, name: "feet",
+        surfaces: { "rubber": (stiffness: 2e4, normal: Linear(damping: 30)) },
+        root: (name: "feet", surface: "rubber", primitives: [
+            Point(name: "left", position: (-1, 0, 0)), Point(name: "right", position: (1, 0, 0))]))"""
+    from support import GROUND
+
+    for name, source in (("feet", text), ("ground", GROUND)):
+        made.create_object(made.add_model(pong.Model.parse(source)), name)
+    made.pair("feet", "ground")
+    w = made.seal()
+    w.set_states(states(((0, 0, -1e-3), (0,) * 3, (0,) * 3), ((0,) * 3, (0,) * 3, (0,) * 3)))
+    report = w.step()
+    assert pong.Status(report.status) == pong.Status.CONTACT_LIMIT and not report.is_complete
+    assert (report.contacts, report.contacts_wanted) == (1, 2)
+
+
+def test_workers_change_no_bit():
+    assert np.array_equal(slide(world(workers=1), 5), slide(world(), 5))
+
+
+def test_the_builder_can_be_mended_after_a_refused_seal():
+    made = pong.WorldBuilder()
+    text = """(format: "pong-model", version: 1, name: "hard", surfaces: { "steel": (stiffness: inf) },
+        root: (name: "hard", surface: "steel", primitives: [Sphere(name: "s", center: (0, 0, 0), radius: 1)]))"""
+    model = made.add_model(pong.Model.parse(text))
+    made.create_object(model, "one")
+    made.create_object(model, "two")
+    made.pair("one", "two")
+    with pytest.raises(pong.SealError) as caught:
+        made.seal()
+    assert caught.value.problems and "steel" in str(caught.value)
+    # Nothing was lost: the Objects are there, and more can be added.
+    made.create_object(model, "three")
+    assert builder().seal().contact_capacity >= 256
