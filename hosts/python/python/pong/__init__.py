@@ -9,7 +9,7 @@
     world.step()
     wrenches = world.wrenches()         # an array: a row of 6 numbers for each Interface
 
-docs/python.md tells the rest.
+docs/python.md tells the rest; `pong.campaign` runs a scene thousands of times (docs/campaigns.md).
 """
 
 from enum import IntFlag

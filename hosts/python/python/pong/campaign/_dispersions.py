@@ -1,0 +1,104 @@
+"""Dispersions: which parameter is spread how, and the values of every run.
+
+The values of a run depend on the seed, the number of the run and the place of the dispersion in the list; for
+`latin_hypercube` also on how many runs there are. They do not depend on workers or on the order of runs.
+"""
+
+import itertools
+import math
+from dataclasses import dataclass
+from statistics import NormalDist
+
+import numpy as np
+
+from ._errors import CampaignError
+
+METHODS = ("random", "latin_hypercube", "corners")
+
+
+@dataclass(frozen=True)
+class Uniform:
+    """Every value between `low` and `high` is as likely as any other."""
+
+    parameter: str
+    low: float
+    high: float
+
+    def fault(self):
+        """What is wrong with it, or nothing."""
+        if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high):
+            return f"low is {self.low} and high is {self.high}; give finite numbers, the lower first"
+        return None
+
+    def at(self, share):
+        """The value below which lies a share of all values."""
+        return self.low + (self.high - self.low) * share
+
+    def ends(self):
+        return self.low, self.high
+
+
+@dataclass(frozen=True)
+class Normal:
+    """Gauss's distribution."""
+
+    parameter: str
+    mean: float
+    deviation: float
+
+    def fault(self):
+        """What is wrong with it, or nothing."""
+        if not (math.isfinite(self.mean) and math.isfinite(self.deviation) and self.deviation > 0):
+            return f"mean is {self.mean} and deviation is {self.deviation}; give finite numbers, the deviation above zero"
+        return None
+
+    def at(self, share):
+        """The value below which lies a share of all values."""
+        return NormalDist(self.mean, self.deviation).inv_cdf(share)
+
+    def ends(self):
+        """Corners of a distribution without ends are three deviations out."""
+        return self.mean - 3 * self.deviation, self.mean + 3 * self.deviation
+
+
+def kind_of(dispersion):
+    return type(dispersion).__name__
+
+
+def from_json(entry):
+    """A dispersion from what campaign.json says of it."""
+    kinds = {"Uniform": Uniform, "Normal": Normal}
+    entry = dict(entry)
+    return kinds[entry.pop("kind")](**entry)
+
+
+# Shares lie in the middle of 2⁵³ steps: never 0 nor 1, which Gauss's distribution has no value for.
+_STEPS = 2.0**53
+
+
+def values(plan):
+    """The values of every run: runs × dispersions."""
+    count, width = plan.runs, len(plan.dispersions)
+    if plan.method == "corners":
+        ends = [dispersion.ends() for dispersion in plan.dispersions]
+        return np.array(list(itertools.product(*ends)), dtype=float).reshape(count, width)
+    if plan.method == "latin_hypercube":
+        shares = np.empty((count, width))
+        for place in range(width):
+            rng = np.random.Generator(np.random.PCG64([plan.seed, place]))
+            # One value in each of as many equal shares as there are runs, in random order.
+            shares[:, place] = (rng.permutation(count) + rng.random(count)) / count
+    else:
+        shares = np.array([np.random.Generator(np.random.PCG64([plan.seed, run])).random(width) for run in range(count)])
+    shares = (np.floor(shares.reshape(count, width) * _STEPS) + 0.5) / _STEPS
+    shares = np.minimum(shares, 1.0 - 0.5**53)
+    return np.array([[d.at(share) for d, share in zip(plan.dispersions, row)] for row in shares]).reshape(count, width)
+
+
+def corner_count(dispersions):
+    """How many runs the corners are."""
+    if len(dispersions) > 20:
+        raise CampaignError(
+            f"corners: {len(dispersions)} dispersions have 2^{len(dispersions)} corners; take a Latin hypercube"
+        )
+    return 2 ** len(dispersions)

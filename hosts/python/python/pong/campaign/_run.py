@@ -1,0 +1,179 @@
+"""A campaign on Dask: its runs are tasks of workers; what they come to is written by the process that began it."""
+
+import contextlib
+import sys
+import time
+
+import pong
+
+from . import _case, _dispersions
+from ._errors import CampaignError
+from ._plan import Plan
+from ._store import Store
+
+# Tasks that a worker has at hand beside the one it runs: enough that it never waits for the network.
+TASKS_AHEAD = 3
+
+
+def job_of(plan, digest=None, scene_hash=None):
+    """What a worker must know of a plan."""
+    entry = plan.to_json()
+    keys = ("scene", "step", "duration", "criteria", "pivots")
+    job = {key: entry[key] for key in keys} | {"parameters": plan.parameters, "scene_hash": scene_hash}
+    try:
+        job["digest"] = _case.read(plan.scene)[1] if digest is None else digest
+    except (OSError, UnicodeDecodeError) as reason:
+        raise CampaignError(f"scene `{plan.scene}`: it cannot be read: {reason}; name a scene file that can be read") from None
+    return job
+
+
+def checked(plan):
+    """The job of a plan whose every name leads somewhere."""
+    job = job_of(plan)
+    simulation = _case.build(job)
+    job["scene_hash"] = simulation.scene_hash
+    bodies = simulation.bodies
+    for criterion in plan.criteria:
+        for name in (criterion.body, criterion.of):
+            if name not in bodies:
+                raise CampaignError(f"criterion `{criterion.name}`: there is no body `{name}`; name one of: {', '.join(bodies)}")
+    for name in plan.pivots:
+        if name not in {body.split("/")[0] for body in bodies}:
+            raise CampaignError(f"pivot of `{name}`: there is no such Object; name one of: {', '.join(bodies)}")
+    try:
+        _case.apply(simulation, job, [0.5 * sum(dispersion.ends()) for dispersion in plan.dispersions])
+    except CampaignError:
+        raise
+    except pong.PongError as reason:
+        raise CampaignError(f"dispersions: the scene refuses their middle: {reason}") from None
+    return job
+
+
+def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress=True):
+    """Runs a campaign, or what is left of it, into a folder.
+
+    Without `scheduler`, the address of a Dask cluster, workers of this machine are started: `workers` processes, by default
+    one for each core. Runs that fail are kept apart (`failures`) and do not end the campaign. Answers the rows as a table.
+    """
+    store = Store(folder)
+    if not isinstance(plan, Plan):
+        raise CampaignError(f"plan: it is {type(plan).__name__}; give a pong.campaign.Plan")
+    job = checked(plan)
+    store.begin(plan, job, pong.__version__)
+    values = _dispersions.values(plan)
+    done = store.done()
+    left = [index for index in range(plan.runs) if index not in done]
+    tasks = [left[first : first + runs_per_task] for first in range(0, len(left), runs_per_task)]
+    bar = Progress(plan.runs, len(done), len(store.failures())) if progress else None
+    if tasks:
+        with client(workers, scheduler) as connected:
+            refuse_unless_ready(connected, job)
+            for rows in finished(connected, job, tasks, values):
+                store.add(rows)
+                if bar:
+                    bar.count(rows)
+    if bar:
+        bar.end()
+    return store.table()
+
+
+@contextlib.contextmanager
+def client(workers, scheduler):
+    """A client of a cluster that is there, or of one of this machine that ends with the campaign."""
+    from dask.distributed import Client, LocalCluster
+
+    if scheduler is not None:
+        try:
+            connected = Client(scheduler, set_as_default=False)
+        except (OSError, ValueError) as reason:
+            raise CampaignError(f"scheduler `{scheduler}`: it does not answer: {reason}; name the address of a Dask scheduler") from None
+        with connected, connected.as_current():
+            yield connected
+        return
+    # One thread each: a run keeps a core busy.
+    options = {"n_workers": workers, "threads_per_worker": 1, "dashboard_address": None, "processes": True}
+    with LocalCluster(**options) as cluster, Client(cluster, set_as_default=False) as connected, connected.as_current():
+        yield connected
+
+
+def refuse_unless_ready(connected, job):
+    """Every worker must have the scene and the models as they are here."""
+    told = connected.run(_case.check, job, on_error="return")
+    if not told:
+        raise CampaignError("workers: the cluster has none; start some, or leave the scheduler out")
+    problems = [str(problem) for problem in told.values() if problem is not None]
+    if problems:
+        raise CampaignError("the campaign cannot begin:\n  " + "\n  ".join(sorted(problems)))
+
+
+def finished(connected, job, tasks, values):
+    """The rows of task after task, as they come. Of a worker that dies, others take the tasks over."""
+    from dask.distributed import KilledWorker, as_completed
+
+    waiting = iter(tasks)
+    running = {}
+
+    def submit(indices):
+        future = connected.submit(_case.outcomes, job, indices, values[indices], pure=False)
+        running[future] = indices
+        return future
+
+    lanes = max(1, sum(connected.nthreads().values()))
+    first = [submit(indices) for _, indices in zip(range(lanes * TASKS_AHEAD), waiting)]
+    arriving = as_completed(first)
+    for future in arriving:
+        indices = running.pop(future)
+        try:
+            rows = future.result()
+        except KilledWorker as reason:
+            # Time after time the worker that ran them died: that is about these runs.
+            rows = [killed(job, index, values[index], reason) for index in indices]
+        yield rows
+        following = next(waiting, None)
+        if following is not None:
+            arriving.add(submit(following))
+
+
+def killed(job, index, values, reason):
+    row = {"run": index, **dict(zip(job["parameters"], map(float, values)))}
+    return row | {"error": "KilledWorker", "message": f"every worker that ran it died: {reason}"}
+
+
+def repeat(folder, index, *, log=None):
+    """One run of a campaign again, in this process; `log` is a folder for its response log. Answers its row."""
+    store = Store(folder)
+    plan = store.plan()
+    if not 0 <= index < plan.runs:
+        raise CampaignError(f"run {index}: the campaign has runs 0 to {plan.runs - 1}; name one of them")
+    digest, scene_hash = store.origin()
+    job = job_of(plan, digest, scene_hash)
+    return _case.outcome(job, index, _dispersions.values(plan)[index], log)
+
+
+class Progress:
+    """How far a campaign is, in one line of standard error."""
+
+    def __init__(self, total, done, failed):
+        self.total, self.done, self.failed = total, done, failed
+        self.begun, self.at_begin, self.told = time.monotonic(), done, 0.0
+
+    def count(self, rows):
+        self.done += len(rows)
+        self.failed += sum("error" in row for row in rows)
+        if time.monotonic() - self.told > 1.0:
+            self.tell("\r")
+
+    def tell(self, begin):
+        self.told = time.monotonic()
+        rate = (self.done - self.at_begin) / max(self.told - self.begun, 1e-9)
+        print(
+            f"{begin}{self.done} of {self.total} runs, {self.failed} failed, {rate:.2f} a second",
+            end="" if begin else "\n",
+            file=sys.stderr,
+            flush=True,
+        )
+
+    def end(self):
+        if self.told:
+            print("\r", end="", file=sys.stderr)
+        self.tell("")

@@ -1,0 +1,48 @@
+"""Pictures of a campaign, by Matplotlib: each function answers a figure."""
+
+import numpy as np
+
+from ._errors import CampaignError
+from ._store import Store
+from ._summary import QUANTILES, quantile_interval
+
+
+def _column(table, name):
+    if name not in table.column_names:
+        raise CampaignError(f"quantity `{name}`: the results have no such column; they have: {', '.join(table.column_names)}")
+    return table[name].to_numpy(zero_copy_only=False)
+
+
+def _figure():
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 4.8), layout="constrained")
+    return figure, figure.add_subplot()
+
+
+def distribution(folder, quantity, *, quantiles=QUANTILES, confidence=0.95):
+    """The share of runs up to each value of a quantity, and quantiles with their intervals."""
+    values = np.sort(_column(Store(folder).table(), quantity))
+    figure, axes = _figure()
+    axes.step(values, np.arange(1, len(values) + 1) / len(values), where="post", color="black", linewidth=1)
+    for share in quantiles:
+        low, high = quantile_interval(values, share, confidence)
+        # A side for which there are too few runs is drawn to the last of them.
+        ends = [max(low, values[0]), min(high, values[-1])]
+        axes.plot(ends, [share, share], linewidth=3, solid_capstyle="butt", label=f"{100 * share:g} %")
+    axes.set(xlabel=quantity, ylabel="share of runs", ylim=(0, 1))
+    axes.legend(title=f"{100 * confidence:g} % confidence")
+    return figure
+
+
+def envelope(folder, x, y, criterion):
+    """Which runs met a criterion, over two of the dispersed parameters."""
+    table = Store(folder).table()
+    met = _column(table, criterion).astype(bool)
+    across, up = _column(table, x), _column(table, y)
+    figure, axes = _figure()
+    for chosen, mark, color, label in ((met, "o", "tab:blue", criterion), (~met, "x", "tab:red", f"not {criterion}")):
+        axes.scatter(across[chosen], up[chosen], marker=mark, color=color, s=12, label=label)
+    axes.set(xlabel=x, ylabel=y)
+    axes.legend()
+    return figure

@@ -1,0 +1,44 @@
+"""The example of docs/campaigns.md, a few approaches of it: `python hosts/python/examples/docking_envelope.py` is the whole."""
+
+import os
+import pathlib
+import re
+import sys
+
+import numpy as np
+
+from pong import campaign
+from pong.campaign import _case, _run
+
+ROOT = pathlib.Path(os.environ["REPOSITORY"])
+sys.path.insert(0, str(ROOT / "hosts/python/examples"))
+import docking_envelope  # noqa: E402
+
+
+def test_the_approach_of_the_scene_itself_is_captured():
+    plan = docking_envelope.plan(1)
+    row = _case.outcome(_run.checked(plan), 0, np.zeros(len(plan.dispersions)))
+    assert row["captured"] and 400.0 < row["peak_force.target"] < 2000.0
+    # From half a metre aside it passes the target by.
+    row = _case.outcome(_run.checked(plan), 0, np.array([0.5, 0.5, 0, 0, 0, 0.0]))
+    assert not row["captured"]
+
+
+def test_a_few_approaches(tmp_path):
+    plan = docking_envelope.plan(4, duration=1.5)
+    table = campaign.run(plan, tmp_path / "out", workers=1, progress=False)
+    assert table.num_rows == 4 and not campaign.failures(tmp_path / "out")
+    forces = table["peak_force.target"].to_numpy()
+    assert (forces > 1.0).sum() >= 2 and len(set(forces)) == 4, "petals have met, each approach in its own way"
+    assert campaign.summary(tmp_path / "out").proportions[0].of == 4
+
+
+def test_the_plan_of_the_page_can_be_run(monkeypatch):
+    page = (ROOT / "docs/campaigns.md").read_text(encoding="utf-8")
+    program = re.search(r"```python\n(.*?)```", page, re.S)[1]
+    monkeypatch.chdir(ROOT)
+    names = {}
+    exec(program.split("table =")[0], names)
+    assert _run.checked(names["plan"])["parameters"] == names["plan"].parameters
+    for file in re.findall(r"hosts/python/\S+\.py", page):
+        assert (ROOT / file).exists()
