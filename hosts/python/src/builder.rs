@@ -18,7 +18,7 @@ pub(crate) struct WorldBuilder {
 }
 
 struct Setup {
-    world: pong_engine::World,
+    builder: pong_engine::WorldBuilder,
     sources: Vec<ModelSource>,
     folders: Vec<PathBuf>,
 }
@@ -54,8 +54,8 @@ impl WorldBuilder {
         let workers = (workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() });
         let config = Config { contact_capacity, ledger, accounts, workers };
         let extensions = extensions(allow_files_below.clone());
-        let world = pong_engine::World::with_extensions(config, extensions, Laws::default());
-        let setup = Setup { world, sources: Vec::new(), folders: allow_files_below };
+        let builder = pong_engine::WorldBuilder::with_extensions(config, extensions, Laws::default());
+        let setup = Setup { builder, sources: Vec::new(), folders: allow_files_below };
         Ok(Self { setup: Mutex::new(Some(setup)) })
     }
 
@@ -70,7 +70,7 @@ impl WorldBuilder {
                 }
             };
             let name = shared.name.clone();
-            let id = setup.world.add_model(shared).map_err(|error| of_engine(py, &error))?;
+            let id = setup.builder.add_model(shared);
             setup.sources.push(source);
             Ok(AddedModel { id, name })
         })
@@ -79,7 +79,7 @@ impl WorldBuilder {
     /// Creates an Object from a model. Objects of one model are independent.
     fn create_object(&self, py: Python<'_>, model: &AddedModel, name: &str) -> PyResult<Object> {
         self.with(|setup| {
-            let id = setup.world.create_object(model.id, name).map_err(|error| of_engine(py, &error))?;
+            let id = setup.builder.create_object(model.id, name).map_err(|error| of_engine(py, &error))?;
             Ok(Object { id, name: name.to_owned() })
         })
     }
@@ -87,10 +87,16 @@ impl WorldBuilder {
     /// Declares that two Objects, given themselves or by name, may touch.
     fn pair(&self, py: Python<'_>, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
         self.with(|setup| {
-            let (a, b) = (a.resolve(py, &setup.world)?, b.resolve(py, &setup.world)?);
-            let id = setup.world.pair(a, b).map_err(|error| of_engine(py, &error))?;
-            let name =
-                |id| setup.world.object_name(id).map(str::to_owned).map_err(|error| of_engine(py, &error));
+            let (a, b) = (a.resolve(py, setup.builder.scene())?, b.resolve(py, setup.builder.scene())?);
+            let id = setup.builder.pair(a, b).map_err(|error| of_engine(py, &error))?;
+            let name = |id| {
+                setup
+                    .builder
+                    .scene()
+                    .object_name(id)
+                    .map(str::to_owned)
+                    .map_err(|error| of_engine(py, &error))
+            };
             Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) })
         })
     }
@@ -99,19 +105,24 @@ impl WorldBuilder {
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         self.with(|setup| {
-            let object = object.resolve(py, &setup.world)?;
-            let id = setup.world.interface(object, path).map_err(|error| of_engine(py, &error))?;
-            ids::interface(py, &setup.world, id)
+            let object = object.resolve(py, setup.builder.scene())?;
+            let id = setup.builder.scene().interface(object, path).map_err(|error| of_engine(py, &error))?;
+            ids::interface(py, setup.builder.scene(), id)
         })
     }
 
     /// Ends set-up. The builder is used up; if the seal is refused, it can be mended and sealed again.
     fn seal(&self, py: Python<'_>) -> PyResult<World> {
         let mut place = self.lock()?;
-        let setup = place.as_mut().ok_or_else(sealed)?;
-        let report = py.detach(|| setup.world.seal()).map_err(|error| of_engine(py, &error))?;
-        let Setup { world, sources, .. } = place.take().expect("it was there a line above");
-        World::new(py, world, sources, &report)
+        let Setup { builder, sources, folders } = place.take().ok_or_else(sealed)?;
+        match py.detach(|| builder.seal().map_err(Box::new)) {
+            Ok((world, report)) => World::new(py, world, sources, &report),
+            Err(refused) => {
+                let (builder, error) = refused.into_parts();
+                *place = Some(Setup { builder, sources, folders });
+                Err(of_engine(py, &error))
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Models, Objects, pairs and Interfaces of a world, and how a call names them.
 
 use crate::errors::of_engine;
-use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, World};
+use pong_engine::{InterfaceId, ModelId, ObjectId, PairId, Scene};
 use pyo3::prelude::*;
 
 macro_rules! handle {
@@ -61,37 +61,37 @@ pub(crate) enum ObjectRef<'py> {
 
 impl ObjectRef<'_> {
     /// Its id in a world.
-    pub fn resolve(&self, py: Python<'_>, world: &World) -> PyResult<ObjectId> {
+    pub fn resolve(&self, py: Python<'_>, scene: &Scene) -> PyResult<ObjectId> {
         match self {
             Self::Id(object) => Ok(object.id),
-            Self::Name(name) => world.object(name).map_err(|error| of_engine(py, &error)),
+            Self::Name(name) => scene.object(name).map_err(|error| of_engine(py, &error)),
         }
     }
 }
 
 /// An Interface of a world, with its name.
-pub(crate) fn interface(py: Python<'_>, world: &World, id: InterfaceId) -> PyResult<Interface> {
-    let name = world.interface_name(id).map_err(|error| of_engine(py, &error))?;
+pub(crate) fn interface(py: Python<'_>, scene: &Scene, id: InterfaceId) -> PyResult<Interface> {
+    let name = scene.interface_name(id).map_err(|error| of_engine(py, &error))?;
     Ok(Interface { id, name })
 }
 
 /// All Interfaces of a world, in the order in which arrays have them.
-pub(crate) fn interfaces(py: Python<'_>, world: &World) -> PyResult<Vec<Interface>> {
+pub(crate) fn interfaces(py: Python<'_>, scene: &Scene) -> PyResult<Vec<Interface>> {
     let mut all = Vec::new();
-    for object in world.objects() {
-        for id in world.interfaces(object).map_err(|error| of_engine(py, &error))? {
-            all.push(interface(py, world, id)?);
+    for object in scene.objects() {
+        for id in scene.interfaces(object).map_err(|error| of_engine(py, &error))? {
+            all.push(interface(py, scene, id)?);
         }
     }
     Ok(all)
 }
 
 /// All pairs of a world, named `a, b`.
-pub(crate) fn pairs(py: Python<'_>, world: &World) -> PyResult<Vec<Pair>> {
+pub(crate) fn pairs(py: Python<'_>, scene: &Scene) -> PyResult<Vec<Pair>> {
     let name = |object: ObjectId| {
-        world.object_name(object).map(str::to_owned).map_err(|error| of_engine(py, &error))
+        scene.object_name(object).map(str::to_owned).map_err(|error| of_engine(py, &error))
     };
     let pair =
         |(id, [a, b]): (PairId, [ObjectId; 2])| Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) });
-    world.pairs().map(pair).collect()
+    scene.pairs().map(pair).collect()
 }

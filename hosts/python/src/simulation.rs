@@ -97,8 +97,8 @@ impl Simulation {
 
     /// Two simulations with equal hashes have the same world.
     #[getter]
-    fn scene_hash(&self, py: Python<'_>) -> PyResult<u64> {
-        self.lock()?.simulation.world().scene_hash().map_err(|error| of_engine(py, &error))
+    fn scene_hash(&self) -> PyResult<u64> {
+        Ok(self.lock()?.simulation.world().scene_hash())
     }
 
     /// What `pong run` warns of: models, seal, contacts that gain energy at the step.
@@ -194,7 +194,7 @@ impl Simulation {
     /// Names of the models.
     #[getter]
     fn models(&self) -> PyResult<Vec<String>> {
-        Ok(self.lock()?.simulation.world().models().map(|(_, model)| model.name.clone()).collect())
+        Ok(self.lock()?.simulation.world().scene().models().map(|(_, model)| model.name.clone()).collect())
     }
 
     /// The values of a surface of a model, by their names, as they are now.
@@ -260,9 +260,9 @@ fn steps_done(built: &BuiltScene) -> u64 {
 }
 
 fn model_id(world: &pong_engine::World, name: &str) -> PyResult<pong_engine::ModelId> {
-    let found = world.models().find(|(_, model)| model.name == name).map(|(id, _)| id);
+    let found = world.scene().models().find(|(_, model)| model.name == name).map(|(id, _)| id);
     found.ok_or_else(|| {
-        let known: Vec<String> = world.models().map(|(_, model)| model.name.clone()).collect();
+        let known: Vec<String> = world.scene().models().map(|(_, model)| model.name.clone()).collect();
         let cure = format!("name one of: {}", known.join(", "));
         bad_value("model", format!("there is no model `{name}`"), &cure)
     })

@@ -75,7 +75,7 @@ impl World {
         sources: Vec<ModelSource>,
         report: &SealReport,
     ) -> PyResult<Self> {
-        let interfaces = ids::interfaces(py, &world)?;
+        let interfaces = ids::interfaces(py, world.scene())?;
         Ok(Self {
             ids: interfaces.iter().map(|interface| interface.id).collect(),
             interfaces,
@@ -127,45 +127,45 @@ impl World {
     fn objects(&self, py: Python<'_>) -> PyResult<Vec<Object>> {
         let inner = self.lock()?;
         let object = |id| {
-            let name = inner.world.object_name(id).map_err(|error| of_engine(py, &error))?;
+            let name = inner.world.scene().object_name(id).map_err(|error| of_engine(py, &error))?;
             Ok(Object { id, name: name.to_owned() })
         };
-        inner.world.objects().map(object).collect()
+        inner.world.scene().objects().map(object).collect()
     }
 
     /// All pairs.
     #[getter]
     fn pairs(&self, py: Python<'_>) -> PyResult<Vec<Pair>> {
-        ids::pairs(py, &self.lock()?.world)
+        ids::pairs(py, self.lock()?.world.scene())
     }
 
     /// All models.
     #[getter]
     fn models(&self) -> PyResult<Vec<AddedModel>> {
         let inner = self.lock()?;
-        let models = inner.world.models();
+        let models = inner.world.scene().models();
         Ok(models.map(|(id, model)| AddedModel { id, name: model.name.clone() }).collect())
     }
 
     /// Most contacts of a frame.
     #[getter]
-    fn contact_capacity(&self, py: Python<'_>) -> PyResult<usize> {
-        self.lock()?.world.contact_capacity().map_err(|error| of_engine(py, &error))
+    fn contact_capacity(&self) -> PyResult<usize> {
+        Ok(self.lock()?.world.contact_capacity())
     }
 
     /// Two worlds with equal hashes can exchange contact state.
     #[getter]
-    fn scene_hash(&self, py: Python<'_>) -> PyResult<u64> {
-        self.lock()?.world.scene_hash().map_err(|error| of_engine(py, &error))
+    fn scene_hash(&self) -> PyResult<u64> {
+        Ok(self.lock()?.world.scene_hash())
     }
 
     /// The Interface of a movable group by its path or name. An empty path is the root.
     #[pyo3(signature = (object, path = ""))]
     fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         let inner = self.lock()?;
-        let object = object.resolve(py, &inner.world)?;
-        let id = inner.world.interface(object, path).map_err(|error| of_engine(py, &error))?;
-        ids::interface(py, &inner.world, id)
+        let object = object.resolve(py, inner.world.scene())?;
+        let id = inner.world.scene().interface(object, path).map_err(|error| of_engine(py, &error))?;
+        ids::interface(py, inner.world.scene(), id)
     }
 
     /// `object/path` of a primitive, as contacts name it.
@@ -175,7 +175,8 @@ impl World {
             return Err(bad_value("interface", cause, "take the number from a contact"));
         };
         let inner = self.lock()?;
-        let path = inner.world.primitive_path(*id, primitive).map_err(|error| of_engine(py, &error))?;
+        let path =
+            inner.world.scene().primitive_path(*id, primitive).map_err(|error| of_engine(py, &error))?;
         let object = self.interfaces[interface].name.split('/').next().unwrap_or_default();
         Ok(format!("{object}/{path}"))
     }
@@ -341,8 +342,8 @@ impl World {
         let inner = self.lock()?;
         let Some(event) = inner.world.tunnelling() else { return Ok(None) };
         let told = || -> Result<String, EngineError> {
-            let path = inner.world.primitive_path(event.interface, event.primitive)?;
-            let through = inner.world.interface_name(event.through)?;
+            let path = inner.world.scene().primitive_path(event.interface, event.primitive)?;
+            let through = inner.world.scene().interface_name(event.through)?;
             Ok(format!("`{path}` through `{through}` (1 of {})", event.count))
         };
         told().map(Some).map_err(|error| of_engine(py, &error))
@@ -351,8 +352,7 @@ impl World {
     /// The committed contact state.
     fn save_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let inner = self.lock()?;
-        let size = inner.world.state_used().map_err(|error| of_engine(py, &error))?;
-        PyBytes::new_with(py, size, |room| {
+        PyBytes::new_with(py, inner.world.state_used(), |room| {
             inner.world.save_state(room).map_err(|error| of_engine(py, &error))
         })
     }
@@ -370,7 +370,7 @@ impl World {
     fn clear_contact_history(&self, py: Python<'_>, object: ObjectRef<'_>) -> PyResult<()> {
         let mut inner = self.lock()?;
         let Inner { world, recording, .. } = &mut *inner;
-        let object = object.resolve(py, world)?;
+        let object = object.resolve(py, world.scene())?;
         world.clear_contact_history(object).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(|recording| recording.forgot(object));
         Ok(())
@@ -421,7 +421,7 @@ impl World {
         // For the log it is what a restored contact state is.
         if let Some(recording) = recording {
             let mut block = Vec::new();
-            world.save_state_packed(&mut block).map_err(|error| of_engine(py, &error))?;
+            world.save_state_packed(&mut block);
             recording.restored(&block);
         }
         Ok(set)
