@@ -134,7 +134,7 @@ def retired_words():
 def long_lines():
     """Prose is wrapped at 120 characters. A row of a table, a link and code may be longer."""
     written_by_programs = {ROOT / "THIRD_PARTY_LICENSES.md", ROOT / "docs/verification.md"}
-    for path in set(tracked("*.md")) - written_by_programs:
+    for path in {path.resolve() for path in tracked("*.md")} - written_by_programs:
         code = False
         for number, line in enumerate(path.read_text().splitlines(), 1):
             code ^= line.lstrip().startswith("```")
