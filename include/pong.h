@@ -307,11 +307,11 @@ typedef struct pong_friction_input {
     /// Present normal force, N; positive.
     double normal_force;
     /// Unit normal, from B to A.
-    double normal[3];
+    double normal_b[3];
     /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
-    double slip[3];
+    double slip_b[3];
     /// Tangential velocity of A against B, m/s.
-    double slip_velocity[3];
+    double slip_velocity_b[3];
     /// Share of the pair's friction that this contact carries, 0 to 1: scale stiffness and damping by it.
     double share;
     /// Tangential stiffness of the pair, N/m.
@@ -329,7 +329,7 @@ typedef struct pong_friction_input {
 /// What a friction law answers. It is all zero when the law is called.
 typedef struct pong_friction_output {
     /// Force on A, N, in the frame of B's movable group. A part along the normal is removed.
-    double force[3];
+    double force_b[3];
     /// Energy stored in the law's state, J; for the ledger.
     double stored;
     /// 1 if the contact sticks, 0 if it slips.

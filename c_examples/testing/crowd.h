@@ -74,8 +74,8 @@ static inline void drag(const pong_friction_input *in, double *state, pong_frict
     int i;
     (void)user;
     for (i = 0; i < 3; i += 1) {
-        state[i] += in->slip[i];
-        out->force[i] = -in->share * in->parameters[0] * state[i];
+        state[i] += in->slip_b[i];
+        out->force_b[i] = -in->share * in->parameters[0] * state[i];
     }
     out->sticks = 1;
 }

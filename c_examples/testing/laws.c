@@ -47,8 +47,8 @@ static void spring(const pong_friction_input *in, double *state, pong_friction_o
     int i;
     (void)user;
     for (i = 0; i < 3; i += 1) {
-        state[i] += in->slip[i];
-        out->force[i] = -in->share * in->parameters[0] * state[i];
+        state[i] += in->slip_b[i];
+        out->force_b[i] = -in->share * in->parameters[0] * state[i];
         out->stored += 0.5 * in->share * in->parameters[0] * state[i] * state[i];
     }
     out->sticks = 1;

@@ -153,9 +153,9 @@ impl FrictionForce for FrictionCallback {
     fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
         let c_input = pong_friction_input {
             normal_force: input.normal_force,
-            normal: input.normal.into(),
-            slip: input.slip.into(),
-            slip_velocity: input.slip_velocity.into(),
+            normal_b: input.normal_b.into(),
+            slip_b: input.slip_b.into(),
+            slip_velocity_b: input.slip_velocity_b.into(),
             share: input.share,
             stiffness: input.stiffness,
             parameters: input.parameters.as_ptr(),
@@ -169,8 +169,8 @@ impl FrictionForce for FrictionCallback {
         lent(|| unsafe { (self.evaluate)(&c_input, state.as_mut_ptr(), &mut output, self.user.0) });
         state.iter_mut().for_each(|number| *number = self.fault.finite(*number));
         FrictionOutput {
-            force: Vec3::from(output.force.map(|component| self.fault.finite(component))),
-            bristle: Vec3::zeros(),
+            force_b: Vec3::from(output.force_b.map(|component| self.fault.finite(component))),
+            bristle_b: Vec3::zeros(),
             sticks: output.sticks != 0,
             stored: self.fault.finite(output.stored),
         }

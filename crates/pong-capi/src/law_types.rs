@@ -26,11 +26,11 @@ pub struct pong_friction_input {
     /// Present normal force, N; positive.
     pub normal_force: f64,
     /// Unit normal, from B to A.
-    pub normal: [f64; 3],
+    pub normal_b: [f64; 3],
     /// Tangential displacement of A against B since the last commit, m; in the step a contact is born, since the touch.
-    pub slip: [f64; 3],
+    pub slip_b: [f64; 3],
     /// Tangential velocity of A against B, m/s.
-    pub slip_velocity: [f64; 3],
+    pub slip_velocity_b: [f64; 3],
     /// Share of the pair's friction that this contact carries, 0 to 1: scale stiffness and damping by it.
     pub share: f64,
     /// Tangential stiffness of the pair, N/m.
@@ -50,7 +50,7 @@ pub struct pong_friction_input {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct pong_friction_output {
     /// Force on A, N, in the frame of B's movable group. A part along the normal is removed.
-    pub force: [f64; 3],
+    pub force_b: [f64; 3],
     /// Energy stored in the law's state, J; for the ledger.
     pub stored: f64,
     /// 1 if the contact sticks, 0 if it slips.

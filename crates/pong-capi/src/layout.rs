@@ -58,9 +58,9 @@ layouts! {
     pong_interface_id { bits }
     pong_normal_input { depth, depth_rate, stiffness, parameters, parameter_count }
     pong_friction_input {
-        normal_force, normal, slip, slip_velocity, share, stiffness, parameters, parameter_count, stuck, reserved,
+        normal_force, normal_b, slip_b, slip_velocity_b, share, stiffness, parameters, parameter_count, stuck, reserved,
     }
-    pong_friction_output { force, stored, sticks, reserved }
+    pong_friction_output { force_b, stored, sticks, reserved }
     pong_seal_report {
         group_pairs, contact_capacity, contact_state_size, warning_count, workers, note_count, stable_step,
         surely_stable_step, reserved,

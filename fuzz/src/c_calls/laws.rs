@@ -73,10 +73,10 @@ pub unsafe extern "C" fn friction(
     // SAFETY: as for `normal`; the state has the length that was registered, which is at least 1.
     let (input, behaviour, state, output) =
         unsafe { (&*input, &*user.cast::<Behaviour>(), &mut *state, &mut *output) };
-    assert!(input.normal_force.is_finite() && input.slip.iter().all(|x| x.is_finite()), "{input:?}");
+    assert!(input.normal_force.is_finite() && input.slip_b.iter().all(|x| x.is_finite()), "{input:?}");
     *state += 1.0;
-    output.force = input.slip_velocity.map(|v| -0.1 * v);
-    output.force[0] = behaviour.answer(output.force[0]);
+    output.force_b = input.slip_velocity_b.map(|v| -0.1 * v);
+    output.force_b[0] = behaviour.answer(output.force_b[0]);
     if behaviour.kind.load(Ordering::Relaxed) == 6 {
         *state = f64::NAN;
     }

@@ -34,11 +34,11 @@ impl FrictionForce for Glue {
     }
 
     fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
-        let stretch = Vec3::new(state[0], state[1], state[2]) + input.slip;
+        let stretch = Vec3::new(state[0], state[1], state[2]) + input.slip_b;
         state.copy_from_slice(stretch.as_slice());
         FrictionOutput {
-            force: stretch * -input.parameters[0],
-            bristle: Vec3::zeros(),
+            force_b: stretch * -input.parameters[0],
+            bristle_b: Vec3::zeros(),
             sticks: true,
             stored: 0.5 * input.parameters[0] * stretch.norm_squared(),
         }

@@ -117,8 +117,8 @@ impl PairContext<'_> {
                 output = self.friction_force(contact, props, share, law_state);
             }
         }
-        contact.friction_force = output.force;
-        contact.bristle = output.bristle;
+        contact.friction_force = output.force_b;
+        contact.bristle = output.bristle_b;
         contact.sticks = output.sticks;
         contact.stored += output.stored;
         if found.role == ContactRole::Active {
@@ -147,18 +147,18 @@ impl PairContext<'_> {
         }
         let mut input = FrictionInput {
             normal_force: contact.normal_force,
-            normal: contact.found.normal,
-            slip: Vec3::zeros(),
-            slip_velocity: contact.slip_velocity,
+            normal_b: contact.found.normal,
+            slip_b: Vec3::zeros(),
+            slip_velocity_b: contact.slip_velocity,
             share,
             stiffness: 0.0,
-            carried: Vec3::zeros(),
+            carried_b: Vec3::zeros(),
             stuck: true,
             parameters: &[],
         };
         let record = contact.continues.map(|index| &self.memory.records[index as usize]);
         if let Some(record) = record {
-            input.carried =
+            input.carried_b =
                 carry_by_smallest_rotation(&record.bristle, &record.normal, &contact.found.normal);
             input.stuck = record.sticks;
         }
@@ -167,7 +167,7 @@ impl PairContext<'_> {
         }
         // Coulomb's law asks for the velocity alone.
         if !matches!(props.friction, FrictionProps::Coulomb { .. }) {
-            input.slip = self.slip(contact, record);
+            input.slip_b = self.slip(contact, record);
         }
         friction_force(&props.friction, &input, law_state)
     }

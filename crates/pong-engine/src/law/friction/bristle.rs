@@ -40,7 +40,7 @@ pub(super) struct Bristle {
 
 impl Bristle {
     pub(super) fn evaluate(&self, input: &FrictionInput<'_>) -> FrictionOutput {
-        let trial = input.carried + input.slip;
+        let trial = input.carried_b + input.slip_b;
         let pull = self.stiffness * trial.norm();
         let holds = input.stuck && pull <= self.static_limit * (1.0 + LIMIT_ROUNDING);
         let (bristle, limit) = if holds {
@@ -52,11 +52,11 @@ impl Bristle {
             let (left_at, radius) = (left_at / self.stiffness, self.kinetic_limit / self.stiffness);
             (on_circle(input, left_at, radius), self.kinetic_limit)
         };
-        let pushed = bristle * self.stiffness + input.slip_velocity * self.damping;
+        let pushed = bristle * self.stiffness + input.slip_velocity_b * self.damping;
         let length = pushed.norm();
         FrictionOutput {
-            force: -shortened(pushed, length, limit),
-            bristle,
+            force_b: -shortened(pushed, length, limit),
+            bristle_b: bristle,
             sticks: holds || (!input.stuck && self.sticks_again(&trial, pull, length, input)),
             stored: 0.5 * self.stiffness * bristle.norm_squared(),
         }
@@ -65,7 +65,7 @@ impl Bristle {
     /// Whether what slipped sticks: its motion has turned back or no longer fills the circle, and the static limit would
     /// leave its force as it is.
     fn sticks_again(&self, trial: &Vec3, pull: f64, length: f64, input: &FrictionInput<'_>) -> bool {
-        let turned_back = trial.dot(&input.slip_velocity) < 0.0;
+        let turned_back = trial.dot(&input.slip_velocity_b) < 0.0;
         let within = pull < self.kinetic_limit * (1.0 - LIMIT_ROUNDING);
         (turned_back || within) && length <= self.kinetic_limit * (1.0 + LIMIT_ROUNDING)
     }

@@ -5,7 +5,7 @@
 use super::force::{FrictionInput, FrictionOutput};
 
 pub(super) fn evaluate(mu: f64, slip_speed: f64, input: &FrictionInput<'_>) -> FrictionOutput {
-    let speed = input.slip_velocity.norm();
-    let force = input.slip_velocity * (-mu * input.normal_force / speed.max(slip_speed));
-    FrictionOutput { force, sticks: speed < slip_speed, ..FrictionOutput::free() }
+    let speed = input.slip_velocity_b.norm();
+    let force = input.slip_velocity_b * (-mu * input.normal_force / speed.max(slip_speed));
+    FrictionOutput { force_b: force, sticks: speed < slip_speed, ..FrictionOutput::free() }
 }

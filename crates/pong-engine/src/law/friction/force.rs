@@ -10,17 +10,17 @@ pub struct FrictionInput<'a> {
     /// Present normal force, N; positive.
     pub normal_force: f64,
     /// Unit normal of the contact, from B to A.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Tangential displacement u of A against B since the last commit, m; in the step a contact is born, since the touch.
-    pub slip: Vec3,
+    pub slip_b: Vec3,
     /// Tangential velocity of A against B, m/s.
-    pub slip_velocity: Vec3,
+    pub slip_velocity_b: Vec3,
     /// The part of the pair's bristle stiffness and damping that this contact carries: h·w/Σw.
     pub share: f64,
     /// Bristle stiffness k_t of the whole pair, N/m.
     pub stiffness: f64,
     /// Bristle displacement carried into the present contact plane, m; built-in bristle only.
-    pub carried: Vec3,
+    pub carried_b: Vec3,
     /// Whether the contact stuck at the last commit (true when new).
     pub stuck: bool,
     /// The law's parameters as the model gives them.
@@ -31,9 +31,9 @@ pub struct FrictionInput<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionOutput {
     /// Force on A, N. A component along the normal is removed by the engine.
-    pub force: Vec3,
+    pub force_b: Vec3,
     /// New bristle displacement, m; built-in bristle only.
-    pub bristle: Vec3,
+    pub bristle_b: Vec3,
     /// Whether the contact sticks.
     pub sticks: bool,
     /// Energy stored in the law's state, J.
@@ -55,6 +55,6 @@ pub trait FrictionForce: Debug + Send + Sync {
 impl FrictionOutput {
     /// No friction.
     pub fn free() -> Self {
-        Self { force: Vec3::zeros(), bristle: Vec3::zeros(), sticks: false, stored: 0.0 }
+        Self { force_b: Vec3::zeros(), bristle_b: Vec3::zeros(), sticks: false, stored: 0.0 }
     }
 }

@@ -31,8 +31,8 @@ pub(crate) fn friction_force(
         FrictionProps::Custom { law, stiffness, parameters } => {
             let input = FrictionInput { stiffness: *stiffness, parameters, ..*input };
             let output = law.evaluate(&input, &mut state[..law.state_len()]);
-            let along_normal = input.normal * input.normal.dot(&output.force);
-            FrictionOutput { force: output.force - along_normal, ..output }
+            let along_normal = input.normal_b * input.normal_b.dot(&output.force_b);
+            FrictionOutput { force_b: output.force_b - along_normal, ..output }
         }
     }
 }

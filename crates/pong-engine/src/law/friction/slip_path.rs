@@ -28,12 +28,12 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
     if radius <= 0.0 {
         return Vec3::zeros();
     }
-    let length = input.slip.norm();
+    let length = input.slip_b.norm();
     if length <= 0.0 {
-        return unit_or(&input.carried, Vec3::zeros()) * radius;
+        return unit_or(&input.carried_b, Vec3::zeros()) * radius;
     }
-    let along = input.slip / length;
-    let way = Traversal::after_leaving(&input.carried, &along, length, left_at);
+    let along = input.slip_b / length;
+    let way = Traversal::after_leaving(&input.carried_b, &along, length, left_at);
     if way.left <= 0.0 {
         return way.direction * radius;
     }
@@ -44,10 +44,10 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
     let turned = turned_towards(&way.direction, &along, decay);
     // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.
     let angle = libm::atan2(
-        input.normal.dot(&along.cross(&input.slip_velocity)),
-        along.dot(&input.slip_velocity).abs(),
+        input.normal_b.dot(&along.cross(&input.slip_velocity_b)),
+        along.dot(&input.slip_velocity_b).abs(),
     );
-    turned_by(&turned, &input.normal, angle * lag_of_turn(ratio, decay)) * radius
+    turned_by(&turned, &input.normal_b, angle * lag_of_turn(ratio, decay)) * radius
 }
 
 /// Where the circle was left on a straight way.
@@ -123,12 +123,12 @@ mod tests {
     fn input(carried: Vec3, slip: Vec3, slip_velocity: Vec3) -> FrictionInput<'static> {
         FrictionInput {
             normal_force: 1.0,
-            normal: Vec3::z(),
-            slip,
-            slip_velocity,
+            normal_b: Vec3::z(),
+            slip_b: slip,
+            slip_velocity_b: slip_velocity,
             share: 1.0,
             stiffness: 1.0,
-            carried,
+            carried_b: carried,
             stuck: false,
             parameters: &[],
         }
