@@ -59,9 +59,7 @@ fn changed(good: &[u8], input: &mut Input<'_>) -> Vec<u8> {
             block[at] = input.byte();
         }
     }
-    let checksum = block[..body].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
+    let checksum = pong_model::Fnv::of(&block[..body]);
     block[body..].copy_from_slice(&checksum.to_le_bytes());
     block
 }

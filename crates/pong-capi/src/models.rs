@@ -6,7 +6,7 @@ use crate::guard::with_world;
 use crate::handle::{Inner, pong_world};
 use crate::ids::pong_model_id;
 use crate::memory;
-use crate::names::no_such;
+use crate::names::text_at;
 use crate::pointers::{Out, array, text};
 use crate::status::pong_status;
 use pong_model::Model;
@@ -133,8 +133,7 @@ pub unsafe extern "C" fn pong_model_warning(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(warning, "warning")?;
-            let warnings = &inner.names.model(model)?.warnings;
-            out.set(warnings.get(index).ok_or_else(|| no_such("warning", index, warnings.len()))?.as_ptr());
+            out.set(text_at("warning", &inner.names.model(model)?.warnings, index)?);
             Ok(())
         })
     }

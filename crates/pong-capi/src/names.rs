@@ -7,7 +7,7 @@ use pong_engine::{InterfaceId, ModelId, ObjectId};
 use pong_model::Model;
 use std::cell::Cell;
 use std::collections::HashMap;
-use std::ffi::CString;
+use std::ffi::{CString, c_char};
 use std::sync::Arc;
 
 /// All names. A `CString` does not move when the collection around it grows, so its pointer stays good.
@@ -121,6 +121,11 @@ pub(crate) fn unknown(what: &str) -> Failure {
     let message =
         format!("{what}: the id is zero, stale or of another world; use an id that this world returned");
     Failure::new(pong_status::UnknownId, message)
+}
+
+/// The text at a place of a list; it lives as long as the list.
+pub(crate) fn text_at(what: &str, texts: &[CString], index: usize) -> Outcome<*const c_char> {
+    texts.get(index).map(|text| text.as_ptr()).ok_or_else(|| no_such(what, index, texts.len()))
 }
 
 /// The refusal of an index.

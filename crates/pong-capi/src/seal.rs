@@ -2,7 +2,7 @@
 
 use crate::guard::{setting_up, with_world};
 use crate::handle::pong_world;
-use crate::names::{c_text, no_such};
+use crate::names::{c_text, text_at};
 use crate::pointers::Out;
 use crate::status::pong_status;
 use pong_advise::StepReport;
@@ -86,8 +86,7 @@ pub unsafe extern "C" fn pong_seal_warning(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(warning, "warning")?;
-            let warnings = &inner.seal_warnings;
-            out.set(warnings.get(index).ok_or_else(|| no_such("warning", index, warnings.len()))?.as_ptr());
+            out.set(text_at("warning", &inner.seal_warnings, index)?);
             Ok(())
         })
     }
@@ -105,8 +104,7 @@ pub unsafe extern "C" fn pong_seal_note(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(note, "note")?;
-            let notes = &inner.seal_notes;
-            out.set(notes.get(index).ok_or_else(|| no_such("note", index, notes.len()))?.as_ptr());
+            out.set(text_at("note", &inner.seal_notes, index)?);
             Ok(())
         })
     }

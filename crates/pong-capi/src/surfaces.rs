@@ -4,7 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::guard::{setting_up, with_world};
 use crate::handle::pong_world;
 use crate::ids::pong_model_id;
-use crate::names::no_such;
+use crate::names::text_at;
 use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
 use pong_model::{Exponent, FrictionLaw, NormalLaw, Surface};
@@ -89,8 +89,7 @@ pub unsafe extern "C" fn pong_surface_name(
     unsafe {
         with_world(world, |inner| {
             let out = Out::new(name, "name")?;
-            let surfaces = &inner.names.model(model)?.surfaces;
-            out.set(surfaces.get(index).ok_or_else(|| no_such("surface", index, surfaces.len()))?.as_ptr());
+            out.set(text_at("surface", &inner.names.model(model)?.surfaces, index)?);
             Ok(())
         })
     }

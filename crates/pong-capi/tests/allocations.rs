@@ -15,31 +15,9 @@ use pong::states::{pong_default_state, pong_set_states};
 use pong::status::pong_status;
 use pong::world::{pong_create_world, pong_destroy_world, pong_world};
 use pong::wrenches::{PONG_REFERENCE_FRAME_COMMON, pong_get_wrenches, pong_wrench};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
+use pong_testkit::heap::{Counting, calls};
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
-
-thread_local! {
-    static CALLS: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: everything is handed on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
-        // SAFETY: by the contract of this function.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
-        // SAFETY: by the contract of this function.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -82,7 +60,7 @@ fn build() -> Scene {
 }
 
 /// Number of calls of the allocator around the evaluation of one frame.
-fn frame(scene: &Scene, number: u32) -> u64 {
+fn frame(scene: &Scene, number: u32) -> usize {
     let mut states = [pong_default_state(); 2];
     states[0].position = [1e-4 * f64::from(number), 0.0, 0.099];
     let mut wrenches = MaybeUninit::<[pong_wrench; 2]>::uninit();
@@ -90,13 +68,13 @@ fn frame(scene: &Scene, number: u32) -> u64 {
     let mut report = MaybeUninit::<pong_report>::uninit();
     let mut count = 0;
     let Scene { world, roots } = scene;
-    let start = CALLS.get();
+    let start = calls();
     // SAFETY: places on this stack, as long as the calls say.
     unsafe {
         ok(pong_set_states(*world, roots.as_ptr(), states.as_ptr(), 2));
-        let before = CALLS.get();
+        let before = calls();
         ok(pong_evaluate(*world));
-        let evaluation = CALLS.get() - before;
+        let evaluation = calls() - before;
         ok(pong_commit(*world));
         ok(pong_get_wrenches(
             *world,
@@ -108,14 +86,14 @@ fn frame(scene: &Scene, number: u32) -> u64 {
         ok(pong_get_contacts(*world, contacts.as_mut_ptr().cast(), 4, &mut count));
         ok(pong_get_report(*world, report.as_mut_ptr()));
         assert_eq!(count, 1);
-        CALLS.get() - start - evaluation
+        calls() - start - evaluation
     }
 }
 
 #[test]
 fn the_calls_around_an_evaluation_allocate_nothing() {
     let scene = build();
-    let calls: u64 = (0..1000).map(|number| frame(&scene, number)).sum();
+    let calls: usize = (0..1000).map(|number| frame(&scene, number)).sum();
     assert_eq!(calls, 0, "calls of the allocator in 1000 frames");
     // SAFETY: made by `build`, destroyed once.
     ok(unsafe { pong_destroy_world(scene.world) });

@@ -224,9 +224,7 @@ fn stiffnesses_beyond_their_range_are_refused_by_name_and_change_nothing() {
 /// FNV-1a of all before it.
 fn make_checksum_right(block: &mut [u8]) {
     let body = block.len() - CHECKSUM;
-    let checksum = block[..body].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
+    let checksum = pong_model::Fnv::of(&block[..body]);
     block[body..].copy_from_slice(&checksum.to_le_bytes());
 }
 

@@ -5,6 +5,7 @@ mod common;
 use common::*;
 use pong_engine::{EngineError, State, World};
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 
 fn sliding_pair() -> (String, String) {
     let rubber =

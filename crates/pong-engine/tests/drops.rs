@@ -5,9 +5,9 @@ mod common;
 #[path = "common/drop.rs"]
 mod drop;
 
-use common::Random;
 use drop::{Drop, G, Landed};
 use pong_engine::WrenchCoupling;
+use pong_testkit::Random;
 use std::f64::consts::PI;
 
 const USES: [WrenchCoupling; 5] = [

@@ -8,6 +8,7 @@ use pong_geometry::extension::Extensions;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_piece;
 use pong_geometry::primitive::{Ellipsoid, Polyhedron};
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 
 const STIFFNESS: f64 = 1e5;
 /// Both surfaces are equally stiff, N/m.

@@ -8,6 +8,7 @@ use common::*;
 use pong_engine::State;
 use pong_geometry::interference::Feature;
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 use std::collections::HashMap;
 
 const STIFFNESS: f64 = 1e5;

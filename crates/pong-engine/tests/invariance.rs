@@ -6,6 +6,7 @@ mod common;
 use common::*;
 use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::{Pose, Quat, Vec3};
+use pong_testkit::Random;
 
 const K: f64 = 2e5;
 

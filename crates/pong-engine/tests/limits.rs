@@ -7,9 +7,10 @@ mod own_kinds;
 #[path = "common/stage.rs"]
 mod stage;
 
-use common::{Random, box_polyhedron, model, plate_mesh, surface};
+use common::{box_polyhedron, model, plate_mesh, surface};
 use pong_engine::*;
 use pong_geometry::Vec3;
+use pong_testkit::Random;
 use stage::{Hash, Path, Scene, Stage};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;

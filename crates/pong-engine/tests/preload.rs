@@ -2,9 +2,10 @@
 
 mod common;
 
-use common::{Random, Rig, at, load, model, moving, surface};
+use common::{Rig, at, load, model, moving, surface};
 use pong_engine::{Config, EngineError, FrictionPreload, State, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 
 const MU: f64 = 0.4;
 const K: f64 = 1e5;

@@ -4,6 +4,7 @@ mod common;
 
 use common::*;
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 
 const K: f64 = 1e5;
 

@@ -7,11 +7,12 @@ mod own_kinds;
 #[path = "common/stage.rs"]
 mod stage;
 
-use common::{Random, at, load, model, surface};
+use common::{at, load, model, surface};
 use own_kinds::on_a_worker;
 use pong_engine::*;
 use pong_geometry::extension::Extensions;
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::Random;
 use stage::Hash;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};

@@ -1,8 +1,13 @@
-//! What tests of several crates share. A dev-dependency only: nothing of the product uses it.
+//! What tests of several crates share, and with them the crates whose work is to test: the cases with known answers and the
+//! random scenes. Nothing that is tested uses it.
 
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
+pub mod heap;
 pub mod meshes;
+pub mod random;
+
+pub use random::Random;
 
 use std::path::{Path, PathBuf};
 

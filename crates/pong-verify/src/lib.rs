@@ -15,7 +15,7 @@
 //! | `case.rs` | a case with a known answer, and what became of it |
 //! | `row.rs` | a quantity, its expected value and what came out |
 //! | `scene.rs` | model files → sealed world → simulation |
-//! | `measure.rs` | periods, roots, observed orders, random numbers |
+//! | `measure.rs` | periods, roots, observed orders, rotations |
 //! | `cases/` | the cases, one file each or a few that belong together |
 //! | `orders/` | orders of contact motions in the step, and their picture |
 //! | `report.rs` | the table as text and as Markdown |

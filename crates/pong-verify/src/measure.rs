@@ -1,4 +1,4 @@
-//! Periods, roots, observed orders, random numbers.
+//! Periods, roots, observed orders, rotations.
 
 use pong_executive::{Quat, Vec3};
 
@@ -58,34 +58,6 @@ pub fn bisect(mut low: f64, mut high: f64, mut below: impl FnMut(f64) -> bool) -
 /// Order of a method from its errors at a step and at half of it.
 pub fn order(coarse: f64, fine: f64) -> f64 {
     libm::log2((coarse / fine).abs())
-}
-
-/// A deterministic source of numbers (splitmix64).
-pub struct Random(pub u64);
-
-impl Random {
-    /// 0…1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Components within ±size.
-    pub fn vector(&mut self, size: f64) -> Vec3 {
-        Vec3::from_fn(|_, _| self.between(-size, size))
-    }
-
-    /// A rotation by up to `angle` about each axis, rad.
-    pub fn rotation(&mut self, angle: f64) -> Quat {
-        rotation(self.vector(angle))
-    }
 }
 
 /// Rotation of a rotation vector (axis times angle), without the platform's sine.

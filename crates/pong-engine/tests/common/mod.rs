@@ -6,31 +6,6 @@ use pong_geometry::extension::Extensions;
 use pong_geometry::{Pose, Quat, Vec3, Wrench};
 use std::sync::Arc;
 
-/// A deterministic source of numbers (splitmix64).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    pub fn vector(&mut self, size: f64) -> Vec3 {
-        Vec3::from_fn(|_, _| self.between(-size, size))
-    }
-
-    pub fn rotation(&mut self) -> Quat {
-        Quat::from_scaled_axis(self.vector(3.0))
-    }
-}
-
 /// Two Objects, paired and sealed.
 pub struct Rig {
     pub world: World,

@@ -1,9 +1,10 @@
 //! Scenes that together use every tester of a pair of kinds, every way to remember, and every limit.
 #![allow(dead_code)]
 
-use crate::common::{Random, box_polyhedron, model, plate_mesh, surface};
+use crate::common::{box_polyhedron, model, plate_mesh, surface};
 use crate::stage::{Path, Scene};
 use pong_geometry::Vec3;
+use pong_testkit::Random;
 
 /// All scenes of the series.
 pub fn all() -> Vec<Scene> {

@@ -77,7 +77,7 @@ fn toucher(random: &mut Random, kinds: &[&str], is_round: bool) -> Shape {
                 if is_round { random.pick(&[0.5, 0.75, 1.0]) } else { random.between(0.25, 1.0) }
             };
             let semi_axes = Vec3::from_fn(|_, _| size * part(random));
-            let orientation = if is_round { Quat::identity() } else { random.rotation() };
+            let orientation = if is_round { Quat::identity() } else { random.orientation() };
             Shape::Ellipsoid { center: place, semi_axes, orientation }
         }
     }

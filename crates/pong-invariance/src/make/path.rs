@@ -157,7 +157,7 @@ fn first_orientation(random: &mut Random, shape: &Shape, foot: &Foot, is_round: 
             rotation_between(&along, &(across + foot.normal * tilt).normalize())
         }
         _ if is_round => Quat::identity(),
-        _ => random.rotation(),
+        _ => random.orientation(),
     }
 }
 
@@ -169,7 +169,7 @@ pub fn history(random: &mut Random, scene: &Scene, is_round: bool) -> Vec<[State
     let mut orientation = first_orientation(random, shape, &here, is_round);
     let mut x_wb = match is_round || random.chance(0.4) {
         true => Pose::identity(),
-        false => Pose { position: random.vector(1.0), orientation: random.rotation() },
+        false => Pose { position: random.vector(1.0), orientation: random.orientation() },
     };
     let moves_b = !is_round && random.chance(0.5);
     let is_moving = random.chance(0.6);

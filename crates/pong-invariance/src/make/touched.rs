@@ -159,7 +159,7 @@ fn sheet(random: &mut Random, _: bool) -> Mesh {
 pub fn tilt(random: &mut Random, shapes: &mut Vec<Shape>, is_round: bool) {
     if !is_round && random.chance(0.6) {
         let shift = if random.chance(0.5) { Vec3::zeros() } else { random.vector(1.0) };
-        let pose = Pose { position: shift, orientation: random.rotation() };
+        let pose = Pose { position: shift, orientation: random.orientation() };
         *shapes = shapes.iter().map(|shape| shape.carried(&pose)).collect();
     }
     if random.chance(0.3) {

@@ -107,7 +107,7 @@ pub fn rolling(random: &mut Random) -> Scene {
         normal: Normal::Linear { damping: 0.0, ramp: 0.0 },
         friction: Friction::Bristle { mu: 1e6, excess: 0.0, stiffness: bristle, damping: 0.0 },
     };
-    let start = random.rotation();
+    let start = random.orientation();
     // 0.1 s of it.
     let count = 64;
     let frames = (0..=count)

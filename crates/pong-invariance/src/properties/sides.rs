@@ -32,7 +32,7 @@ pub fn set_down_scene(random: &mut Random) -> Scene {
         true => Shape::Sphere { center: Vec3::zeros(), radius },
         false => {
             let semi_axes = Vec3::from_fn(|_, _| radius * random.between(0.4, 1.0));
-            Shape::Ellipsoid { center: Vec3::zeros(), semi_axes, orientation: random.rotation() }
+            Shape::Ellipsoid { center: Vec3::zeros(), semi_axes, orientation: random.orientation() }
         }
     };
     let place = foot.place + foot.normal * (radius * random.between(0.05, 0.95));

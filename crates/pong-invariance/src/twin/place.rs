@@ -27,7 +27,7 @@ pub fn turned(scene: &Scene, random: &mut Random) -> Option<Twin> {
             &random.pick(&[Vec3::x(), Vec3::y(), Vec3::z()]),
             std::f64::consts::FRAC_PI_2,
         ),
-        false => random.rotation(),
+        false => random.orientation(),
     };
     seen(&mut twin.scene, &turn, &Vec3::zeros(), &Vec3::zeros());
     twin.back.turn = turn;
@@ -45,7 +45,7 @@ pub fn moved(scene: &Scene, random: &mut Random) -> Option<Twin> {
 /// The whole scene turned and moved to a low orbit, or further, drifting at kilometres per second.
 pub fn far(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
-    let turn = random.rotation();
+    let turn = random.orientation();
     let distance = random.pick(&[6.8e6, 1e8]);
     let drift = random.direction() * 7.7e3;
     seen(&mut twin.scene, &turn, &(random.direction() * distance), &drift);
@@ -63,7 +63,7 @@ pub fn group_frame(scene: &Scene, random: &mut Random) -> Option<Twin> {
             continue;
         }
         let shift = if random.chance(0.5) { Vec3::zeros() } else { random.vector(scene.size) };
-        let frame = Pose { position: shift, orientation: random.rotation() };
+        let frame = Pose { position: shift, orientation: random.orientation() };
         let back = frame.inverse();
         let Body { shapes, place, .. } = &mut twin.scene.bodies[body];
         match random.chance(0.5) {

@@ -1,11 +1,12 @@
 //! V25, V26: the common frame does not matter, and action is reaction.
 
 use crate::case::{Case, Failure, Outcome};
-use crate::measure::{Random, rotation};
+use crate::measure::rotation;
 use crate::row::Row;
 use crate::scene::{Duo, point_mass};
 use pong_engine::{InterfaceId, State, World};
 use pong_executive::{Integrator, Path, Pose, RigidBody, Twist, Vec3, Wrench};
+use pong_testkit::Random;
 
 pub const V25: Case = Case {
     id: "V25",
@@ -59,7 +60,7 @@ impl Docking {
 fn some_motion(random: &mut Random) -> [(Pose, Twist); 2] {
     let mut body = |place: f64, turn: f64| {
         (
-            Pose { position: random.vector(place), orientation: random.rotation(turn) },
+            Pose { position: random.vector(place), orientation: rotation(random.vector(turn)) },
             Twist { linear: random.vector(0.05), angular: random.vector(0.1) },
         )
     };

@@ -1,11 +1,12 @@
 //! V29: rays against a plane, a triangle and a convex polyhedron.
 
 use crate::case::{Case, Failure, Outcome};
-use crate::measure::Random;
+use crate::measure::rotation;
 use crate::row::Row;
 use crate::scene::Duo;
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
+use pong_testkit::Random;
 
 pub const V29: Case = Case {
     id: "V29",
@@ -70,7 +71,7 @@ fn compare(
     while hits < 300 {
         let mut pose = |place: f64| Pose {
             position: random.vector(place),
-            orientation: random.rotation(core::f64::consts::PI),
+            orientation: rotation(random.vector(core::f64::consts::PI)),
         };
         let (x_t, x_near) = (pose(3.0), pose(0.8));
         let x_r = x_t.compose(&x_near);

@@ -1,11 +1,12 @@
 //! V30: an ellipsoid on a plane.
 
 use crate::case::{Case, Outcome};
-use crate::measure::Random;
+use crate::measure::rotation;
 use crate::row::Row;
 use crate::scene::Duo;
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
+use pong_testkit::Random;
 
 pub const V30: Case = Case {
     id: "V30",
@@ -26,7 +27,7 @@ fn rows() -> Outcome {
     for _ in 0..2000 {
         let mut pose = |place: f64| Pose {
             position: random.vector(place),
-            orientation: random.rotation(core::f64::consts::PI),
+            orientation: rotation(random.vector(core::f64::consts::PI)),
         };
         let (x_g, x_near) = (pose(3.0), pose(0.3));
         let x_e = x_g.compose(&x_near);

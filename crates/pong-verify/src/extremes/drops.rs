@@ -3,12 +3,13 @@
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, model};
 use crate::case::{Failure, Outcome};
-use crate::measure::{Random, order};
+use crate::measure::order;
 use crate::row::Row;
 use pong_engine::Config;
 use pong_executive::{
     BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3, longest_stable_step,
 };
+use pong_testkit::Random;
 
 pub const DROPS: Extreme = Extreme {
     id: "E17",

@@ -3,9 +3,9 @@
 use super::extreme::{Answer, Extreme, Length, rows_of};
 use super::rig::{Rig, model};
 use crate::case::Outcome;
-use crate::measure::Random;
 use crate::row::Row;
 use pong_executive::{Quat, Vec3};
+use pong_testkit::Random;
 
 pub const FACETS: Extreme = Extreme {
     id: "E15",

@@ -3,11 +3,12 @@
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, spring};
 use crate::case::{Failure, Outcome};
-use crate::measure::Random;
+use crate::measure::rotation;
 use crate::row::Row;
 use pong_engine::State;
 use pong_executive::{Quat, Vec3, Wrench};
 use pong_geometry::extension::Extensions;
+use pong_testkit::Random;
 
 pub const SHAPES: Extreme = Extreme {
     id: "E4",
@@ -130,7 +131,7 @@ fn rounded(_: Length) -> Outcome {
     for _ in 0..count {
         let size = libm::pow(10.0, random.between(-4.0, 4.0));
         let half = Vec3::from_fn(|_, _| size * libm::pow(10.0, random.between(-3.0, 0.0)));
-        let (turn, shift) = (random.rotation(3.0), random.vector(half.norm()));
+        let (turn, shift) = (rotation(random.vector(3.0)), random.vector(half.norm()));
         let narrow = |p: Vec3| (turn * p + shift).map(|x| f64::from(x as f32));
         let text = model(&spring(1e5), &block("x", Vec3::zeros(), half, narrow));
         accepted += usize::from(pong_model::parse(&text, "extreme.ron", None, &Extensions::new()).is_ok());

@@ -3,10 +3,11 @@
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, at, block, model, sheet};
 use crate::case::{Failure, Outcome};
-use crate::measure::Random;
+use crate::measure::rotation;
 use crate::row::Row;
 use crate::scene::{Duo, Run};
 use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Twist, Vec3, Wrench};
+use pong_testkit::Random;
 
 pub const SIZES: Extreme = Extreme {
     id: "E2",
@@ -65,7 +66,7 @@ fn wrenches(size: f64, stiffness: f64) -> Result<Vec<Wrench>, Failure> {
     let mut random = Random(2);
     (0..40)
         .map(|_| {
-            let (place, turn) = (random.vector(0.01), random.rotation(0.05));
+            let (place, turn) = (random.vector(0.01), rotation(random.vector(0.05)));
             rig.step(place * size, turn, random.vector(0.05) * size)
         })
         .collect()

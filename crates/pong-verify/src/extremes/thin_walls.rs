@@ -3,10 +3,11 @@
 use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, sheet};
 use crate::case::{Failure, Outcome};
-use crate::measure::Random;
+use crate::measure::rotation;
 use crate::row::Row;
 use pong_engine::StatusBits;
 use pong_executive::{Quat, Vec3};
+use pong_testkit::Random;
 
 pub const SHOTS: Extreme = Extreme {
     id: "E11",
@@ -110,7 +111,7 @@ fn aim(random: &mut Random, from: f64) -> Shot {
     let target = Vec3::new(0.0, random.between(-0.4, 0.4), random.between(-0.4, 0.4));
     // Three to four frames before it would be there, and clear of the wall in any case.
     let way = speed * FRAME * random.between(3.0, 4.0) + 0.05 / libm::cos(tilt);
-    Shot { place: target - along * way, velocity: along * speed, turn: random.rotation(3.0) }
+    Shot { place: target - along * way, velocity: along * speed, turn: rotation(random.vector(3.0)) }
 }
 
 /// Flies until it is clear of the wall again, or `frames` are over; whether a passage was told, and where it is.

@@ -1,0 +1,51 @@
+//! An allocator that counts its calls, thread by thread: for tests of what must not allocate.
+//!
+//! ```
+//! #[global_allocator]
+//! static HEAP: pong_testkit::heap::Counting = pong_testkit::heap::Counting;
+//!
+//! assert_eq!(pong_testkit::heap::calls_during(|| drop(std::hint::black_box(Box::new(1)))), 2);
+//! ```
+#![allow(unsafe_code)]
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+/// The system's allocator; counts the calls of each thread.
+pub struct Counting;
+
+thread_local! {
+    static CALLS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// How often the calling thread has asked for memory or given some back, since it began.
+pub fn calls() -> usize {
+    CALLS.get()
+}
+
+/// Calls of the calling thread to the allocator while `work` runs.
+pub fn calls_during(work: impl FnOnce()) -> usize {
+    let before = calls();
+    work();
+    calls() - before
+}
+
+fn count() {
+    // A thread that ends may free memory after its counter is gone.
+    let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
+}
+
+// SAFETY: every call is handed on to `System` as it came.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        // SAFETY: the caller keeps the contract of `alloc`.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count();
+        // SAFETY: the caller keeps the contract of `dealloc`.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
