@@ -6,8 +6,8 @@
 //! them. An answer that only rounding decides is none of that: a step away it is the same all around (a seam), or does
 //! not settle anywhere (a branch taken on noise).
 
+use crate::allowance::{Allowance, distance};
 use crate::base::Base;
-use crate::judge::{Allowance, distance};
 use crate::random::Random;
 use crate::twin::Twin;
 use pong_engine::State;

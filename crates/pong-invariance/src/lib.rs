@@ -8,6 +8,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod allowance;
 pub mod base;
 pub mod cutting;
 pub mod invariances;

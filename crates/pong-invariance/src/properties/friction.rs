@@ -1,8 +1,9 @@
 //! Friction as a function of poses: continuous, the same after a commit, none where something rolls.
 
 use super::differs;
+use crate::allowance::distance;
 use crate::base::Base;
-use crate::judge::{Finding, Verdict, distance};
+use crate::judge::{Finding, Verdict};
 use crate::make;
 use crate::random::{Random, rotation_about};
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};

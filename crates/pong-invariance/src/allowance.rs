@@ -1,0 +1,90 @@
+//! How far two answers to the same question may be apart.
+
+use crate::base::Base;
+use crate::make::path;
+use crate::scene::{Scene, Shape};
+use crate::twin::Twin;
+use pong_geometry::{Vec3, Wrench};
+
+/// What holds where bits are not named: this of the largest term.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// Roundings that a position goes through on its way to a depth: each costs at most one unit in its last place. Scenes
+/// without any defect stay below 20.
+const ROUNDINGS: f64 = 64.0;
+
+/// What may come of rounding in a scene, beside [`TOLERANCE`].
+pub struct Allowance {
+    /// Force, N.
+    pub force: f64,
+    /// Lever arm for moments, m.
+    pub lever: f64,
+}
+
+impl Allowance {
+    /// For a difference in a frame whose largest term is `largest`.
+    pub fn of(base: &Base, twin: &Twin, largest: f64) -> Self {
+        let scene = &base.scene;
+        let far = scene
+            .frames
+            .iter()
+            .flatten()
+            .flat_map(|state| state.position)
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let position = twin.rounding + f64::EPSILON * (scene.size + far) + bent(scene) / ROUNDINGS;
+        let velocity = twin.rounding_of_velocity + f64::EPSILON * 10.0 * (scene.size + far);
+        let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
+        // The plane of a thin triangle is known as well as its height.
+        let thin = 64.0 * f64::EPSILON * (1.0 / thinnest(scene)).max(1.0 / thinnest(&twin.scene));
+        let origins = twin.back.origins.iter().map(Vec3::norm).fold(0.0, f64::max);
+        let lever = 4.0 * (scene.size + origins);
+        // A position that is known to so much of a size leaves a direction as uncertain.
+        let turned = ROUNDINGS * twin.rounding / scene.size;
+        Self { force: (TOLERANCE + thin + turned) * largest + rounding, lever }
+    }
+
+    /// How far two wrenches are apart, in parts of what is allowed.
+    pub fn exceeded(&self, a: &[Wrench; 2], b: &[Wrench; 2]) -> f64 {
+        distance(a, b, self.lever) / self.force
+    }
+}
+
+/// Largest difference of forces, and of moments over a lever.
+pub fn distance(a: &[Wrench; 2], b: &[Wrench; 2], lever: f64) -> f64 {
+    let of = |a: &Wrench, b: &Wrench| (a.force - b.force).norm().max((a.moment - b.moment).norm() / lever);
+    let worst = of(&a[0], &b[0]).max(of(&a[1], &b[1]));
+    if worst.is_nan() { f64::INFINITY } else { worst }
+}
+
+/// How far corners of the faces of solids lie out of their planes, m: in single precision a face of four corners is no plane,
+/// and which plane it is taken for may depend on their order.
+fn bent(scene: &Scene) -> f64 {
+    let mut most = 0.0_f64;
+    for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
+        let Shape::Polyhedron(solid) = shape else { continue };
+        for face in &solid.faces {
+            let corners: Vec<Vec3> = face.iter().map(|index| solid.vertices[*index]).collect();
+            let normal = path::normal_of(&corners);
+            let off = corners.iter().map(|corner| normal.dot(&(corner - corners[0])).abs());
+            most = off.fold(most, f64::max);
+        }
+    }
+    // A plane through three of them is off by a few times that at the others, and edges of pieces move with it.
+    let slack = 1e3 * f64::EPSILON * scene.size;
+    if most > slack { 30.0 * most } else { 0.0 }
+}
+
+/// Height of the thinnest triangle over the scene's size.
+pub fn thinnest(scene: &Scene) -> f64 {
+    let mut least = 1.0_f64;
+    for shape in scene.bodies.iter().flat_map(|body| &body.shapes) {
+        if let Shape::Mesh(mesh) = shape {
+            for triangle in &mesh.triangles {
+                let [p, q, r] = triangle.map(|index| mesh.vertices[index]);
+                let longest = (q - p).norm().max((r - q).norm()).max((p - r).norm());
+                least = least.min((q - p).cross(&(r - p)).norm() / longest / scene.size);
+            }
+        }
+    }
+    least
+}
