@@ -162,16 +162,19 @@ pub(super) fn convex(vertices: &[Vec3], faces: &[HullFace], tree: &Places, diame
 
 /// What is wrong with one face: a vertex in front of it, or a dent.
 pub(super) fn face(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: f64) -> Option<Problem> {
-    vertex_in_front(vertices, face, tree, diameter).or_else(|| {
-        let corners = corners(vertices, &face.outline);
-        let (depth, corner) = dent(&corners, &face.normal, PLANE_TOLERANCE * diameter)?;
-        let cause = format!(
-            "the outline of this face has a dent: the vertex {} is {:.1e} of the diameter beyond the line of an edge",
-            place(&corners[corner]),
-            depth / diameter
-        );
-        Some(not_convex(face, "face-not-convex", cause))
-    })
+    vertex_in_front(vertices, face, tree, diameter).or_else(|| dented(vertices, face, diameter))
+}
+
+/// What is wrong with the outline of a face.
+pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Option<Problem> {
+    let corners = corners(vertices, &face.outline);
+    let (depth, corner) = dent(&corners, &face.normal, PLANE_TOLERANCE * diameter)?;
+    let cause = format!(
+        "the outline of this face has a dent: the vertex {} is {:.1e} of the diameter beyond the line of an edge",
+        place(&corners[corner]),
+        depth / diameter
+    );
+    Some(not_convex(face, "face-not-convex", cause))
 }
 
 /// There is something behind every face. Merged to fewer than four, the solid would be as good as flat.

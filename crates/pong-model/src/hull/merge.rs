@@ -22,7 +22,8 @@ const FINER: f64 = 0.25;
 /// How often it is made smaller: the last one, 4e-9 of the diameter, is below what rounding to 32 bits leaves.
 pub(super) const LEVELS: usize = 5;
 
-struct Faces<'a> {
+/// The faces of a solid, to be merged where that leaves them convex.
+pub(super) struct Faces<'a> {
     vertices: &'a [Vec3],
     outlines: &'a [Vec<u32>],
     active: &'a [bool],
@@ -30,6 +31,8 @@ struct Faces<'a> {
     sure: Vec<bool>,
     /// The face that runs along a directed edge.
     along: WordMap<(u32, u32), u32>,
+    /// All faces, the largest first.
+    order: Vec<u32>,
     /// That of the model format, m.
     tolerance: f64,
 }
@@ -41,42 +44,42 @@ struct Free {
     sets: u32,
 }
 
-/// The faces of a solid, merged where that leaves them convex. Regions begin with the tolerance made smaller `level`
-/// times; with [`LEVELS`] nothing is merged.
-pub(super) fn merge_coplanar(
-    vertices: &[Vec3],
-    outlines: &[Vec<u32>],
-    active: &[bool],
-    diameter: f64,
-    level: usize,
-) -> Vec<HullFace> {
-    let faces = Faces::new(vertices, outlines, active, diameter);
-    let mut order: Vec<u32> = (0..outlines.len() as u32).collect();
-    let size = |face: u32| faces.areas[face as usize].norm();
-    order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
-    let mut merged = Vec::new();
-    let mut free = Free { set: vec![0; outlines.len()], sets: 0 };
-    faces.settle(order, level, &mut free, &mut merged);
-    merged.sort_by_key(|face| face.authored);
-    merged
-}
-
 impl<'a> Faces<'a> {
-    fn new(vertices: &'a [Vec3], outlines: &'a [Vec<u32>], active: &'a [bool], diameter: f64) -> Self {
+    pub(super) fn new(
+        vertices: &'a [Vec3],
+        outlines: &'a [Vec<u32>],
+        active: &'a [bool],
+        diameter: f64,
+    ) -> Self {
         let corners = |face: &Vec<u32>| -> Vec<Vec3> { face.iter().map(|&v| vertices[v as usize]).collect() };
         let mut along = WordMap::default();
         for (index, face) in outlines.iter().enumerate() {
             along.extend(edges(face).map(|edge| (edge, index as u32)));
         }
+        let areas: Vec<Vec3> = outlines.iter().map(|face| area_vector(&corners(face))).collect();
+        let mut order: Vec<u32> = (0..outlines.len() as u32).collect();
+        let size = |face: u32| areas[face as usize].norm();
+        order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
         Self {
             vertices,
             outlines,
             active,
-            areas: outlines.iter().map(|face| area_vector(&corners(face))).collect(),
+            areas,
+            order,
             sure: outlines.iter().map(|face| width(&corners(face)) > SURE_WIDTH * diameter).collect(),
             along,
             tolerance: PLANE_TOLERANCE * diameter,
         }
+    }
+
+    /// The faces as they are merged if regions begin with the tolerance made smaller `level` times; with [`LEVELS`] nothing
+    /// is merged.
+    pub(super) fn merged(&self, level: usize) -> Vec<HullFace> {
+        let mut merged = Vec::new();
+        let mut free = Free { set: vec![0; self.outlines.len()], sets: 0 };
+        self.settle(self.order.clone(), level, &mut free, &mut merged);
+        merged.sort_by_key(|face| face.authored);
+        merged
     }
 
     fn neighbors(&self, face: u32) -> impl Iterator<Item = u32> + '_ {
@@ -304,8 +307,8 @@ const TILTS: usize = 8;
 ///
 /// Across a narrow face rounding decides which way its normal points, and far away the plane would cut into the solid;
 /// a plane that touches the vertex in front is as good for the face itself. One that would leave the face's own vertices is
-/// not taken.
-pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tolerance: f64) {
+/// not taken. Answers whether the plane supports the solid: that nothing else is in front of it.
+pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tolerance: f64) -> bool {
     let corners: Vec<Vec3> = face.outline.iter().map(|&v| vertices[v as usize]).collect();
     let middle = super::polygon::mean(&corners);
     let (mut normal, mut offset) = (face.normal, face.offset);
@@ -313,7 +316,7 @@ pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tol
         let Some((_, vertex)) = tree.highest((&normal, offset), tolerance, |v| !face.outline.contains(&v))
         else {
             (face.normal, face.offset) = (normal, offset);
-            break;
+            return true;
         };
         let Some(tilted) = tilted(&corners, &normal, &vertices[vertex as usize]) else { break };
         (normal, offset) = (tilted, tilted.dot(&middle));
@@ -321,6 +324,7 @@ pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tol
             break;
         }
     }
+    false
 }
 
 /// The normal of the plane through the long direction of a face and a place in front of it.

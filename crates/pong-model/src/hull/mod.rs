@@ -45,15 +45,18 @@ fn convex_faces(
     diameter: f64,
 ) -> Result<Vec<HullFace>, Vec<Problem>> {
     let tolerance = PLANE_TOLERANCE * diameter;
+    let authored = merge::Faces::new(vertices, faces, active, diameter);
     let last = merge::LEVELS + 1;
     let mut suspect = 0;
     for attempt in 0..last {
-        let mut merged = faces_of_attempt(attempt, vertices, faces, active, diameter);
-        let is_bad = |face: &mut HullFace| {
-            if attempt > 0 {
-                merge::support(vertices, face, tree, tolerance);
+        let mut merged = faces_of_attempt(attempt, vertices, &authored, tolerance);
+        let is_bad = |face: &mut HullFace| match attempt {
+            0 => checks::face(vertices, face, tree, diameter).is_some(),
+            // What supports the solid has nothing in front.
+            _ => {
+                !merge::support(vertices, face, tree, tolerance)
+                    || checks::dented(vertices, face, diameter).is_some()
             }
-            checks::face(vertices, face, tree, diameter).is_some()
         };
         match first_from(&mut merged, suspect, is_bad) {
             // Likely this is where the next attempt fails too: it begins there, and need not look at all faces.
@@ -63,8 +66,10 @@ fn convex_faces(
         }
     }
     // What is wrong in the last attempt is told: its faces are those that were authored.
-    let mut merged = faces_of_attempt(last, vertices, faces, active, diameter);
-    merged.iter_mut().for_each(|face| merge::support(vertices, face, tree, tolerance));
+    let mut merged = faces_of_attempt(last, vertices, &authored, tolerance);
+    for face in &mut merged {
+        merge::support(vertices, face, tree, tolerance);
+    }
     checks::convex(vertices, &merged, tree, diameter)?;
     Ok(merged)
 }
@@ -75,13 +80,12 @@ fn convex_faces(
 fn faces_of_attempt(
     attempt: usize,
     vertices: &[Vec3],
-    faces: &[Vec<u32>],
-    active: &[bool],
-    diameter: f64,
+    faces: &merge::Faces<'_>,
+    tolerance: f64,
 ) -> Vec<HullFace> {
-    let mut merged = merge::merge_coplanar(vertices, faces, active, diameter, attempt.saturating_sub(1));
+    let mut merged = faces.merged(attempt.saturating_sub(1));
     if attempt > 0 {
-        merge::straighten(vertices, &mut merged, PLANE_TOLERANCE * diameter);
+        merge::straighten(vertices, &mut merged, tolerance);
     }
     merged
 }

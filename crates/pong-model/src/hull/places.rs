@@ -40,7 +40,8 @@ pub(super) struct Places {
 impl Node {
     /// How far it reaches from its center along a direction.
     fn reach(&self, direction: &Vec3) -> f64 {
-        self.half.iter().map(|half| half.dot(direction).abs()).sum()
+        let [first, second, third] = &self.half;
+        first.dot(direction).abs() + second.dot(direction).abs() + third.dot(direction).abs()
     }
 
     fn bound(&self, normal: &Vec3, offset: f64) -> f64 {
@@ -71,11 +72,11 @@ impl Places {
         wanted: impl Fn(u32) -> bool,
     ) -> Option<(f64, u32)> {
         let mut best: Option<(f64, u32)> = None;
-        let mut open = vec![0];
-        while let Some(index) = open.pop() {
+        let mut open = vec![(0, self.nodes[0].bound(normal, offset))];
+        while let Some((index, bound)) = open.pop() {
             let node = &self.nodes[index];
             self.look();
-            if node.bound(normal, offset) < best.map_or(floor, |(height, _)| height) {
+            if bound < best.map_or(floor, |(height, _)| height) {
                 continue;
             }
             if node.second == 0 {
@@ -89,22 +90,18 @@ impl Places {
                 }
                 continue;
             }
-            let children = [index + 1, node.second];
-            let bounds = children.map(|child| self.nodes[child].bound(normal, offset));
-            // The more promising one is looked into first.
-            let [near, far] = if bounds[0] < bounds[1] { [1, 0] } else { [0, 1] };
-            open.extend([children[far], children[near]]);
+            open.extend(self.children(index, (normal, offset)));
         }
         best
     }
 
     /// Whether a place lies more than `floor` above a plane.
     pub(super) fn any_above(&self, (normal, offset): (&Vec3, f64), floor: f64) -> bool {
-        let mut open = vec![0];
-        while let Some(index) = open.pop() {
+        let mut open = vec![(0, self.nodes[0].bound(normal, offset))];
+        while let Some((index, bound)) = open.pop() {
             let node = &self.nodes[index];
             self.look();
-            if node.bound(normal, offset) < floor {
+            if bound < floor {
                 continue;
             }
             if node.second == 0 {
@@ -113,12 +110,16 @@ impl Places {
                 }
                 continue;
             }
-            let children = [index + 1, node.second];
-            let bounds = children.map(|child| self.nodes[child].bound(normal, offset));
-            let [near, far] = if bounds[0] < bounds[1] { [1, 0] } else { [0, 1] };
-            open.extend([children[far], children[near]]);
+            open.extend(self.children(index, (normal, offset)));
         }
         false
+    }
+
+    /// Both children of a node with their bounds, the more promising one last: that is looked into first.
+    fn children(&self, index: usize, (normal, offset): (&Vec3, f64)) -> [(usize, f64); 2] {
+        let with_bound = |child: usize| (child, self.nodes[child].bound(normal, offset));
+        let (first, second) = (with_bound(index + 1), with_bound(self.nodes[index].second));
+        if first.1 < second.1 { [first, second] } else { [second, first] }
     }
 
     /// Counts the boxes that are looked at, where tests ask how much work a solid takes.

@@ -31,12 +31,14 @@ fn a_ball_that_takes_many_attempts_costs_little_more() {
     let (vertices, faces) = ball(40, 1000);
     let active = vec![true; faces.len()];
     let tree = Places::new(&vertices);
-    assert!(
-        checks::convex(&vertices, &faces_of_attempt(0, &vertices, &faces, &active, 2.0), &tree, 2.0).is_err()
-    );
+    let authored = merge::Faces::new(&vertices, &faces, &active, 2.0);
+    let of_attempt = |attempt| faces_of_attempt(attempt, &vertices, &authored, 2.0 * PLANE_TOLERANCE);
+    assert!(checks::convex(&vertices, &of_attempt(0), &tree, 2.0).is_err());
     tree.looked.set(0);
-    let mut once = faces_of_attempt(merge::LEVELS + 1, &vertices, &faces, &active, 2.0);
-    once.iter_mut().for_each(|face| merge::support(&vertices, face, &tree, 2.0 * PLANE_TOLERANCE));
+    let mut once = of_attempt(merge::LEVELS + 1);
+    for face in &mut once {
+        assert!(merge::support(&vertices, face, &tree, 2.0 * PLANE_TOLERANCE));
+    }
     assert!(checks::convex(&vertices, &once, &tree, 2.0).is_ok());
     let looked_once = tree.looked.replace(0);
     assert!(convex_faces((&vertices, &tree), &faces, &active, 2.0).is_ok());
