@@ -26,16 +26,18 @@ ARROWS = {
     "pong-decompose": {"pong-geometry", "pong-import", "pong-model"},
     "pong-doctor": {"pong-geometry", "pong-threads"},
     "pong-invariance": {"pong-testkit", "pong-geometry", "pong-model", "pong-engine"},
+    "pong-fpenv": set(),
+    "pong-fmu": {"pong-engine", "pong-executive", "pong-fpenv", "pong-geometry", "pong-model"},
     "pong-testkit": set(),
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
-    "pong-capi": {"pong-advise", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
+    "pong-capi": {"pong-advise", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {
-        "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-record",
+        "pong-advise", "pong-decompose", "pong-doctor", "pong-geometry", "pong-import", "pong-invariance", "pong-model", "pong-engine", "pong-executive", "pong-fmu", "pong-record",
         "pong-verify", "pong-report", "pong-study", "pong-view",
     },
 }
 # The kit has an allocator that counts.
-MAY_BE_UNSAFE = {"pong-capi", "pong-testkit", "pong-threads"}
+MAY_BE_UNSAFE = {"pong-capi", "pong-fmu", "pong-fpenv", "pong-testkit", "pong-threads"}
 LINES_MAX = 800
 # No part of the product may use the platform's mathematics or fuse operations: other machines, other bits.
 FORBIDDEN_IN_ENGINE = re.compile(r"\.(mul_add|sin|cos|tan|exp|ln|powf|powi|cbrt|hypot|atan2|acos|asin)\(")

@@ -1,7 +1,6 @@
 //! What stands between C and the engine at every entry.
 
 use crate::failure::{Failure, Outcome, Why};
-use crate::floating_point;
 use crate::handle::{Inner, pong_world};
 use crate::memory;
 use crate::message;
@@ -13,7 +12,7 @@ use std::sync::TryLockError;
 /// Runs an entry that has no world: in the engine's floating-point environment, catches panics, turns the outcome into
 /// a status and leaves its message, or none.
 pub(crate) fn guarded(call: impl FnOnce() -> Outcome) -> pong_status {
-    floating_point::guarded(|| caught(call))
+    pong_fpenv::guarded(|| caught(call))
 }
 
 fn caught(call: impl FnOnce() -> Outcome) -> pong_status {
@@ -103,6 +102,13 @@ mod tests {
     fn last_message() -> String {
         // SAFETY: the message ends with a zero byte and lives until the next call.
         unsafe { CStr::from_ptr(crate::message::pointer()) }.to_str().unwrap().to_owned()
+    }
+
+    #[test]
+    fn a_panic_inside_leaves_the_environment_of_the_host() {
+        let before = pong_fpenv::current();
+        assert_eq!(guarded(|| panic!("thrown inside")), pong_status::Panic);
+        assert_eq!(pong_fpenv::current(), before);
     }
 
     #[test]

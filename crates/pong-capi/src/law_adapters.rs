@@ -1,10 +1,10 @@
 //! C functions as laws of the engine.
 
 use crate::failure::{Failure, Outcome};
-use crate::floating_point::lent;
 use crate::law_types::{pong_friction_input, pong_friction_output, pong_normal_input, pong_normal_law};
 use crate::status::pong_status;
 use pong_engine::{FrictionForce, FrictionInput, FrictionOutput, Laws, NormalForce, NormalInput};
+use pong_fpenv::lent;
 use pong_geometry::Vec3;
 use std::ffi::c_void;
 use std::sync::Arc;

@@ -19,7 +19,7 @@
 //! | `log.rs` | response logs |
 //!
 //! Every entry goes through `guard.rs`: a message of its own, one call at a time, no panic into C, the floating-point
-//! environment of `floating_point.rs`; but for those that return a constant. Those of set-up ask for their memory first
+//! environment of `pong-fpenv`; but for those that return a constant. Those of set-up ask for their memory first
 //! (`memory.rs`). Pointers are touched in `pointers.rs` alone.
 //!
 //! # Safety of all entries
@@ -42,7 +42,6 @@ pub mod contacts;
 mod counters;
 pub mod coupling;
 mod failure;
-mod floating_point;
 pub mod frames;
 mod guard;
 mod handle;

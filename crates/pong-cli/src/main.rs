@@ -11,6 +11,7 @@ mod advise;
 mod check;
 mod decompose;
 mod doctor;
+mod fmu;
 mod folders;
 mod import;
 mod log;
@@ -41,6 +42,7 @@ enum Command {
     Check(check::Arguments),
     Decompose(decompose::Arguments),
     Doctor(doctor::Arguments),
+    Fmu(fmu::Arguments),
     Import(import::Arguments),
     Run(run::Arguments),
     Log(log::Arguments),
@@ -62,6 +64,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
         Command::Doctor(arguments) => doctor::main(&arguments),
+        Command::Fmu(arguments) => fmu::main(&arguments),
         Command::Import(arguments) => import::main(&arguments),
         Command::Run(arguments) => run::main(&arguments),
         Command::Log(arguments) => log::main(&arguments),

@@ -81,6 +81,9 @@ impl System {
             let (pose, twist) = &self.motions[load.body.index()];
             powers.work_in += power(&load.wrench(time, pose), twist);
         }
+        for (index, wrench) in self.external.iter().enumerate().filter(|(index, _)| is_free(*index)) {
+            powers.work_in += power(wrench, &self.motions[index].1);
+        }
         for spring in &self.springs {
             let action = self.spring_action(spring);
             powers.spring_heat += action.heat;

@@ -20,6 +20,16 @@ impl Compensated {
         Self { value, rest: Vec3::zeros() }
     }
 
+    /// Both parts, of which the sum can be made again exactly.
+    pub fn parts(&self) -> [Vec3; 2] {
+        [self.value, self.rest]
+    }
+
+    /// The sum of two [`parts`](Self::parts).
+    pub fn of_parts([value, rest]: [Vec3; 2]) -> Self {
+        Self { value, rest }
+    }
+
     /// The sum rounded to one vector.
     pub fn value(&self) -> Vec3 {
         self.value

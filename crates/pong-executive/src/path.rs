@@ -18,6 +18,16 @@ pub enum Path {
         /// The twist, for ever.
         twist: Twist,
     },
+    /// From a pose at any time with constant velocities: as a host leads a body that it moves itself
+    /// ([`Simulation::lead`](crate::Simulation::lead)).
+    Led {
+        /// When, s.
+        since: f64,
+        /// Pose at that time.
+        pose: Pose,
+        /// The twist from then on.
+        twist: Twist,
+    },
     /// Through given poses.
     Table(PathTable),
     /// To and fro.
@@ -73,11 +83,10 @@ impl Path {
     /// Pose and twist at a time.
     pub fn at(&self, time: f64) -> (Pose, Twist) {
         match self {
-            Self::ConstantTwist { pose, twist } => {
-                let position = pose.position + twist.linear * time;
-                let orientation = rotation(&(twist.angular * time)) * pose.orientation;
-                (Pose { position, orientation }, *twist)
-            }
+            Self::ConstantTwist { pose, twist } => (along(pose, twist, time), *twist),
+            // At its own time the pose as it was given: a product with the identity could round.
+            Self::Led { since, pose, twist } if *since == time => (*pose, *twist),
+            Self::Led { since, pose, twist } => (along(pose, twist, time - since), *twist),
             Self::Table(table) => table.at(time),
             Self::Oscillation(oscillation) => oscillation.at(time),
             Self::Function(function) => function(time),
@@ -85,11 +94,22 @@ impl Path {
     }
 }
 
+/// A pose, moved with constant velocities for a time.
+fn along(pose: &Pose, twist: &Twist, time: f64) -> Pose {
+    let position = pose.position + twist.linear * time;
+    let orientation = rotation(&(twist.angular * time)) * pose.orientation;
+    Pose { position, orientation }
+}
+
 impl std::fmt::Debug for Path {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::ConstantTwist { pose, twist } => {
                 f.debug_struct("ConstantTwist").field("pose", pose).field("twist", twist).finish()
+            }
+            Self::Led { since, pose, twist } => {
+                let mut text = f.debug_struct("Led");
+                text.field("since", since).field("pose", pose).field("twist", twist).finish()
             }
             Self::Table(table) => table.fmt(f),
             Self::Oscillation(oscillation) => oscillation.fmt(f),

@@ -10,7 +10,11 @@
 
 use crate::mass::MassProperties;
 use crate::math::{Compensated, inverse_body_rate, rotation};
+use nalgebra::Quaternion;
 use pong_geometry::{Mat3, Pose, Quat, Twist, Vec3, Wrench};
+
+/// Numbers of a state for integrators outside: mass centre, its velocity, orientation, angular momentum.
+pub(crate) const STATE_NUMBERS: usize = 13;
 
 /// Mass properties made ready for use in every stage.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +115,66 @@ impl FreeState {
             orientation: rotation(&turn) * self.orientation,
             turn,
             momentum: self.momentum + rates.moment * h,
+        }
+    }
+
+    /// For integrators outside.
+    pub fn numbers(&self) -> [f64; STATE_NUMBERS] {
+        let (p, v, q, l) = (self.position.value(), self.velocity.value(), &self.orientation, &self.momentum);
+        [p.x, p.y, p.z, v.x, v.y, v.z, q.w, q.i, q.j, q.k, l.x, l.y, l.z]
+    }
+
+    /// From [`numbers`](Self::numbers) that an integrator has changed: the quaternion is normalised. `None` if it has no
+    /// direction.
+    pub fn of_numbers(numbers: &[f64; STATE_NUMBERS]) -> Option<Self> {
+        let [px, py, pz, vx, vy, vz, qw, qx, qy, qz, lx, ly, lz] = *numbers;
+        let quaternion = Quaternion::new(qw, qx, qy, qz);
+        let length = quaternion.norm();
+        (length > 0.0 && length.is_finite()).then(|| Self {
+            position: Compensated::new(Vec3::new(px, py, pz)),
+            velocity: Compensated::new(Vec3::new(vx, vy, vz)),
+            orientation: Quat::new_normalize(quaternion),
+            turn: Vec3::zeros(),
+            momentum: Vec3::new(lx, ly, lz),
+        })
+    }
+
+    /// The rates of [`numbers`](Self::numbers), which this state was made of: q' = ½·(0, ω)·q of the quaternion as it was
+    /// given, whose length this keeps.
+    pub fn rate_numbers(&self, numbers: &[f64; STATE_NUMBERS], rates: &Rates) -> [f64; STATE_NUMBERS] {
+        let (v, a, l) = (&rates.velocity, &rates.acceleration, &rates.moment);
+        // Without a turn since the start of the step, its rate is the angular velocity.
+        let spin = Quaternion::from_parts(0.0, rates.turn);
+        let q = (spin * Quaternion::new(numbers[6], numbers[7], numbers[8], numbers[9])) * 0.5;
+        [v.x, v.y, v.z, a.x, a.y, a.z, q.w, q.i, q.j, q.k, l.x, l.y, l.z]
+    }
+
+    /// How many [`exact_numbers`](Self::exact_numbers) there are.
+    pub const EXACT_NUMBERS: usize = 22;
+
+    /// All that the state holds.
+    pub fn exact_numbers(&self) -> [f64; Self::EXACT_NUMBERS] {
+        let mut numbers = [0.0; Self::EXACT_NUMBERS];
+        let [p, p_rest] = self.position.parts();
+        let [v, v_rest] = self.velocity.parts();
+        for (place, vector) in [p, p_rest, v, v_rest, self.turn, self.momentum].iter().enumerate() {
+            numbers[3 * place..3 * place + 3].copy_from_slice(vector.as_slice());
+        }
+        let q = &self.orientation;
+        numbers[18..].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+        numbers
+    }
+
+    /// The state of [`exact_numbers`](Self::exact_numbers): its quaternion is taken as it is.
+    pub fn of_exact_numbers(numbers: &[f64; Self::EXACT_NUMBERS]) -> Self {
+        let vector = |place: usize| Vec3::from_column_slice(&numbers[3 * place..3 * place + 3]);
+        let quaternion = Quaternion::new(numbers[18], numbers[19], numbers[20], numbers[21]);
+        Self {
+            position: Compensated::of_parts([vector(0), vector(1)]),
+            velocity: Compensated::of_parts([vector(2), vector(3)]),
+            orientation: Quat::new_unchecked(quaternion),
+            turn: vector(4),
+            momentum: vector(5),
         }
     }
 

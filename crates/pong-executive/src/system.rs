@@ -24,7 +24,9 @@ pub(crate) struct System {
     pub motions: Vec<(Pose, Twist)>,
     /// Contact wrench on every body, about its group's origin along the common axes.
     pub contact: Vec<Wrench>,
-    /// Loads and springs, likewise.
+    /// What a host applies beside loads and springs, likewise.
+    pub external: Vec<Wrench>,
+    /// All that acts beside contact, likewise.
     applied: Vec<Wrench>,
     states_in: Vec<(InterfaceId, State)>,
 }
@@ -40,6 +42,7 @@ impl System {
             free: Vec::new(),
             motions: Vec::new(),
             contact: Vec::new(),
+            external: Vec::new(),
             applied: Vec::new(),
             states_in: Vec::new(),
         }
@@ -53,6 +56,7 @@ impl System {
         }
         self.motions.push((body.pose, body.twist));
         self.contact.push(Wrench::zero());
+        self.external.push(Wrench::zero());
         self.applied.push(Wrench::zero());
         self.bodies.push(body);
     }
@@ -80,6 +84,13 @@ impl System {
     pub fn touch_and_commit(&mut self, time: f64) -> Result<(), ExecutiveError> {
         self.hand_in(time)?;
         self.world.step()?;
+        self.take_wrenches()
+    }
+
+    /// As [`touch_and_commit`](Self::touch_and_commit), without a second evaluation of states that were just touched.
+    pub fn commit(&mut self, time: f64) -> Result<(), ExecutiveError> {
+        self.hand_in(time)?;
+        self.world.commit()?;
         self.take_wrenches()
     }
 
@@ -130,9 +141,9 @@ impl System {
         }
     }
 
-    /// Sums loads and springs.
+    /// Sums loads, springs and what the host applies.
     fn apply(&mut self, time: f64) {
-        self.applied.fill(Wrench::zero());
+        self.applied.copy_from_slice(&self.external);
         for load in &self.loads {
             let index = load.body.index();
             self.applied[index] += load.wrench(time, &self.motions[index].0);

@@ -11,7 +11,7 @@ use std::collections::VecDeque;
 /// Wrenches on their way from the contact engine to the bodies.
 #[derive(Debug, Default)]
 pub(crate) struct Held {
-    waiting: VecDeque<Vec<Wrench>>,
+    pub waiting: VecDeque<Vec<Wrench>>,
 }
 
 impl Held {

@@ -8,7 +8,7 @@ use crate::body::{BodyId, RigidBody};
 use crate::load::{Axes, Load, LoadHistory, LoadRow};
 use crate::simulation::Simulation;
 use crate::spring::{Spring, SpringEnd};
-use pong_engine::FrictionPreload;
+use pong_engine::{FrictionPreload, PairId};
 use pong_geometry::Wrench;
 
 /// Finds a body by its name in the scene.
@@ -119,13 +119,14 @@ fn spring(
     spring
 }
 
-/// Sets the friction that is there at the start; warns of a pair in which there is none to be set.
+/// Sets the friction that is there at the start, and tells what was set; warns of a pair in which there is none to be set.
 pub(super) fn preload(
     document: &Document,
     simulation: &mut Simulation,
     warnings: &mut Vec<String>,
     faults: &mut Faults<'_>,
-) {
+) -> Vec<(PairId, FrictionPreload)> {
+    let mut preloads = Vec::new();
     for PreloadEntry { pair: (a, b), friction } in &document.preload {
         let thing = format!("preload/({a}, {b})");
         let Some(place) = document.pairs.iter().position(|(one, other)| one == a && other == b) else {
@@ -149,5 +150,7 @@ pub(super) fn preload(
             )),
             Ok(_) => {}
         }
+        preloads.push((pair, preload));
     }
+    preloads
 }

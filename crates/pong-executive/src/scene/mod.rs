@@ -16,7 +16,7 @@ use crate::integrate::Integrator;
 use crate::simulation::Simulation;
 use document::Document;
 use error::Faults;
-use pong_engine::{ObjectId, SealReport, World};
+use pong_engine::{FrictionPreload, ObjectId, PairId, SealReport, World};
 use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
 
@@ -49,6 +49,8 @@ pub struct BuiltScene {
     pub record_every: u64,
     /// Whether energies are kept.
     pub ledger: bool,
+    /// The friction that was set in the contacts of the start: set it again if the start becomes another.
+    pub preload: Vec<(PairId, FrictionPreload)>,
 }
 
 /// An object of a scene.
@@ -140,6 +142,11 @@ impl Scene {
         self.document.alternatives.iter().map(|alternative| alternative.name.as_str())
     }
 
+    /// The models: the name of each, and its file as it stands in the scene; those of alternatives are not among them.
+    pub fn models(&self) -> impl ExactSizeIterator<Item = (&str, &str)> {
+        self.document.models.iter().map(|(name, file)| (name.as_str(), file.as_str()))
+    }
+
     /// Every model file that the scene names, those of its alternatives included, in the order of the file.
     pub fn model_files(&self) -> Vec<PathBuf> {
         let alternatives = self.document.alternatives.iter().flat_map(|alternative| &alternative.models);
@@ -176,9 +183,10 @@ impl Scene {
         };
         let simulation = assemble(document, world, bodies, loads, springs);
         let mut simulation = simulation.map_err(|error| faults.note_line("scene", &error.to_string())).ok();
-        if let Some(simulation) = &mut simulation {
-            effects::preload(document, simulation, &mut made.warnings, &mut faults);
-        }
+        let preload = match &mut simulation {
+            Some(simulation) => effects::preload(document, simulation, &mut made.warnings, &mut faults),
+            None => Vec::new(),
+        };
         let built = simulation.map(|simulation| BuiltScene {
             name: document.name.clone(),
             objects: scene_objects(document, &made.objects, &simulation),
@@ -189,6 +197,7 @@ impl Scene {
             steps: libm::round(document.duration / document.step) as u64,
             record_every: document.record_every,
             ledger: document.ledger,
+            preload,
         });
         faults.unless_any(built)
     }

@@ -1,5 +1,7 @@
 //! The executive: bodies, loads and an integrator around a sealed world.
 
+mod checkpoint;
+mod exchange;
 mod setup;
 mod view;
 
@@ -30,6 +32,8 @@ impl<F: FnMut(&Simulation)> Observer for F {
 pub struct Simulation {
     system: System,
     states: Vec<FreeState>,
+    /// Those that an integrator outside tries.
+    trial: Vec<FreeState>,
     /// Those of the step before.
     earlier: Vec<FreeState>,
     integrator: Integrator,
@@ -66,6 +70,7 @@ impl Simulation {
         Ok(Self {
             system: System::new(world),
             states: Vec::new(),
+            trial: Vec::new(),
             earlier: Vec::new(),
             integrator,
             step,

@@ -4,6 +4,7 @@ use super::{Simulation, check_step};
 use crate::body::{BodyId, Motion, RigidBody};
 use crate::error::ExecutiveError;
 use crate::load::Load;
+use crate::path::Path;
 use crate::spring::Spring;
 use crate::state::{FreeState, Inertia};
 use pong_geometry::{Pose, Twist, Vec3};
@@ -115,6 +116,30 @@ impl Simulation {
         Ok(())
     }
 
+    /// Leads a body from outside: it is in this pose at a time (s) and moves on with this twist, whatever pushes it, until it
+    /// is led elsewhere. A free body is free no longer.
+    ///
+    /// # Errors
+    /// A body that is not there; a time, pose or twist that is not finite.
+    pub fn lead(&mut self, body: BodyId, since: f64, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
+        self.check_body("lead", body)?;
+        let index = body.index();
+        let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
+        if !since.is_finite() || values.iter().flatten().any(|x| !x.is_finite()) {
+            let what = format!("body `{}`", self.system.bodies[index].name);
+            let cause = "it is led to a time, pose or twist that is not finite";
+            return Err(ExecutiveError::invalid(what, cause, "give finite numbers"));
+        }
+        if let Some(slot) = self.system.free.iter().position(|(free, _)| *free == index) {
+            self.system.free.remove(slot);
+            self.states.remove(slot);
+        }
+        self.system.bodies[index].motion = Motion::Prescribed(Path::Led { since, pose, twist });
+        self.system.motions[index] = (pose, twist);
+        self.settled = false;
+        Ok(())
+    }
+
     /// Changes the step, s.
     ///
     /// # Errors
@@ -126,7 +151,7 @@ impl Simulation {
         Ok(())
     }
 
-    fn check_body(&self, what: &str, body: BodyId) -> Result<(), ExecutiveError> {
+    pub(super) fn check_body(&self, what: &str, body: BodyId) -> Result<(), ExecutiveError> {
         if body.index() < self.system.bodies.len() {
             return Ok(());
         }

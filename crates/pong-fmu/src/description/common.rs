@@ -1,0 +1,112 @@
+//! What the descriptions of both versions have in common.
+
+use super::xml::Xml;
+use crate::unit::Unit;
+use crate::variables::{Causality, Slot, Variables};
+
+pub(super) const TOOL: &str = concat!("Pong ", env!("CARGO_PKG_VERSION"));
+/// Relative tolerance that is proposed for solvers with step control: contact depths are small against places.
+const TOLERANCE: &str = "1e-8";
+
+/// Counts of inputs, outputs, parameters and continuous states.
+pub(crate) fn counts(unit: &Unit) -> [usize; 4] {
+    let variables = &unit.variables;
+    let of = |causality| variables.list.iter().filter(|variable| variable.causality == causality).count();
+    [of(Causality::Input), of(Causality::Output), of(Causality::Parameter), variables.nominals.len()]
+}
+
+/// Categories of messages, with what they are for.
+const LOG_CATEGORIES: [(&str, &str); 5] = [
+    ("logEvents", "What an instance does; only if logging is on"),
+    ("logStatusWarning", "What the author of scene and models should know"),
+    ("logStatusDiscard", "Values or steps that were refused; others may succeed"),
+    ("logStatusError", "Calls and files that were refused"),
+    ("logStatusFatal", "Faults inside the library"),
+];
+
+/// Units by their exponents of base units.
+const UNITS: [(&str, &[(&str, &str)]); 10] = [
+    ("s", &[("s", "1")]),
+    ("1/s", &[("s", "-1")]),
+    ("m", &[("m", "1")]),
+    ("m/s", &[("m", "1"), ("s", "-1")]),
+    ("m/s2", &[("m", "1"), ("s", "-2")]),
+    ("rad/s", &[("rad", "1"), ("s", "-1")]),
+    ("N", &[("kg", "1"), ("m", "1"), ("s", "-2")]),
+    ("N.m", &[("kg", "1"), ("m", "2"), ("s", "-2")]),
+    ("kg.m2/s", &[("kg", "1"), ("m", "2"), ("s", "-1")]),
+    ("rad", &[("rad", "1")]),
+];
+
+pub(super) fn write_units(xml: &mut Xml) {
+    xml.open("UnitDefinitions", &[]);
+    for (name, exponents) in UNITS {
+        xml.open("Unit", &[("name", name)]);
+        xml.empty("BaseUnit", exponents);
+        xml.close("Unit");
+    }
+    xml.close("UnitDefinitions");
+}
+
+pub(super) fn write_categories(xml: &mut Xml) {
+    xml.open("LogCategories", &[]);
+    for (name, description) in LOG_CATEGORIES {
+        xml.empty("Category", &[("name", name), ("description", description)]);
+    }
+    xml.close("LogCategories");
+}
+
+pub(super) fn write_experiment(xml: &mut Xml, unit: &Unit) {
+    let (stop, step) = (format!("{:?}", unit.duration), format!("{:?}", unit.simulation.step_length()));
+    let attributes =
+        [("startTime", "0.0"), ("stopTime", &stop), ("tolerance", TOLERANCE), ("stepSize", &step)];
+    // A scene that only evaluates its start has no span of time.
+    xml.empty("DefaultExperiment", if unit.duration > 0.0 { &attributes } else { &attributes[2..] });
+}
+
+/// Value of `causality`.
+pub(super) fn causality_name(causality: Causality) -> &'static str {
+    match causality {
+        Causality::Independent => "independent",
+        Causality::Parameter => "parameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Local => "local",
+    }
+}
+
+/// Values of `variability` and, where it must be given, `initial`.
+pub(super) fn variability(causality: Causality, is_flag: bool) -> (&'static str, Option<&'static str>) {
+    match causality {
+        Causality::Independent | Causality::Input => ("continuous", None),
+        Causality::Parameter => ("fixed", Some("exact")),
+        Causality::Output if is_flag => ("discrete", Some("calculated")),
+        Causality::Output | Causality::Local => ("continuous", Some("calculated")),
+    }
+}
+
+/// Places of the variables that the structure lists: outputs, derivatives, and what is calculated in initialization.
+pub(super) struct Structure {
+    pub outputs: Vec<usize>,
+    pub derivatives: Vec<usize>,
+    pub initial: Vec<usize>,
+}
+
+impl Structure {
+    pub fn new(variables: &Variables) -> Self {
+        let places = |wanted: &dyn Fn(Slot, Causality) -> bool| {
+            let list = variables.list.iter().enumerate();
+            list.filter(|(_, v)| wanted(v.slot, v.causality)).map(|(place, _)| place).collect::<Vec<_>>()
+        };
+        Self {
+            outputs: places(&|_, causality| causality == Causality::Output),
+            derivatives: places(&|slot, _| matches!(slot, Slot::Rate(_))),
+            initial: places(&|_, causality| matches!(causality, Causality::Output | Causality::Local)),
+        }
+    }
+}
+
+/// Whether an event may set a state anew: quaternions are normalised.
+pub(super) fn is_reinitialized(name: &str, slot: Slot) -> bool {
+    matches!(slot, Slot::State(_)) && name.contains(".state.orientation[")
+}

@@ -1,0 +1,106 @@
+//! Factors on the surfaces of a scene, as parameters.
+
+use pong_engine::{EngineError, ModelId, World};
+use pong_model::{FrictionLaw, NormalLaw, Surface};
+
+/// What a factor is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Factor {
+    /// The normal stiffness, and with it that of a bristle that takes a share of it.
+    Stiffness,
+    /// Damping or dissipation of the normal law.
+    Damping,
+    /// μ_k, and with it μ_s.
+    Friction,
+}
+
+impl Factor {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stiffness => "stiffness_scale",
+            Self::Damping => "damping_scale",
+            Self::Friction => "friction_scale",
+        }
+    }
+
+    /// The value of a surface that it multiplies, with what it is called; `None` if the surface has none.
+    fn value(self, surface: &Surface) -> Option<(&'static str, f64)> {
+        let found = match (self, &surface.normal, &surface.friction) {
+            (Self::Stiffness, ..) => Some(("stiffness, N/m", surface.stiffness)),
+            (Self::Damping, NormalLaw::Linear { damping, .. }, _) => Some(("damping, N.s/m", *damping)),
+            (Self::Damping, NormalLaw::HuntCrossley { dissipation, .. }, _) => {
+                Some(("dissipation, s/m", *dissipation))
+            }
+            (Self::Friction, _, FrictionLaw::Bristle { mu, .. } | FrictionLaw::Coulomb { mu, .. }) => {
+                Some(("friction coefficient", *mu))
+            }
+            _ => None,
+        };
+        found.filter(|(_, value)| value.is_finite() && *value > 0.0)
+    }
+
+    fn apply(self, surface: &mut Surface, scale: f64) {
+        match self {
+            Self::Stiffness => surface.stiffness *= scale,
+            Self::Damping => match &mut surface.normal {
+                NormalLaw::Linear { damping: value, .. }
+                | NormalLaw::HuntCrossley { dissipation: value, .. } => {
+                    *value *= scale;
+                }
+                NormalLaw::Custom { .. } | NormalLaw::Inherited => {}
+            },
+            Self::Friction => match &mut surface.friction {
+                FrictionLaw::Bristle { mu, .. } | FrictionLaw::Coulomb { mu, .. } => *mu *= scale,
+                FrictionLaw::None | FrictionLaw::Custom { .. } | FrictionLaw::Inherited => {}
+            },
+        }
+    }
+}
+
+/// A surface with the factors that it can have.
+#[derive(Clone, Debug)]
+pub(crate) struct ScaledSurface {
+    model: ModelId,
+    /// `model/surface`.
+    pub path: String,
+    /// As its model has it.
+    nominal: Surface,
+    /// With what each is called and its value in the model.
+    pub factors: Vec<(Factor, &'static str, f64)>,
+}
+
+/// All surfaces of a world that have something to be scaled.
+pub(crate) fn scaled_surfaces(world: &World) -> Vec<ScaledSurface> {
+    let mut scaled = Vec::new();
+    for (id, model) in world.models() {
+        for nominal in &model.surfaces {
+            let all = [Factor::Stiffness, Factor::Damping, Factor::Friction];
+            let factors: Vec<_> = all
+                .into_iter()
+                .filter_map(|factor| factor.value(nominal).map(|(what, value)| (factor, what, value)))
+                .collect();
+            if !factors.is_empty() {
+                let path = format!("{}/{}", model.name, nominal.name);
+                scaled.push(ScaledSurface { model: id, path, nominal: nominal.clone(), factors });
+            }
+        }
+    }
+    scaled
+}
+
+impl ScaledSurface {
+    /// Gives the world this surface with its factors.
+    ///
+    /// # Errors
+    /// The engine's, if it cannot have such a surface; it keeps the one that it has.
+    pub fn set(&self, world: &mut World, scales: &[f64]) -> Result<(), EngineError> {
+        let mut surface = self.nominal.clone();
+        for ((factor, ..), scale) in self.factors.iter().zip(scales) {
+            factor.apply(&mut surface, *scale);
+        }
+        if world.surface(self.model, &surface.name)? == &surface {
+            return Ok(());
+        }
+        world.set_surface(self.model, &surface)
+    }
+}

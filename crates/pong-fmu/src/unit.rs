@@ -1,0 +1,90 @@
+//! A scene in an FMU: what all instances of it have in common, and the simulation that one of them runs.
+
+use crate::surfaces::{ScaledSurface, scaled_surfaces};
+use crate::variables::Variables;
+use pong_engine::{FrictionPreload, PairId};
+use pong_executive::scene::BuiltScene;
+use pong_executive::{BodyId, Motion, Simulation};
+
+/// A scene whose bodies are moved by the FMU, or some of them by the importer.
+pub(crate) struct Unit {
+    pub name: String,
+    pub simulation: Simulation,
+    pub variables: Variables,
+    pub surfaces: Vec<ScaledSurface>,
+    /// Friction that is there at the start.
+    pub preload: Vec<(PairId, FrictionPreload)>,
+    /// The simulation before anything happened.
+    pub begin: Vec<u8>,
+    /// How long the scene lasts, s.
+    pub duration: f64,
+    /// What the author of scene and models should know.
+    pub warnings: Vec<String>,
+    /// Hash of all that it was made of.
+    pub token: String,
+}
+
+/// Which bodies the importer moves.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Inputs {
+    /// Those of these names.
+    Named(Vec<String>),
+    /// Every one that the scene does not hold fixed.
+    All,
+}
+
+impl Unit {
+    /// From a scene that was built and not run.
+    ///
+    /// # Errors
+    /// Bodies that are not there or named twice: thing, cause and cure.
+    pub fn new(built: BuiltScene, inputs: &Inputs) -> Result<Self, String> {
+        let mut simulation = built.simulation;
+        let led = led_bodies(&simulation, inputs)?;
+        let failed = |error: pong_executive::ExecutiveError| error.to_string();
+        for body in &led {
+            let (pose, twist) = (simulation.pose(*body), simulation.twist(*body));
+            simulation.lead(*body, simulation.time(), pose, twist).map_err(failed)?;
+        }
+        let surfaces = scaled_surfaces(simulation.world());
+        let variables = Variables::new(&simulation, &led, &surfaces);
+        let mut begin = Vec::new();
+        simulation.save(&mut begin).map_err(failed)?;
+        let duration = built.steps as f64 * simulation.step_length();
+        let warnings = built.warnings.into_iter().chain(built.seal.warnings.iter().map(ToString::to_string));
+        let (warnings, preload, name) = (warnings.collect(), built.preload, built.name);
+        let token = String::new();
+        Ok(Self { name, simulation, variables, surfaces, preload, begin, duration, warnings, token })
+    }
+
+    /// Names of the bodies that the importer moves.
+    pub fn input_bodies(&self) -> Vec<String> {
+        let led = self
+            .simulation
+            .bodies()
+            .filter(|(_, body)| matches!(&body.motion, Motion::Prescribed(pong_executive::Path::Led { .. })));
+        led.map(|(_, body)| body.name.clone()).collect()
+    }
+}
+
+fn led_bodies(simulation: &Simulation, inputs: &Inputs) -> Result<Vec<BodyId>, String> {
+    let Inputs::Named(names) = inputs else {
+        let moves = simulation.bodies().filter(|(_, body)| !matches!(body.motion, Motion::Fixed));
+        return Ok(moves.map(|(id, _)| id).collect());
+    };
+    let mut led = Vec::new();
+    for name in names {
+        let Some((id, _)) = simulation.bodies().find(|(_, body)| &body.name == name) else {
+            let known: Vec<&str> = simulation.bodies().map(|(_, body)| body.name.as_str()).collect();
+            return Err(format!(
+                "input `{name}`: the scene has no such body; name one of: {}",
+                known.join(", ")
+            ));
+        };
+        if led.contains(&id) {
+            return Err(format!("input `{name}`: it is named twice; name each body once"));
+        }
+        led.push(id);
+    }
+    Ok(led)
+}
