@@ -65,7 +65,9 @@ pub(crate) struct Flags {
 /// The contacts in short.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Summary {
+    /// A number without a unit.
     pub count: f64,
+    /// m.
     pub largest_depth: f64,
 }
 

@@ -78,9 +78,9 @@ pub(crate) struct Variable {
     pub unit: &'static str,
     pub causality: Causality,
     pub slot: Slot,
-    /// Of parameters and inputs.
+    /// Of parameters and inputs, in the variable's unit.
     pub start: Option<f64>,
-    /// Of states.
+    /// Of states, in the variable's unit.
     pub nominal: Option<f64>,
 }
 
