@@ -83,7 +83,7 @@ impl Zip {
 }
 
 fn deflated(content: &[u8]) -> Vec<u8> {
-    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
+    let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());
     encoder.write_all(content).expect("a vector takes all bytes");
     encoder.finish().expect("a vector takes all bytes")
 }

@@ -67,7 +67,9 @@ fn a_step_that_is_no_multiple_ends_where_it_should() {
     assert!((odd.get("time") - 0.025).abs() < 1e-15);
     for i in 1..=3 {
         let name = format!("{BALL}.position[{i}]");
-        assert!((odd.get(&name) - even.get(&name)).abs() < 1e-8, "{name}");
+        let apart = (odd.get(&name) - even.get(&name)).abs();
+        // Other steps have other errors where contact begins; a step more or less would be 1e-5 m and more.
+        assert!(apart < 1e-6, "{name}: {apart} m");
     }
     assert_eq!(odd.do_step(0.5, 1e-4), ERROR);
     assert!(odd.last().contains("begins at 0.5 s, and the instance is at 0.025"), "{}", odd.last());

@@ -242,7 +242,7 @@ impl Importer {
     }
 
     pub fn with_token(unit: &Unpacked, is_exchange: bool, token: &str) -> Result<Self, String> {
-        let mut told = Box::new(Vec::new());
+        let mut told = Box::new(Vec::<(c_int, String)>::new());
         let token = CString::new(token).unwrap();
         let path = CString::new(unit.resources.to_str().unwrap()).unwrap();
         let environment = (&raw mut *told).cast();
