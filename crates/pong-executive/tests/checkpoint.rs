@@ -24,7 +24,7 @@ fn balls(integrator: &str) -> Simulation {
 
 fn saved(simulation: &Simulation) -> Vec<u8> {
     let mut bytes = Vec::new();
-    simulation.save(&mut bytes).unwrap();
+    simulation.save(&mut bytes);
     bytes
 }
 

@@ -349,7 +349,7 @@ impl Instance {
         let simulation = &mut self.unit.simulation;
         // Preloads of the scene were set where its bodies start.
         if !(is_nominal && self.time == 0.0) && !self.unit.preload.is_empty() {
-            let objects: Vec<_> = simulation.world().objects().collect();
+            let objects: Vec<_> = simulation.world().scene().objects().collect();
             for object in objects {
                 let cleared = simulation.world_mut().clear_contact_history(object);
                 cleared.map_err(|error| Refusal::error(error.to_string()))?;
@@ -604,7 +604,7 @@ impl Instance {
             )));
         }
         self.undo.clear();
-        self.unit.simulation.save(&mut self.undo).map_err(of_simulation)?;
+        self.unit.simulation.save(&mut self.undo);
         let inputs_changed = self.inputs_changed;
         match self.advance(from + length) {
             Ok(flags) => {

@@ -17,7 +17,7 @@ const MODES: [Mode; 6] =
 
 impl Instance {
     /// Writes the state.
-    pub fn save(&mut self, out: &mut Vec<u8>) -> Result<(), Refusal> {
+    pub fn save(&mut self, out: &mut Vec<u8>) {
         // Contacts are not saved: what is asked of them later must be known now.
         let summary = if self.is_current { self.summary() } else { Summary::default() };
         out.clear();
@@ -36,10 +36,9 @@ impl Instance {
         }
         word(out, summary.count.to_bits());
         word(out, summary.largest_depth.to_bits());
-        self.unit.simulation.save(out).map_err(|error| Refusal::error(error.to_string()))?;
+        self.unit.simulation.save(out);
         let checksum = Fnv::of(out);
         word(out, checksum);
-        Ok(())
     }
 
     /// Goes back, or over, to a state that an instance of the same FMU and kind saved.

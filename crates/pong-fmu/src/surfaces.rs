@@ -72,7 +72,7 @@ pub(crate) struct ScaledSurface {
 /// All surfaces of a world that have something to be scaled.
 pub(crate) fn scaled_surfaces(world: &World) -> Vec<ScaledSurface> {
     let mut scaled = Vec::new();
-    for (id, model) in world.models() {
+    for (id, model) in world.scene().models() {
         for nominal in &model.surfaces {
             let all = [Factor::Stiffness, Factor::Damping, Factor::Friction];
             let factors: Vec<_> = all

@@ -49,7 +49,7 @@ impl Unit {
         let surfaces = scaled_surfaces(simulation.world());
         let variables = Variables::new(&simulation, &led, &surfaces);
         let mut begin = Vec::new();
-        simulation.save(&mut begin).map_err(failed)?;
+        simulation.save(&mut begin);
         let duration = built.steps as f64 * simulation.step_length();
         let warnings = built.warnings.into_iter().chain(built.seal.warnings.iter().map(ToString::to_string));
         let (warnings, preload, name) = (warnings.collect(), built.preload, built.name);

@@ -26,10 +26,7 @@ const MOTION_NUMBERS: usize = 13;
 
 impl Simulation {
     /// Writes the present instant, with the contact state of the world, behind what `out` holds already.
-    ///
-    /// # Errors
-    /// The engine's, if it cannot save its contact state.
-    pub fn save(&self, out: &mut Vec<u8>) -> Result<(), ExecutiveError> {
+    pub fn save(&self, out: &mut Vec<u8>) {
         let begin = out.len();
         out.extend_from_slice(MAGIC);
         let held: Vec<&Vec<Wrench>> = self.held.waiting.iter().collect();
@@ -55,12 +52,11 @@ impl Simulation {
         }
         held.into_iter().flatten().for_each(|wrench| numbers(out, of_wrench(wrench)));
         let mut block = Vec::new();
-        self.system.world.save_state_packed(&mut block)?;
+        self.system.world.save_state_packed(&mut block);
         word(out, block.len() as u64);
         out.extend_from_slice(&block);
         let checksum = Fnv::of(&out[begin..]);
         word(out, checksum);
-        Ok(())
     }
 
     /// Goes back to an instant that a simulation of the same set-up saved.

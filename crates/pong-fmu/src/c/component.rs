@@ -140,11 +140,12 @@ pub(super) mod state {
         // SAFETY: by the contract of this function; a state that is there already is written anew.
         unsafe {
             let state = place(state, "FMU state")?;
-            if let Ok(bytes) = place(state.cast::<Vec<u8>>(), "") {
-                return instance.save(bytes);
+            if let Some(bytes) = state.cast::<Vec<u8>>().as_mut() {
+                instance.save(bytes);
+                return Ok(());
             }
             let mut bytes = Vec::new();
-            instance.save(&mut bytes)?;
+            instance.save(&mut bytes);
             *state = Box::into_raw(Box::new(bytes)).cast();
         }
         Ok(())
