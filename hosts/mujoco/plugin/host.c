@@ -13,35 +13,9 @@ static void close_host(contact_host *host)
     free(host->bytes);
     free(host->no_past);
     free(host->contacts);
-    close_world(&host->at);
+    pong_destroy_world(host->at.world);
+    give_back_origin(host->origin);
     free(host);
-}
-
-/* Sleeping bodies are neither moved nor woken by forces of a plugin. */
-static int refuse_sleep(const contact_world *w, const mjModel *m, message *why)
-{
-    size_t i;
-    if (!(m->opt.enableflags & mjENBL_SLEEP))
-        return 1;
-    for (i = 0; i < w->group_count; i++) {
-        int tree = m->body_treeid[w->bodies[i]];
-        int policy = tree >= 0 ? m->tree_sleep_policy[tree] : mjSLEEP_NEVER;
-        if (policy != mjSLEEP_NEVER && policy != mjSLEEP_AUTO_NEVER)
-            return fail(why, "sleep is enabled and the body `%s` may fall asleep: contact would neither move nor wake it; write "
-                             "sleep=\"never\" on the body at the root of its tree, or disable sleep",
-                        mj_id2name(m, mjOBJ_BODY, w->bodies[i]));
-    }
-    return 1;
-}
-
-static int build_world(contact_world *w, const mjModel *m, int instance, message *why)
-{
-    contact_config config;
-    int done = read_config(&config, m, instance, why) && open_world(w, &config, why) && bind_bodies(w, &config, m, why) &&
-               refuse_double_pairs(&config, m, instance, why) && refuse_sleep(w, m, why) &&
-               (!config.checks_step || plan_step(w, m, why)) && seal_world(w, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
-    close_config(&config);
-    return done;
 }
 
 /* The memory that steps need, and the contact state without a past. */
@@ -84,6 +58,8 @@ int measure_instance(const mjModel *m, int instance, int *state_numbers, int *gr
     message ignored;
     int done;
     memset(&w, 0, sizeof w);
+    /* This is called when a model is compiled. */
+    forget_origins(m);
     done = read_config(&config, m, instance, &ignored) && open_world(&w, &config, &ignored) && seal_world(&w, NULL, &ignored);
     *groups = (int)w.group_count;
     *state_numbers = done ? state_length(w.group_count, w.state_size) : 0;
@@ -137,7 +113,8 @@ contact_host *make_host(const mjModel *m, const mjData *d, int instance)
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), "no memory");
         return NULL;
     }
-    if (!build_world(&host->at, m, instance, &why) || !take_memory(host, &why) ||
+    host->origin = take_origin(m, instance, &why);
+    if (host->origin == NULL || !clone_origin(host->origin, &host->at, &why) || !take_memory(host, &why) ||
         !refuse_changed_files(host, m, instance, &why)) {
         warn(mj_id2name(m, mjOBJ_PLUGIN, instance), why.text);
         close_host(host);

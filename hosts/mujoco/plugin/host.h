@@ -2,7 +2,7 @@
 #ifndef PONG_CONTACT_HOST_H
 #define PONG_CONTACT_HOST_H
 
-#include "setup.h"
+#include "origin.h"
 #include "state.h"
 
 typedef struct contact_host {
@@ -10,7 +10,8 @@ typedef struct contact_host {
     int instance;
     struct contact_host *next;
 
-    contact_world at;
+    contact_origin *origin;
+    contact_world at;             /* a clone of its origin's world; the rest is the origin's */
     pong_state *states;
     unsigned char *bytes;         /* of one contact state */
     unsigned char *no_past;       /* the contact state of a world that has just been sealed */

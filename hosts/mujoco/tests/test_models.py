@@ -1,5 +1,7 @@
 """Ways in which a model comes to have contacts: inserted models, instances without a name, bodies that are welded or prescribed."""
 
+import pathlib
+import tempfile
 import unittest
 
 import mujoco
@@ -41,6 +43,21 @@ class Inserted(unittest.TestCase):
         again = settled(mujoco.MjModel.from_xml_string(spec.to_xml()))
         self.assertTrue((first.qpos == again.qpos).all())
         self.assertEqual(again.sensordata[0], 1)
+
+    def test_a_changed_file_counts_for_the_next_model_and_for_no_earlier_one(self):
+        # All mjData of an mjModel have clones of one world.
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "ball.ron")
+            text = mjcf(BALL, instance(f"ball = {file}; ground = text2", **KEYS), more=SENSOR, timestep=2e-3)
+            depths = []
+            kept = []
+            for stiffness in (2e4, 4e4):
+                file.write_text(ball_model(stiffness, damping=100.0, mu=0.5, tangential_damping=100.0))
+                m = mujoco.MjModel.from_xml_string(text)
+                kept.append((m, settled(m)))
+                depths += [0.1 - settled(model).qpos[2] for model, _ in kept]
+            for depth, stiffness in zip(depths, (2e4, 2e4, 4e4)):
+                self.assertAlmostEqual(depth, 9.81 / stiffness, delta=1e-6)
 
     def test_an_instance_without_a_name(self):
         config = "".join(f"<config key='{key}' value='{value}'/>" for key, value in {"objects": OBJECTS, **KEYS}.items())
