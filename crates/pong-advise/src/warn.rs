@@ -162,8 +162,8 @@ fn coarse(pair: &PairLimits, plan: &StepPlan) -> Option<String> {
     let [a, b] = &pair.groups;
     let longest = bounce.accurate_step(plan.coupling, &wanted);
     Some(format!(
-        "`{a}` and `{b}`: a bounce is off by up to {} of its depth and {} of its rebound at a step of {:.3e} s; for {} and \
-         {} give at most {longest:.3e} s",
+        "`{a}` and `{b}`: a bounce on one contact is off by {} of its depth and {} of its rebound at a step of {:.3e} s; \
+         for {} and {} give at most {longest:.3e} s, and less where several contacts stop the bodies together",
         percent(error.depth),
         percent(error.rebound),
         plan.step,

@@ -39,7 +39,7 @@ pub extern "C" fn pong_check_abi(abi_version: u32, hash: u64) -> pong_status {
         }
         let message = format!(
             "pong.h is of ABI {abi_version} with layout {hash:#x}, the library of ABI {PONG_ABI_VERSION} with layout \
-             {:#x}; compile against the pong.h of version {}, or install the library of the header's release",
+             {:#x}; compile against the pong.h of version {}, or build the library from the files that the header came with",
             layout_hash(),
             env!("CARGO_PKG_VERSION")
         );
