@@ -72,7 +72,10 @@ fn the_advised_surface_does_in_a_scene_what_was_wished() {
     assert!((rebound / 0.2 - 1.0).abs() < 0.02, "{rebound}");
     let three = format!("advise scene.ron --step {:?}", 3.0 * step);
     let (_, out, _) = pong(&here, &three);
-    assert!(out.contains("warning: `point/point` and `ground/ground`: a bounce on one contact is off by"), "{out}");
+    assert!(
+        out.contains("warning: `point/point` and `ground/ground`: a bounce on one contact is off by"),
+        "{out}"
+    );
 }
 
 /// Held over a frame, k·T/2 < c: 1e4 N/m and 5 N·s/m end at 1 ms, and that is said to go wrong first.

@@ -210,6 +210,34 @@ fn too_few_pieces_protrude_and_a_limit_refuses_them() {
     assert!(attempt("wide", &ell(), &wide).findings.faults.is_empty());
 }
 
+/// A bar of two rows of cubes without the last cube of the upper one.
+fn bar_without_a_corner(length: i32) -> Triangles {
+    let rows = (0..length).flat_map(|x| [[x, 0, 0], [x, 0, 1]]);
+    blocks(&rows.take(2 * length as usize - 1).collect::<Vec<_>>(), 1.0)
+}
+
+/// As one piece both bars protrude by ½, the distance of the middle of the slope from both walls of the corner. That is 1.7 %
+/// of the size of the short bar, and 0.8 % of that of the long one.
+#[test]
+fn what_protrudes_by_more_than_a_hundredth_of_the_size_is_told() {
+    let one = DecomposeOptions { pieces_max: 1, ..options() };
+    let told = |length: i32| {
+        let done = attempt(&format!("bar_{length}"), &bar_without_a_corner(length), &one);
+        assert!(done.findings.faults.is_empty(), "{}", done.findings);
+        let deepest = done.report.unwrap().deviation.protrusion.max_m;
+        assert!(deepest <= 0.5 && deepest > 0.49, "{deepest}");
+        let notes = done.findings.notes.into_iter().filter(|note| note.rule == "protrusion");
+        notes.map(|note| note.cause).collect::<Vec<_>>()
+    };
+    let short = told(30);
+    assert_eq!(short.len(), 1, "{short:?}");
+    // By V-HACD with 40 voxels along the size of the bar, which is its diagonal: √(30² + 1² + 2²) = 30.083 m.
+    for part in ["1.7 % of the mesh's size", "thinner than a voxel, about 7.5e-1 m,"] {
+        assert!(short[0].contains(part), "{short:?}");
+    }
+    assert_eq!(told(60), Vec::<String>::new());
+}
+
 #[test]
 fn the_same_file_gives_the_same_bytes() {
     let write = |test: &str| {
