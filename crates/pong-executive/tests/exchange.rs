@@ -96,15 +96,15 @@ fn a_body_that_no_wrench_acts_on_keeps_its_rates() {
 fn numbers_that_fit_nothing_are_refused() {
     let (mut simulation, _) = ball();
     let x = simulation.state_numbers();
-    let told = simulation.try_states(0.0, &x[1..], &mut vec![0.0; 13]).unwrap_err().to_string();
+    let told = simulation.try_states(0.0, &x[1..], &mut [0.0; 13]).unwrap_err().to_string();
     assert!(told.contains("12 states"), "{told}");
     for (place, value) in [(0, f64::NAN), (7, f64::INFINITY)] {
         let mut bad = x.clone();
         bad[place] = value;
-        let told = simulation.accept_states(0.0, &bad, &mut vec![0.0; 13]).unwrap_err().to_string();
+        let told = simulation.accept_states(0.0, &bad, &mut [0.0; 13]).unwrap_err().to_string();
         assert!(told.contains("no longer finite"), "{told}");
     }
     let mut none = x;
     none[6..10].fill(0.0);
-    assert!(simulation.try_states(0.0, &none, &mut vec![0.0; 13]).is_err());
+    assert!(simulation.try_states(0.0, &none, &mut [0.0; 13]).is_err());
 }

@@ -348,7 +348,8 @@ impl Instance {
         self.apply_inputs(self.time)?;
         let simulation = &mut self.unit.simulation;
         // Preloads of the scene were set where its bodies start.
-        if !(is_nominal && self.time == 0.0) && !self.unit.preload.is_empty() {
+        let at_the_start = is_nominal && self.time == 0.0;
+        if !at_the_start && !self.unit.preload.is_empty() {
             let objects: Vec<_> = simulation.world().scene().objects().collect();
             for object in objects {
                 let cleared = simulation.world_mut().clear_contact_history(object);
@@ -596,8 +597,8 @@ impl Instance {
             )));
         }
         let tolerance = STEP_TOLERANCE * self.unit.simulation.step_length() + f64::EPSILON * self.time.abs();
-        // NaN is off, too.
-        if !((from - self.time).abs() <= tolerance) {
+        let begins_here = (from - self.time).abs() <= tolerance;
+        if !begins_here {
             return Err(Refusal::error(format!(
                 "DoStep: it begins at {from} s, and the instance is at {} s; go on from there, or restore a state of that time",
                 self.time
@@ -678,7 +679,8 @@ fn norm(quaternion: &[f64]) -> f64 {
 /// Pose and twist of thirteen numbers.
 fn motion(numbers: &[f64], thing: &str) -> Outcome<(Pose, Twist)> {
     let length = norm(&numbers[3..7]);
-    if !((length - 1.0).abs() <= NORM_ERROR_MAX) {
+    let is_unit = (length - 1.0).abs() <= NORM_ERROR_MAX;
+    if !is_unit {
         return Err(Refusal::discard(format!(
             "{thing}: the quaternion has norm {length}; give a unit quaternion (w, x, y, z)"
         )));

@@ -221,6 +221,8 @@ unsafe extern "C" fn log(
 /// An instance as an importer has it. All calls answer the status.
 pub struct Importer {
     instance: *mut c_void,
+    // The unit holds its address, so it may not move with this struct.
+    #[expect(clippy::box_collection)]
     pub told: Box<Vec<(c_int, String)>>,
     references: BTreeMap<String, u32>,
     pub states: usize,
