@@ -13,7 +13,7 @@
 //! | `instance.rs`, `states.rs` | what an importer instantiates, whatever the version of the standard; its state as bytes |
 //! | `c/` | the C functions of both versions: the only place where pointers are touched |
 //!
-//! What is written of an FMU and what is loaded from it go through the same [`Unit`](unit::Unit), so that names, value
+//! What is written of an FMU and what is loaded from it go through the same `Unit`, so that names, value
 //! references and start values cannot differ.
 
 mod c;

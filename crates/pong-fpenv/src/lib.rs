@@ -13,6 +13,10 @@
 //!
 //! On x86-64 there are two units. The engine uses SSE alone; a law may use x87 (`long double`), which is cared for, too.
 //! Other architectures than x86-64 and AArch64 keep what the host has set.
+//!
+//! Built with `--cfg pong_traps`, on x86-64, the engine's environment ends the program at an invalid operation, a division
+//! by zero or an overflow. `ci/traps --long` runs C programs and calls of a fuzzer on such a library: no code may rely on
+//! ∞ − ∞ or 0/0. Laws of the host are not judged.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -27,6 +31,8 @@ pub fn guarded<T>(call: impl FnOnce() -> T) -> T {
 
 /// Runs a function of the host's from inside a call. What it changes about the environment ends with it.
 pub fn lent<T>(function: impl FnOnce() -> T) -> T {
+    #[cfg(all(pong_traps, target_arch = "x86_64"))]
+    unit::mask();
     let result = fenced(function);
     unit::begin();
     result
@@ -53,7 +59,14 @@ mod unit {
     }
 
     /// All exceptions masked, rounding to nearest, denormal numbers as they are, no flag set.
-    const SSE: u32 = 0x1f80;
+    const MASKED: u32 = 0x1f80;
+    /// Masks of invalid operation, division by zero and overflow.
+    #[cfg(pong_traps)]
+    const TRAPPED: u32 = 0x0680;
+    #[cfg(pong_traps)]
+    const SSE: u32 = MASKED & !TRAPPED;
+    #[cfg(not(pong_traps))]
+    const SSE: u32 = MASKED;
     /// All exceptions masked, rounding to nearest, numbers of 64 bits.
     const X87_CONTROL: u16 = 0x037f;
     /// Bits of the status word of x87 that are flags; the others tell of the stack and of comparisons.
@@ -72,6 +85,12 @@ mod unit {
         if x87_control() != X87_CONTROL {
             set_x87_control(X87_CONTROL);
         }
+    }
+
+    /// For laws of the host.
+    #[cfg(pong_traps)]
+    pub fn mask() {
+        set_sse(MASKED);
     }
 
     pub fn end(of_host: Environment) {
