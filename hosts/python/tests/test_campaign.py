@@ -272,12 +272,22 @@ def test_plans_that_cannot_be_run(tmp_path, cluster):
         ("ball.position", ("ball.position", "OBJECT.position.x")),
         ("surface.ball.rubber.hardness", ("hardness", "stiffness")),
         ("surface.ball.chalk.stiffness", ("chalk",)),
+        # What is misspelt must not be taken for the stiffness of the normal law.
+        ("surface.ball.rubber.fiction.stiffness", ("fiction", "surface.ring.steel.friction.mu")),
     ):
         plan = plan_of(tmp_path, dispersions=[campaign.Uniform(parameter, 0.0, 1.0)])
         refused(lambda: run(plan, tmp_path / "out", cluster), *words)
     criteria = [campaign.Within("low", "bell", "ground", low=(0,) * 3, high=(1,) * 3)]
     refused(lambda: run(plan_of(tmp_path, criteria=criteria), tmp_path / "out", cluster), "bell", "ball, ground")
     refused(lambda: run(plan_of(tmp_path, scene=tmp_path / "none.ron"), tmp_path / "out", cluster), "none.ron", "cannot be read")
+    refused(lambda: plan_of(tmp_path, dispersions=["ball.position.z"]), "dispersions", "ball.position.z", "Uniform or Normal")
+    refused(lambda: plan_of(tmp_path, dispersions=bad), "give a list")
+    refused(lambda: plan_of(tmp_path, runs=2.5), "runs: it is 2.5")
+    refused(lambda: plan_of(tmp_path, pivots={"ball": (0, 0)}), "pivot of `ball`", "three numbers")
+    refused(lambda: campaign.Within("low", "ball", "ground", low=(0, 0), high=(1, 1, 1)), "criterion `low`, low", "three")
+    refused(lambda: campaign.Within("low", "ball", "ground", low=(0, 0, 2), high=(1, 1, 1)), "along z", "lower end first")
+    refused(lambda: run(plan_of(tmp_path), tmp_path / "out", cluster, runs_per_task=0), "runs_per_task: it is 0")
+    refused(lambda: run(plan_of(tmp_path), tmp_path / "out", cluster, workers=-1), "workers: it is -1")
     assert not (tmp_path / "out").exists(), "nothing was begun"
     refused(lambda: campaign.results(tmp_path / "out"), "campaign.json", "name the folder of a campaign")
 

@@ -38,7 +38,7 @@ def test_the_plan_of_the_page_can_be_run(monkeypatch):
     program = re.search(r"```python\n(.*?)```", page, re.S)[1]
     monkeypatch.chdir(ROOT)
     names = {}
-    exec(program.split("table =")[0], names)
+    exec(program.split("if __name__")[0], names)
     assert _run.checked(names["plan"])["parameters"] == names["plan"].parameters
     for file in re.findall(r"hosts/python/\S+\.py", page):
         assert (ROOT / file).exists()

@@ -129,13 +129,14 @@ def apply(simulation, job, values):
 
 def set_surface(simulation, name, parts, value):
     """`surface.MODEL.SURFACE.stiffness`, `….normal.damping`, `….friction.mu`."""
-    if len(parts) not in (4, 5):
+    if len(parts) not in (4, 5) or len(parts) == 5 and parts[3] not in ("normal", "friction"):
         raise CampaignError(f"parameter `{name}`: write surface.MODEL.SURFACE.VALUE, such as surface.ring.steel.friction.mu")
     _, model, surface, *path = parts
     values = simulation.surface(model, surface)
-    place = values[path[0]] if len(path) == 2 and path[0] in ("normal", "friction") else values
-    if path[-1] not in place or not isinstance(place[path[-1]], float | int):
-        numbers = [key for key, known in place.items() if isinstance(known, float | int)]
+    place = values[path[0]] if len(path) == 2 else values
+    # A switch, such as `hertz`, is no number that could be spread.
+    numbers = [key for key, known in place.items() if isinstance(known, float | int) and not isinstance(known, bool)]
+    if path[-1] not in numbers:
         raise CampaignError(f"parameter `{name}`: the surface has no value `{path[-1]}`; it has: {', '.join(numbers)}")
     place[path[-1]] = value
     simulation.set_surface(model, surface, values)

@@ -8,6 +8,28 @@ from . import _dispersions as dispersions_of
 from ._errors import CampaignError
 
 
+def triple(thing, unit, given):
+    """Three numbers, or an error that names the thing."""
+    try:
+        values = tuple(float(x) for x in given)
+    except (TypeError, ValueError):
+        values = ()
+    if len(values) != 3 or any(map(math.isnan, values)):
+        raise CampaignError(f"{thing}: it is {given!r}; give three numbers (x, y, z), {unit}")
+    return values
+
+
+def listed(thing, kinds, given):
+    """A list of dispersions or criteria, or an error that names what is none."""
+    names = " or ".join(kind.__name__ for kind in kinds)
+    if not isinstance(given, list | tuple):
+        raise CampaignError(f"{thing}: they are {given!r}; give a list, each entry a {names}")
+    for entry in given:
+        if not isinstance(entry, kinds):
+            raise CampaignError(f"{thing}: `{entry!r}` is none; give a {names}")
+    return list(given)
+
+
 @dataclass(frozen=True)
 class Within:
     """At the end of a run, the origin of `body`, seen in the frame of the body `of`, lies between `low` and `high` (m),
@@ -21,8 +43,12 @@ class Within:
     speed: float = math.inf
 
     def __post_init__(self):
-        object.__setattr__(self, "low", tuple(float(x) for x in self.low))
-        object.__setattr__(self, "high", tuple(float(x) for x in self.high))
+        for end in ("low", "high"):
+            object.__setattr__(self, end, triple(f"criterion `{self.name}`, {end}", "m", getattr(self, end)))
+        for axis, low, high in zip("xyz", self.low, self.high):
+            if low > high:
+                cure = "give the lower end first"
+                raise CampaignError(f"criterion `{self.name}`: along {axis}, low is {low} and high is {high}; {cure}")
 
 
 @dataclass(frozen=True)
@@ -46,15 +72,19 @@ class Plan:
     def __post_init__(self):
         # Where symbolic links lead is the worker's affair: the path is kept as it was given.
         object.__setattr__(self, "scene", os.path.abspath(self.scene))
-        object.__setattr__(self, "dispersions", list(self.dispersions))
-        object.__setattr__(self, "criteria", list(self.criteria))
-        object.__setattr__(self, "pivots", {name: tuple(float(x) for x in at) for name, at in self.pivots.items()})
+        kinds = (dispersions_of.Uniform, dispersions_of.Normal)
+        object.__setattr__(self, "dispersions", listed("dispersions", kinds, self.dispersions))
+        object.__setattr__(self, "criteria", listed("criteria", (Within,), self.criteria))
+        pivots = {name: triple(f"pivot of `{name}`", "m", at) for name, at in self.pivots.items()}
+        object.__setattr__(self, "pivots", pivots)
         self._check()
         if self.method == "corners":
             object.__setattr__(self, "runs", dispersions_of.corner_count(self.dispersions))
 
     def _check(self):
         problems = []
+        if not isinstance(self.runs, int):
+            raise CampaignError(f"runs: it is {self.runs!r}; give a whole number")
         if self.method not in dispersions_of.METHODS:
             problems.append(f"method: there is no `{self.method}`; give one of {', '.join(dispersions_of.METHODS)}")
         elif self.method == "corners" and self.runs not in (0, 2 ** len(self.dispersions)):
