@@ -158,7 +158,12 @@ def test_threads_that_share_a_simulation_are_told(tmp_path):
 def test_a_run_can_be_interrupted(tmp_path):
     """Ctrl-C ends a run that would take hours."""
     simulation = pong.Scene.load(scene_folder(tmp_path)).build()
-    threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
-    with pytest.raises(KeyboardInterrupt):
-        simulation.run(10**10, every=10**9)
+    # A shell starts what runs in the background with Ctrl-C ignored, and Python leaves that as it is.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt):
+            simulation.run(10**10, every=10**9)
+    finally:
+        signal.signal(signal.SIGINT, before)
     assert simulation.time > 0.0
