@@ -31,7 +31,7 @@
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
 
-mod abi;
+pub mod abi;
 pub mod accounts;
 mod advice;
 mod clock;

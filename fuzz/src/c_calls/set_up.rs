@@ -4,6 +4,7 @@ use super::host::Host;
 use super::laws;
 use super::session::{Session, Sure, WORLDS, read_text};
 use crate::input::Input;
+use pong::abi::PONG_ABI_VERSION;
 use pong::config::{pong_config, pong_default_config};
 use pong::ids::{pong_model_id, pong_object_id, pong_pair_id};
 use pong::interfaces::pong_list_interfaces;
@@ -391,8 +392,11 @@ impl Session<'_> {
             read_text(place.get());
         }
         self.plan_any();
-        let (version, hash) = (self.input.one_of(&[0, 0, 1, u32::MAX]), self.input.chance(128));
-        let sure = Sure::Right.only_if(version == 0 && hash);
+        let (version, hash) = (
+            self.input.one_of(&[PONG_ABI_VERSION, PONG_ABI_VERSION, PONG_ABI_VERSION - 1, u32::MAX]),
+            self.input.chance(128),
+        );
+        let sure = Sure::Right.only_if(version == PONG_ABI_VERSION && hash);
         let given = if hash { pong_layout_hash() } else { 7 };
         self.call("check abi", sure, || pong_check_abi(version, given));
     }
