@@ -36,7 +36,7 @@ mod together;
 mod warn;
 
 /// What a [`step_report`] keeps of a pair of movable groups at most, bytes: whoever must not run out of memory after the seal
-/// has it leave so much ([`pong_engine::World::leave_room_per_pair`]).
+/// has it leave so much ([`pong_engine::WorldBuilder::leave_room_per_pair`]).
 pub const BYTES_PER_PAIR: usize = 1024;
 
 pub use acting::{ActingReport, acting_report};
