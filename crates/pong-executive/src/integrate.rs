@@ -31,6 +31,18 @@ pub enum Integrator {
     },
 }
 
+/// As the scene format and logs spell it.
+impl std::fmt::Display for Integrator {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::ZeroOrderHold { substeps, delay_frames } => {
+                write!(out, "ZeroOrderHold(substeps: {substeps}, delay_frames: {delay_frames})")
+            }
+            Self::SemiImplicitEuler | Self::RungeKutta4 => write!(out, "{self:?}"),
+        }
+    }
+}
+
 impl Integrator {
     /// How the integrator uses the contact wrench.
     pub fn coupling(self) -> WrenchCoupling {

@@ -2,7 +2,6 @@
 
 use crate::arrays::{STATE, WRENCH, motion_row, wrench_row};
 use crate::errors::{of_executive, of_log};
-use crate::scene::integrator_text;
 use crate::simulation::energies;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pong_executive::scene::BuiltScene;
@@ -189,7 +188,7 @@ fn start_log(built: &BuiltScene, log: &RunLog, every: u64) -> Result<Recorder, F
         writer: concat!("pong for Python ", env!("CARGO_PKG_VERSION")).to_owned(),
         step: Some(built.simulation.step_length()),
         commits_per_frame: Some(every),
-        integrator: Some(integrator_text(built.simulation.integrator())),
+        integrator: Some(built.simulation.integrator().to_string()),
         energies: built.ledger,
         overwrite: log.overwrite,
         ..RecordOptions::default()

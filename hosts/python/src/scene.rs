@@ -62,7 +62,7 @@ impl Scene {
     /// The integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> String {
-        integrator_text(self.scene.integrator())
+        self.scene.integrator().to_string()
     }
 
     /// Names of the alternatives.
@@ -112,15 +112,5 @@ impl Scene {
 
     fn __repr__(&self) -> String {
         format!("<pong.Scene {:?}>", self.scene.name())
-    }
-}
-
-/// An integrator as the scene format spells it.
-pub(crate) fn integrator_text(integrator: Integrator) -> String {
-    match integrator {
-        Integrator::ZeroOrderHold { substeps, delay_frames } => {
-            format!("ZeroOrderHold(substeps: {substeps}, delay_frames: {delay_frames})")
-        }
-        other => format!("{other:?}"),
     }
 }

@@ -5,7 +5,6 @@ use crate::contacts;
 use crate::errors::{PhaseError, bad_value, of_engine, of_executive};
 use crate::model::{surface_from, surface_values};
 use crate::run::{Run, RunLog};
-use crate::scene::integrator_text;
 use crate::world::FrameReport;
 use numpy::PyArray2;
 use pong_executive::scene::BuiltScene;
@@ -92,7 +91,7 @@ impl Simulation {
     /// The integrator, as the scene format spells it.
     #[getter]
     fn integrator(&self) -> PyResult<String> {
-        Ok(integrator_text(self.lock()?.simulation.integrator()))
+        Ok(self.lock()?.simulation.integrator().to_string())
     }
 
     /// Two simulations with equal hashes have the same world.

@@ -2,8 +2,8 @@
 
 use super::arguments::Arguments;
 use pong_engine::World;
+use pong_executive::Simulation;
 use pong_executive::scene::BuiltScene;
-use pong_executive::{Integrator, Simulation};
 use pong_record::{
     AccountsTable, CsvTables, EnergyRow, Frame, LogError, Look, ModelSource, RecordOptions, Recorder,
 };
@@ -106,19 +106,10 @@ fn log_options(arguments: &Arguments, built: &BuiltScene, every: u64) -> RecordO
         writer: concat!("pong run ", env!("CARGO_PKG_VERSION")).to_owned(),
         step: Some(built.simulation.step_length()),
         commits_per_frame: Some(every),
-        integrator: Some(integrator(built.simulation.integrator())),
+        integrator: Some(built.simulation.integrator().to_string()),
         energies: built.ledger,
         overwrite: arguments.overwrite,
         ..RecordOptions::default()
-    }
-}
-
-fn integrator(integrator: Integrator) -> String {
-    match integrator {
-        Integrator::ZeroOrderHold { substeps, delay_frames } => {
-            format!("ZeroOrderHold(substeps: {substeps}, delay_frames: {delay_frames})")
-        }
-        other => format!("{other:?}"),
     }
 }
 

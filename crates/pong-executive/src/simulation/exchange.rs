@@ -35,9 +35,7 @@ impl Simulation {
         numbers: &[f64],
         rates: &mut [f64],
     ) -> Result<(), ExecutiveError> {
-        self.read_trial(time, numbers, rates.len())?;
-        self.settled = false;
-        self.system.place(time, &self.trial);
+        self.place_trial(time, numbers, rates.len())?;
         self.system.touch(time)?;
         self.write_rates(time, numbers, rates);
         Ok(())
@@ -54,9 +52,7 @@ impl Simulation {
         numbers: &[f64],
         rates: &mut [f64],
     ) -> Result<(), ExecutiveError> {
-        self.read_trial(time, numbers, rates.len())?;
-        self.settled = false;
-        self.system.place(time, &self.trial);
+        self.place_trial(time, numbers, rates.len())?;
         self.system.commit(time)?;
         self.states.clone_from(&self.trial);
         (self.epoch, self.steps) = (time, 0);
@@ -96,7 +92,8 @@ impl Simulation {
         Ok(())
     }
 
-    fn read_trial(&mut self, time: f64, numbers: &[f64], rates: usize) -> Result<(), ExecutiveError> {
+    /// Moves the bodies to states that were given as numbers; these are the trial from here on.
+    fn place_trial(&mut self, time: f64, numbers: &[f64], rates: usize) -> Result<(), ExecutiveError> {
         let wanted = STATE_NUMBERS * self.states.len();
         if numbers.len() != wanted || rates != wanted {
             let cause = format!(
@@ -114,6 +111,8 @@ impl Simulation {
             };
             self.trial.push(state);
         }
+        self.settled = false;
+        self.system.place(time, &self.trial);
         Ok(())
     }
 

@@ -94,17 +94,6 @@ unsafe extern "C" fn fmi2SetDebugLogging(
     }
 }
 
-/// Functions that call an instance.
-macro_rules! calls {
-    ($(fn $name:ident($($argument:ident: $type:ty),*) |$instance:ident| $body:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(component: *mut c_void $(, $argument: $type)*) -> Status {
-            // SAFETY: by the contract of this module.
-            unsafe { call(component, |$instance: &mut Instance| $body) }
-        }
-    )*};
-}
-
 calls! {
     fn fmi2SetupExperiment(_has_tolerance: c_int, _tolerance: f64, start: f64, _has_stop: c_int, _stop: f64)
         |instance| instance.set_start(start);

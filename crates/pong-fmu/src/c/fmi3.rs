@@ -124,17 +124,6 @@ unsafe extern "C" fn fmi3SetDebugLogging(
     }
 }
 
-/// Functions that call an instance.
-macro_rules! calls {
-    ($(fn $name:ident($($argument:ident: $type:ty),*) |$instance:ident| $body:expr;)*) => {$(
-        #[unsafe(no_mangle)]
-        unsafe extern "C" fn $name(component: *mut c_void $(, $argument: $type)*) -> Status {
-            // SAFETY: by the contract of this module.
-            unsafe { call(component, |$instance: &mut Instance| $body) }
-        }
-    )*};
-}
-
 calls! {
     fn fmi3EnterInitializationMode(
         _has_tolerance: Boolean, _tolerance: f64, start: f64, _has_stop: Boolean, _stop: f64

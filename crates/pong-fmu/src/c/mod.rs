@@ -6,6 +6,17 @@
 //! library gave out and that was not freed; text ends with a zero byte; an array has as many elements as the importer says; an
 //! instance is called from one thread at a time. Everything else is checked.
 
+/// Functions that call an instance.
+macro_rules! calls {
+    ($(fn $name:ident($($argument:ident: $type:ty),*) |$instance:ident| $body:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        unsafe extern "C" fn $name(component: *mut c_void $(, $argument: $type)*) -> Status {
+            // SAFETY: by the contract of this module.
+            unsafe { call(component, |$instance: &mut Instance| $body) }
+        }
+    )*};
+}
+
 mod component;
 mod fmi2;
 mod fmi3;

@@ -1,7 +1,5 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
-//! Pairs of primitives: runs the tester of a pair of kinds, hands out contacts under their keys.
-
 use super::element_pair::{ElementPair, Findings, Waiting};
 use super::on_triangle::thickness_for_sphere;
 use super::pair_table::{Test, sphere_triangle, test_of};
