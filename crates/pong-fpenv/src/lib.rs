@@ -14,9 +14,11 @@
 //! On x86-64 there are two units. The engine uses SSE alone; a law may use x87 (`long double`), which is cared for, too.
 //! Other architectures than x86-64 and AArch64 keep what the host has set.
 //!
-//! Built with `--cfg pong_traps`, on x86-64, the engine's environment ends the program at an invalid operation, a division
-//! by zero or an overflow. `ci/traps --long` runs C programs and calls of a fuzzer on such a library: no code may rely on
-//! ∞ − ∞ or 0/0. Laws of the host are not judged.
+//! Built with `--cfg pong_traps`, on x86-64, the engine's environment ends the program at an invalid operation or a division
+//! by zero: no code may rely on ∞ − ∞ or 0/0. With `--cfg pong_traps_overflow` an overflow ends it, too, which only input
+//! that the engine refuses may cause: a wrench beyond the range of numbers is found by its overflow. `ci/traps --long` runs
+//! C programs on a library with both, and a fuzzer's calls, which do hand in such input, on one with the first. Laws of the
+//! host are not judged.
 
 #![deny(unsafe_op_in_unsafe_fn)]
 
@@ -60,11 +62,14 @@ mod unit {
 
     /// All exceptions masked, rounding to nearest, denormal numbers as they are, no flag set.
     const MASKED: u32 = 0x1f80;
-    /// Masks of invalid operation, division by zero and overflow.
+    /// Masks of invalid operation and division by zero.
     #[cfg(pong_traps)]
-    const TRAPPED: u32 = 0x0680;
+    const TRAPPED: u32 = 0x0280;
+    /// Mask of overflow.
     #[cfg(pong_traps)]
-    const SSE: u32 = MASKED & !TRAPPED;
+    const OVERFLOW: u32 = if cfg!(pong_traps_overflow) { 0x0400 } else { 0 };
+    #[cfg(pong_traps)]
+    const SSE: u32 = MASKED & !(TRAPPED | OVERFLOW);
     #[cfg(not(pong_traps))]
     const SSE: u32 = MASKED;
     /// All exceptions masked, rounding to nearest, numbers of 64 bits.
