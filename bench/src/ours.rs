@@ -404,7 +404,7 @@ fn along(a: Ray, test: impl FnOnce(&Ray) -> Option<RayHit>) -> Option<Answer> {
 
 impl From<Interference> for Answer {
     fn from(found: Interference) -> Self {
-        Self::new(found.depth, found.normal, found.point_a)
+        Self::new(found.depth, found.normal_b, found.deepest_b)
     }
 }
 

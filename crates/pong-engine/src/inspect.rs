@@ -119,8 +119,8 @@ impl<'w> Inspection<'w> {
                 weight: contact.found.full_weight(),
                 depth: contact.found.depth,
                 normal_force: contact.normal_force,
-                normal_b: contact.found.normal,
-                point_b: contact.point,
+                normal_b: contact.found.normal_b,
+                point_b: contact.point_b,
                 x_ba: &frame.input.motions[pair][flipped].x_ba,
             }
         }))

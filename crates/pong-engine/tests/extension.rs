@@ -194,8 +194,8 @@ fn extensions(with_volume_test: bool) -> Extensions {
             let depth = post.radius - out.norm();
             (depth > 0.0).then(|| Interference {
                 depth,
-                normal: out.normalize(),
-                point_a: p,
+                normal_b: out.normalize(),
+                deepest_b: p,
                 feature: Feature::WHOLE,
             })
         }),

@@ -39,8 +39,8 @@ fn blobs(kind_a: &str, kind_b: &str) -> Extensions {
         extensions.add_primitive(kind, Arc::new(make));
     }
     let touch = |_: PrimitiveRef<'_>, _: PrimitiveRef<'_>, _: &Transform| {
-        let (normal, point_a) = (Vec3::z(), Vec3::zeros());
-        Some(Interference { depth: 1e-3, normal, point_a, feature: Feature::WHOLE })
+        let (normal_b, deepest_b) = (Vec3::z(), Vec3::zeros());
+        Some(Interference { depth: 1e-3, normal_b, deepest_b, feature: Feature::WHOLE })
     };
     extensions.add_contact_test(kind_a, kind_b, Arc::new(touch));
     extensions

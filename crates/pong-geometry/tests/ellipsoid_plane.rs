@@ -20,9 +20,9 @@ fn closed_form_on_tilted_planes() {
         let plane = Plane { normal, offset: normal.dot(&e.center) - half_width + depth };
         let contact = ellipsoid_plane(&e, &plane).expect("overlap");
         assert!((contact.depth - depth).abs() < 3e-14);
-        assert_eq!(contact.normal, normal);
-        assert!((plane.height(&contact.point_a) + depth).abs() < 3e-14);
-        let local = e.axes.tr_mul(&(contact.point_a - e.center)).component_div(&semi_axes);
+        assert_eq!(contact.normal_b, normal);
+        assert!((plane.height(&contact.deepest_b) + depth).abs() < 3e-14);
+        let local = e.axes.tr_mul(&(contact.deepest_b - e.center)).component_div(&semi_axes);
         assert!((local.norm() - 1.0).abs() < 1e-11);
         for factor in [1e-4, 1e4] {
             let plane = Plane { normal, offset: plane.offset * factor };
@@ -43,5 +43,5 @@ fn touching_without_overlap_is_no_contact() {
     assert!(ellipsoid_plane(&e, &plane(0.0)).is_none());
     let contact = ellipsoid_plane(&e, &plane(1e-12)).expect("overlap");
     assert!((contact.depth - 1e-12).abs() < 4e-16);
-    assert_eq!(contact.point_a, Vec3::zeros());
+    assert_eq!(contact.deepest_b, Vec3::zeros());
 }

@@ -381,14 +381,14 @@ fn contacts_move_and_scale_with_the_scene() {
         let inside = e.axes * random.direction().component_mul(&e.semi_axes) * random.between(0.0, 0.95);
         let p = e.center + inside;
         let contact = point_ellipsoid(&p, &e).expect("inside");
-        assert_eq!(contact.point_a, p);
-        let surface = p + contact.normal * contact.depth;
+        assert_eq!(contact.deepest_b, p);
+        let surface = p + contact.normal_b * contact.depth;
         let unit = e.axes.tr_mul(&(surface - e.center)).component_div(&e.semi_axes).norm();
         assert!((unit - 1.0).abs() < 1e-9);
         for factor in [1e-4, 1e4] {
             let big = point_ellipsoid(&(p * factor), &scaled_ellipsoid(&e, factor)).expect("inside");
             assert!((big.depth - contact.depth * factor).abs() < 1e-10 * contact.depth * factor);
-            assert!((big.normal - contact.normal).norm() < 1e-9);
+            assert!((big.normal_b - contact.normal_b).norm() < 1e-9);
         }
         let x = random.motion(3.0);
         let far = point_ellipsoid(&x.point(&p), &e.carried(&x)).expect("inside");
@@ -410,7 +410,7 @@ fn grazing_points_come_in_without_a_step() {
     for depth in [1e-3, 1e-6, 1e-9, 1e-12] {
         let contact = point_ellipsoid(&(surface - normal * depth), &e).expect("inside");
         assert!((contact.depth - depth).abs() < 1e-15);
-        assert!((contact.normal - normal).norm() < 1e-14);
+        assert!((contact.normal_b - normal).norm() < 1e-14);
     }
     assert!(point_ellipsoid(&(surface + normal * 1e-15), &e).is_none_or(|contact| contact.depth < 1e-15));
 }

@@ -100,12 +100,12 @@ fn random_ellipsoid(random: &mut Random, semi_axes: Vec3, reach: f64) -> Ellipso
 
 fn check_contact(e: &Ellipsoid, p: &Polyhedron, contact: &Interference, depth_slack: f64) {
     let size = p.diameter + e.semi_axes.max();
-    assert!((contact.normal.norm() - 1.0).abs() < 1e-14);
+    assert!((contact.normal_b.norm() - 1.0).abs() < 1e-14);
     assert!(
-        (overlap(e, p, &contact.normal) - contact.depth).abs() < depth_slack * size,
+        (overlap(e, p, &contact.normal_b) - contact.depth).abs() < depth_slack * size,
         "not the overlap of n"
     );
-    assert!((contact.point_a - e.support(&-contact.normal)).norm() < 1e-13 * size);
+    assert!((contact.deepest_b - e.support(&-contact.normal_b)).norm() < 1e-13 * size);
 }
 
 #[derive(Default)]
@@ -145,8 +145,8 @@ fn compare(p: &Polyhedron, semi_axes: Vec3, reach: f64, cases: usize, seed: u64)
         } else {
             tally.above = tally.above.max(above.abs());
         }
-        if above.abs() < 1e-12 && contact.normal.dot(&n) > 0.9 {
-            tally.normal = tally.normal.max((contact.normal - n).norm());
+        if above.abs() < 1e-12 && contact.normal_b.dot(&n) > 0.9 {
+            tally.normal = tally.normal.max((contact.normal_b - n).norm());
         }
         tally.contacts += 1;
         match contact.feature.0 >> 30 {
@@ -195,7 +195,10 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
         };
         let Some(contact) = ellipsoid_polyhedron(&e, &disc) else { continue };
         found += 1;
-        assert!((overlap(&e, &disc, &contact.normal) - contact.depth).abs() < ROUNDING, "{e:?}: {contact:?}");
+        assert!(
+            (overlap(&e, &disc, &contact.normal_b) - contact.depth).abs() < ROUNDING,
+            "{e:?}: {contact:?}"
+        );
         assert!(disc.faces.iter().all(|face| overlap(&e, &disc, &face.normal) > contact.depth - ROUNDING));
     }
 }
@@ -268,12 +271,14 @@ fn aligned_ellipsoid_over_a_box_face_edge_and_corner() {
         semi_axes: Vec3::new(0.3, 0.2, 0.4),
     };
     let contact = ellipsoid_polyhedron(&at(0.1, -0.3, 1.39), &p).expect("face");
-    assert!((contact.depth - 0.01).abs() < 1e-15 && contact.normal == Vec3::z() && contact.feature.is_face());
+    assert!(
+        (contact.depth - 0.01).abs() < 1e-15 && contact.normal_b == Vec3::z() && contact.feature.is_face()
+    );
     // Straight above an edge and straight above a corner: the face and they agree.
     for (x, y) in [(1.0, 0.0), (-1.0, 0.2), (1.0, 1.0), (-1.0, 1.0), (0.0, -1.0)] {
         let contact = ellipsoid_polyhedron(&at(x, y, 1.39), &p).expect("rim");
         assert!((contact.depth - 0.01).abs() < 1e-15, "{x} {y}: {contact:?}");
-        assert!((contact.normal - Vec3::z()).norm() < 1e-9);
+        assert!((contact.normal_b - Vec3::z()).norm() < 1e-9);
     }
     // Off the edge x = 1 = z, along a normal of the ellipse.
     let n = Vec3::new(0.6, 0.0, 0.8);
@@ -282,7 +287,10 @@ fn aligned_ellipsoid_over_a_box_face_edge_and_corner() {
     for depth in [1e-2, 1e-6, 1e-10] {
         let c = Vec3::new(1.0, 0.1, 1.0) + reach - n * depth;
         let contact = ellipsoid_polyhedron(&at(c.x, c.y, c.z), &p).expect("edge");
-        assert!((contact.depth - depth).abs() < 2e-15 && (contact.normal - n).norm() < 1e-13, "{contact:?}");
+        assert!(
+            (contact.depth - depth).abs() < 2e-15 && (contact.normal_b - n).norm() < 1e-13,
+            "{contact:?}"
+        );
         assert!(!contact.feature.is_face());
     }
     assert!(ellipsoid_polyhedron(&at(1.0 + reach.x + 1e-12, 0.1, 1.0 + reach.z + 1e-12), &p).is_none());
@@ -323,7 +331,7 @@ fn spheres_as_by_the_nearest_point() {
             check_contact(&e, &p, &contact, 1e-13);
             assert!(contact.depth <= least_face + 1e-14);
             if contact.depth < r {
-                let touched = e.center - contact.normal * (r - contact.depth);
+                let touched = e.center - contact.normal_b * (r - contact.depth);
                 assert!(
                     p.faces.iter().all(|f| f.height(&touched) < 1e-12),
                     "the touched point is on the surface"
@@ -383,7 +391,7 @@ fn assert_same(
     match (a, b) {
         (Some(a), Some(b)) => {
             assert!((a.depth * factor - b.depth).abs() < 1e-12 * factor, "{a:?} {b:?}");
-            assert!((turn(&a.normal) - b.normal).norm() < 1e-8, "{a:?} {b:?}");
+            assert!((turn(&a.normal_b) - b.normal_b).norm() < 1e-8, "{a:?} {b:?}");
         }
         (None, None) => {}
         _ => panic!("{a:?} {b:?}"),
@@ -426,7 +434,7 @@ fn grazing_contacts_fade_to_nothing() {
         let last = ellipsoid_polyhedron(&at(touching), &p).expect("touching");
         assert!(last.depth < 1e-14, "the last contact at {touching} is {last:?}, {:?}", at(apart));
         let near = ellipsoid_polyhedron(&at(touching - 1e-7), &p).expect("touching");
-        assert!(near.depth < 1.001e-7 && (near.normal - last.normal).norm() < 1e-3, "{near:?} {last:?}");
+        assert!(near.depth < 1.001e-7 && (near.normal_b - last.normal_b).norm() < 1e-3, "{near:?} {last:?}");
     }
 }
 
@@ -447,7 +455,7 @@ fn abutting_pieces_push_as_one_plate() {
         assert!(!pushing.is_empty());
         for contact in pushing {
             assert!(
-                (contact.normal - Vec3::z()).norm() < 1e-15 && (contact.depth - 0.01).abs() < 1e-15,
+                (contact.normal_b - Vec3::z()).norm() < 1e-15 && (contact.depth - 0.01).abs() < 1e-15,
                 "{x} {contact:?}"
             );
         }
@@ -468,7 +476,7 @@ fn a_piece_finds_the_minimum_of_its_own_features() {
             semi_axes: Vec3::new(0.4, 0.4, 0.3),
         };
         let contact = ellipsoid_polyhedron(&e, &lower).expect("the far side");
-        assert!(contact.normal == -Vec3::z() && (contact.depth - 1.3 - z).abs() < 1e-15, "{contact:?}");
+        assert!(contact.normal_b == -Vec3::z() && (contact.depth - 1.3 - z).abs() < 1e-15, "{contact:?}");
     }
 }
 
@@ -486,7 +494,7 @@ fn a_piece_without_a_foot_has_a_stand_in() {
     assert_eq!(ellipsoid_polyhedron(&e, &left), None);
     let found = ellipsoid_piece(&e, &left).expect("they overlap");
     assert!(found.stands_in, "{found:?}");
-    assert!(found.interference.normal == Vec3::z() && (found.interference.depth - 0.15).abs() < 1e-15);
+    assert!(found.interference.normal_b == Vec3::z() && (found.interference.depth - 0.15).abs() < 1e-15);
 }
 
 #[test]
@@ -522,12 +530,12 @@ fn pieces_of_a_split_box_push_as_the_whole_box() {
             checked += 1;
             let found: Vec<_> = pieces.iter().filter_map(|p| ellipsoid_polyhedron(&e, p)).collect();
             let same = |c: &Interference| {
-                (c.depth - expected.depth).abs() < 1e-13 && (c.normal - expected.normal).norm() < 1e-7
+                (c.depth - expected.depth).abs() < 1e-13 && (c.normal_b - expected.normal_b).norm() < 1e-7
             };
             lost += usize::from(!found.iter().any(same));
             extra += found.iter().filter(|c| !same(c)).count();
             if found.len() > 1 {
-                let foot = expected.point_a + expected.normal * expected.depth;
+                let foot = expected.deepest_b + expected.normal_b * expected.depth;
                 assert!(
                     wall_normal.dot(&foot).abs() < 1e-9,
                     "both push though the foot is in one: {found:?}"

@@ -228,7 +228,7 @@ fn an_ellipsoid_beside_a_wall_is_pushed_by_the_top() {
     block.change(|parts| parts.faces[wall].active = false);
     let contact =
         ellipsoid_polyhedron(&ellipsoid(at(1.75, 0.25, -0.25), at(0.125, 0.75, 0.375)), &block).unwrap();
-    assert_eq!((contact.normal, contact.depth), (Vec3::z(), 0.625));
+    assert_eq!((contact.normal_b, contact.depth), (Vec3::z(), 0.625));
 }
 
 /// Behind a face: as deep as the thickness is too deep; in the plane is in front, with no thickness too.
@@ -246,7 +246,7 @@ fn a_centre_in_the_plane_is_in_front() {
     assert_eq!(over_face(0.0).map(|contact| contact.standing), Some(Standing::Front));
     // Beyond a free edge: in the plane it pushes along the plane, below not at all.
     let beside = |height: f64| all_contacts(&ball(at(2.5, 0.5, height), 1.0), &sheet, 0.0);
-    let normals: Vec<_> = beside(0.0).iter().map(|contact| contact.interference.normal).collect();
+    let normals: Vec<_> = beside(0.0).iter().map(|contact| contact.interference.normal_b).collect();
     assert_eq!(normals, [Vec3::x()]);
     assert!(beside(-EIGHTH).is_empty());
 }
@@ -269,7 +269,7 @@ fn edges_and_vertices_are_told_by_their_numbers() {
             let found = all_contacts(&ball(center, 0.5), &block, 0.0);
             let told: Vec<_> = found.iter().map(|c| (c.interference.feature, c.standing)).collect();
             assert_eq!(told, [(Feature::edge(3 * index + k), Standing::Front)]);
-            assert!((found[0].interference.normal - sum.normalize()).norm() < ROUNDING, "{found:?}");
+            assert!((found[0].interference.normal_b - sum.normalize()).norm() < ROUNDING, "{found:?}");
             edges += 1;
         }
     }
@@ -281,7 +281,7 @@ fn edges_and_vertices_are_told_by_their_numbers() {
             let of_vertex: Vec<_> =
                 found.iter().filter(|c| c.interference.feature == Feature::vertex(index)).collect();
             assert_eq!(of_vertex.len(), 1, "vertex {index}: {found:?}");
-            assert!(of_vertex[0].interference.normal.dot(&out) > 1.4, "{found:?}");
+            assert!(of_vertex[0].interference.normal_b.dot(&out) > 1.4, "{found:?}");
         }
         vertices += 1;
     }

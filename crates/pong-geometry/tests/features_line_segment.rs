@@ -21,7 +21,7 @@ fn push(segment: &LineSegment, shapes: &[Polyhedron]) -> (Wrench, f64) {
     let (mut wrench, mut energy) = (Wrench::zero(), 0.0);
     for shape in shapes {
         for contact in line_segment_polyhedron(segment, shape).iter().flatten() {
-            wrench += Wrench::of_force_at(contact.normal * (0.5 * contact.depth), &contact.point_a);
+            wrench += Wrench::of_force_at(contact.normal_b * (0.5 * contact.depth), &contact.deepest_b);
             energy += 0.25 * contact.depth * contact.depth;
         }
     }
@@ -75,7 +75,11 @@ fn a_scene_beyond_all_scenes_is_answered_as_a_small_one() {
                 let (Some(near), Some(far)) = (near, far) else { continue };
                 touching += 1;
                 assert_eq!((near.depth * scale, near.feature), (far.depth, far.feature), "{segment:?}");
-                assert_eq!((near.normal, near.point_a * scale), (far.normal, far.point_a), "{segment:?}");
+                assert_eq!(
+                    (near.normal_b, near.deepest_b * scale),
+                    (far.normal_b, far.deepest_b),
+                    "{segment:?}"
+                );
             }
         }
         assert!(touching > 1000);
@@ -130,12 +134,12 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
         if (contact.depth - least).abs() > 1e-13 {
             // The allowed steps: a tip over the polygon but nearer to an edge than it is deep, to second order;
             // a crossing that cuts off a vertex.
-            let foot = contact.point_a + contact.normal * contact.depth;
+            let foot = contact.deepest_b + contact.normal_b * contact.depth;
             let to_vertex =
                 shape.vertices.iter().map(|v| (v.position - foot).norm()).fold(f64::INFINITY, f64::min);
             assert!(least < contact.depth);
             if contact.feature.is_face() {
-                assert!(least >= contact.depth * contact.normal.dot(&normal) - 1e-13);
+                assert!(least >= contact.depth * contact.normal_b.dot(&normal) - 1e-13);
             } else {
                 assert!(to_vertex < 4.0 * contact.depth, "{segment:?}");
             }
@@ -143,7 +147,7 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
             continue;
         }
         worst.note((contact.depth - least).abs(), 1e-13);
-        worst.note((contact.normal - normal).norm(), 1e-10);
+        worst.note((contact.normal_b - normal).norm(), 1e-10);
     }
     println!("{tips} tips, {crossings} crossings, {steps} beside an edge or vertex");
     assert!(steps * 50 < tips);

@@ -149,8 +149,8 @@ fn difference(a: &Scene, b: &Scene, back: &dyn Fn(&Interference) -> Interference
         pairs
             .map(|(x, y)| {
                 let y = back(y);
-                let turn = (x.normal - y.normal).norm() * x.depth.abs().min(1.0);
-                (x.depth - y.depth).abs().max(turn).max((x.point_a - y.point_a).norm() * x.depth)
+                let turn = (x.normal_b - y.normal_b).norm() * x.depth.abs().min(1.0);
+                (x.depth - y.depth).abs().max(turn).max((x.deepest_b - y.deepest_b).norm() * x.depth)
             })
             .fold(0.0, f64::max)
     })
@@ -161,7 +161,8 @@ fn scaling_scales() {
     let mut worst = Worst::new("scaling by 1e±4, relative");
     for scene in scenes(801, 1500) {
         for s in [1e-4, 1e4] {
-            let back = |c: &Interference| Interference { depth: c.depth / s, point_a: c.point_a / s, ..*c };
+            let back =
+                |c: &Interference| Interference { depth: c.depth / s, deepest_b: c.deepest_b / s, ..*c };
             // The thickness of a triangle scales with its body.
             let other = scene.scaled(s);
             let error = difference_scaled(&scene, &other, s, &back);
@@ -183,7 +184,7 @@ fn difference_scaled(a: &Scene, b: &Scene, s: f64, back: &dyn Fn(&Interference) 
     let on_mesh = meshes[0].iter().zip(&meshes[1]).map(|(x, y)| {
         let y = back(y);
         assert_eq!(x.feature, y.feature);
-        (x.depth - y.depth).abs().max((x.normal - y.normal).norm() * x.depth)
+        (x.depth - y.depth).abs().max((x.normal_b - y.normal_b).norm() * x.depth)
     });
     on_mesh.fold(solids, f64::max)
 }
@@ -197,8 +198,8 @@ fn rigid_motions_move() {
         let x = random.motion(3.0);
         let inverse = x.inverse();
         let back = |c: &Interference| Interference {
-            normal: inverse.vector(&c.normal),
-            point_a: inverse.point(&c.point_a),
+            normal_b: inverse.vector(&c.normal_b),
+            deepest_b: inverse.point(&c.deepest_b),
             ..*c
         };
         match difference(&scene, &scene.moved(&x), &back) {

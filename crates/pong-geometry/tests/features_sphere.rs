@@ -121,7 +121,7 @@ fn closed_convex_surfaces_have_no_gaps() {
             assert_once(&contacts);
             let on_solid = sphere_outside_polyhedron(&sphere, &solid);
             for contact in contacts.iter().chain(&on_solid) {
-                let arm = contact.normal * (0.4 - contact.depth);
+                let arm = contact.normal_b * (0.4 - contact.depth);
                 worst.note((arm - expected).norm(), 2e-12);
             }
             assert!(!contacts.is_empty() && on_solid.is_some(), "nothing at {center:?}");
@@ -167,8 +167,9 @@ fn the_push_is_continuous_across_features() {
     };
     let on_solid = |p: &Vec3| {
         let sphere = Sphere { center: *p, radius: 0.5 };
-        outside(&solid, p)
-            .then(|| sphere_outside_polyhedron(&sphere, &solid).map_or(Vec3::zeros(), |c| c.normal * c.depth))
+        outside(&solid, p).then(|| {
+            sphere_outside_polyhedron(&sphere, &solid).map_or(Vec3::zeros(), |c| c.normal_b * c.depth)
+        })
     };
     continuous(&on_solid, 150, 703, "continuity: solid");
     let mesh = skin(&solid);
@@ -238,7 +239,7 @@ fn cones_and_free_edges() {
             front += 1;
             let foot = oracle_support::nearest_on_triangle(&center, &sheet.corners(0));
             let i = contact.interference;
-            assert!((i.normal * (0.4 - i.depth) - (center - foot)).norm() < 1e-14);
+            assert!((i.normal_b * (0.4 - i.depth) - (center - foot)).norm() < 1e-14);
             rim += usize::from(!i.feature.is_face());
         }
     }

@@ -161,7 +161,7 @@ fn memory_walks_as_defined() {
         let (least, faces) = pushed(&p, shape, reached.face);
         assert_eq!((reached.depth, reached.pushes), (least, faces[0]));
         let contact = point_below_face(&p, shape, reached.pushes).expect("inside");
-        assert_eq!((contact.normal, contact.feature.index()), (shape.faces[faces[0]].normal, faces[0]));
+        assert_eq!((contact.normal_b, contact.feature.index()), (shape.faces[faces[0]].normal, faces[0]));
         // Depth over the walk is never less than the plain least depth.
         let least = shallowest_face(&p, shape).expect("active");
         assert!(contact.depth >= -shape.height(least, &p));

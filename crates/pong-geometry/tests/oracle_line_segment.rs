@@ -157,8 +157,8 @@ fn error(found: &EndContacts, expected: &[End; 2]) -> f64 {
         match (found, expected) {
             (None, None) => {}
             (Some(f), Some((depth, normal, point))) => {
-                worst = worst.max((f.depth - depth).abs()).max((f.normal - normal).norm() * depth);
-                worst = worst.max((f.point_a - point).norm() * depth);
+                worst = worst.max((f.depth - depth).abs()).max((f.normal_b - normal).norm() * depth);
+                worst = worst.max((f.deepest_b - point).norm() * depth);
             }
             (Some(f), None) => worst = worst.max(f.depth),
             (None, Some((depth, ..))) => worst = worst.max(*depth),
@@ -181,7 +181,7 @@ fn planes_take_half_at_each_end() {
             match contact {
                 Some(contact) => {
                     worst.note((contact.depth - depth).abs(), 2e-15);
-                    assert_eq!((contact.point_a, contact.normal), (*end, plane.normal));
+                    assert_eq!((contact.deepest_b, contact.normal_b), (*end, plane.normal));
                 }
                 None => assert!(depth <= 1e-15),
             }
@@ -307,8 +307,8 @@ fn degenerate_segments_are_finite_and_the_same_every_time() {
                 assert_eq!(contacts, line_segment_polyhedron(&segment, shape));
                 for contact in contacts.iter().flatten() {
                     assert!(contact.depth > 0.0 && contact.depth.is_finite());
-                    assert!((contact.normal.norm() - 1.0).abs() < 1e-15);
-                    assert!(contact.point_a.iter().all(|c| c.is_finite()));
+                    assert!((contact.normal_b.norm() - 1.0).abs() < 1e-15);
+                    assert!(contact.deepest_b.iter().all(|c| c.is_finite()));
                 }
                 // Turned round it is the same contact with the ends exchanged; a single one is at the first end both times
                 // where both tips reach out alike.

@@ -69,8 +69,8 @@ fn planes_against_three_points_of_the_plane() {
             match contact {
                 Some(contact) => {
                     worst.note((contact.depth - expected).abs() / 4.0, 1e-14);
-                    assert_eq!(contact.normal, n);
-                    worst.note((contact.point_a - nearest).norm() / 4.0, 1e-14);
+                    assert_eq!(contact.normal_b, n);
+                    worst.note((contact.deepest_b - nearest).norm() / 4.0, 1e-14);
                 }
                 None => assert!(expected <= 1e-14),
             }
@@ -93,19 +93,19 @@ fn spheres_against_the_search_over_directions() {
         assert_eq!(point.is_some(), distance < b.radius);
         if let Some(point) = point {
             depth.note((point.depth - (b.radius - distance)).abs(), 1e-15);
-            assert_eq!(point.point_a, a.center);
+            assert_eq!(point.deepest_b, a.center);
         }
         let Some(contact) = contact else { continue };
         touching += 1;
         depth.note((contact.depth - (a.radius + b.radius - distance)).abs(), 1e-15);
-        let support = a.center - contact.normal * a.radius;
-        depth.note((contact.point_a - support).norm(), 1e-15);
+        let support = a.center - contact.normal_b * a.radius;
+        depth.note((contact.deepest_b - support).norm(), 1e-15);
         // The definition itself, on some of them.
         if round % 10 == 0 {
             let phi = |n: &Vec3| n.dot(&a.center) - a.radius - (n.dot(&b.center) + b.radius);
             let (value, n) = best_separation(&phi, &mut random);
             depth.note((contact.depth + value).abs() * 1e-2, 1e-14);
-            normal.note((contact.normal - n).norm() * distance, 1e-6);
+            normal.note((contact.normal_b - n).norm() * distance, 1e-6);
         }
     }
     assert!(touching > 4000);
@@ -115,13 +115,13 @@ fn spheres_against_the_search_over_directions() {
 fn coinciding_centres_are_finite_and_the_same_every_time() {
     let ball = Sphere { center: Vec3::new(0.1, -0.2, 0.3), radius: 0.5 };
     let contact = sphere_sphere(&ball, &ball).expect("they overlap");
-    assert_eq!((contact.depth, contact.normal), (1.0, Vec3::x()));
+    assert_eq!((contact.depth, contact.normal_b), (1.0, Vec3::x()));
     let contact = point_sphere(&Point { position: ball.center }, &ball).expect("inside");
-    assert_eq!((contact.depth, contact.normal), (0.5, Vec3::x()));
+    assert_eq!((contact.depth, contact.normal_b), (0.5, Vec3::x()));
     for apart in [1e-300, 1e-200, 1e-100, 5e-324] {
         let other = Sphere { center: ball.center * 0.0 + Vec3::new(0.0, apart, 0.0), radius: 1.0 };
         let contact = sphere_sphere(&other, &Sphere { center: Vec3::zeros(), radius: 1.0 }).expect("overlap");
-        assert!(contact.depth == 2.0 && (contact.normal.norm() - 1.0).abs() < 1e-15, "{contact:?}");
+        assert!(contact.depth == 2.0 && (contact.normal_b.norm() - 1.0).abs() < 1e-15, "{contact:?}");
     }
     // Exactly touching is no contact.
     let touching = Sphere { center: Vec3::x(), radius: 0.5 };
@@ -190,8 +190,8 @@ fn points_and_spheres_inside_find_the_least_depth() {
         let radius = random.between(0.001, 2.0);
         let ball = sphere_inside_polyhedron(&Sphere { center: p, radius }, shape, face);
         worst.note((ball.depth - (least + radius)).abs(), 1e-14);
-        worst.note((ball.point_a - (p - contact.normal * radius)).norm(), 1e-14);
-        assert_eq!((ball.normal, ball.feature), (contact.normal, contact.feature));
+        worst.note((ball.deepest_b - (p - contact.normal_b * radius)).norm(), 1e-14);
+        assert_eq!((ball.normal_b, ball.feature), (contact.normal_b, contact.feature));
         assert_eq!(sphere_polyhedron(&Sphere { center: p, radius }, shape), Some(ball));
     }
 }
@@ -217,9 +217,9 @@ fn spheres_outside_meet_the_nearest_surface_point() {
             Some(contact) => {
                 touching += 1;
                 depth.note((contact.depth - (sphere.radius - distance)).abs(), 1e-13);
-                turn.note((contact.normal * distance - (center - foot)).norm(), 1e-13);
-                let support = center - contact.normal * sphere.radius;
-                depth.note((contact.point_a - support).norm(), 1e-15);
+                turn.note((contact.normal_b * distance - (center - foot)).norm(), 1e-13);
+                let support = center - contact.normal_b * sphere.radius;
+                depth.note((contact.deepest_b - support).norm(), 1e-15);
             }
             None => assert!(distance > sphere.radius - 1e-14, "lost: {distance} < {}", sphere.radius),
         }
@@ -293,10 +293,10 @@ fn spheres_over_pieces_see_the_whole_box() {
         touching += 1;
         let deepest = contacts.iter().max_by(|a, b| a.depth.total_cmp(&b.depth)).expect("a contact");
         worst.note((deepest.depth - (0.6 - distance)).abs(), 1e-14);
-        worst.note((deepest.normal * distance - (center - foot)).norm(), 1e-14);
+        worst.note((deepest.normal_b * distance - (center - foot)).norm(), 1e-14);
         // Of one convex surface one point is nearest: a piece that pushes elsewhere pushes a second time.
         for contact in &contacts {
-            worst.note((contact.point_a + contact.normal * contact.depth - foot).norm(), 1e-13);
+            worst.note((contact.deepest_b + contact.normal_b * contact.depth - foot).norm(), 1e-13);
         }
     }
 }
@@ -319,7 +319,7 @@ fn centres_on_features_count_as_outside_and_are_finite() {
                 // Straight out along the lowest of the faces that meet there.
                 let meets = |face: &usize| shape.height(*face, &center) == 0.0;
                 let lowest = (0..shape.faces.len()).find(meets).expect("on a face");
-                assert_eq!(contact.normal, shape.faces[lowest].normal);
+                assert_eq!(contact.normal_b, shape.faces[lowest].normal);
             }
         }
     }

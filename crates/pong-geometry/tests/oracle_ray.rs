@@ -60,11 +60,11 @@ fn planes_against_volumes() {
         let below = plane.offset - normal.dot(&(r.origin + r.direction * r.length));
         let contact = ray_contact(&r, &hit);
         worst.note((contact.depth - below).abs() / 5.0, 1e-14);
-        assert_eq!(contact.normal, normal);
-        worst.note((contact.point_a - (r.origin + r.direction * r.length)).norm(), 1e-15);
+        assert_eq!(contact.normal_b, normal);
+        worst.note((contact.deepest_b - (r.origin + r.direction * r.length)).norm(), 1e-15);
         r.response = RayResponse::Axial;
         let contact = ray_contact(&r, &hit);
-        assert_eq!((contact.depth, contact.normal), (r.length - hit.distance, -r.direction));
+        assert_eq!((contact.depth, contact.normal_b), (r.length - hit.distance, -r.direction));
     }
 }
 

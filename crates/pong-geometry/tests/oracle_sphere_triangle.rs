@@ -25,10 +25,10 @@ fn agrees(contacts: &[Interference], minima: &[&Nearest], sphere: &Sphere, toler
     for nearest in minima {
         let expected = sphere.center - nearest.foot;
         let error = |c: &Interference| {
-            let arm = c.normal * (sphere.radius - c.depth);
+            let arm = c.normal_b * (sphere.radius - c.depth);
             (arm - expected).norm()
-                + (c.point_a - (sphere.center - c.normal * sphere.radius)).norm()
-                + (c.normal.norm() - 1.0).abs()
+                + (c.deepest_b - (sphere.center - c.normal_b * sphere.radius)).norm()
+                + (c.normal_b.norm() - 1.0).abs()
         };
         worst = worst.max(contacts.iter().map(error).fold(f64::INFINITY, f64::min));
     }
@@ -146,7 +146,7 @@ fn concave_features_are_silent() {
             let i = contact.interference;
             if !i.feature.is_face() && contact.standing != Standing::Spare {
                 // Only the free rim may: its feet lie at x = 1, z = 1 or |y| = 1.
-                let foot = i.point_a + i.normal * i.depth;
+                let foot = i.deepest_b + i.normal_b * i.depth;
                 let on_rim = foot.x > 1.0 - 1e-9 || foot.z > 1.0 - 1e-9 || foot.y.abs() > 1.0 - 1e-9;
                 assert!(on_rim, "{i:?}");
             }
@@ -171,7 +171,7 @@ fn thickness_is_measured_at_the_centre_inside_the_prism() {
         if let [contact] = contacts[..] {
             pushed += 1;
             assert_eq!(contact.standing, Standing::Behind);
-            assert_eq!(contact.interference.normal, Vec3::z());
+            assert_eq!(contact.interference.normal_b, Vec3::z());
             assert!((contact.interference.depth - (radius - center.z)).abs() < 1e-15);
         }
     }
@@ -247,7 +247,7 @@ fn slanting_tips_push_from_their_front_alone() {
                 surface(std::iter::once(Vec3::zeros()).chain(ring.iter().copied()).collect(), triangles);
             let found = all_contacts(&sphere, &set, 0.0);
             let mut of_tip = found.iter().filter(|c| c.interference.feature == Feature::vertex(0));
-            of_tip.next().map(|contact| (contact.standing, contact.interference.normal))
+            of_tip.next().map(|contact| (contact.standing, contact.interference.normal_b))
         };
         assert_eq!(pushes(&fan(true)), Some((Standing::Front, Vec3::z())), "{ring:?}");
         assert_eq!(pushes(&fan(false)), None, "{ring:?}");
@@ -271,7 +271,7 @@ fn centres_on_the_surface_are_finite_and_pushed_out() {
                 let push = shared_push(&contacts);
                 assert!(push.norm().is_finite() && push.norm() >= 0.2 - 1e-15, "{center:?}");
                 let out = center.map(|c| if c.abs() == 0.5 { c.signum() } else { 0.0 });
-                assert!(push.dot(&out) > 0.0 && contacts.iter().all(|c| c.normal.dot(&out) >= 0.0));
+                assert!(push.dot(&out) > 0.0 && contacts.iter().all(|c| c.normal_b.dot(&out) >= 0.0));
             }
         }
     }

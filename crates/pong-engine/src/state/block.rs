@@ -219,7 +219,7 @@ fn is_finite_pose(pose: &PairPose) -> bool {
 }
 
 fn is_finite_record(record: &ContactRecord) -> bool {
-    let vectors = [&record.normal, &record.point, &record.bristle, &record.force];
+    let vectors = [&record.normal_b, &record.point_b, &record.bristle_b, &record.force_b];
     let numbers = [record.stored, record.work, record.dissipated];
     vectors.into_iter().flatten().chain(&numbers).all(|x| x.is_finite())
 }
@@ -304,7 +304,7 @@ impl Writer<'_> {
         }
         self.u32(u32::from(record.sticks));
         self.u32(record.role.to_word());
-        for v in [&record.normal, &record.point, &record.bristle, &record.force] {
+        for v in [&record.normal_b, &record.point_b, &record.bristle_b, &record.force_b] {
             self.vec3(v);
         }
         for x in [record.stored, record.work, record.dissipated] {
@@ -398,10 +398,10 @@ impl Reader<'_> {
             entry_face: self.u32(),
             sticks: self.u32() != 0,
             role: ContactRole::from_word(self.u32())?,
-            normal: self.vec3(),
-            point: self.vec3(),
-            bristle: self.vec3(),
-            force: self.vec3(),
+            normal_b: self.vec3(),
+            point_b: self.vec3(),
+            bristle_b: self.vec3(),
+            force_b: self.vec3(),
             stored: self.f64(),
             work: self.f64(),
             dissipated: self.f64(),

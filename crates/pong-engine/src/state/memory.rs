@@ -92,13 +92,13 @@ pub(crate) struct ContactRecord {
     /// Whether the contact pushes, or is only remembered.
     pub role: ContactRole,
     /// Unit vector n from B to A.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// c, m.
-    pub point: Vec3,
+    pub point_b: Vec3,
     /// p, m.
-    pub bristle: Vec3,
+    pub bristle_b: Vec3,
     /// Force on A, N: the ledger's trapezoid needs it.
-    pub force: Vec3,
+    pub force_b: Vec3,
     /// Energy stored in the normal spring and in the bristle, J.
     pub stored: f64,
     /// Work done on the two bodies since the contact began, J.
@@ -165,10 +165,10 @@ impl ContactRecord {
             entry_face: NO_FACE,
             sticks: false,
             role: ContactRole::Tracked,
-            normal: zero,
-            point: zero,
-            bristle: zero,
-            force: zero,
+            normal_b: zero,
+            point_b: zero,
+            bristle_b: zero,
+            force_b: zero,
             stored: 0.0,
             work: 0.0,
             dissipated: 0.0,
@@ -263,10 +263,10 @@ impl ContactMemory {
     pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: ContactRole) -> Option<usize> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;
-        let same_way = |record: &ContactRecord| record.normal.dot(normal) > SAME_WAY_COSINE_MIN;
+        let same_way = |record: &ContactRecord| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
         let all = records.iter().enumerate();
         for (i, record) in all.filter(|(_, record)| record.role == role && same_way(record)) {
-            let apart = (record.normal - normal).norm_squared();
+            let apart = (record.normal_b - normal).norm_squared();
             let closer = best.is_none_or(|(b, least)| {
                 apart < least || (apart == least && record.feature < records[b].feature)
             });
@@ -281,8 +281,8 @@ impl ContactMemory {
     /// [`matching`](Self::matching), and where several have that normal, the contact's own feature.
     pub fn role_of_nearest(&self, key: &ContactKey, normal: &Vec3, feature: Feature) -> Option<ContactRole> {
         let (_, records) = self.under(key);
-        let same_way = records.iter().filter(|record| record.normal.dot(normal) > SAME_WAY_COSINE_MIN);
-        let apart = |record: &ContactRecord| (record.normal - normal).norm_squared();
+        let same_way = records.iter().filter(|record| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN);
+        let apart = |record: &ContactRecord| (record.normal_b - normal).norm_squared();
         let is_other = |record: &ContactRecord| record.feature != feature.0;
         let nearest = same_way.min_by(|a, b| {
             apart(a).total_cmp(&apart(b)).then(is_other(a).cmp(&is_other(b))).then(a.feature.cmp(&b.feature))

@@ -88,7 +88,7 @@ where
 
 /// Of two records, the one of the larger force has the larger rank: squares of sizes, whose bits are in their order.
 fn rank(record: &ContactRecord) -> u64 {
-    record.force.norm_squared().to_bits()
+    record.force_b.norm_squared().to_bits()
 }
 
 /// Lets in a given number of the highest ranks, ties as they come.

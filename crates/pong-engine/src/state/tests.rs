@@ -61,10 +61,10 @@ impl Random {
             entry_face: self.below(u32::MAX),
             sticks: self.below(2) == 1,
             role,
-            normal: self.vec3(),
-            point: self.vec3(),
-            bristle: self.vec3(),
-            force,
+            normal_b: self.vec3(),
+            point_b: self.vec3(),
+            bristle_b: self.vec3(),
+            force_b: force,
             stored: self.unit(),
             work: self.unit(),
             dissipated: self.unit(),
@@ -187,7 +187,7 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
             // The strongest stay, ties in key order.
             overflows += 1;
             let mut by_force: Vec<usize> = (0..expected.len()).collect();
-            by_force.sort_by(|&i, &j| expected[j].0.force.norm().total_cmp(&expected[i].0.force.norm()));
+            by_force.sort_by(|&i, &j| expected[j].0.force_b.norm().total_cmp(&expected[i].0.force_b.norm()));
             by_force.truncate(CAPACITY);
             by_force.sort();
             expected = by_force.iter().map(|&i| expected[i].clone()).collect();
@@ -243,7 +243,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     ] {
         memory
             .push(&Remembered {
-                record: ContactRecord { normal, feature, role, ..model },
+                record: ContactRecord { normal_b: normal, feature, role, ..model },
                 law_state: &[],
                 energy: None,
             })

@@ -107,8 +107,8 @@ impl Post {
         let normal = out.normalize();
         (depth > 0.0).then(|| Interference {
             depth,
-            normal,
-            point_a: center - normal * radius,
+            normal_b: normal,
+            deepest_b: center - normal * radius,
             feature: Feature::WHOLE,
         })
     }

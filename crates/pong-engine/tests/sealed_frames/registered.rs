@@ -82,7 +82,7 @@ fn point_post(a: PrimitiveRef<'_>, b: PrimitiveRef<'_>, x_ba: &Transform) -> Opt
     let out = Vec3::new(p.x, p.y, 0.0);
     let depth = 0.1 - out.norm();
     let inside = depth > 0.0 && p.z.abs() < 1.0;
-    inside.then(|| Interference { depth, normal: out.normalize(), point_a: p, feature: Feature::WHOLE })
+    inside.then(|| Interference { depth, normal_b: out.normalize(), deepest_b: p, feature: Feature::WHOLE })
 }
 
 pub fn extensions() -> Extensions {

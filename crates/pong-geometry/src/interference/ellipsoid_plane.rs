@@ -8,8 +8,8 @@ pub fn ellipsoid_plane(e: &Ellipsoid, plane: &Plane) -> Option<Interference> {
     let depth = e.half_width(&plane.normal) - plane.height(&e.center);
     (depth > 0.0).then(|| Interference {
         depth,
-        normal: plane.normal,
-        point_a: e.support(&-plane.normal),
+        normal_b: plane.normal,
+        deepest_b: e.support(&-plane.normal),
         feature: Feature::WHOLE,
     })
 }

@@ -109,8 +109,11 @@ fn choose(
         Search::new(e, prepared, p, lead, face, p.planes().all_active).least(suspects)?
     };
     let Candidate { depth, normal, feature } = least;
-    let point_a = prepared.deepest(&normal);
-    Some(PieceContact { interference: Interference { depth, normal, point_a, feature }, stands_in })
+    let deepest_b = prepared.deepest(&normal);
+    Some(PieceContact {
+        interference: Interference { depth, normal_b: normal, deepest_b, feature },
+        stands_in,
+    })
 }
 
 /// The active face of least overlap.

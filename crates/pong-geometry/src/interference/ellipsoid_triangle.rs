@@ -419,9 +419,9 @@ impl Tester<'_> {
         standing: Standing,
         emit: &mut dyn FnMut(TriangleContact),
     ) {
-        let point_a = self.prepared.deepest(normal);
+        let deepest_b = self.prepared.deepest(normal);
         emit(TriangleContact {
-            interference: Interference { depth, normal: *normal, point_a, feature },
+            interference: Interference { depth, normal_b: *normal, deepest_b, feature },
             standing,
         });
     }

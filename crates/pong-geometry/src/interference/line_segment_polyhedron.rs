@@ -126,7 +126,7 @@ fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts 
     search.visit_all();
     let contacts = search.contacts();
     [0, 1].map(|end: usize| {
-        let at_tip = contacts[end].filter(|(contact, _)| contact.point_a == segment.ends[end]);
+        let at_tip = contacts[end].filter(|(contact, _)| contact.deepest_b == segment.ends[end]);
         at_tip.map(|(contact, _)| (contact, AtWall::StandsIn))
     })
 }

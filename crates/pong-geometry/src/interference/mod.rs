@@ -40,9 +40,9 @@ pub struct Interference {
     /// Depth δ > 0, m.
     pub depth: f64,
     /// Unit normal from B to A, in B's frame.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// The point `a` of A deepest along −normal, in B's frame, m.
-    pub point_a: Vec3,
+    pub deepest_b: Vec3,
     /// Which feature of B pushes.
     pub feature: Feature,
 }
@@ -124,5 +124,5 @@ pub(crate) fn ball_over_point(
     }
     let has_direction = distance > ROUNDING * sphere.center.amax();
     let normal = if has_direction { (arm / distance).normalize() } else { mean_normal().normalize() };
-    Some(Interference { depth, normal, point_a: sphere.center - normal * sphere.radius, feature })
+    Some(Interference { depth, normal_b: normal, deepest_b: sphere.center - normal * sphere.radius, feature })
 }

@@ -17,8 +17,8 @@ pub fn point_ellipsoid(p: &Vec3, e: &Ellipsoid) -> Option<Interference> {
     let foot = nearest_on_ellipsoid(&e.semi_axes, &y);
     (foot.depth > 0.0).then(|| Interference {
         depth: foot.depth,
-        normal: e.axes * Vec3::from(foot.normal),
-        point_a: *p,
+        normal_b: e.axes * Vec3::from(foot.normal),
+        deepest_b: *p,
         feature: Feature::WHOLE,
     })
 }

@@ -8,8 +8,8 @@ pub fn point_plane(point: &Point, plane: &Plane) -> Option<Interference> {
     let depth = -plane.height(&point.position);
     (depth > 0.0).then_some(Interference {
         depth,
-        normal: plane.normal,
-        point_a: point.position,
+        normal_b: plane.normal,
+        deepest_b: point.position,
         feature: Feature::WHOLE,
     })
 }

@@ -151,8 +151,8 @@ pub fn point_below_face(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Optio
     let depth = -polyhedron.height(face, p);
     (depth > 0.0).then(|| Interference {
         depth,
-        normal: polyhedron.faces[face].normal,
-        point_a: *p,
+        normal_b: polyhedron.faces[face].normal,
+        deepest_b: *p,
         feature: Feature::face(face),
     })
 }

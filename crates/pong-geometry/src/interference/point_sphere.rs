@@ -10,5 +10,5 @@ use crate::primitive::{Point, Sphere};
 pub fn point_sphere(point: &Point, sphere: &Sphere) -> Option<Interference> {
     let as_ball = Sphere { center: point.position, radius: sphere.radius };
     let contact = ball_over_point(&as_ball, &sphere.center, Feature::WHOLE, Vec3::x)?;
-    Some(Interference { point_a: point.position, ..contact })
+    Some(Interference { deepest_b: point.position, ..contact })
 }

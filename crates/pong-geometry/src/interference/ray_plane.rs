@@ -41,5 +41,5 @@ pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
         RayResponse::Normal => (shortening * -ray.direction.dot(&hit.normal), hit.normal),
         RayResponse::Axial => (shortening, -ray.direction),
     };
-    Interference { depth, normal, point_a: ray.tip(), feature: hit.feature }
+    Interference { depth, normal_b: normal, deepest_b: ray.tip(), feature: hit.feature }
 }

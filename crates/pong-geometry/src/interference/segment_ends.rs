@@ -138,8 +138,8 @@ impl AtEnd<'_> {
             Measured::Leaves => None,
             Measured::Tip(depth) => Some(Interference {
                 depth: *depth,
-                normal: self.face().normal,
-                point_a: *self.tip,
+                normal_b: self.face().normal,
+                deepest_b: *self.tip,
                 feature: Feature::face(self.face),
             }),
             Measured::Crossing(crossing) => Some(self.contact_at(crossing)),
@@ -178,7 +178,7 @@ impl AtEnd<'_> {
         let shared =
             self.polyhedron.rim(self.face).iter().find(|rim| rim.neighbor as usize == crossing.leaves_by);
         let feature = shared.map_or(Feature::face(self.face), |rim| Feature::edge(rim.edge as usize));
-        Interference { depth: crossing.depth, normal, point_a: nearest, feature }
+        Interference { depth: crossing.depth, normal_b: normal, deepest_b: nearest, feature }
     }
 }
 

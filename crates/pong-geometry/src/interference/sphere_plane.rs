@@ -8,8 +8,8 @@ pub fn sphere_plane(sphere: &Sphere, plane: &Plane) -> Option<Interference> {
     let depth = sphere.radius - plane.height(&sphere.center);
     (depth > 0.0).then(|| Interference {
         depth,
-        normal: plane.normal,
-        point_a: sphere.center - plane.normal * sphere.radius,
+        normal_b: plane.normal,
+        deepest_b: sphere.center - plane.normal * sphere.radius,
         feature: Feature::WHOLE,
     })
 }

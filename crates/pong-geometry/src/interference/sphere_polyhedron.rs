@@ -46,8 +46,8 @@ pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: 
     let below = point_below_face(&sphere.center, polyhedron, face);
     Interference {
         depth: sphere.radius + below.map_or(0.0, |contact| contact.depth),
-        normal,
-        point_a: sphere.center - normal * sphere.radius,
+        normal_b: normal,
+        deepest_b: sphere.center - normal * sphere.radius,
         feature: Feature::face(face),
     }
 }
@@ -140,8 +140,8 @@ impl<'a, S: Simd> Near<'a, S> {
         }
         Some(Interference {
             depth: self.sphere.radius - face.height(&self.sphere.center),
-            normal: face.normal,
-            point_a: self.sphere.center - face.normal * self.sphere.radius,
+            normal_b: face.normal,
+            deepest_b: self.sphere.center - face.normal * self.sphere.radius,
             feature: Feature::face(index),
         })
     }

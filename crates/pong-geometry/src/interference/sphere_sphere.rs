@@ -10,5 +10,5 @@ use crate::primitive::Sphere;
 pub fn sphere_sphere(a: &Sphere, b: &Sphere) -> Option<Interference> {
     let as_ball = Sphere { center: a.center, radius: a.radius + b.radius };
     let contact = ball_over_point(&as_ball, &b.center, Feature::WHOLE, Vec3::x)?;
-    Some(Interference { point_a: a.center - contact.normal * a.radius, ..contact })
+    Some(Interference { deepest_b: a.center - contact.normal_b * a.radius, ..contact })
 }

@@ -107,8 +107,8 @@ fn face_contact(sphere: &Sphere, view: &TriangleView, height: f64) -> TriangleCo
     TriangleContact {
         interference: Interference {
             depth: sphere.radius - height,
-            normal: view.normal,
-            point_a: sphere.center - view.normal * sphere.radius,
+            normal_b: view.normal,
+            deepest_b: sphere.center - view.normal * sphere.radius,
             feature: Feature::face(view.index as usize),
         },
         standing: if height < 0.0 { Standing::Behind } else { Standing::Front },

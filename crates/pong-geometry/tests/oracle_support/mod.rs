@@ -272,8 +272,8 @@ pub fn shared_push(contacts: &[Interference]) -> Vec3 {
     for _ in 0..4000 {
         let before = t;
         for (i, c) in contacts.iter().enumerate() {
-            let next = (lambda[i] + c.depth - c.normal.dot(&t)).max(0.0);
-            t += c.normal * (next - lambda[i]);
+            let next = (lambda[i] + c.depth - c.normal_b.dot(&t)).max(0.0);
+            t += c.normal_b * (next - lambda[i]);
             lambda[i] = next;
         }
         if (t - before).norm() <= 1e-16 * t.norm() {

@@ -67,9 +67,9 @@ struct Work {
 
 impl ForceParts {
     fn before(record: &ContactRecord, bristle: f64) -> Self {
-        let normal = record.normal * record.normal.dot(&record.force);
+        let normal = record.normal_b * record.normal_b.dot(&record.force_b);
         let stored = [record.stored - bristle, bristle];
-        Self { point: record.point, normal, friction: record.force - normal, stored }
+        Self { point: record.point_b, normal, friction: record.force_b - normal, stored }
     }
 }
 
@@ -189,9 +189,9 @@ impl Accounts<'_> {
         let table = &self.input.tables[pair.tables[found.key.flipped as usize]];
         let spring = stored_energy(table.props(surface_a, surface_b), found.full_weight(), found.depth);
         ForceParts {
-            point: contact.point,
-            normal: found.normal * contact.normal_force,
-            friction: contact.friction_force,
+            point: contact.point_b,
+            normal: found.normal_b * contact.normal_force,
+            friction: contact.friction_force_b,
             stored: [spring, contact.stored - spring],
         }
     }
@@ -238,10 +238,10 @@ impl Accounts<'_> {
 /// Wrench of a contact on the pair's first group about its origin, in the frame of the second.
 fn on_first(record: &ContactRecord, first_seen_from_second: &Pose) -> Wrench {
     if record.key.flipped == 0 {
-        return Wrench::of_force_at(record.force, &(record.point - first_seen_from_second.position));
+        return Wrench::of_force_at(record.force_b, &(record.point_b - first_seen_from_second.position));
     }
     let rotation = &first_seen_from_second.orientation;
-    Wrench::of_force_at(-(rotation * record.force), &(rotation * record.point))
+    Wrench::of_force_at(-(rotation * record.force_b), &(rotation * record.point_b))
 }
 
 fn work_on_first(wrench: &Wrench, earlier: &PairPose, now: &PairPose) -> f64 {
@@ -268,7 +268,7 @@ impl Displacement {
 
     /// Wrench of a committed contact on A about its origin.
     fn held(&self, record: &ContactRecord) -> Wrench {
-        Wrench::of_force_at(record.force, &(record.point - self.origin_before))
+        Wrench::of_force_at(record.force_b, &(record.point_b - self.origin_before))
     }
 
     /// Work of a wrench on A about its origin.

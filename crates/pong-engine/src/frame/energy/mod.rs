@@ -74,7 +74,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         });
         if let Some(displacement) = &displacement {
             work = displacement.half_work(&before.point, &before.force, false)
-                + displacement.half_work(&contact.point, &contact.force(), true);
+                + displacement.half_work(&contact.point_b, &contact.force(), true);
         }
         let dissipated = -work - (contact.stored - before.stored);
         contact.work = before.work + work;
@@ -112,8 +112,8 @@ struct Before {
 impl Before {
     fn of(record: &ContactRecord) -> Self {
         Self {
-            point: record.point,
-            force: record.force,
+            point: record.point_b,
+            force: record.force_b,
             stored: record.stored,
             work: record.work,
             dissipated: record.dissipated,
@@ -126,14 +126,15 @@ fn displacement_of_ended(earlier: &ContactRecord, input: &WorkerInput) -> Option
     let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
     let since = motion.since_commit.as_ref()?;
     // Any point carried by A serves as reference; the contact's own place then is at hand.
-    let local = since.x_ba.inverse().point(&earlier.point);
+    let local = since.x_ba.inverse().point(&earlier.point_b);
     Some(Displacement::new(since, &motion.x_ba, &local))
 }
 
 /// Work and dissipation of a contact that is no more: half of the work of its last force, and its stored energy is
 /// gone.
 fn end_contact(earlier: &ContactRecord, displacement: Option<&Displacement>) -> (f64, f64) {
-    let half = |displacement: &Displacement| displacement.half_work(&earlier.point, &earlier.force, false);
+    let half =
+        |displacement: &Displacement| displacement.half_work(&earlier.point_b, &earlier.force_b, false);
     let work = displacement.map_or(0.0, half);
     (work, earlier.stored - work)
 }

@@ -12,17 +12,17 @@ pub(crate) struct FrameContact {
     pub found: ContactCandidate,
     // forces
     /// Contact point c, m. This and the vectors below are in B's frame.
-    pub point: Vec3,
+    pub point_b: Vec3,
     /// Depth rate, m/s, positive while closing.
     pub rate: f64,
     /// N; never negative.
     pub normal_force: f64,
     /// On A, N.
-    pub friction_force: Vec3,
+    pub friction_force_b: Vec3,
     /// Of A past B in the tangent plane, m/s.
-    pub slip_velocity: Vec3,
+    pub slip_velocity_b: Vec3,
     /// Deflection p of the bristle, m.
-    pub bristle: Vec3,
+    pub bristle_b: Vec3,
     /// On A about and along A's frame, on B about and along B's.
     pub wrenches: [Wrench; 2],
     /// In the normal spring and the bristle, J.
@@ -41,12 +41,12 @@ impl FrameContact {
     pub fn new(found: ContactCandidate) -> Self {
         Self {
             found,
-            point: found.point_a,
+            point_b: found.deepest_b,
             rate: 0.0,
             normal_force: 0.0,
-            friction_force: Vec3::zeros(),
-            slip_velocity: Vec3::zeros(),
-            bristle: Vec3::zeros(),
+            friction_force_b: Vec3::zeros(),
+            slip_velocity_b: Vec3::zeros(),
+            bristle_b: Vec3::zeros(),
             wrenches: [Wrench::zero(); 2],
             stored: 0.0,
             sticks: true,
@@ -60,8 +60,8 @@ impl FrameContact {
     pub fn blank() -> Self {
         let nothing = Interference {
             depth: 0.0,
-            normal: Vec3::zeros(),
-            point_a: Vec3::zeros(),
+            normal_b: Vec3::zeros(),
+            deepest_b: Vec3::zeros(),
             feature: Feature::WHOLE,
         };
         let key = ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 };
@@ -70,7 +70,7 @@ impl FrameContact {
 
     /// Force on A, N.
     pub fn force(&self) -> Vec3 {
-        self.found.normal * self.normal_force + self.friction_force
+        self.found.normal_b * self.normal_force + self.friction_force_b
     }
 
     /// What a commit remembers of the contact.
@@ -83,10 +83,10 @@ impl FrameContact {
             entry_face: found.entry_face,
             sticks: self.sticks,
             role: found.role,
-            normal: found.normal,
-            point: self.point,
-            bristle: self.bristle,
-            force: self.force(),
+            normal_b: found.normal_b,
+            point_b: self.point_b,
+            bristle_b: self.bristle_b,
+            force_b: self.force(),
             stored: self.stored,
             work: self.work,
             dissipated: self.dissipated,

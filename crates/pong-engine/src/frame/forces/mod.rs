@@ -79,7 +79,8 @@ pub(crate) fn bristle_share<'f>(
 ) -> f64 {
     let whole: f64 = same_key
         .filter(|other| {
-            other.role == ContactRole::Active && other.normal.dot(&contact.normal) > SHARED_BRISTLE_COSINE_MIN
+            other.role == ContactRole::Active
+                && other.normal_b.dot(&contact.normal_b) > SHARED_BRISTLE_COSINE_MIN
         })
         .map(|other| other.weight)
         .sum();
@@ -101,13 +102,15 @@ impl PairContext<'_> {
         law_state.fill(0.0);
         let found = contact.found;
         let props = self.props(&found);
-        contact.point = found.point_a + found.normal * (props.share_a * found.depth);
-        let velocity = self.motion.velocity_at(&contact.point);
-        let closing = -found.normal.dot(&velocity);
+        contact.point_b = found.deepest_b + found.normal_b * (props.share_a * found.depth);
+        let velocity = self.motion.velocity_at(&contact.point_b);
+        let closing = -found.normal_b.dot(&velocity);
         contact.rate = closing;
-        contact.slip_velocity = velocity + found.normal * closing;
-        contact.continues =
-            self.memory.matching(&found.key, &found.normal, ContactRole::Active).map(|record| record as u32);
+        contact.slip_velocity_b = velocity + found.normal_b * closing;
+        contact.continues = self
+            .memory
+            .matching(&found.key, &found.normal_b, ContactRole::Active)
+            .map(|record| record as u32);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
@@ -117,8 +120,8 @@ impl PairContext<'_> {
                 output = self.friction_force(contact, props, share, law_state);
             }
         }
-        contact.friction_force = output.force_b;
-        contact.bristle = output.bristle_b;
+        contact.friction_force_b = output.force_b;
+        contact.bristle_b = output.bristle_b;
         contact.sticks = output.sticks;
         contact.stored += output.stored;
         if found.role == ContactRole::Active {
@@ -131,8 +134,8 @@ impl PairContext<'_> {
         let x_ba = &self.motion.x_ba;
         let force_b = contact.force();
         let force_a = x_ba.rotation.tr_mul(&force_b);
-        let arm_a = x_ba.rotation.tr_mul(&(contact.point - x_ba.translation));
-        [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, &contact.point)]
+        let arm_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
+        [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, &contact.point_b)]
     }
 
     fn friction_force(
@@ -147,9 +150,9 @@ impl PairContext<'_> {
         }
         let mut input = FrictionInput {
             normal_force: contact.normal_force,
-            normal_b: contact.found.normal,
+            normal_b: contact.found.normal_b,
             slip_b: Vec3::zeros(),
-            slip_velocity_b: contact.slip_velocity,
+            slip_velocity_b: contact.slip_velocity_b,
             share,
             stiffness: 0.0,
             carried_b: Vec3::zeros(),
@@ -159,7 +162,7 @@ impl PairContext<'_> {
         let record = contact.continues.map(|index| &self.memory.records[index as usize]);
         if let Some(record) = record {
             input.carried_b =
-                carry_by_smallest_rotation(&record.bristle, &record.normal, &contact.found.normal);
+                carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b);
             input.stuck = record.sticks;
         }
         if let Some(index) = contact.continues {
@@ -195,11 +198,11 @@ impl PairContext<'_> {
         let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
-        let present = contact.point - now;
-        let lever = earlier.map_or(present, |earlier| ((earlier.point - before) + present) * 0.5);
+        let present = contact.point_b - now;
+        let lever = earlier.map_or(present, |earlier| ((earlier.point_b - before) + present) * 0.5);
         let displacement = now - before + self.rotation(since).cross(&lever);
-        let approach = -contact.found.normal.dot(&displacement);
-        let across = displacement + contact.found.normal * approach;
+        let approach = -contact.found.normal_b.dot(&displacement);
+        let across = displacement + contact.found.normal_b * approach;
         let depth = contact.found.depth;
         if earlier.is_none() { shortened(across, approach, depth) } else { across }
     }

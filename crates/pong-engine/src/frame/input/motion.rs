@@ -9,11 +9,11 @@ pub(crate) struct Motion {
     /// From A's group frame to B's.
     pub x_ba: Transform,
     /// v_A − v_B of the two origins, m/s.
-    pub linear: Vec3,
+    pub linear_b: Vec3,
     /// Angular velocity of A, rad/s.
-    pub omega_a: Vec3,
+    pub omega_a_b: Vec3,
     /// Angular velocity of B, rad/s.
-    pub omega_b: Vec3,
+    pub omega_b_b: Vec3,
     /// What happened since the last commit; `None` if there is no earlier pose.
     pub since_commit: Option<SinceCommit>,
 }
@@ -23,9 +23,9 @@ impl Motion {
     pub fn none() -> Self {
         Self {
             x_ba: Transform::identity(),
-            linear: Vec3::zeros(),
-            omega_a: Vec3::zeros(),
-            omega_b: Vec3::zeros(),
+            linear_b: Vec3::zeros(),
+            omega_a_b: Vec3::zeros(),
+            omega_b_b: Vec3::zeros(),
             since_commit: None,
         }
     }
@@ -51,6 +51,6 @@ impl SinceCommit {
 impl Motion {
     /// Velocity of A's material point at `c` less that of B's, m/s.
     pub fn velocity_at(&self, c: &Vec3) -> Vec3 {
-        self.linear + self.omega_a.cross(&(c - self.x_ba.translation)) - self.omega_b.cross(c)
+        self.linear_b + self.omega_a_b.cross(&(c - self.x_ba.translation)) - self.omega_b_b.cross(c)
     }
 }

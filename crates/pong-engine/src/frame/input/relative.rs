@@ -42,9 +42,9 @@ fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Op
     let b_from_w = x_wb.orientation.inverse();
     Motion {
         x_ba: pose_ba.transform(),
-        linear: b_from_w * (v_a.linear - v_b.linear),
-        omega_a: b_from_w * v_a.angular,
-        omega_b: b_from_w * v_b.angular,
+        linear_b: b_from_w * (v_a.linear - v_b.linear),
+        omega_a_b: b_from_w * v_a.angular,
+        omega_b_b: b_from_w * v_b.angular,
         since_commit: earlier.map(|earlier| SinceCommit {
             x_ba: earlier.transform(),
             rotation: pose_ba.orientation * earlier.orientation.inverse(),

@@ -116,15 +116,15 @@ fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairCo
     let Some(endpoint) = group.iter().find(|found| is_at_wall(found) && found.feature.is_face()) else {
         return;
     };
-    let endpoint = endpoint.point_a;
+    let endpoint = endpoint.deepest_b;
     let in_piece =
-        |found: &ContactCandidate| found.point_a == endpoint && found.status != CandidateStatus::BeyondWall;
+        |found: &ContactCandidate| found.deepest_b == endpoint && found.status != CandidateStatus::BeyondWall;
     let first = group
         .iter()
         .position(in_piece)
         .or_else(|| group.iter().position(|found| has_neighbors_at_walls(found, &endpoint, context)));
     for (index, found) in group.iter_mut().enumerate() {
-        if found.point_a == endpoint && first != Some(index) {
+        if found.deepest_b == endpoint && first != Some(index) {
             found.status = CandidateStatus::Culled;
         }
     }
@@ -176,7 +176,7 @@ fn share_surface(
     };
     shared_contacts.clear();
     for contact in group.iter().filter(|contact| counts(contact)) {
-        let shared_contact = SharedContact::new(contact.normal, contact.depth);
+        let shared_contact = SharedContact::new(contact.normal_b, contact.depth);
         shared_contacts.push(shared_contact).expect("as much room as for what was found");
     }
     let outcome = share_within(shared_contacts, scratch);
@@ -305,7 +305,7 @@ fn meet_in_an_edge(contact: &ContactCandidate, other: &ContactCandidate, triangl
 /// in pieces of it that lie in both planes.
 fn meet_below(contact: &ContactCandidate, other: &ContactCandidate, triangles: &TriangleSet) -> bool {
     let on = |of: &ContactCandidate| nearest_in_plane(&touched(of), &triangles.corners(of.element_b));
-    let (places, normals) = ([&on(contact), &on(other)], [&contact.normal, &other.normal]);
+    let (places, normals) = ([&on(contact), &on(other)], [&contact.normal_b, &other.normal_b]);
     are_convex(places, normals) && !are_in_both_planes(places, normals)
 }
 

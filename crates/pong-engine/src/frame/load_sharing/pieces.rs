@@ -84,7 +84,7 @@ pub(super) fn touch_convexly(contact: &ContactCandidate, other: &ContactCandidat
     if are_one_place(&here, &there) {
         return !contact.feature.is_face() || !other.feature.is_face();
     }
-    are_convex([&here, &there], [&contact.normal, &other.normal])
+    are_convex([&here, &there], [&contact.normal_b, &other.normal_b])
 }
 
 /// Whether two places belong to one convex body: each lies below the plane through the other across its normal, or in it.
@@ -114,7 +114,7 @@ pub(super) fn are_one_place(here: &Vec3, there: &Vec3) -> bool {
 
 /// Where A's deepest point comes to lie once it is pushed out.
 pub(super) fn touched(contact: &ContactCandidate) -> Vec3 {
-    contact.point_a + contact.normal * contact.depth
+    contact.deepest_b + contact.normal_b * contact.depth
 }
 
 /// Whether the face of one contact lies below the plane of another, or in it.

@@ -54,7 +54,7 @@ fn is_in_front_at_a_fold(
 ) -> Option<bool> {
     let ray = &context.body_a.rays[hit.element_a as usize];
     let direction = context.motion.x_ba.vector(&ray.direction);
-    let place = hit.point_a - direction * (ray.length - hit.ray_distance);
+    let place = hit.deepest_b - direction * (ray.length - hit.ray_distance);
     let triangles = &context.body_b.triangles;
     let normals = [hit, other].map(|hit| triangles.normal(hit.element_b));
     let slopes = normals.map(|normal| -normal.dot(&direction));

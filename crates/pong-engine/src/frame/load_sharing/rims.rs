@@ -36,7 +36,7 @@ pub(super) fn keep_one_way_at_places(found: &mut [ContactCandidate]) {
         let is_opposite = |other: &ContactCandidate| {
             (other.key.primitive_a, other.element_a) == (behind.key.primitive_a, behind.element_a)
                 && (other.kind_b, other.role) == (PrimitiveKind::Triangle, ContactRole::Active)
-                && other.normal.dot(&behind.normal) < OPPOSITE_COSINE_MAX
+                && other.normal_b.dot(&behind.normal_b) < OPPOSITE_COSINE_MAX
                 && are_one_place(&touched(other), &place)
         };
         for other in found.iter_mut().filter(|other| is_opposite(other)) {
@@ -68,5 +68,5 @@ fn is_front_of(front: &ContactCandidate, back: &ContactCandidate) -> bool {
         && front.primitive_b == back.primitive_b
         && !front.feature.is_face()
         && (front.status, front.role) == (back.status, ContactRole::Active)
-        && (front.depth, front.normal, front.point_a) == (back.depth, back.normal, back.point_a)
+        && (front.depth, front.normal_b, front.deepest_b) == (back.depth, back.normal_b, back.deepest_b)
 }

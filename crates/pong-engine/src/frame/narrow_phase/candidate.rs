@@ -28,9 +28,9 @@ pub(crate) struct ContactCandidate {
     /// m; positive. This and the vectors below are in B's frame.
     pub depth: f64,
     /// Unit vector from B to A.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// The deepest place of A, m.
-    pub point_a: Vec3,
+    pub deepest_b: Vec3,
     /// Distance along a ray, m; infinite for everything else.
     pub ray_distance: f64,
     /// The weight w of docs/theory.md, 2.2; 1 for a single contact.
@@ -75,8 +75,8 @@ impl ContactCandidate {
             status: CandidateStatus::Front,
             role: ContactRole::Active,
             depth: interference.depth,
-            normal: interference.normal,
-            point_a: interference.point_a,
+            normal_b: interference.normal_b,
+            deepest_b: interference.deepest_b,
             ray_distance: f64::INFINITY,
             weight: 1.0,
         }

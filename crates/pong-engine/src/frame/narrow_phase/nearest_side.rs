@@ -54,9 +54,9 @@ impl Nearby<'_> {
     /// Whether the centre is behind a contact with the triangle: behind all faces that meet at what pushes. A centre in a
     /// two-sided triangle is on its front, so it is behind the back.
     pub fn is_behind(&self, contact: &TriangleContact) -> bool {
-        let Interference { depth, normal, point_a, feature } = &contact.interference;
-        let arm = self.center - point_a;
-        let (height, rounding) = (normal.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center.amax()));
+        let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
+        let arm = self.center - deepest_b;
+        let (height, rounding) = (normal_b.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center.amax()));
         let rounding = if self.is_mirror() { -rounding } else { rounding };
         let (set, triangle) = (&self.body.triangles, self.item.element);
         height <= -rounding && !is_in_front_of_a_face(&self.center, set, triangle, *feature, rounding)

@@ -135,8 +135,8 @@ impl TriangleEntry<'_> {
         if may_be_behind && nearby.is_behind(contact) {
             return self.pushes_from_behind(key, contact).then_some(ContactRole::Active);
         }
-        let Interference { normal, feature, .. } = &contact.interference;
-        match self.memory.role_of_nearest(key, normal, *feature) {
+        let Interference { normal_b, feature, .. } = &contact.interference;
+        match self.memory.role_of_nearest(key, normal_b, *feature) {
             Some(ContactRole::WrongSide) => return Some(ContactRole::WrongSide),
             Some(_) => return Some(ContactRole::Active),
             None => {}
@@ -155,17 +155,17 @@ impl TriangleEntry<'_> {
     /// been all the time, is farther away.
     fn pushes_from_behind(&self, key: &ContactKey, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier else { return true };
-        let Interference { depth, normal, point_a, feature } = &contact.interference;
+        let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
         if self.was_held_behind(key, &contact.interference, &earlier) {
             return true;
         }
-        if self.memory.matching(key, normal, ContactRole::WrongSide).is_some() {
+        if self.memory.matching(key, normal_b, ContactRole::WrongSide).is_some() {
             return false;
         }
         if self.was_in_front(&earlier, *feature) {
             return self.came_through_or_under(key, contact, &earlier);
         }
-        let below = depth - normal.dot(&(self.center - point_a));
+        let below = depth - normal_b.dot(&(self.center - deepest_b));
         let in_plane = |height: f64, p: &Vec3| height >= -ROUNDING * p.amax();
         let is_or_was_in_plane =
             || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center);
@@ -186,8 +186,8 @@ impl TriangleEntry<'_> {
     /// Planes reach beyond their faces. A centre whose line since then crosses the surface nowhere, and that is in front of
     /// it now, has passed the plane beside the face: it is pushed as if set down there, unless the contact held it already.
     fn came_through_or_under(&self, key: &ContactKey, contact: &TriangleContact, earlier: &Vec3) -> bool {
-        let normal = &contact.interference.normal;
-        let held = |role| self.memory.matching(key, normal, role).is_some();
+        let normal_b = &contact.interference.normal_b;
+        let held = |role| self.memory.matching(key, normal_b, role).is_some();
         held(ContactRole::Active)
             || held(ContactRole::Tracked)
             || self.last_crossings(earlier, key.shell_b).are_any()
@@ -210,15 +210,15 @@ impl TriangleEntry<'_> {
     /// push then, does not push now.
     fn was_held_behind(&self, key: &ContactKey, present: &Interference, earlier: &Vec3) -> bool {
         let (_, records) = self.memory.under(key);
-        let Interference { normal, feature, .. } = present;
+        let Interference { normal_b, feature, .. } = present;
         let held = |record: &ContactRecord| {
             let place = || place_on_feature(&self.body.triangles, Feature(record.feature));
             let is_behind = |place: Vec3| {
                 let arm = earlier - place;
-                record.normal.dot(&arm) <= ROUNDING * (arm.norm() + earlier.amax())
+                record.normal_b.dot(&arm) <= ROUNDING * (arm.norm() + earlier.amax())
             };
             record.role != ContactRole::WrongSide
-                && record.normal.dot(normal) > SAME_WAY_COSINE_MIN
+                && record.normal_b.dot(normal_b) > SAME_WAY_COSINE_MIN
                 && place().is_some_and(is_behind)
         };
         records.iter().any(|record| record.feature == feature.0 && held(record))

@@ -45,8 +45,8 @@ impl EvaluationBuffers {
             element: element - scene.body(body).primitives[primitive as usize].elements.start,
             arm,
         };
-        let arm_a = to_common(&(contact.point - x_ba.translation));
-        let arm_b = to_common(&contact.point);
+        let arm_a = to_common(&(contact.point_b - x_ba.translation));
+        let arm_b = to_common(&contact.point_b);
         Contact {
             pair: PairId::new(scene.stamp, pair.pair),
             a: side(body_a, contact.found.key.primitive_a, contact.found.element_a, arm_a),
@@ -54,14 +54,14 @@ impl EvaluationBuffers {
             feature: contact.found.feature.0,
             end: contact.found.key.end,
             point: x_wb.position + arm_b,
-            normal: to_common(&contact.found.normal),
+            normal: to_common(&contact.found.normal_b),
             depth: contact.found.depth,
             rate: contact.rate,
             weight: contact.found.full_weight(),
             normal_force: contact.normal_force,
-            friction_force: to_common(&contact.friction_force),
+            friction_force: to_common(&contact.friction_force_b),
             force: to_common(&contact.force()),
-            slip_velocity: to_common(&contact.slip_velocity),
+            slip_velocity: to_common(&contact.slip_velocity_b),
             sticks: contact.sticks,
             stored: contact.stored,
             work: contact.work,

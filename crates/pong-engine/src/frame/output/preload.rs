@@ -70,7 +70,7 @@ impl EvaluationBuffers {
                     (held.holding(self.on_a(scene, sealed, pair, held.contact, force), whole), true)
                 }
             };
-            let squared = bristle.norm_squared() - held.contact.bristle.norm_squared();
+            let squared = bristle.norm_squared() - held.contact.bristle_b.norm_squared();
             Some(Preloaded {
                 place: held.place,
                 bristle,
@@ -138,13 +138,13 @@ impl EvaluationBuffers {
 impl Held<'_> {
     /// `None` for what does not move along what it touches.
     fn sliding(&self) -> Option<(Vec3, bool)> {
-        let velocity = &self.contact.slip_velocity;
+        let velocity = &self.contact.slip_velocity_b;
         let speed = velocity.norm();
         (speed > 0.0).then(|| (velocity * (self.kinetic_limit / self.stiffness / speed), false))
     }
 
     fn holding(&self, on_a: Vec3, whole: f64) -> Vec3 {
-        let normal = &self.contact.found.normal;
+        let normal = &self.contact.found.normal_b;
         let bristle = -(on_a - normal * normal.dot(&on_a)) / whole;
         let pull = self.stiffness * bristle.norm();
         shortened(bristle, pull, self.static_limit)
@@ -156,8 +156,8 @@ impl ContactMemory {
     pub(crate) fn preload(&mut self, preloaded: &[Preloaded]) {
         for one in preloaded {
             let record = &mut self.records[one.place];
-            record.force = record.normal * record.normal.dot(&record.force) + one.friction_force;
-            (record.bristle, record.sticks) = (one.bristle, one.sticks);
+            record.force_b = record.normal_b * record.normal_b.dot(&record.force_b) + one.friction_force;
+            (record.bristle_b, record.sticks) = (one.bristle, one.sticks);
             record.stored += one.stored_more;
         }
     }

@@ -34,7 +34,7 @@ impl EvaluationBuffers {
         body.or_else(|| {
             // Forces that cancel each other, and energies.
             let of_contact = |contact: &FrameContact| {
-                contact.normal_force + contact.friction_force.abs().sum() + contact.stored.abs()
+                contact.normal_force + contact.friction_force_b.abs().sum() + contact.stored.abs()
             };
             let mut contacts = self.order.iter().map(|place| &self.caller.out.contacts[place.index as usize]);
             let bad = contacts.find(|contact| !holds(of_contact(contact)));

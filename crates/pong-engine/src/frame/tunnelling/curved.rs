@@ -19,14 +19,14 @@ pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: 
             let sphere = &body_b.spheres[element];
             let radius = sphere.radius.max(own);
             let unit = |p: &Vec3| (p - sphere.center) / radius;
-            through_unit_ball(&unit(&line.from), &unit(&line.to)).map(Met::Through)
+            through_unit_ball(&unit(&line.from_b), &unit(&line.to_b)).map(Met::Through)
         }
         PrimitiveKind::Ellipsoid => {
             let ellipsoid = &body_b.ellipsoids[element];
             let scale = Mat3::from_diagonal(&ellipsoid.semi_axes.map(|a| 1.0 / a));
             let to_axes = scale * ellipsoid.axes.transpose();
             let unit = |p: &Vec3| to_axes * (p - ellipsoid.center);
-            let at = through_unit_ball(&unit(&line.from), &unit(&line.to))?;
+            let at = through_unit_ball(&unit(&line.from_b), &unit(&line.to_b))?;
             Some(Met::Through((to_axes.transpose() * at).normalize()))
         }
         _ => None,

@@ -42,7 +42,7 @@ pub(super) fn look_at_ended(
             continue;
         }
         // Most that ended are pushed to the same side from the next facet.
-        if pushing(frame, record.key).any(|normal| normal.dot(&record.normal) > SAME_SIDE_COSINE_MIN) {
+        if pushing(frame, record.key).any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN) {
             continue;
         }
         let direction = (record.key.group_pair, record.key.flipped);
@@ -67,7 +67,7 @@ impl Seen<'_> {
             return false;
         }
         let Some(line) = self.line_of(record) else { return false };
-        if record.normal.dot(&(line.to - line.from)) >= 0.0 {
+        if record.normal_b.dot(&(line.to_b - line.from_b)) >= 0.0 {
             return false;
         }
         let of_shell = |kind| {
@@ -97,12 +97,12 @@ impl Seen<'_> {
 
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
-        if solids::holds(body, shell, &line.to) {
-            return self.pushing(primitive_a, shell).any(|normal| are_both_sides(normal, &record.normal))
-                && !self.pushes_to(&record.normal, primitive_a, shell);
+        if solids::holds(body, shell, &line.to_b) {
+            return self.pushing(primitive_a, shell).any(|normal| are_both_sides(normal, &record.normal_b))
+                && !self.pushes_to(&record.normal_b, primitive_a, shell);
         }
-        let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from));
-        out.is_some_and(|out| are_both_sides(&out, &record.normal))
+        let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from_b));
+        out.is_some_and(|out| are_both_sides(&out, &record.normal_b))
     }
 
     /// Behind its triangle before, and now farther behind, with the sheet still above where it was too deep to be pushed: not
@@ -110,7 +110,7 @@ impl Seen<'_> {
     fn came_out_of_sheet(&self, record: &ContactRecord, line: &Line) -> bool {
         let body = self.context.body_b;
         let view = TriangleView::new(&body.triangles, record.element_b);
-        let (before, now) = (-view.height(&line.from), -view.height(&line.to));
+        let (before, now) = (-view.height(&line.from_b), -view.height(&line.to_b));
         if before <= 0.0 || now <= before {
             return false;
         }
@@ -118,8 +118,8 @@ impl Seen<'_> {
         let sheet = sheets.find(|info| info.elements.contains(&record.element_b));
         let thickness = sheet.and_then(|info| info.thickness).unwrap_or_else(|| self.smallest_of(record));
         let lost = ((thickness - before) / (now - before)).clamp(0.0, 1.0);
-        let place = line.from + (line.to - line.from) * lost;
-        let above = place + record.normal * (2.0 * now.min(thickness));
+        let place = line.from_b + (line.to_b - line.from_b) * lost;
+        let above = place + record.normal_b * (2.0 * now.min(thickness));
         self.sheet_between(&above, &place, record.key.shell_b)
     }
 

@@ -61,13 +61,13 @@ impl<'a> Seen<'a> {
     pub fn line(&self, place: &Vec3) -> Option<Line> {
         let motion = self.context.motion;
         let since = motion.since_commit.as_ref()?;
-        Some(Line { from: since.x_ba.point(place), to: motion.x_ba.point(place) })
+        Some(Line { from_b: since.x_ba.point(place), to_b: motion.x_ba.point(place) })
     }
 
     /// Follows one place through one batch of B: a shell that it went through counts once.
     fn follow(&self, item_a: Item, place: &Vec3, batch: &Batch, events: &mut TunnellingEvents) {
         let Some(line) = self.line(place) else { return };
-        let query = batch.boxes.narrowed(&line.from.inf(&line.to), &line.from.sup(&line.to));
+        let query = batch.boxes.narrowed(&line.from_b.inf(&line.to_b), &line.from_b.sup(&line.to_b));
         if !query.meets(&batch.boxes.around) {
             return;
         }
@@ -126,7 +126,7 @@ impl<'a> Seen<'a> {
         };
         same_head.any(|record| {
             record.role == ContactRole::Active
-                && record.normal.dot(side) < -SAME_SIDE_COSINE_MIN
+                && record.normal_b.dot(side) < -SAME_SIDE_COSINE_MIN
                 && (record.key.shell_b == shell_b || of_sheet(record))
         })
     }
@@ -167,7 +167,7 @@ pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterat
     let counts = move |found: &&ContactCandidate| {
         found.role == ContactRole::Active && found.key.shell_b == key.shell_b
     };
-    found.filter(counts).map(|found| &found.normal)
+    found.filter(counts).map(|found| &found.normal_b)
 }
 
 /// Where an element of A is followed, in A's frame, m.

@@ -4,8 +4,8 @@ use pong_geometry::Vec3;
 
 /// A place of an element of A and its line since the last commit, in B's frame, m.
 pub(super) struct Line {
-    pub from: Vec3,
-    pub to: Vec3,
+    pub from_b: Vec3,
+    pub to_b: Vec3,
 }
 
 /// What a line did to one shell of B.

@@ -7,7 +7,7 @@ use pong_geometry::primitive::{Ray, RayResponse, TriangleSet};
 
 /// Whether a line goes from the front through a triangle.
 pub(super) fn meet(set: &TriangleSet, triangle: u32, line: &Line) -> Option<Met> {
-    let ray = along(&line.from, &line.to)?;
+    let ray = along(&line.from_b, &line.to_b)?;
     ray_triangle(&ray, set, triangle, 0.0).map(|_| Met::Through(set.normal(triangle)))
 }
 

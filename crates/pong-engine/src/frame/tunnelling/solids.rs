@@ -10,12 +10,12 @@ use pong_model::MovableGroup;
 /// solid belongs to a contact that there was.
 pub(super) fn meet(body: &MovableGroup, shell: u32, piece: u32, line: &Line) -> Option<Met> {
     let polyhedron = &body.polyhedra[piece as usize];
-    let entry = entry_of_line(&line.from, &line.to, polyhedron)?;
+    let entry = entry_of_line(&line.from_b, &line.to_b, polyhedron)?;
     let face = &polyhedron.faces[entry.face];
-    if !face.active || holds(body, shell, &line.from) {
+    if !face.active || holds(body, shell, &line.from_b) {
         return None;
     }
-    let inside = holds(body, shell, &line.to);
+    let inside = holds(body, shell, &line.to_b);
     Some(if inside { Met::Into(face.normal) } else { Met::Through(face.normal) })
 }
 
@@ -27,7 +27,7 @@ pub(super) fn holds(body: &MovableGroup, shell: u32, place: &Vec3) -> bool {
 /// The normal of the face by which a line that began inside has left the solid for good.
 pub(super) fn way_out(body: &MovableGroup, shell: u32, line: &Line) -> Option<Vec3> {
     let backwards = pieces(body, shell).filter_map(|polyhedron| {
-        let entry = entry_of_line(&line.to, &line.from, polyhedron)?;
+        let entry = entry_of_line(&line.to_b, &line.from_b, polyhedron)?;
         Some((entry.at, &polyhedron.faces[entry.face]))
     });
     let last = backwards.filter(|(_, face)| face.active).min_by(|(a, _), (b, _)| a.total_cmp(b));

@@ -27,7 +27,7 @@ fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) ->
         AtWall::SharedEdge => CandidateStatus::AtWall,
         AtWall::StandsIn => CandidateStatus::BeyondWall,
         AtWall::No if piece.planes().all_active || !contact.feature.is_face() => CandidateStatus::Front,
-        AtWall::No => match piece.containment(&contact.point_a) {
+        AtWall::No => match piece.containment(&contact.deepest_b) {
             Containment::AtWall | Containment::BeyondWall => CandidateStatus::AtWall,
             Containment::Inside | Containment::Outside => CandidateStatus::Front,
         },
