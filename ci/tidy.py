@@ -173,6 +173,28 @@ def units():
                 yield f"{path}:{number + 1}: say the unit of `{line.strip()}`, or that it has none"
 
 
+# Structs whose vectors have no frame of their own to name (docs/glossary.md, Motion and frames).
+IN_THE_COMMON_FRAME = {"Contact", "ContactSide"}
+FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE = {"Pose", "Transform", "Twist", "Wrench"}
+CONSTANTS_OF_A_PRIMITIVE = {"TriangleView", "PreparedEllipsoid", "Shadow", "Wedge"}
+VECTOR = re.compile(r"^    pub(?:\(\w+\))? (\w+): [&'a-z (\[]*(?:Option<|Cell<|Vec<)*Vec3\b")
+STRUCT = re.compile(r"^(?:pub(?:\(\w+\))? )?(?:struct|enum) (\w+)")
+
+
+def frames_of_vectors():
+    """A vector that contact computes tells in its name along which axes it is given: `normal_b`."""
+    exempt = IN_THE_COMMON_FRAME | FRAME_STANDS_IN_THE_NAME_OF_THE_VALUE | CONSTANTS_OF_A_PRIMITIVE
+    for path in tracked("crates/pong-engine/src/*.rs", "crates/pong-geometry/src/*.rs"):
+        if path.relative_to(ROOT).parts[1:4] in {("pong-geometry", "src", "primitive"), ("pong-geometry", "src", "bounding")}:
+            continue  # constants in the frame of their own group
+        of_struct = ""
+        for number, line in enumerate(path.read_text().splitlines(), 1):
+            of_struct = (STRUCT.match(line) or [None, of_struct])[1]
+            field = VECTOR.match(line)
+            if field and of_struct not in exempt and not re.search(r"_[abw]$", field[1]):
+                yield f"{path}:{number}: `{field[1]}` of {of_struct} does not say its frame: `{field[1]}_b`? (docs/glossary.md)"
+
+
 def circles_of_files():
     yield from circles.check(ROOT)
 
@@ -180,7 +202,7 @@ def circles_of_files():
 def main():
     checks = (
         arrows, circles_of_files, unsafe_code, platform_mathematics, file_lengths, dead_links, theory_citations, retired_words,
-        long_lines, units,
+        long_lines, units, frames_of_vectors,
     )
     problems = [problem for check in checks for problem in check()]
     for problem in problems:

@@ -399,7 +399,7 @@ fn last(test: impl FnOnce(&mut dyn FnMut(TriangleContact))) -> Option<Interferen
 #[inline(always)]
 fn along(a: Ray, test: impl FnOnce(&Ray) -> Option<RayHit>) -> Option<Answer> {
     let hit = test(&a)?;
-    Some(Answer::new(hit.distance, hit.normal, a.origin + a.direction * hit.distance))
+    Some(Answer::new(hit.distance, hit.normal_b, a.origin + a.direction * hit.distance))
 }
 
 impl From<Interference> for Answer {

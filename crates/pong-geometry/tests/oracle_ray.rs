@@ -105,7 +105,7 @@ fn triangles_against_volumes() {
         if let Some(hit) = hit {
             hits += 1;
             worst.note((hit.distance - t).abs() * closing.abs() * least_height(&corners) / 4.0, 1e-14);
-            worst.note((hit.normal - set.normal(0)).norm(), 0.0);
+            worst.note((hit.normal_b - set.normal(0)).norm(), 0.0);
         }
     }
     println!("{hits} hits of {rounds}");
@@ -167,7 +167,9 @@ fn polyhedra_against_their_polygons() {
         let expected = polyhedron_hit(&r, shape);
         let hit = ray_polyhedron(&r, shape);
         match (expected, hit) {
-            (Some((t, face, _)), Some(RayHit { distance, feature, normal })) if feature.index() == face => {
+            (Some((t, face, _)), Some(RayHit { distance, feature, normal_b: normal }))
+                if feature.index() == face =>
+            {
                 hits += 1;
                 worst.note((distance - t).abs() * -r.direction.dot(&normal) / 4.0, 2e-14);
             }
@@ -268,7 +270,7 @@ fn exact_rays_onto_exact_seams_hit() {
         for j in -3..=3 {
             let origin = Vec3::new(f64::from(i) / 4.0, f64::from(j) / 4.0, 1.0);
             let hit = first_hit(&ray(origin, -Vec3::z(), 2.0, None), &set).expect("hit");
-            assert_eq!((hit.distance, hit.normal), (1.0, Vec3::z()));
+            assert_eq!((hit.distance, hit.normal_b), (1.0, Vec3::z()));
             // From below: the back, nothing.
             let below = Vec3::new(origin.x, origin.y, -1.0);
             assert!(first_hit(&ray(below, Vec3::z(), 2.0, None), &set).is_none());
@@ -369,7 +371,7 @@ fn no_ray_slips_between_turned_pieces() {
                 assert!(!hits.is_empty(), "{r:?}");
                 for hit in hits {
                     assert!(
-                        (hit.distance - gap.norm()).abs() < 1e-13 && (hit.normal - normal).norm() < 1e-12
+                        (hit.distance - gap.norm()).abs() < 1e-13 && (hit.normal_b - normal).norm() < 1e-12
                     );
                 }
             }
@@ -407,7 +409,11 @@ fn a_ray_that_starts_on_a_face_hits_it_within_its_reach() {
         let direction = Vec3::new(0.6, 0.0, -0.8);
         let ray = Ray { origin, direction, length: 0.5, reach, response: RayResponse::Normal };
         let hit = ray_polyhedron(&ray, &solid);
-        assert_eq!(hit.map(|hit| (hit.distance, hit.normal)), hits.then_some((0.0, Vec3::z())), "{reach:?}");
+        assert_eq!(
+            hit.map(|hit| (hit.distance, hit.normal_b)),
+            hits.then_some((0.0, Vec3::z())),
+            "{reach:?}"
+        );
     }
 }
 

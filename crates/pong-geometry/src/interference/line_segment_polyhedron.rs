@@ -204,8 +204,8 @@ impl Search<'_> {
 
     #[inline(always)]
     fn at_end(&self, face: usize, end: usize) -> AtEnd<'_> {
-        let tip = &self.segment.ends[end];
-        AtEnd { segment: self.segment, polyhedron: self.polyhedron, face, inside: &self.inside[end], tip }
+        let tip_b = &self.segment.ends[end];
+        AtEnd { segment: self.segment, polyhedron: self.polyhedron, face, inside: &self.inside[end], tip_b }
     }
 
     /// What the best face carries.

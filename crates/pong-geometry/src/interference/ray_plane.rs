@@ -12,7 +12,7 @@ pub struct RayHit {
     /// Distance from the ray's origin along its direction, m; negative behind the origin.
     pub distance: f64,
     /// Unit normal of the surface.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Which feature is hit.
     pub feature: Feature,
 }
@@ -30,7 +30,7 @@ pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature
         return None;
     }
     let distance = rise / closing;
-    (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal: *normal, feature })
+    (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal_b: *normal, feature })
 }
 
 /// The contact of a ray with the nearest surface it hits.
@@ -38,7 +38,7 @@ pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature
 pub fn ray_contact(ray: &Ray, hit: &RayHit) -> Interference {
     let shortening = ray.length - hit.distance;
     let (depth, normal) = match ray.response {
-        RayResponse::Normal => (shortening * -ray.direction.dot(&hit.normal), hit.normal),
+        RayResponse::Normal => (shortening * -ray.direction.dot(&hit.normal_b), hit.normal_b),
         RayResponse::Axial => (shortening, -ray.direction),
     };
     Interference { depth, normal_b: normal, deepest_b: ray.tip(), feature: hit.feature }

@@ -128,5 +128,5 @@ fn hit_at(
     if !(face.active && leaves_after && within) {
         return None;
     }
-    Some(RayHit { distance, normal: face.normal, feature: Feature::face(index) })
+    Some(RayHit { distance, normal_b: face.normal, feature: Feature::face(index) })
 }

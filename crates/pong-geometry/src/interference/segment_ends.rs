@@ -20,7 +20,7 @@ pub(super) struct AtEnd<'a> {
     pub polyhedron: &'a Polyhedron,
     pub face: usize,
     pub inside: &'a InsideEnd,
-    pub tip: &'a Vec3,
+    pub tip_b: &'a Vec3,
 }
 
 /// What an end measures.
@@ -123,10 +123,10 @@ impl AtEnd<'_> {
     pub fn measured(&self) -> Option<Measured> {
         match self.inside.leaves_by {
             Some(leaves_by) if leaves_by == self.face => Some(Measured::Leaves),
-            Some(leaves_by) if !is_over_face(self.tip, self.polyhedron, self.face) => {
+            Some(leaves_by) if !is_over_face(self.tip_b, self.polyhedron, self.face) => {
                 self.crossing(leaves_by).map(Measured::Crossing)
             }
-            _ => Some(Measured::Tip(-self.face().height(self.tip))),
+            _ => Some(Measured::Tip(-self.face().height(self.tip_b))),
         }
     }
 
@@ -139,7 +139,7 @@ impl AtEnd<'_> {
             Measured::Tip(depth) => Some(Interference {
                 depth: *depth,
                 normal_b: self.face().normal,
-                deepest_b: *self.tip,
+                deepest_b: *self.tip_b,
                 feature: Feature::face(self.face),
             }),
             Measured::Crossing(crossing) => Some(self.contact_at(crossing)),

@@ -41,9 +41,9 @@ pub(crate) struct Accounts<'a> {
 /// Force of a contact on A, by what makes it, and its place.
 #[derive(Default)]
 struct ForceParts {
-    point: Vec3,
-    normal: Vec3,
-    friction: Vec3,
+    point_b: Vec3,
+    normal_b: Vec3,
+    friction_b: Vec3,
     /// In the normal spring and in the bristle, J.
     stored: [f64; 2],
 }
@@ -69,7 +69,7 @@ impl ForceParts {
     fn before(record: &ContactRecord, bristle: f64) -> Self {
         let normal = record.normal_b * record.normal_b.dot(&record.force_b);
         let stored = [record.stored - bristle, bristle];
-        Self { point: record.point_b, normal, friction: record.force_b - normal, stored }
+        Self { point_b: record.point_b, normal_b: normal, friction_b: record.force_b - normal, stored }
     }
 }
 
@@ -189,9 +189,9 @@ impl Accounts<'_> {
         let table = &self.input.tables[pair.tables[found.key.flipped as usize]];
         let spring = stored_energy(table.props(surface_a, surface_b), found.full_weight(), found.depth);
         ForceParts {
-            point: contact.point_b,
-            normal: found.normal_b * contact.normal_force,
-            friction: contact.friction_force_b,
+            point_b: contact.point_b,
+            normal_b: found.normal_b * contact.normal_force,
+            friction_b: contact.friction_force_b,
             stored: [spring, contact.stored - spring],
         }
     }
@@ -260,19 +260,19 @@ impl Displacement {
     /// Work of a force as it follows the motion: the trapezoid rule.
     fn work_along_motion(&self, before: &ForceParts, now: Option<&ForceParts>) -> WorkAlongMotion {
         let work = |of: fn(&ForceParts) -> &Vec3| {
-            self.half_work(&before.point, of(before), false)
-                + now.map_or(0.0, |now| self.half_work(&now.point, of(now), true))
+            self.half_work(&before.point_b, of(before), false)
+                + now.map_or(0.0, |now| self.half_work(&now.point_b, of(now), true))
         };
-        WorkAlongMotion { normal: work(|parts| &parts.normal), friction: work(|parts| &parts.friction) }
+        WorkAlongMotion { normal: work(|parts| &parts.normal_b), friction: work(|parts| &parts.friction_b) }
     }
 
     /// Wrench of a committed contact on A about its origin.
     fn held(&self, record: &ContactRecord) -> Wrench {
-        Wrench::of_force_at(record.force_b, &(record.point_b - self.origin_before))
+        Wrench::of_force_at(record.force_b, &(record.point_b - self.origin_before_b))
     }
 
     /// Work of a wrench on A about its origin.
     fn origin_work(&self, wrench: &Wrench) -> f64 {
-        wrench.force.dot(&(self.origin_now - self.origin_before)) + wrench.moment.dot(&self.rotation)
+        wrench.force.dot(&(self.origin_now_b - self.origin_before_b)) + wrench.moment.dot(&self.rotation_b)
     }
 }

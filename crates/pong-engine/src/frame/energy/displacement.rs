@@ -5,30 +5,30 @@ use pong_geometry::{Transform, Vec3};
 
 /// Displacement of A since the last commit, at a point carried by A. Places are in B's frame, m.
 pub(crate) struct Displacement {
-    before: Vec3,
-    now: Vec3,
+    before_b: Vec3,
+    now_b: Vec3,
     /// Rotation vector, rad.
-    pub rotation: Vec3,
+    pub rotation_b: Vec3,
     /// The origin of A's frame.
-    pub origin_before: Vec3,
-    pub origin_now: Vec3,
+    pub origin_before_b: Vec3,
+    pub origin_now_b: Vec3,
 }
 
 impl Displacement {
     /// Of a point of A, given in its frame.
     pub fn new(since: &SinceCommit, x_ba: &Transform, reference: &Vec3) -> Self {
         Self {
-            before: since.x_ba.point(reference),
-            now: x_ba.point(reference),
-            rotation: since.rotation(),
-            origin_before: since.x_ba.translation,
-            origin_now: x_ba.translation,
+            before_b: since.x_ba.point(reference),
+            now_b: x_ba.point(reference),
+            rotation_b: since.rotation(),
+            origin_before_b: since.x_ba.translation,
+            origin_now_b: x_ba.translation,
         }
     }
 
     /// Half of the work that a force at `point` does over the displacement.
     pub fn half_work(&self, point: &Vec3, force: &Vec3, at_end: bool) -> f64 {
-        let arm = point - if at_end { self.now } else { self.before };
-        0.5 * (force.dot(&(self.now - self.before)) + arm.cross(force).dot(&self.rotation))
+        let arm = point - if at_end { self.now_b } else { self.before_b };
+        0.5 * (force.dot(&(self.now_b - self.before_b)) + arm.cross(force).dot(&self.rotation_b))
     }
 }

@@ -73,7 +73,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
             Displacement::new(since, &motion.x_ba, &reference)
         });
         if let Some(displacement) = &displacement {
-            work = displacement.half_work(&before.point, &before.force, false)
+            work = displacement.half_work(&before.point_b, &before.force_b, false)
                 + displacement.half_work(&contact.point_b, &contact.force(), true);
         }
         let dissipated = -work - (contact.stored - before.stored);
@@ -102,8 +102,8 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
 /// What a contact was at the last commit; all zero if it was none.
 #[derive(Default)]
 struct Before {
-    point: Vec3,
-    force: Vec3,
+    point_b: Vec3,
+    force_b: Vec3,
     stored: f64,
     work: f64,
     dissipated: f64,
@@ -112,8 +112,8 @@ struct Before {
 impl Before {
     fn of(record: &ContactRecord) -> Self {
         Self {
-            point: record.point_b,
-            force: record.force_b,
+            point_b: record.point_b,
+            force_b: record.force_b,
             stored: record.stored,
             work: record.work,
             dissipated: record.dissipated,

@@ -177,9 +177,9 @@ impl PairContext<'_> {
 
     /// φ, worked out once for all contacts of the pair.
     fn rotation(&self, since: &SinceCommit) -> Vec3 {
-        self.rotation.get().unwrap_or_else(|| {
+        self.rotation_b.get().unwrap_or_else(|| {
             let rotation = since.rotation();
-            self.rotation.set(Some(rotation));
+            self.rotation_b.set(Some(rotation));
             rotation
         })
     }

@@ -86,7 +86,7 @@ pub(crate) struct PairContext<'a> {
     /// Whether B's model remembers the side of entry.
     pub remembers_entry: bool,
     /// φ of the motion since the last commit, once a contact has asked for it, rad.
-    pub rotation: Cell<Option<Vec3>>,
+    pub rotation_b: Cell<Option<Vec3>>,
 }
 
 impl<'a> PairContext<'a> {
@@ -115,7 +115,7 @@ impl<'a> PairContext<'a> {
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
-            rotation: Cell::new(None),
+            rotation_b: Cell::new(None),
         }
     }
 }

@@ -108,8 +108,8 @@ impl<'a> ElementPair<'a> {
             body: self.body_b(),
             shell: self.info_b().shell,
             piece: self.item_b.element,
-            point: *p,
-            earlier: self.motion().since_commit.map(|since| since.x_ba.point(local)),
+            point_b: *p,
+            earlier_b: self.motion().since_commit.map(|since| since.x_ba.point(local)),
             remembers: self.context.remembers_entry,
         }
         .face(&self.key())

@@ -21,7 +21,7 @@ pub(crate) struct Nearby<'a> {
     pub body: &'a MovableGroup,
     pub item: Item,
     /// In the frame of the triangle's movable group, m.
-    pub center: Vec3,
+    pub center_b: Vec3,
 }
 
 /// The sides that were asked for in a block, so that each ball and surface are looked at once.
@@ -55,11 +55,11 @@ impl Nearby<'_> {
     /// two-sided triangle is on its front, so it is behind the back.
     pub fn is_behind(&self, contact: &TriangleContact) -> bool {
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
-        let arm = self.center - deepest_b;
-        let (height, rounding) = (normal_b.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center.amax()));
+        let arm = self.center_b - deepest_b;
+        let (height, rounding) = (normal_b.dot(&arm) - depth, ROUNDING * (arm.norm() + self.center_b.amax()));
         let rounding = if self.is_mirror() { -rounding } else { rounding };
         let (set, triangle) = (&self.body.triangles, self.item.element);
-        height <= -rounding && !is_in_front_of_a_face(&self.center, set, triangle, *feature, rounding)
+        height <= -rounding && !is_in_front_of_a_face(&self.center_b, set, triangle, *feature, rounding)
     }
 
     /// The surface that the triangle belongs to; that of its front, if it is a back.
@@ -75,11 +75,11 @@ impl Nearby<'_> {
     pub fn is_in_front(&self) -> bool {
         let set = &self.body.triangles;
         let (front, shell) = (self.front(), self.surface());
-        let distance = |triangle: u32| nearest_on_triangle(&self.center, &set.corners(triangle));
+        let distance = |triangle: u32| nearest_on_triangle(&self.center_b, &set.corners(triangle));
         let (mut square, mut place) = distance(front);
         let mut nearest = Item { element: front, ..self.item };
         let reach = Vec3::repeat(square.sqrt() * (1.0 + REACH_SLACK));
-        visit_triangles(self.body, &(self.center - reach), &(self.center + reach), &mut |item| {
+        visit_triangles(self.body, &(self.center_b - reach), &(self.center_b + reach), &mut |item| {
             if self.shell(item.element) == shell {
                 let (other, at) = distance(item.element);
                 if (other, item.element) < (square, nearest.element) {
@@ -88,11 +88,11 @@ impl Nearby<'_> {
             }
         });
         // A centre on the surface is in front, however rounding places it.
-        let rounding = ROUNDING * self.center.amax();
+        let rounding = ROUNDING * self.center_b.amax();
         let info = &self.body.primitives[nearest.primitive as usize];
         square <= rounding * rounding
             || info.first_mirror < info.elements.end
-            || is_in_front_at(&self.center, set, nearest.element, place)
+            || is_in_front_at(&self.center_b, set, nearest.element, place)
     }
 
     /// The triangle itself, or the one whose back it is.

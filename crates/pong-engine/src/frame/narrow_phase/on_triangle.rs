@@ -29,8 +29,8 @@ pub(crate) fn on_triangle(
         memory: pair.context.memory,
         body: pair.body_b(),
         triangle: pair.item_b,
-        center: *center,
-        earlier,
+        center_b: *center,
+        earlier_b: earlier,
         touched_behind: &|feature| touched_triangle_behind(pair, feature),
     };
     let key = pair.key();
@@ -84,7 +84,7 @@ fn is_set_down_in_front(
     contact: &TriangleContact,
     sides: &mut KnownSides,
 ) -> bool {
-    let nearby = Nearby { body: pair.body_b(), item: pair.item_b, center: *center };
+    let nearby = Nearby { body: pair.body_b(), item: pair.item_b, center_b: *center };
     nearby.is_behind(contact) && sides.in_front(pair.item_a, nearby.surface(), || nearby.is_in_front())
 }
 

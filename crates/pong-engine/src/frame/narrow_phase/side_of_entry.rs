@@ -30,9 +30,9 @@ pub(crate) struct PolyhedronEntry<'a> {
     /// Which polyhedron of the body.
     pub piece: u32,
     /// The point, in B's frame.
-    pub point: Vec3,
+    pub point_b: Vec3,
     /// Where it was at the last commit, in B's frame.
-    pub earlier: Option<Vec3>,
+    pub earlier_b: Option<Vec3>,
     /// Whether the model of B remembers sides of entry.
     pub remembers: bool,
 }
@@ -42,14 +42,14 @@ impl PolyhedronEntry<'_> {
     pub fn face(&self, key: &ContactKey) -> Option<EntryFace> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
-            let face = shallowest_face(&self.point, polyhedron)?;
+            let face = shallowest_face(&self.point_b, polyhedron)?;
             return Some(EntryFace { reached: face, pushes: face });
         }
         let start = match self.remembered(key) {
             Some(face) => face,
             None => self.entered_by()?,
         };
-        let reached = follow(&self.point, polyhedron, start);
+        let reached = follow(&self.point_b, polyhedron, start);
         Some(EntryFace { reached: reached.face, pushes: reached.pushes })
     }
 
@@ -70,32 +70,32 @@ impl PolyhedronEntry<'_> {
             return Some(record.entry_face as usize).filter(|_| old.active);
         }
         let polyhedron = self.polyhedron();
-        let entry = self.earlier.and_then(|earlier| entry_of_line(&earlier, &self.point, polyhedron));
+        let entry = self.earlier_b.and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             // Out of the old piece and in again: leaving has ended the memory.
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
-            _ => face_most_along(&old.normal, &self.point, polyhedron),
+            _ => face_most_along(&old.normal, &self.point_b, polyhedron),
         }
     }
 
     /// The face by which the straight line since the last commit came in; the least deep one without a line.
     fn entered_by(&self) -> Option<usize> {
         let polyhedron = self.polyhedron();
-        let entry = self.earlier.and_then(|earlier| entry_of_line(&earlier, &self.point, polyhedron));
+        let entry = self.earlier_b.and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
             Some(entry) => {
-                self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point, polyhedron))
+                self.entered_through_wall(entry.at).or_else(|| shallowest_face(&self.point_b, polyhedron))
             }
-            None => shallowest_face(&self.point, polyhedron),
+            None => shallowest_face(&self.point_b, polyhedron),
         }
     }
 
     /// The line came through an inner wall at `at`: the active face by which it had come into the surface, the
     /// nearest one before the wall, carried over into this piece.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
-        let earlier = self.earlier?;
-        let wall = earlier + (self.point - earlier) * at;
+        let earlier = self.earlier_b?;
+        let wall = earlier + (self.point_b - earlier) * at;
         let mut best: Option<(f64, Vec3)> = None;
         let pieces = self.body.primitives.iter().filter(|info| {
             info.kind == PrimitiveKind::Polyhedron
@@ -110,7 +110,7 @@ impl PolyhedronEntry<'_> {
                 best = Some((entry.at, face.normal));
             }
         }
-        best.and_then(|(_, normal)| face_most_along(&normal, &self.point, self.polyhedron()))
+        best.and_then(|(_, normal)| face_most_along(&normal, &self.point_b, self.polyhedron()))
     }
 }
 
@@ -120,9 +120,9 @@ pub(crate) struct TriangleEntry<'a> {
     pub body: &'a MovableGroup,
     pub triangle: Item,
     /// The centre, in B's frame.
-    pub center: Vec3,
+    pub center_b: Vec3,
     /// Where it was at the last commit, in B's frame.
-    pub earlier: Option<Vec3>,
+    pub earlier_b: Option<Vec3>,
     /// Whether A touched a feature of the triangle from behind at the last commit, whether or not that pushed.
     pub touched_behind: &'a dyn Fn(Feature) -> bool,
 }
@@ -141,7 +141,7 @@ impl TriangleEntry<'_> {
             Some(_) => return Some(ContactRole::Active),
             None => {}
         }
-        let Some(earlier) = self.earlier else { return Some(ContactRole::Active) };
+        let Some(earlier) = self.earlier_b else { return Some(ContactRole::Active) };
         let was_in_front = self.was_in_front(&earlier, *feature);
         let barred = !was_in_front && self.came_from_behind(&earlier, key.shell_b);
         Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
@@ -154,7 +154,7 @@ impl TriangleEntry<'_> {
     /// not gone deeper since than it lies below this feature: another sheet of the surface, on whose back the centre has
     /// been all the time, is farther away.
     fn pushes_from_behind(&self, key: &ContactKey, contact: &TriangleContact) -> bool {
-        let Some(earlier) = self.earlier else { return true };
+        let Some(earlier) = self.earlier_b else { return true };
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
         if self.was_held_behind(key, &contact.interference, &earlier) {
             return true;
@@ -165,15 +165,15 @@ impl TriangleEntry<'_> {
         if self.was_in_front(&earlier, *feature) {
             return self.came_through_or_under(key, contact, &earlier);
         }
-        let below = depth - normal_b.dot(&(self.center - deepest_b));
+        let below = depth - normal_b.dot(&(self.center_b - deepest_b));
         let in_plane = |height: f64, p: &Vec3| height >= -ROUNDING * p.amax();
         let is_or_was_in_plane =
-            || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center);
+            || in_plane(self.height_of(&earlier), &earlier) || in_plane(-below, &self.center_b);
         if self.nearby().is_mirror() && is_or_was_in_plane() {
             // In the plane, which counts as on the front: nothing has been crossed.
             return false;
         }
-        if below > (self.center - earlier).norm() {
+        if below > (self.center_b - earlier).norm() {
             return false;
         }
         let crossed = self.last_crossings(&earlier, key.shell_b);
@@ -236,13 +236,13 @@ impl TriangleEntry<'_> {
     /// One line tells the crossings from either side, so that both sides of a two-sided triangle tell the same of it. A line
     /// that begins or ends within rounding of the surface begins or ends in front of it; of a two-sided triangle on its front.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
-        let path = self.center - earlier;
+        let path = self.center_b - earlier;
         let length = path.norm();
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         if length == 0.0 {
             return last;
         }
-        let (before, after) = (ROUNDING * earlier.amax(), ROUNDING * self.center.amax());
+        let (before, after) = (ROUNDING * earlier.amax(), ROUNDING * self.center_b.amax());
         let ray = Ray {
             origin: *earlier,
             direction: path / length,
@@ -250,7 +250,7 @@ impl TriangleEntry<'_> {
             reach: None,
             response: RayResponse::Normal,
         };
-        visit_triangles(self.body, &earlier.inf(&self.center), &earlier.sup(&self.center), &mut |item| {
+        visit_triangles(self.body, &earlier.inf(&self.center_b), &earlier.sup(&self.center_b), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);
             if set.triangles[triangle as usize].shell != shell {
                 return;
@@ -274,7 +274,7 @@ impl TriangleEntry<'_> {
     }
 
     fn nearby(&self) -> Nearby<'_> {
-        Nearby { body: self.body, item: self.triangle, center: self.center }
+        Nearby { body: self.body, item: self.triangle, center_b: self.center_b }
     }
 }
 

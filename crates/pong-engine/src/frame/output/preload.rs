@@ -35,9 +35,9 @@ pub enum FrictionPreload {
 pub(crate) struct Preloaded {
     /// The contact's place in the order of the frame, and so among the records of its commit.
     place: usize,
-    bristle: Vec3,
+    bristle_b: Vec3,
     sticks: bool,
-    friction_force: Vec3,
+    friction_force_b: Vec3,
     /// What its energy becomes more by, J.
     stored_more: f64,
 }
@@ -73,9 +73,9 @@ impl EvaluationBuffers {
             let squared = bristle.norm_squared() - held.contact.bristle_b.norm_squared();
             Some(Preloaded {
                 place: held.place,
-                bristle,
+                bristle_b: bristle,
                 sticks,
-                friction_force: bristle * -held.stiffness,
+                friction_force_b: bristle * -held.stiffness,
                 stored_more: 0.5 * held.stiffness * squared,
             })
         };
@@ -156,8 +156,8 @@ impl ContactMemory {
     pub(crate) fn preload(&mut self, preloaded: &[Preloaded]) {
         for one in preloaded {
             let record = &mut self.records[one.place];
-            record.force_b = record.normal_b * record.normal_b.dot(&record.force_b) + one.friction_force;
-            (record.bristle_b, record.sticks) = (one.bristle, one.sticks);
+            record.force_b = record.normal_b * record.normal_b.dot(&record.force_b) + one.friction_force_b;
+            (record.bristle_b, record.sticks) = (one.bristle_b, one.sticks);
             record.stored += one.stored_more;
         }
     }

@@ -30,7 +30,7 @@ pub(super) struct Shortest {
     /// How many they are.
     pub count: usize,
     /// The vector, m.
-    pub t: Vec3,
+    pub t_b: Vec3,
     deepest: usize,
     hull_point: HullPoint,
 }
@@ -65,7 +65,7 @@ impl Shortest {
             members: hull_point.places.map(|place| place.contact),
             lambdas: std::array::from_fn(lambda),
             count: hull_point.count,
-            t: (base.normal + hull_point.offset) * scale,
+            t_b: (base.normal_b + hull_point.offset) * scale,
             deepest,
             hull_point,
         }
@@ -76,12 +76,12 @@ impl Shortest {
         let (base, contact) = (&contacts[self.deepest], &contacts[contact]);
         let coupling = Coupling::new(base, contact);
         if !coupling.is_near {
-            return contact.normal.dot(&self.t) - contact.depth;
+            return contact.normal_b.dot(&self.t_b) - contact.depth;
         }
         // n·t − δ with n = n_d + m and t = (n_d + a)·s, where δ_d = s·(1 + 2·n_d·a + |a|²).
         let HullPoint { offset, rise, .. } = &self.hull_point;
         let scale = base.depth / (1.0 + self.hull_point.gain());
-        let turned = (contact.normal - base.normal).dot(offset) - coupling.gap;
+        let turned = (contact.normal_b - base.normal_b).dot(offset) - coupling.gap;
         (base.depth - contact.depth) + scale * (turned - (rise + offset.norm_squared()))
     }
 
@@ -142,7 +142,7 @@ struct Place {
 impl Place {
     fn new(contacts: &[SharedContact], deepest: usize, contact: usize) -> Self {
         let (base, own) = (&contacts[deepest], &contacts[contact]);
-        let turned = (own.normal - base.normal) * base.depth + base.normal * (base.depth - own.depth);
+        let turned = (own.normal_b - base.normal_b) * base.depth + base.normal_b * (base.depth - own.depth);
         let rise = -Coupling::new(base, own).beyond(own.depth, base.depth) / own.depth;
         Self { contact, offset: turned / own.depth, rise }
     }

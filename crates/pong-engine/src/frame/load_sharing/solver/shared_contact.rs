@@ -10,7 +10,7 @@ const APART_COSINE: f64 = -1e-14;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharedContact {
     /// Unit normal.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Depth δ > 0, m.
     pub depth: f64,
     /// λ, m: filled in by [`share_within`](super::share_within).
@@ -20,13 +20,13 @@ pub struct SharedContact {
 impl SharedContact {
     /// A contact whose share is not known yet.
     pub fn new(normal: Vec3, depth: f64) -> Self {
-        Self { normal, depth, lambda: 0.0 }
+        Self { normal_b: normal, depth, lambda: 0.0 }
     }
 }
 
 /// Whether no two normals are more than 90° apart.
 pub(super) fn all_couple(contacts: &[SharedContact]) -> bool {
-    let couples = |a: &SharedContact, b: &SharedContact| a.normal.dot(&b.normal) >= APART_COSINE;
+    let couples = |a: &SharedContact, b: &SharedContact| a.normal_b.dot(&b.normal_b) >= APART_COSINE;
     contacts.iter().enumerate().all(|(i, a)| contacts[i + 1..].iter().all(|b| couples(a, b)))
 }
 
@@ -57,10 +57,10 @@ impl Coupling {
     const NEAR_COSINE: f64 = 0.5;
 
     pub fn new(a: &SharedContact, b: &SharedContact) -> Self {
-        let cosine = a.normal.dot(&b.normal);
+        let cosine = a.normal_b.dot(&b.normal_b);
         if cosine > Self::NEAR_COSINE {
             // The two are of unit length: |n₁ − n₂|² = 2 − 2·n₁·n₂.
-            let gap = 0.5 * (a.normal - b.normal).norm_squared();
+            let gap = 0.5 * (a.normal_b - b.normal_b).norm_squared();
             return Self { cosine: 1.0 - gap, gap, is_near: true };
         }
         let cosine = cosine.max(0.0);

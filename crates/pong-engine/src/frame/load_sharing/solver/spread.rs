@@ -20,8 +20,8 @@ const CHOICES_MAX: usize = 50;
 /// Fills in every λ. Answers whether it could: not where no more contacts touch t than decide it, nor where rounding keeps
 /// the λ from adding up to t.
 pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool {
-    let length = shortest.t.norm();
-    let along = shortest.t / length;
+    let length = shortest.t_b.norm();
+    let along = shortest.t_b / length;
     let (mut count, mut widest) = (0, 0.0_f64);
     for index in 0..contacts.len() {
         let is_tight = shortest.slack(contacts, index) <= TIGHT_MAX * length;
@@ -29,7 +29,7 @@ pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool
         contacts[index].lambda = f64::from(u8::from(is_tight));
         if is_tight {
             count += 1;
-            widest = widest.max(across(&contacts[index].normal, &along).norm());
+            widest = widest.max(across(&contacts[index].normal_b, &along).norm());
         }
     }
     if count <= shortest.count {
@@ -37,13 +37,13 @@ pub(super) fn share(contacts: &mut [SharedContact], shortest: &Shortest) -> bool
     }
     let factor = if widest > ROUNDING_MAX { 1.0 / widest.max(ROUNDING_MAX) } else { 0.0 };
     let stretched = |normal: &Vec3| along * normal.dot(&along) + across(normal, &along) * factor;
-    let mu = least(contacts, &shortest.t, stretched);
+    let mu = least(contacts, &shortest.t_b, stretched);
     let mut sum = Vec3::zeros();
     for contact in contacts.iter_mut().filter(|contact| contact.lambda > 0.0) {
-        contact.lambda = stretched(&contact.normal).dot(&mu).max(0.0);
-        sum += contact.normal * contact.lambda;
+        contact.lambda = stretched(&contact.normal_b).dot(&mu).max(0.0);
+        sum += contact.normal_b * contact.lambda;
     }
-    (sum - shortest.t).norm() <= RESIDUAL_MAX * length
+    (sum - shortest.t_b).norm() <= RESIDUAL_MAX * length
 }
 
 /// The part of a normal across t.
@@ -57,7 +57,7 @@ fn least(contacts: &[SharedContact], t: &Vec3, stretched: impl Fn(&Vec3) -> Vec3
     for _ in 0..CHOICES_MAX {
         let mut gram = Mat3::zeros();
         for contact in contacts.iter().filter(|contact| contact.lambda > 0.0) {
-            let normal = stretched(&contact.normal);
+            let normal = stretched(&contact.normal_b);
             if normal.dot(&mu) > 0.0 {
                 gram += normal * normal.transpose();
             }

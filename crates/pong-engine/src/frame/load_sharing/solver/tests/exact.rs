@@ -136,7 +136,7 @@ fn determinant(rows: &[Vec<Whole>]) -> Whole {
 /// The shortest t with n·t ≥ δ for all contacts, rounded at the end; which contacts decide it, and Σ λ/δ of these.
 pub(super) fn shortest(contacts: &[SharedContact]) -> (Vec3, usize, f64) {
     let normals: Vec<[Whole; 3]> =
-        contacts.iter().map(|c| std::array::from_fn(|axis| Whole::new(c.normal[axis]))).collect();
+        contacts.iter().map(|c| std::array::from_fn(|axis| Whole::new(c.normal_b[axis]))).collect();
     let depths: Vec<Whole> = contacts.iter().map(|c| Whole::new(c.depth)).collect();
     let gram: Vec<Vec<Whole>> = normals.iter().map(|a| normals.iter().map(|b| dot(a, b)).collect()).collect();
     let sets = (1..1_usize << contacts.len()).filter(|set| set.count_ones() <= 3);

@@ -16,7 +16,7 @@ fn solved(contacts: &[(Vec3, f64)]) -> (Vec<f64>, Vec3) {
     let mut shared_contacts: Vec<SharedContact> =
         contacts.iter().map(|(n, d)| SharedContact::new(n.normalize(), *d)).collect();
     share(&mut shared_contacts);
-    let t = shared_contacts.iter().map(|s| s.normal * s.lambda).sum();
+    let t = shared_contacts.iter().map(|s| s.normal_b * s.lambda).sum();
     (shared_contacts.iter().map(|s| s.lambda).collect(), t)
 }
 
@@ -130,7 +130,7 @@ fn folds_of_any_angle_agree_with_exact_arithmetic() {
             let mut set = folded_set(&mut seed, 2 + round % 5, fold, 0);
             let (expected, decide, sum) = exact::shortest(&set);
             share(&mut set);
-            let t: Vec3 = set.iter().map(|s| s.normal * s.lambda).sum();
+            let t: Vec3 = set.iter().map(|s| s.normal_b * s.lambda).sum();
             let size = expected.norm();
             length = length.max((t.norm() / size - 1.0).abs());
             direction = direction.max((t - expected).norm() / size);
@@ -163,7 +163,7 @@ fn folds_beside_walls_agree_with_exact_arithmetic() {
             }
             let (expected, ..) = exact::shortest(&set);
             share(&mut set);
-            let t: Vec3 = set.iter().map(|s| s.normal * s.lambda).sum();
+            let t: Vec3 = set.iter().map(|s| s.normal_b * s.lambda).sum();
             worst = worst.max((t - expected).norm() / expected.norm());
             coupled += 1;
         }
@@ -189,14 +189,14 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
                 let lean = Vec3::from_fn(|_, _| scatter(&mut seed) - 0.5) * fold;
                 let depth = shared_contact.depth
                     * (1.0 + 0.1 * fold * fold * scatter(&mut seed) + 2e-16 * scatter(&mut seed));
-                in_pieces.push(SharedContact::new((shared_contact.normal + lean).normalize(), depth));
+                in_pieces.push(SharedContact::new((shared_contact.normal_b + lean).normalize(), depth));
             }
         }
         let mut alone = whole.clone();
         share(&mut alone);
         share(&mut in_pieces);
         for shared_contact in &alone {
-            let near = in_pieces.iter().filter(|piece| piece.normal.dot(&shared_contact.normal) > 0.99);
+            let near = in_pieces.iter().filter(|piece| piece.normal_b.dot(&shared_contact.normal_b) > 0.99);
             let together: f64 = near.map(|piece| piece.lambda).sum();
             let error = (together - shared_contact.lambda).abs() / 1e-3;
             assert!(error < 1e-14 + 2.0 * fold, "{round} fold {fold:e}: {error:e} {in_pieces:?}");
@@ -234,7 +234,7 @@ fn awkward_set(seed: &mut u64, count: usize) -> Vec<SharedContact> {
     let mut set: Vec<SharedContact> = Vec::new();
     for i in 0..count {
         let fresh = Vec3::from_fn(|_, _| scatter(seed) - 0.5).normalize();
-        let earlier = set.get(i / 2).map_or(fresh, |earlier| earlier.normal);
+        let earlier = set.get(i / 2).map_or(fresh, |earlier| earlier.normal_b);
         let normal = match (scatter(seed) * 8.0) as u32 {
             0 => earlier,
             1 => -earlier,
