@@ -1,4 +1,4 @@
-"""Instructions that `pong` takes to read files of several sizes (ci/readers)."""
+"""Instructions that `pong`, and a C program that restores contact states, take to read several sizes (ci/readers)."""
 
 import base64
 import concurrent.futures
@@ -61,20 +61,20 @@ def solid(folder, count):
     places, corners = ball(count)
     faces = ", ".join(str(list(face)) for face in corners)
     (folder / "m.ron").write_text(model(f'Polyhedron(name: "p", vertices: [{triples(places)}], faces: [{faces}])'))
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def mesh(folder, count):
     places, found = sheet(count)
     text = f'TriangleMesh(name: "p", vertices: [{triples(places)}], triangles: [{triples(found)}])'
     (folder / "m.ron").write_text(model(text))
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def groups(folder, count):
     one = lambda k: f'(name: "g{k}", primitives: [Sphere(name: "b", center: ({0.1 * k!r}, 0.0, 0.0), radius: 0.04)])'
     (folder / "m.ron").write_text(model(", ".join(map(one, range(count))), "groups"))
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def surfaces(folder, count):
@@ -84,7 +84,7 @@ def surfaces(folder, count):
     )
     text = model(balls).replace('"s": (stiffness: 1e6)', '"s": (stiffness: 1e6), ' + named)
     (folder / "m.ron").write_text(text)
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def obj(folder, count):
@@ -93,7 +93,7 @@ def obj(folder, count):
     lines += ["f %d %d %d" % tuple(corner + 1 for corner in triangle) for triangle in found]
     (folder / "m.obj").write_text("\n".join(lines) + "\n")
     (folder / "m.ron").write_text(model('TriangleMesh(name: "p", file: "m.obj")'))
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def stl(folder, count):
@@ -102,7 +102,7 @@ def stl(folder, count):
     body = b"".join(bytes(12) + b"".join(corner(places[k]) for k in triangle) + bytes(2) for triangle in found)
     (folder / "m.stl").write_bytes(bytes(80) + struct.pack("<I", len(found)) + body)
     (folder / "m.ron").write_text(model('TriangleMesh(name: "p", file: "m.stl")'))
-    return ["check", "m.ron"]
+    return [PONG, "check", "m.ron"]
 
 
 def gltf(folder, places, found, nodes):
@@ -127,7 +127,7 @@ def gltf(folder, places, found, nodes):
         "buffers": [{"byteLength": len(numbers) + len(indices), "uri": "data:application/octet-stream;base64," + blob}],
     }
     (folder / "m.gltf").write_text(json.dumps(document))
-    return ["import", "m.gltf", "-o", "out.ron", "--stiffness", "1e6"]
+    return [PONG, "import", "m.gltf", "-o", "out.ron", "--stiffness", "1e6"]
 
 
 def gltf_mesh(folder, count):
@@ -155,13 +155,19 @@ def scene_of(folder, ball, steps):
 def scene(folder, count):
     rows = ", ".join(f"(time: {0.01 * k!r}, position: (0.0, 0.0, {1 + 0.001 * math.sin(k)!r}))" for k in range(count))
     scene_of(folder, f"motion: Prescribed(Table([{rows}]))", 1)
-    return ["run", "s.ron", "--quiet"]
+    return [PONG, "run", "s.ron", "--quiet"]
 
 
 def log(folder, count):
     scene_of(folder, "motion: Free, mass: 1.0, inertia: Diagonal(1.0, 1.0, 1.0), position: (0.0, 0.0, 0.999)", count)
     subprocess.run([PONG, "run", "s.ron", "--quiet", "--log", "log"], cwd=folder, check=True, capture_output=True)
-    return ["log", "log", "--csv", "csv"]
+    return [PONG, "log", "log", "--csv", "csv"]
+
+
+def restored(folder, count):
+    """What restoring takes, without what loading, pressing and saving take."""
+    groups(folder, count)
+    return [RESTORER, "m.ron", str(count), "20"], [RESTORER, "m.ron", str(count), "0"]
 
 
 KINDS = {
@@ -175,19 +181,23 @@ KINDS = {
     "glTF: nodes of one name": gltf_nodes,
     "scene: a table of poses": scene,
     "log: frames": log,
+    "contact state, 20 times": restored,
 }
 
 
 def instructions(folder, command):
     """What a command takes, and its time alone, s."""
+    if isinstance(command, tuple):
+        (refs, alone), (without, alone_without) = (instructions(folder, one) for one in command)
+        return refs - without, alone - alone_without
     begin = time.monotonic()
-    subprocess.run([PONG, *command], cwd=folder, check=True, capture_output=True, text=True)
+    subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
     alone = time.monotonic() - begin
     for written in folder.glob("out.ron"):
         written.unlink()
     for written in folder.glob("csv/*"):
         written.unlink()
-    valgrind = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", PONG, *command]
+    valgrind = ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", *command]
     done = subprocess.run(valgrind, cwd=folder, check=True, capture_output=True, text=True)
     return int(re.search(r"I\s+refs:\s+([\d,]+)", done.stderr)[1].replace(",", "")), alone
 
@@ -202,7 +212,7 @@ def count(name, size):
 
 
 def main():
-    is_long = "--long" in sys.argv[3:]
+    is_long = "--long" in sys.argv[4:]
     sizes = [1_000, 10_000, 100_000] if is_long else [500, 4_000]
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         told = {name: {size: pool.submit(count, name, size) for size in [TINY, *sizes]} for name in KINDS}
@@ -220,5 +230,6 @@ def main():
     sys.exit(failed)
 
 
-PONG, SCRATCH = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2])
+PONG, RESTORER = (str(pathlib.Path(path).resolve()) for path in sys.argv[1:3])
+SCRATCH = pathlib.Path(sys.argv[3])
 main()
