@@ -82,10 +82,10 @@ fn knit_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Findings {
 fn tell(reader: &mut Reader<'_>, draft: &BodyDraft, mesh_warning: &MeshWarning) {
     let set = &draft.body.triangles;
     let (triangle, what) = match *mesh_warning {
-        MeshWarning::CrowdedEdge { triangle, count } => (
-            triangle,
-            format!("{count} triangles share an edge near {}; it counts as free", middle(set, triangle)),
-        ),
+        MeshWarning::CrowdedEdge { ref triangles } => {
+            let (first, count) = (triangles[0], triangles.len());
+            (first, format!("{count} triangles share an edge near {}; it counts as free", middle(set, first)))
+        }
         MeshWarning::Winding { triangle, other } => {
             let other = draft.triangle_path(other).1;
             (triangle, format!("wound against its neighbour {other}; their common edge counts as free"))

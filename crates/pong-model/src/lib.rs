@@ -3,11 +3,13 @@
 //! The way of a file: `ron_tree` (text to values with their places), `read` (values to drafts of bodies), `hull`
 //! (one convex piece), `pieces`, `polyhedra` and `triangle_topology` (surfaces), `arrange`,
 //! `tree` and `box_tree` (bounding volumes), `hash`. The format is described in `docs/model_format.md`. `grouping`
-//! gives the text of a file other bounding volumes and leaves.
+//! gives the text of a file other bounding volumes and leaves. For authoring tools, [`authored`] gives a file as it is
+//! written, and [`shapes`] what keeps single shapes from being taken.
 
 #![forbid(unsafe_code)]
 
 mod arrange;
+pub mod authored;
 pub mod box_tree;
 mod build;
 mod draft;
@@ -28,6 +30,7 @@ mod read;
 mod regroup;
 pub mod restitution;
 mod ron_tree;
+pub mod shapes;
 pub mod surface;
 pub mod t_junctions;
 mod tree;
@@ -54,12 +57,14 @@ use std::path::Path;
 /// # Errors
 /// A file that cannot be read or is no UTF-8; every fault of the model, with line, column and tree path.
 pub fn load(path: &Path, ext: &Extensions) -> Result<Model, ModelErrors> {
+    let text = text_of(path)?;
+    parse(&text, &path.display().to_string(), Some(path.parent().unwrap_or(Path::new(""))), ext)
+}
+
+fn text_of(path: &Path) -> Result<String, ModelErrors> {
     let file = path.display().to_string();
     match files::read(path) {
-        Ok(bytes) => match String::from_utf8(bytes) {
-            Ok(text) => parse(&text, &file, Some(path.parent().unwrap_or(Path::new(""))), ext),
-            Err(error) => Err(not_text(file, &error)),
-        },
+        Ok(bytes) => String::from_utf8(bytes).map_err(|error| not_text(file, &error)),
         Err(reason) => Err(unreadable(file, reason.to_string(), "name a model file that can be read")),
     }
 }

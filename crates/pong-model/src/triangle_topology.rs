@@ -15,7 +15,7 @@ const JUNCTIONS_TOLD: usize = 1000;
 /// A warning of a mesh.
 pub(crate) enum MeshWarning {
     /// An edge shared by three or more triangles.
-    CrowdedEdge { triangle: u32, count: usize },
+    CrowdedEdge { triangles: Vec<u32> },
     /// Two triangles that run along their common edge in the same direction.
     Winding { triangle: u32, other: u32 },
     /// A vertex within another triangle's free edge.
@@ -98,7 +98,7 @@ fn connect(set: &mut TriangleSet, part: &[u32]) -> Connections {
                 let first = triangle(&crowd[0]);
                 found.mesh_warnings.push(match crowd {
                     [_, other] => MeshWarning::Winding { triangle: first, other: triangle(other) },
-                    _ => MeshWarning::CrowdedEdge { triangle: first, count: crowd.len() },
+                    _ => MeshWarning::CrowdedEdge { triangles: crowd.iter().map(triangle).collect() },
                 });
             }
         }

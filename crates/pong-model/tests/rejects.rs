@@ -501,11 +501,16 @@ fn every_rule_of_the_source_is_described_in_the_format() {
     }
 }
 
-/// Every rule is used here or in the tests of meshes and extensions.
+/// Every rule is used here or in the tests of meshes, extensions and files as they are written.
 #[test]
 fn every_rule_of_the_source_has_a_test() {
-    let tests =
-        [include_str!("rejects.rs"), include_str!("meshes.rs"), include_str!("extensions.rs")].concat();
+    let tests = [
+        include_str!("rejects.rs"),
+        include_str!("meshes.rs"),
+        include_str!("extensions.rs"),
+        include_str!("authored.rs"),
+    ]
+    .concat();
     for rule in rules_of_the_source().into_iter().filter(|rule| !UNTESTED.contains(&rule.as_str())) {
         assert!(tests.contains(&format!("\"{rule}\"")), "no test for the rule `{rule}`");
     }

@@ -6,7 +6,8 @@
 //! | `arrays.rs` | states and wrenches as NumPy arrays |
 //! | `contacts.rs` | contacts as a structured NumPy array |
 //! | `ids.rs` | models, Objects, pairs and Interfaces of a world, and how a call names them |
-//! | `model.rs` | model files |
+//! | `model.rs` | models |
+//! | `authored.rs`, `shapes.rs` | model files as they are written, checks of single shapes: python/pong/model.py |
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | what of a log is checked before NumPy maps its tables |
@@ -14,6 +15,7 @@
 
 mod advice;
 mod arrays;
+mod authored;
 mod builder;
 mod contacts;
 mod errors;
@@ -23,6 +25,7 @@ mod model;
 mod recording;
 mod run;
 mod scene;
+mod shapes;
 mod simulation;
 mod verify;
 mod world;
@@ -50,5 +53,9 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(verify::verify, module)?)?;
     module.add_function(wrap_pyfunction!(advice::advise_contact, module)?)?;
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
+    module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
+    module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;
+    module.add_function(wrap_pyfunction!(shapes::check_polyhedron, module)?)?;
+    module.add_function(wrap_pyfunction!(shapes::check_triangles, module)?)?;
     Ok(())
 }

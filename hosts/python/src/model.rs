@@ -99,6 +99,11 @@ impl Model {
         Ok(all)
     }
 
+    /// The bounding volume of every group that has one, in the frame of its movable group.
+    fn bounds<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        crate::shapes::bounds(py, &self.model)
+    }
+
     fn __repr__(&self) -> String {
         format!("<pong.Model {:?}>", self.model.name)
     }

@@ -60,9 +60,10 @@ pub(super) fn edges_and_widths(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked
     let mut problems = Vec::new();
     for (index, face) in faces.iter().enumerate() {
         let corners = corners(vertices, face);
-        if edges(face).any(|(a, b)| a == b) {
+        if let Some((a, _)) = edges(face).find(|(a, b)| a == b) {
             let cause = "two neighbouring vertices are the same place".to_owned();
-            problems.push(Problem::new(Some(index), "zero-length-edge", cause, "merge the two"));
+            let problem = Problem::new(Some(index), "zero-length-edge", cause, "merge the two");
+            problems.push(problem.at(&[vertices[a as usize]]));
             continue;
         }
         let share =
@@ -91,7 +92,7 @@ pub(super) fn closed_surface(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
                 a.x, a.y, a.z, b.x, b.y, b.z
             );
             let cure = "close the surface and run every face counter-clockwise seen from outside";
-            problems.push(Problem::new(Some(index), "open-polyhedron", cause, cure));
+            problems.push(Problem::new(Some(index), "open-polyhedron", cause, cure).at(&[a, b]));
         }
     }
     verdict(problems)
@@ -141,12 +142,8 @@ pub(super) fn planar(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
                 place(corner),
                 off / diameter
             );
-            problems.push(Problem::new(
-                Some(index),
-                "face-not-planar",
-                cause,
-                "move it, or triangulate the face",
-            ));
+            let cure = "move it, or triangulate the face";
+            problems.push(Problem::new(Some(index), "face-not-planar", cause, cure).at(&[*corner]).off(off));
         }
     }
     verdict(problems)
@@ -174,7 +171,7 @@ pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Optio
         place(&corners[corner]),
         depth / diameter
     );
-    Some(not_convex(face, "face-not-convex", cause))
+    Some(not_convex(face, "face-not-convex", cause).at(&[corners[corner]]).off(depth))
 }
 
 /// There is something behind every face. Merged to fewer than four, the solid would be as good as flat.
@@ -200,5 +197,5 @@ fn vertex_in_front(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: 
         place(&vertices[vertex as usize]),
         height / diameter
     );
-    Some(not_convex(face, "not-convex", cause))
+    Some(not_convex(face, "not-convex", cause).at(&[vertices[vertex as usize]]).off(height))
 }

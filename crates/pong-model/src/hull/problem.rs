@@ -1,5 +1,7 @@
 //! What keeps authored faces from being a convex piece.
 
+use pong_geometry::Vec3;
+
 /// What is wrong with a polyhedron.
 #[derive(Debug)]
 pub(crate) struct Problem {
@@ -8,10 +10,22 @@ pub(crate) struct Problem {
     pub(crate) rule: &'static str,
     pub(crate) cause: String,
     pub(crate) cure: &'static str,
+    /// The vertices that it lies with.
+    pub(crate) places: Vec<Vec3>,
+    /// By how much a plane or a line is missed, m; 0 where none is.
+    pub(crate) off: f64,
 }
 
 impl Problem {
     pub(super) fn new(face: Option<usize>, rule: &'static str, cause: String, cure: &'static str) -> Self {
-        Self { face, rule, cause, cure }
+        Self { face, rule, cause, cure, places: Vec::new(), off: 0.0 }
+    }
+
+    pub(super) fn at(self, places: &[Vec3]) -> Self {
+        Self { places: places.to_vec(), ..self }
+    }
+
+    pub(super) fn off(self, off: f64) -> Self {
+        Self { off, ..self }
     }
 }

@@ -13,6 +13,9 @@ pub(super) fn custom(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> Opti
         None => Vec::new(),
     };
     let kind = kind?;
+    if !reader.judges_shapes {
+        return None;
+    }
     let Some(factory) = reader.ext.primitive(&kind).cloned() else {
         let cause = format!("no primitive of the kind \"{kind}\" is registered");
         let cure = "register it with Extensions::add_primitive before loading";

@@ -216,7 +216,7 @@ fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {
         }
     };
     let Some(name) = name else { return BoundKind::Aabb };
-    if reader.ext.volume(&name).is_none() {
+    if reader.judges_shapes && reader.ext.volume(&name).is_none() {
         let cause = format!("no bounding volume of the kind \"{name}\" is registered");
         reader.fault(
             node.at,

@@ -50,6 +50,9 @@ pub(super) fn from_file(
         None => Some(1.0),
     };
     let name = reader.text(node, path)?;
+    if !reader.judges_shapes {
+        return None;
+    }
     let file = allowed_path(reader, node, path, &name)?;
     let folders = reader.mesh_dir.into_iter().chain(reader.ext.folders_allowed());
     let bytes = match files::read_below(&file, folders) {

@@ -11,7 +11,7 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{MayPush, NO_NEIGHBOR, TriangleRecord};
 
 /// A triangle whose smallest height is below this share of its longest edge is refused.
-const SLIVER: f64 = 1e-9;
+pub(crate) const SLIVER: f64 = 1e-9;
 
 pub(super) fn triangle(
     reader: &mut Reader<'_>,
@@ -36,6 +36,11 @@ pub(super) fn triangle_mesh(
         options(reader, p);
         return None;
     };
+    if !reader.judges_shapes {
+        options(reader, p);
+        indices_of_vertices(reader, p, &mesh, "triangles");
+        return None;
+    }
     if mesh.face_count() == 0 {
         reader.fault(p.at, &p.path, "empty-mesh", "the mesh has no triangles", "give it some, or remove it");
         return None;
@@ -170,7 +175,7 @@ fn triangle_corners(mesh: &Mesh, face: usize, x: &pong_geometry::Transform) -> R
 }
 
 /// Smallest height over longest edge; scaled first so that no size overflows.
-fn smallest_height_share(corners: &[Vec3; 3]) -> f64 {
+pub(crate) fn smallest_height_share(corners: &[Vec3; 3]) -> f64 {
     let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
     let longest = edges.iter().map(Vec3::norm).fold(0.0, f64::max);
     if longest == 0.0 {
@@ -187,6 +192,10 @@ pub(super) fn polyhedron(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> 
         None => Some(Vec::new()),
     };
     let mesh = mesh?;
+    if !reader.judges_shapes {
+        indices_of_vertices(reader, p, &mesh, "faces");
+        return None;
+    }
     let vertices: Vec<Vec3> = mesh.vertices.iter().map(|v| p.x.point(v)).collect();
     let faces: Vec<&[u32]> = (0..mesh.face_count()).map(|face| mesh.face(face)).collect();
     let mut active = vec![true; faces.len()];
@@ -210,6 +219,20 @@ pub(super) fn polyhedron(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> 
             None
         }
     }
+}
+
+/// Notes the faces that name a vertex that is not there. Of a mesh whose shape is not judged, this is all that is asked.
+fn indices_of_vertices(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, mesh: &Mesh, list: &'static str) {
+    let mut faults = FaceFaults { path: &p.path, list, count: 0 };
+    for face in 0..mesh.face_count() {
+        let beyond = mesh.face(face).iter().find(|&&vertex| vertex as usize >= mesh.vertices.len());
+        if let Some(vertex) = beyond {
+            let cause = format!("there is no vertex {vertex} among {}", mesh.vertices.len());
+            let at = mesh.face_at(face).unwrap_or(p.at);
+            faults.note(reader, at, Some(face), "index-out-of-range", (cause, "indices count from 0"));
+        }
+    }
+    faults.close(reader, p.at);
 }
 
 fn inactive_faces(

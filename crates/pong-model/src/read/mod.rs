@@ -16,4 +16,5 @@ mod suggest;
 mod surface;
 
 pub(crate) use document::document;
+pub(crate) use mesh_primitive::{SLIVER, smallest_height_share};
 pub(crate) use reader::{LISTED_PER_MESH, Reader};

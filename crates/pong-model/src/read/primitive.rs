@@ -172,7 +172,7 @@ fn plane(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Plane> {
 fn segment(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<LineSegment> {
     let node = p.fields.required(reader, "ends")?;
     let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
-    if ends[0] == ends[1] {
+    if reader.judges_shapes && ends[0] == ends[1] {
         let cause = "both ends of the segment are the same place";
         reader.fault(node.at, &p.path, "zero-length", cause, "move one end, or use a Point");
         return None;

@@ -17,6 +17,8 @@ pub(crate) struct Reader<'a> {
     file: &'a str,
     pub(crate) mesh_dir: Option<&'a Path>,
     pub(crate) ext: &'a Extensions,
+    /// Whether shapes are judged and mesh files read. If not, only notation, fields, types, names and indices are.
+    pub(crate) judges_shapes: bool,
     /// Byte offset and fault.
     faults: Vec<(u32, ModelError)>,
     /// Where each line begins; found when the first warning needs it.
@@ -33,6 +35,7 @@ impl<'a> Reader<'a> {
             file,
             mesh_dir,
             ext,
+            judges_shapes: true,
             faults: Vec::new(),
             line_starts: OnceCell::new(),
             warnings: Vec::new(),

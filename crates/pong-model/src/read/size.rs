@@ -12,6 +12,9 @@ use pong_geometry::primitive::PrimitiveKind;
 
 /// Notes a primitive that is too small or too large; whether it is neither.
 pub(super) fn check(reader: &mut Reader<'_>, draft: &BodyDraft, info: &PrimitiveInfo, at: u32) -> bool {
+    if !reader.judges_shapes {
+        return true;
+    }
     let outside = |(_, size): &(&str, f64)| !(SMALLEST_SIZE..=LARGEST_SIZE).contains(size);
     let Some((what, size)) = sizes(draft, info).into_iter().find(outside) else { return true };
     let cause = format!("{what} is {size:e} m; sizes are from {SMALLEST_SIZE:e} to {LARGEST_SIZE:e} m");

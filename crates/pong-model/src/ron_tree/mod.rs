@@ -14,14 +14,16 @@ pub(crate) use parser::{end_of_value, parse};
 
 /// A value and the byte offset at which it begins.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Node {
-    pub(crate) at: u32,
-    pub(crate) value: Value,
+pub struct Node {
+    /// Byte offset in the text.
+    pub at: u32,
+    /// What stands there.
+    pub value: Value,
 }
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Value {
+pub enum Value {
     /// `true` or `false`.
     Bool(bool),
     /// Any number.
@@ -46,23 +48,26 @@ pub(crate) enum Value {
 
 /// A field of a struct and where its name stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Field {
-    pub(crate) name: Box<str>,
-    pub(crate) at: u32,
-    pub(crate) value: Node,
+pub struct Field {
+    /// Its name.
+    pub name: Box<str>,
+    /// Byte offset of the name in the text.
+    pub at: u32,
+    /// What it holds.
+    pub value: Node,
 }
 
 /// A list of tuples (or of lists) of numbers, in flat arrays.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Rows {
+pub struct Rows {
     /// Whether the rows are written with brackets instead of parentheses.
-    pub(crate) bracketed: bool,
+    pub bracketed: bool,
     /// All numbers, row after row.
-    pub(crate) numbers: Vec<f64>,
+    pub numbers: Vec<f64>,
     /// Where each row ends in `numbers`.
-    pub(crate) ends: Vec<u32>,
+    pub ends: Vec<u32>,
     /// Byte offset at which each row begins.
-    pub(crate) at: Vec<u32>,
+    pub at: Vec<u32>,
 }
 
 /// Why a text is not RON.
@@ -74,11 +79,14 @@ pub(crate) struct SyntaxError {
 }
 
 impl Rows {
-    pub(crate) fn len(&self) -> usize {
+    /// How many rows there are.
+    #[allow(clippy::len_without_is_empty)]
+    pub fn len(&self) -> usize {
         self.ends.len()
     }
 
-    pub(crate) fn row(&self, index: usize) -> &[f64] {
+    /// The numbers of a row.
+    pub fn row(&self, index: usize) -> &[f64] {
         let start = if index == 0 { 0 } else { self.ends[index - 1] as usize };
         &self.numbers[start..self.ends[index] as usize]
     }

@@ -14,6 +14,7 @@ docs/python.md tells the rest; `pong.campaign` runs a scene thousands of times (
 
 from enum import IntFlag
 
+from . import model
 from ._log import Log
 from ._pong import (
     CONTACT_DTYPE,
@@ -84,6 +85,7 @@ __all__ = [
     "WorldBuilder",
     "__version__",
     "advise_contact",
+    "model",
     "verify",
 ]
 
