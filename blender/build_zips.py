@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the zips of both extensions, as Blender installs them.
 
-    python3 blender/build_zips.py [-o DIR] [NAME …]
+    python3 blender/build_zips.py [--wheel FILE] [-o DIR] [NAME …]
 
-Needs Python 3.11 and nothing else. The same sources give the same bytes on any machine: names in order, one date, no
-compression. Blender's own `extension build` leaves out links, so it would ship pong_viz without its core; here a link
-becomes what it points at.
+Needs Python 3.11 and the wheel `pong`, which goes into both zips: Blender installs it with the extension. The same sources
+and wheel give the same bytes on any machine: names in order, one date, no compression. Blender's own `extension build`
+leaves out links, so it would ship pong_viz without its core; here a link becomes what it points at.
 """
 
 import argparse
+import argparse
+import os
+import re
 import sys
 import tomllib
 import zipfile
@@ -19,6 +22,8 @@ HERE = Path(__file__).resolve().parent
 EXTENSIONS = ("pong_pmtk", "pong_viz")
 DATE = (1980, 1, 1, 0, 0, 0)  # the first that a zip can tell
 PLAIN_FILE = 0o100644 << 16
+BUILT_WHEELS = HERE.parent / "target/python/wheel"  # where the checks leave the wheel
+PLATFORMS = {"linux_x86_64": "linux-x64", "linux_aarch64": "linux-arm64"}  # of a wheel, and as Blender says it
 
 
 def files_of(source: Path, below: str = "") -> dict[str, Path]:
@@ -36,33 +41,66 @@ def files_of(source: Path, below: str = "") -> dict[str, Path]:
     return found
 
 
-def build(name: str, folder: Path) -> Path:
+def platform_of(wheel: Path) -> str:
+    """The platform of a wheel, in Blender's words."""
+    tag = re.sub(r"^manylinux(_\d+_\d+|\d+)_", "linux_", wheel.stem.split("-")[-1].split(".")[0])
+    if tag not in PLATFORMS:
+        raise OSError(f"{wheel}: Blender runs on no platform `{tag}`; build the wheel for {' or '.join(PLATFORMS)}")
+    return PLATFORMS[tag]
+
+
+def built_wheel() -> Path:
+    """The wheel that the environment names, or the one that the checks have built."""
+    if os.environ.get("PONG_WHEEL"):
+        return Path(os.environ["PONG_WHEEL"])
+    found = sorted(BUILT_WHEELS.glob("pong-*.whl"))
+    if len(found) != 1:
+        cause = f"there are {len(found)} wheels in {BUILT_WHEELS}, and one is to go into the zips"
+        raise OSError(f"{cause}; build one with `bash hosts/python/build_wheel DIR` and name it with --wheel")
+    return found[0]
+
+
+def manifest_with(manifest: str, wheel: Path) -> bytes:
+    """A manifest that tells Blender of the wheel: in front of its first table."""
+    lines = f'platforms = ["{platform_of(wheel)}"]\nwheels = ["./wheels/{wheel.name}"]\n\n'
+    head, table, tail = manifest.replace("\r\n", "\n").partition("\n[permissions]")
+    return f"{head.rstrip()}\n{lines}{table.lstrip()}{tail}".encode()
+
+
+def build(name: str, folder: Path, wheel: Path) -> Path:
     """Writes `NAME-VERSION.zip` into a folder and returns its path."""
     source = HERE / name
-    manifest = tomllib.loads((source / "blender_manifest.toml").read_text(encoding="utf-8"))
+    written = (source / "blender_manifest.toml").read_text(encoding="utf-8")
+    manifest = tomllib.loads(written)
     if (source / "core").is_file():
         raise OSError(f"{source / 'core'}: a file where a link should be; on Windows, check out with core.symlinks=true")
     folder.mkdir(parents=True, exist_ok=True)
     target = folder / f"{manifest['id']}-{manifest['version']}.zip"
+    contents = {inside: path.read_bytes().replace(b"\r\n", b"\n") for inside, path in files_of(source).items()}
+    contents["blender_manifest.toml"] = manifest_with(written, wheel)
+    contents[f"wheels/{wheel.name}"] = wheel.read_bytes()
     with zipfile.ZipFile(target, "w") as out:
-        for inside, path in sorted(files_of(source).items()):
+        for inside, content in sorted(contents.items()):
             entry = zipfile.ZipInfo(inside, DATE)
             entry.create_system, entry.external_attr = 3, PLAIN_FILE
-            out.writestr(entry, path.read_bytes().replace(b"\r\n", b"\n"))
+            out.writestr(entry, content)
     return target
 
 
 def main(words=None) -> int:
     parser = argparse.ArgumentParser(prog="build_zips", description="Builds the zips of the Blender extensions")
     parser.add_argument("names", nargs="*", default=EXTENSIONS, metavar="NAME", help=f"{' or '.join(EXTENSIONS)}; both unless given")
+    told = "the wheel to bring along; default PONG_WHEEL, or the one in target/python/wheel"
+    parser.add_argument("--wheel", type=Path, metavar="FILE", help=told)
     parser.add_argument("-o", "--output", type=Path, default=Path("target/blender"), metavar="DIR", help="default target/blender")
     given = parser.parse_args(words)
     unknown = [name for name in given.names if name not in EXTENSIONS]
     if unknown:
         parser.error(f"there is no extension {unknown[0]}; choose from {', '.join(EXTENSIONS)}")
     try:
+        wheel = given.wheel or built_wheel()
         for name in given.names:
-            print(build(name, given.output))
+            print(build(name, given.output, wheel))
     except OSError as fault:
         print(f"build_zips: {fault}", file=sys.stderr)
         return 1

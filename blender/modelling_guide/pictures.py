@@ -144,8 +144,8 @@ def tree(target):
     only("plate", "jaw")
     paint("plate", PALE, 0.4)
     paint("jaw", STEEL, 0.7)
-    model = exported("latch")
-    for path, lines in overlay.bounds_lines(model).items():
+    model, loaded = exported("latch")
+    for path, lines in overlay.bounds_lines(model, loaded).items():
         tubes(path, lines, BOUND, 0.5)
     for path, lines in overlay.groups_lines(model, 0.022).items():
         for axis, color in enumerate(AXES):
@@ -157,7 +157,7 @@ def tree(target):
 
 
 def exported(name):
-    """The model of a root, with some surface where it has none yet."""
+    """The model of a root, as written and as the engine has it, with some surface where it has none yet."""
     root = bpy.data.objects[name]
     if not len(root.pong_model.surfaces):
         root.pong_model.surfaces.add().name = "any"
@@ -167,7 +167,7 @@ def exported(name):
     result = session.check(bpy.context, name)
     if result.model is None:
         raise SystemExit("\n".join(map(str, result.findings)))
-    return result.model
+    return result.model, result.loaded
 
 
 def striker(target):

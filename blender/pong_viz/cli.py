@@ -91,6 +91,7 @@ def main(words=None, program: str = "pong_viz") -> int:
         print(f"pong_viz: Blender's module bpy is not there ({reason}); pip install bpy, or run it inside Blender",
               file=sys.stderr)
         return 1
+    from .core.engine import WheelMissing
     from .log import Log, LogError
     from .render import RenderFault
 
@@ -101,7 +102,7 @@ def main(words=None, program: str = "pong_viz") -> int:
         for note in made.notes:
             print(f"note: {note}", file=sys.stderr)
         _write(bpy.context.scene, log, made, given)
-    except (LogError, RenderFault, ValueError, OSError, RuntimeError) as fault:
+    except (LogError, RenderFault, WheelMissing, ValueError, OSError, RuntimeError) as fault:
         print(f"pong_viz: {fault}", file=sys.stderr)
         return 1
     return 0

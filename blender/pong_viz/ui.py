@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from . import render
+from .core.engine import WheelMissing
 from .graphics import PROPERTY
 from .log import Log, LogError
 from .scene import Options, show
@@ -54,7 +55,7 @@ class PONG_OT_import_response(bpy.types.Operator, ImportHelper):
             render.show_colors()
         try:
             made = show(Log(self.filepath), self._options(), scene)
-        except (LogError, ValueError, OSError) as fault:
+        except (LogError, WheelMissing, ValueError, OSError) as fault:
             self.report({"ERROR"}, str(fault))
             return {"CANCELLED"}
         scene.pong_response_log = self.filepath

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Builds the zips of both extensions, installs them into one fresh user folder and uses them there.
 
-    BLENDER_USER_RESOURCES=FOLDER python shipped.py FOLDER
+    BLENDER_USER_RESOURCES=FOLDER PONG_WHEEL=FILE python shipped.py FOLDER
+
+The wheel `pong` that is used is the one that Blender has installed from the zips: no other is in reach.
 
 `blender_ext.py` is what `blender --command extension validate` runs; it comes with the module too.
 """
@@ -18,7 +20,7 @@ BLENDER = HERE.parents[1]
 MODELS = HERE.parents[2] / "models"
 MUST_HOLD = {
     "pong_pmtk": {"__init__.py", "blender_manifest.toml", "core/build.py", "store/marks.py"},
-    "pong_viz": {"__init__.py", "blender_manifest.toml", "core/read.py", "core/mesh_file.py", "scene.py"},
+    "pong_viz": {"__init__.py", "blender_manifest.toml", "core/read.py", "core/engine.py", "scene.py"},
 }
 
 
@@ -37,7 +39,8 @@ def built(name, folder):
     entries = zipfile.ZipFile(zips[0]).infolist()
     names = {entry.filename for entry in entries}
     assert not [name for name in names if "__pycache__" in name or name.endswith(".pyc")], names
-    assert MUST_HOLD[name] <= names, MUST_HOLD[name] - names
+    wanted = MUST_HOLD[name] | {f"wheels/{Path(os.environ['PONG_WHEEL']).name}"}
+    assert wanted <= names, wanted - names
     assert all(entry.external_attr >> 28 == 8 for entry in entries), "a link, or no plain file"
     return zips[0]
 
@@ -69,6 +72,9 @@ def use(folder):
         package = importlib.import_module(installed(name))
         assert Path(package.__file__).is_relative_to(folder.resolve()), package.__file__
         print("used:", package.__file__)
+    import pong
+
+    assert Path(pong.__file__).is_relative_to(folder.resolve()), f"{pong.__file__}: not the wheel of the zips"
     use_toolkit(folder)
     use_playback(folder)
     for name in MUST_HOLD:

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 
 from .build_groups import build_root
 from .build_primitives import Origin
+from .engine import CURE, is_there
+from .engine_check import check_loads
 from .finding import Findings
 from .model import Model, Primitive
 from .same_place import check_same_place
@@ -25,6 +27,8 @@ class Built:
     files: dict[str, bytes] = field(default_factory=dict)
     origins: dict[int, Origin] = field(default_factory=dict)
     """By id() of each `Primitive` of the model: the object it comes from."""
+    loaded: object | None = None
+    """The model as the engine has it (`pong.Model`), without custom primitives; `None` if nothing else is in it."""
 
     def object_of(self, primitive: Primitive) -> str:
         return self.origins[id(primitive)].object
@@ -40,20 +44,31 @@ def build(snapshot: Snapshot, root: str = "") -> Built:
     check_scene(scene, top)
     surfaces, pairs = _tables(scene, top)
     group, origins, files = build_root(scene, top, surfaces)
-    check_triangles(scene, group, origins)
     check_same_place(scene, group, origins)
     settings = top.settings
     name = (settings.name if settings else "") or group.name
     model = Model(name, surfaces, group, pairs, settings.entry_memory if settings else True)
     _unused_surfaces(scene, top, model)
+    loaded = _judged_by_engine(scene, top, model, files, origins)
     good = not findings.errors
-    return Built(model if good else None, findings, files if good else {}, origins)
+    return Built(model if good else None, findings, files if good else {}, origins, loaded if good else None)
+
+
+def _judged_by_engine(scene: Scene, top: SnapshotObject, model: Model, files: dict[str, bytes], origins):
+    """What only the engine can tell of a model. What can be told without it has been told by now."""
+    if not is_there():
+        cause = "the Python package `pong` is not there, so nobody can say whether the engine would take the model"
+        scene.findings.error("no-wheel", ("", scene.snapshot.source), cause, CURE)
+        return None
+    check_triangles(scene, model.root, origins)
+    return None if scene.findings.errors else check_loads(scene, top, model, files, origins)
 
 
 def _tables(scene: Scene, root: SnapshotObject) -> tuple[dict, list]:
     if root.settings is None:
         return {}, []
-    surfaces, pairs, faults = checked(root.settings.surfaces, root.settings.pairs)
+    name = root.settings.name or root.mark.name or root.name
+    surfaces, pairs, faults = checked(root.settings.surfaces, root.settings.pairs, name)
     for fault in faults:
         scene.findings.error(fault.rule, (root.name, fault.path), fault.cause, fault.cure)
     return surfaces, pairs

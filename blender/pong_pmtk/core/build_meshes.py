@@ -7,11 +7,11 @@ import numpy as np
 
 from . import mesh_file
 from .build_primitives import Origin, Shape
+from .engine import PLANE_TOLERANCE, WheelMissing, polyhedron_faults
 from .exact import meant, rounded
 from .model import Primitive
 from .pieces import pieces_of
 from .polygon import off_planes, triangulated
-from .polyhedron_check import PLANE_TOLERANCE, check, diameter_of
 
 Made = list[tuple[Primitive, Origin]]
 CONVEX_FACES = 500  # nobody asks of larger meshes whether they are convex
@@ -100,7 +100,13 @@ def _triangle_mesh(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> 
 
 
 def _tell_convex(shape: Shape, faces: np.ndarray, loops: np.ndarray, starts: np.ndarray) -> None:
-    if 4 <= len(faces) <= CONVEX_FACES and not shape.part and not check(shape.vertices, np.split(loops, starts[1:-1])):
+    if shape.part or not 4 <= len(faces) <= CONVEX_FACES:
+        return
+    try:
+        is_convex = not polyhedron_faults(shape.vertices, np.split(loops, starts[1:-1]))
+    except WheelMissing:
+        return  # told once, of the whole scene
+    if is_convex:
         cause = "it is closed and convex: a Polyhedron would do, and costs less"
         shape.findings.hint(
             "convex-mesh", shape.where, cause, "mark it as a Polyhedron, unless only its surface matters"
@@ -167,24 +173,35 @@ FIXES = {
 
 def _check_piece(shape: Shape, vertices, local, walls, faces: np.ndarray, used: np.ndarray) -> None:
     """The loader's checks, told by the faces of the mesh. What 32-bit rounding has done has a rule of its own."""
-    problems = check(vertices, local, walls)
-    for rule in dict.fromkeys(problem.rule for problem in problems):
-        same = [problem for problem in problems if problem.rule == rule]
-        worst = max(same, key=lambda problem: problem.off)
+    try:
+        problems = polyhedron_faults(vertices, local, walls)
+    except WheelMissing:
+        return  # told once, of the whole scene
+    for rule in dict.fromkeys(problem["rule"] for problem in problems):
+        same = [problem for problem in problems if problem["rule"] == rule]
+        worst = max(same, key=lambda problem: problem["off"])
+        off, told = worst["off"], worst["cause"]
         at = {
-            "faces": faces[np.unique([f for p in same for f in p.faces]).astype(np.int64)],
-            "vertices": used[np.unique([v for p in same for v in p.vertices]).astype(np.int64)],
+            # What lies with no face lies with all of them.
+            "faces": faces[np.unique([f["face"] for f in same])] if worst["face"] is not None else faces,
+            "vertices": used[_indices(vertices, [place for problem in same for place in problem["places"]])],
         }
-        if 0.0 < worst.off <= shape.noise:
-            size, away = diameter_of(vertices), float(np.abs(vertices).max())
-            cause = (
-                f"32-bit rounding bends it: it is {size:.3g} m large and {away:.3g} m from the origin ({worst.cause})"
-            )
+        if 0.0 < off <= shape.noise:
+            size, away = float(np.ptp(vertices, axis=0).max()), float(np.abs(vertices).max())
+            cause = f"32-bit rounding bends it: it is {size:.3g} m large and {away:.3g} m from the origin ({told})"
             cure = "move the origins of its object and its group into it"
             shape.error("rounded-away", cause, cure, fix="set-origin", **at)
             continue
-        cause = worst.cause if len(same) == 1 else f"{worst.cause} (and {len(same) - 1} more)"
-        shape.error(rule, cause, worst.cure, fix=FIXES.get(rule, ""), **at)
+        cause = told if len(same) == 1 else f"{told} (and {len(same) - 1} more)"
+        shape.error(rule, cause, worst["cure"], fix=FIXES.get(rule, ""), **at)
+
+
+def _indices(vertices: np.ndarray, places: list[tuple[float, float, float]]) -> np.ndarray:
+    """The first vertex at each of these places."""
+    first: dict[tuple, int] = {}
+    for index, place in enumerate(map(tuple, (vertices + 0.0).tolist())):
+        first.setdefault(place, index)
+    return np.unique([first[place] for place in places if place in first]).astype(np.int64)
 
 
 # --- mesh files ----------------------------------------------------------------------------------------------------

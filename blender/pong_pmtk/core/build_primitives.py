@@ -15,7 +15,6 @@ from .polygon import plane_of
 from .scene import Scene
 from .schema import RESPONSES
 from .size_check import check_size
-from .size_range import LARGEST_SIZE, SMALLEST_SIZE, outside
 from .snapshot import Mesh, SnapshotObject
 from .transforms import Affine, Local
 
@@ -114,16 +113,8 @@ class Shape:
         for index, fields in enumerate(each):
             name = self.name if len(each) == 1 else f"{self.name}_{index}"
             face = None if faces is None else np.asarray(faces[index]).reshape(-1)
-            self._check_range(kind, fields, face)
             made.append((Primitive(kind, name, fields, self.surface), self.origin(face)))
         return made
-
-    def _check_range(self, kind: str, fields: dict, face: np.ndarray | None) -> None:
-        found = outside(kind, fields)
-        if found is not None:
-            what, size = found
-            cause = f"{what} of {kind} is {size:.3g} m; sizes are from {SMALLEST_SIZE:g} to {LARGEST_SIZE:g} m"
-            self.error("size-range", cause, "check the unit and the scale", faces=() if face is None else face)
 
 
 def build_primitive(place: Place, surface: str | None, files: dict[str, bytes]) -> list[tuple[Primitive, Origin]]:

@@ -11,8 +11,7 @@ import copy
 import numpy as np
 
 from .model import Group, Model, Primitive
-from .read_values import is_default
-from .schema import PRIMITIVES, REQUIRED
+from .schema import PRIMITIVES, is_default
 
 
 def canonical(model: Model) -> Model:
@@ -48,7 +47,7 @@ def _primitive(primitive: Primitive) -> Primitive:
     fields = {}
     for field in PRIMITIVES[primitive.kind]:
         value = primitive.fields.get(field.name)
-        if value is not None and (field.default is REQUIRED or not is_default(value, field.default)):
+        if value is not None and not is_default(value, field.default):
             fields[field.name] = value
     if "vertices" in fields and primitive.kind in ("TriangleMesh", "Polyhedron"):
         faces = "triangles" if primitive.kind == "TriangleMesh" else "faces"

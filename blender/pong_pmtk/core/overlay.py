@@ -22,14 +22,10 @@ _BOX_EDGES = [0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 
 Lines = dict[str, np.ndarray]
 
 
-def bounds_lines(model: Model) -> Lines:
-    """The bounding volume of every group; those without end are left out."""
+def bounds_lines(model: Model, loaded) -> Lines:
+    """The bounding volume of every group; those without end are left out. `loaded`: the model as the engine has it."""
     places = {path: body for path, _, _, body in _walk(model.root, model.root.name, identity(), identity())}
-    return {
-        path: places[path].points(volume_lines(volume))
-        for path, volume in volumes(model).items()
-        if volume.kind != "Unbounded"
-    }
+    return {path: places[path].points(volume_lines(volume)) for path, volume in volumes(loaded).items()}
 
 
 def volume_lines(volume: Volume) -> np.ndarray:

@@ -5,8 +5,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from .polyhedron_check import weld
-from .polyhedron_merge import edges
+
+def weld(vertices: np.ndarray) -> np.ndarray:
+    """For each vertex the first one at the same place, to the last bit."""
+    _, first, inverse = np.unique(vertices + 0.0, axis=0, return_index=True, return_inverse=True)
+    return first[inverse.ravel()]
+
+
+def edges(face: list[int]) -> list[tuple[int, int]]:
+    return list(zip(face, face[1:] + face[:1]))
 
 
 def pieces_of(vertices: np.ndarray, faces: list[np.ndarray]) -> list[list[int]]:

@@ -31,52 +31,6 @@ def plane_of(corners: np.ndarray) -> tuple[np.ndarray, float]:
     return normal, float(normal @ mean(corners))
 
 
-def edge_vectors(corners: np.ndarray) -> np.ndarray:
-    return np.roll(corners, -1, axis=0) - corners
-
-
-def nearly_convex(corners: np.ndarray, normal: np.ndarray, tolerance: float) -> bool:
-    """Whether an outline that runs counter-clockwise about the normal is convex but for corners within the tolerance of
-    its hull."""
-    across = unit(np.cross(np.eye(3)[0 if abs(normal[0]) < 0.6 else 1], normal))
-    along = np.cross(across, normal)
-    flat = np.stack([(corners - corners[0]) @ along, (corners - corners[0]) @ across], axis=1)
-    count = len(flat)
-    start = max(range(count), key=lambda k: (flat[k][0], flat[k][1]))
-
-    def turn(a: int, b: int, c: int) -> float:
-        (ax, ay), (bx, by), (cx, cy) = flat[a % count], flat[b % count], flat[c % count]
-        return float((bx - ax) * (cy - by) - (by - ay) * (cx - bx))
-
-    # The hull, by a scan around the outline from a corner that is on it.
-    hull = [start]
-    for k in range(start + 1, start + count + 1):
-        while len(hull) > 1 and turn(hull[-2], hull[-1], k) <= 0.0:
-            hull.pop()
-        hull.append(k)
-    for a, b in zip(hull, hull[1:]):
-        edge = flat[b % count] - flat[a % count]
-        length = float(np.sqrt(edge @ edge))
-        for k in range(a + 1, b):
-            away = flat[k % count] - flat[a % count]
-            if abs(float(edge[0] * away[1] - edge[1] * away[0])) > tolerance * length:
-                return False
-    return True
-
-
-def longest_edge(corners: np.ndarray) -> float:
-    return float(np.sqrt((edge_vectors(corners) ** 2).sum(axis=1)).max())
-
-
-def width(corners: np.ndarray) -> float:
-    """The smallest distance between two parallel lines that hold the polygon: one of them lies along an edge."""
-    least = np.inf
-    for start, edge in zip(corners, edge_vectors(corners)):
-        across = np.cross(corners - start, unit(edge))
-        least = min(least, float(np.sqrt((across * across).sum(axis=1)).max()))
-    return least
-
-
 def off_plane(corners: np.ndarray) -> float:
     """How far the farthest corner lies off the polygon's plane."""
     return float(off_planes(corners[None])[0])

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from .engine import PLANE_TOLERANCE, polyhedron_faults
 from .exact import meant_rows
 from .pieces import is_closed, pieces_of
 from .polygon import off_plane
-from .polyhedron_check import PLANE_TOLERANCE, check
 from .snapshot import Mesh, SnapshotObject
 
 ROUND_VERTICES = 26  # fewer are a solid with corners: an icosahedron has 12
@@ -137,8 +137,8 @@ def _solid(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
     pieces = pieces_of(vertices, faces)
     for piece in pieces:
         own = [faces[i] for i in piece]
-        problems = check(vertices, own)
-        if problems and problems[0].rule == "inside-out":
+        problems = polyhedron_faults(vertices, own)
+        if problems and problems[0]["rule"] == "inside-out":
             return [
                 Proposal("Polyhedron", "closed and convex, but its normals point inward", fix="recalculate-normals")
             ]

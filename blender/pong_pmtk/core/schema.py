@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 REQUIRED = object()
 
 
@@ -79,13 +81,13 @@ FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
     "Custom": _fields(("name", "text_value", REQUIRED), ("parameters", "numbers", ())),
 }
 
-RESTITUTIONS: dict[str, tuple[Field, ...]] = {
-    "restitution_mass": _fields(("e", "restitution_e", REQUIRED), ("mass", "positive", REQUIRED)),
-    "restitution_speed": _fields(("e", "restitution_e", REQUIRED), ("speed", "positive", REQUIRED)),
-}
-
 RESPONSES = ("Normal", "Axial")
 
 
-def names(fields: tuple[Field, ...]) -> list[str]:
-    return [field.name for field in fields]
+def is_default(value, default) -> bool:
+    """Whether a value says what the field says without it."""
+    if default is None or default is REQUIRED:
+        return False
+    if isinstance(default, tuple):
+        return not isinstance(value, np.ndarray) and tuple(value) == default
+    return not isinstance(value, np.ndarray) and value == default

@@ -1,52 +1,80 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of surfaces and pairs as Python data, checked by the same code (and rules) as those of a model file."""
+"""Tables of surfaces and pairs as Python data: written as RON, and read and judged as those of a model file."""
 
 from __future__ import annotations
 
+import re
+
+from .engine import WheelMissing
 from .model import Tagged
-from .read import ModelReader
-from .read_values import Fault
-from .ron_tree import List, Map, Name, Node, Struct, Tuple
+from .read import Fault, ModelFaults, read_text
+from .ron_text import number, text
 
 
-def checked(surfaces: dict, pairs: list) -> tuple[dict, list, list[Fault]]:
-    """The tables with laws as `Tagged` and without what says nothing, and all that is wrong with them."""
-    reader = ModelReader("", "")
-    entries = [(Node(0, str(name)), node_of(fields)) for name, fields in surfaces.items()]
-    good = reader.surfaces(Node(0, Map(entries)))
-    return good, reader.pairs(Node(0, List([_pair(pair) for pair in pairs])), good), reader.faults
+def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, list, list[Fault]]:
+    """The tables with laws as `Tagged` and without what says nothing, and all that is wrong with them.
+
+    `model` is the name of the model, by which pairs may call its surfaces. Tables at fault, or without the wheel, come
+    back with their names alone, so that what is made of a surface is not called nameless.
+    """
+    names = {str(name): {} for name in surfaces}
+    try:
+        read = read_text(_document(surfaces, pairs, model), "")
+    except ModelFaults as refused:
+        return names, [], refused.faults
+    except WheelMissing:
+        return names, [], []
+    return {name: read.surfaces[name] for name in names}, read.pairs, []
 
 
-def _pair(pair) -> Node:
-    node = node_of(pair)
-    if isinstance(node.value, Struct):
-        node.value.fields = [
-            (name, at, _names(pair["surfaces"]) if name == "surfaces" else value)
-            for name, at, value in node.value.fields
-        ]
-    return node
-
-
-def _names(names) -> Node:
+def _document(surfaces: dict, pairs: list, model: str) -> str:
+    """A model of these tables around a point, which has the first surface, or one of its own where there is none."""
+    tables = {str(name): fields for name, fields in surfaces.items()} or {"-": {"stiffness": 1.0}}
+    entries = ", ".join(f"{text(name)}: {_ron(fields)}" for name, fields in tables.items())
+    point = f"Point(name: {text('-')}, surface: {text(next(iter(tables)))}, position: (0, 0, 0))"
     return (
-        Node(0, Tuple(None, [node_of(name) for name in names])) if isinstance(names, (list, tuple)) else node_of(names)
+        f'(format: "pong-model", version: 1, name: {text(model or "-")}, surfaces: {{{entries}}}, '
+        f"pairs: [{', '.join(map(_pair, pairs))}], root: (name: {text('-')}, primitives: [{point}]))"
     )
 
 
-def node_of(value) -> Node:
-    """A value as the reader of RON would give it; {"Linear": {…}} is a law."""
+def _pair(pair) -> str:
+    if not isinstance(pair, dict):
+        return _ron(pair)
+    return "(" + ", ".join(f"{_name(key)}: {_names(key, value)}" for key, value in pair.items()) + ")"
+
+
+def _names(key: str, value) -> str:
+    if key == "surfaces" and isinstance(value, (list, tuple)):
+        return "(" + ", ".join(map(_ron, value)) + ")"
+    return _ron(value)
+
+
+def _ron(value) -> str:
+    """A value as RON, whatever it is; {"Linear": {…}} is a law."""
     if isinstance(value, Tagged):
-        return Node(0, Struct(value.name, _fields(value.fields)))
+        return _name(value.name) + _ron_fields(value.fields)
     if isinstance(value, dict):
         law = law_of(value)
-        return node_of(law) if law else Node(0, Struct(None, _fields(value)))
+        return _ron(law) if law else _ron_fields(value)
     if isinstance(value, (list, tuple)):
-        return Node(0, List([node_of(item) for item in value]))
+        return "[" + ", ".join(map(_ron, value)) + "]"
     if value is None or value == "None":
-        return Node(0, Name("None"))
-    if isinstance(value, str) and value in ("inf", "Infinity"):
-        return Node(0, float("inf"))
-    return Node(0, value if isinstance(value, (bool, str)) else float(value))
+        return "None"
+    if isinstance(value, str):
+        return "inf" if value in ("inf", "Infinity") else text(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return number(value).replace("nan", "NaN")
+
+
+def _ron_fields(fields: dict) -> str:
+    return "(" + ", ".join(f"{_name(name)}: {_ron(value)}" for name, value in fields.items()) + ")"
+
+
+def _name(name) -> str:
+    """A name of a field; RON has a form for those that are no plain words."""
+    return name if re.fullmatch(r"[A-Za-z_]\w*", str(name), re.ASCII) else f"r#{name}"
 
 
 def law_of(value: dict) -> Tagged | None:
@@ -55,10 +83,6 @@ def law_of(value: dict) -> Tagged | None:
         if isinstance(name, str) and name[:1].isupper() and isinstance(fields, dict):
             return Tagged(name, fields)
     return None
-
-
-def _fields(fields: dict) -> list[tuple[str, int, Node]]:
-    return [(str(name), 0, node_of(value)) for name, value in fields.items()]
 
 
 def to_json(value):

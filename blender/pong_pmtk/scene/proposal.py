@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What kind of primitive an object or a selection looks like, and of what size. The author decides."""
 
+from ..core.engine import WheelMissing
 from ..core.marks import Mark
 from ..core.propose import Proposal, fit_ellipsoid, fit_sphere, propose
 from ..core.snapshot import SnapshotObject
@@ -15,7 +16,10 @@ def of_object(context, obj):
     if obj.type == "EMPTY" and obj.empty_display_type in OF_EMPTIES:
         return Proposal(OF_EMPTIES[obj.empty_display_type], "an empty that is shown like this")
     mesh = _shown_mesh(context, obj)
-    found = propose(SnapshotObject(obj.name, obj.type, mark=Mark(), mesh=mesh, exact=exact.read(obj)))
+    try:
+        found = propose(SnapshotObject(obj.name, obj.type, mark=Mark(), mesh=mesh, exact=exact.read(obj)))
+    except WheelMissing as missing:
+        return Proposal("", str(missing))
     if found:
         return found[0]
     if obj.type != "MESH":

@@ -7,11 +7,11 @@ from pathlib import Path
 import bpy
 
 from ..core.build import build
+from ..core.engine import WheelMissing
 from ..core.finding import SEVERITIES
 from ..core.mesh_file import MeshFileError
 from ..core.model import Model
-from ..core.read import read_file
-from ..core.read_values import ModelFaults
+from ..core.read import ModelFaults, read_file
 from ..core.unbuild import unbuild
 from ..core.write import write_files
 from .extract import snapshot
@@ -26,6 +26,7 @@ class Result:
     model: Model | None
     findings: list
     files: dict = field(default_factory=dict)  # mesh files beside the model: path -> contents
+    loaded: object | None = None  # the model as the engine has it (`Built.loaded` of the core)
 
     def summary(self):
         count = {level: sum(f.severity == level for f in self.findings) for level in SEVERITIES}
@@ -44,7 +45,7 @@ class Refused(ValueError):
 def check(context, root=""):
     """Builds the model of a root, or of the scene's only one, and writes nothing."""
     built = build(snapshot(context), root)
-    return Result(root, built.model, built.findings, built.files)
+    return Result(root, built.model, built.findings, built.files, built.loaded)
 
 
 def export(context, path, root=""):
@@ -63,7 +64,7 @@ class NotMetres(ValueError):
 def load(context, path):
     """Opens a model file as marked objects; returns the root.
 
-    Raises `OSError`, the core's `ModelFaults` or `MeshFileError`, or `NotMetres`; then nothing was made.
+    Raises `OSError`, the core's `ModelFaults`, `MeshFileError` or `WheelMissing`, or `NotMetres`; then nothing was made.
     """
     path, scale = Path(path), context.scene.unit_settings.scale_length
     if scale != 1.0:
@@ -74,4 +75,4 @@ def load(context, path):
     return next(made[thing.name] for thing in facts.objects if thing.mark.role == "root")
 
 
-LOAD_FAULTS = (ModelFaults, MeshFileError, NotMetres)
+LOAD_FAULTS = (ModelFaults, MeshFileError, NotMetres, WheelMissing)

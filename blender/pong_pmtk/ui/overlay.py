@@ -56,15 +56,17 @@ def refresh(context):
     if result.model is None:
         _messages[name] = f"Not shown: {result.summary()}"
     else:
-        _shown[name] = lines(context, root, result.model)
+        _shown[name] = lines(context, root, result)
     _took[0] = time.monotonic() - started
 
 
-def lines(context, root, model):
+def lines(context, root, result):
     """Ends of lines in the coordinates of the scene, by toggle."""
-    shown, size = state(context), model_size(model)
+    model, shown = result.model, state(context)
+    bounds = overlay.bounds_lines(model, result.loaded)
+    size = size_of(bounds)
     tables = {
-        "show_bounds": lambda: overlay.bounds_lines(model),
+        "show_bounds": lambda: bounds,
         "show_normals": lambda: overlay.normals_lines(model, shown.normal_length * size),
         "show_rays": lambda: overlay.rays_lines(model),
         "show_groups": lambda: overlay.groups_lines(model, AXES_SHARE * size),
@@ -72,9 +74,9 @@ def lines(context, root, model):
     return {name: in_scene(context, root, tables[name]()) for name in wanted(shown)}
 
 
-def model_size(model):
+def size_of(bounds):
     """The diagonal of all bounding volumes, m."""
-    found = list(overlay.bounds_lines(model).values())
+    found = list(bounds.values())
     return float(np.linalg.norm(np.ptp(np.concatenate(found), axis=0))) if found else 1.0
 
 

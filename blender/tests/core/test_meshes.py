@@ -7,8 +7,9 @@ import random
 import unittest
 
 from support import PONG, build, built, check_model, in_single_precision, np, rules, scene
-from core import polygon, polyhedron_check
+from core import polygon
 from core.author import box, cylinder, grid, mesh, prism
+from core.engine import polyhedron_faults
 from core.marks import Part
 from core.read import read_text
 from core.write import write_text
@@ -232,7 +233,7 @@ class Instances(unittest.TestCase):
 
 
 class LikeTheLoader(unittest.TestCase):
-    """The toolkit's judgement of polyhedra is the engine's."""
+    """The toolkit's judgement of polyhedra is that of `pong check`, which reads them as numbers in a text."""
 
     def shapes(self):
         """Good and spoilt solids near the limits of every tolerance."""
@@ -241,7 +242,7 @@ class LikeTheLoader(unittest.TestCase):
             sides = random.randint(3, 12)
             shape = cylinder(random.uniform(0.1, 3), 0.0, 10.0 ** random.uniform(-7, 1), sides)
             vertices = shape.vertices @ np.linalg.qr(np.random.default_rng(case).normal(size=(3, 3)))[0].T
-            diameter = polyhedron_check.diameter_of(vertices)
+            diameter = np.linalg.norm(vertices[:, None] - vertices, axis=2).max()
             spoil = random.choice([0.0, 3e-7, 9e-7, 3e-6, 1e-3]) * diameter
             vertices[random.randrange(len(vertices))] += np.array([random.choice([-1, 1]) * spoil for _ in range(3)])
             faces = np.split(shape.loops, shape.face_starts[1:-1])
@@ -261,7 +262,7 @@ class LikeTheLoader(unittest.TestCase):
             solid = Primitive("Polyhedron", "solid", {"vertices": vertices, "faces": faces})
             model = Model("m", {"s": {"stiffness": 1.0}}, Group("m", surface="s", primitives=[solid]))
             hash_found, text = check_model(model)
-            mine = {problem.rule for problem in polyhedron_check.check(vertices, faces)}
+            mine = {fault["rule"] for fault in polyhedron_faults(vertices, faces)}
             theirs = {line.split(": [")[1].split("]")[0] for line in text.splitlines() if ": [" in line}
             self.assertEqual(mine, theirs, text)
             self.assertEqual(hash_found is None, bool(mine))

@@ -19,7 +19,8 @@ MODEL = Path(__file__).resolve().parents[3] / "models" / "verification" / "socke
 
 
 def pong(*arguments):
-    environment = {**os.environ, "PYTHONPATH": str(PACKAGE.parent)}
+    paths = [str(PACKAGE.parent), os.environ.get("PYTHONPATH", "")]  # the wheel is on the tests' own path
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
     command = [sys.executable, "-m", "pong_pmtk", *map(str, arguments)]
     return subprocess.run(command, env=environment, capture_output=True, text=True)
 
