@@ -269,3 +269,59 @@ fn a_body_that_runs_away_is_reported() {
     let error = simulation.run_for(1e5).unwrap_err();
     assert!(error.to_string().contains("`mass`"), "{error}");
 }
+
+#[test]
+fn another_mass_and_another_spring_swing_at_their_own_frequency() {
+    let (mut simulation, body) = oscillator(Integrator::RungeKutta4, 1e-3);
+    simulation.set_mass(body, MassProperties::sphere(8.0, 0.1)).unwrap();
+    simulation.run_for(2.0).unwrap();
+    // 50 N/m and 8 kg: ω = 2.5 rad/s.
+    let (x, v) = (5.0_f64.cos(), -2.5 * 5.0_f64.sin());
+    assert!((simulation.pose(body).position.x - x).abs() < 1e-9);
+    // In mid-flight pose and twist stay, and the motion goes on from there: 200 N/m and 2 kg, ω = 10 rad/s.
+    simulation.set_mass(body, MassProperties::sphere(2.0, 0.1)).unwrap();
+    let spring = Spring { stiffness: [200.0, 0.0, 0.0, 0.0, 0.0, 0.0], ..simulation.springs()[0] };
+    simulation.set_spring(0, spring).unwrap();
+    assert!((simulation.twist(body).linear.x - v).abs() < 1e-8);
+    simulation.run_for(0.5).unwrap();
+    let expected = x * 5.0_f64.cos() + v / 10.0 * 5.0_f64.sin();
+    assert!((simulation.pose(body).position.x - expected).abs() < 1e-7);
+}
+
+#[test]
+fn a_body_that_turns_keeps_its_angular_velocity_when_its_inertia_changes() {
+    let mut simulation = Simulation::new(empty_world(), Integrator::RungeKutta4, 1e-3).unwrap();
+    let spin = Vec3::new(0.3, -0.4, 0.5);
+    let turned = Pose::new(Vec3::new(1.0, 2.0, 3.0), [0.5, 0.7, -0.4, 0.3]);
+    let body = RigidBody::free("body", MassProperties::principal(2.0, [0.2, 0.3, 0.4]));
+    let body =
+        simulation.add_body(body.at(turned).moving(Twist { linear: Vec3::x(), angular: spin })).unwrap();
+    let mass = MassProperties::principal(3.0, [0.5, 0.6, 0.4]).with_mass_center(Vec3::new(0.1, 0.0, -0.2));
+    simulation.set_mass(body, mass).unwrap();
+    simulation.commit_initial_states().unwrap();
+    let twist = simulation.twist(body);
+    assert!((twist.angular - spin).norm() < 1e-14 && (twist.linear - Vec3::x()).norm() < 1e-14);
+    assert!((simulation.pose(body).position - turned.position).norm() < 1e-14);
+    // L = R·I·Rᵀ·ω of the new tensor.
+    let rotation = turned.orientation.to_rotation_matrix();
+    let momentum = rotation * mass.inertia * rotation.transpose() * spin;
+    assert!((simulation.angular_momentum(body).unwrap() - momentum).norm() < 1e-14);
+}
+
+#[test]
+fn masses_and_springs_that_cannot_be_are_refused_and_change_nothing() {
+    let (mut simulation, body) = oscillator(Integrator::RungeKutta4, 1e-3);
+    let fixed = simulation.add_body(RigidBody::fixed("wall")).unwrap();
+    let refused = |result: Result<(), pong_executive::ExecutiveError>, words: &str| {
+        let message = result.unwrap_err().to_string();
+        assert!(message.contains(words), "{message}");
+    };
+    refused(simulation.set_mass(body, MassProperties::sphere(-1.0, 0.1)), "the mass is -1 kg");
+    refused(simulation.set_mass(fixed, MassProperties::sphere(1.0, 0.1)), "body `wall`: it is not free");
+    let spring = simulation.springs()[0];
+    refused(simulation.set_spring(1, spring), "there are 1 springs");
+    refused(simulation.set_spring(0, Spring { stiffness: [-1.0; 6], ..spring }), "stiffness is below zero");
+    assert_eq!(simulation.springs(), [spring]);
+    simulation.run_for(2.0).unwrap();
+    assert!((simulation.pose(body).position.x - 10.0_f64.cos()).abs() < 1e-9);
+}

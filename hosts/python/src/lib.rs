@@ -18,6 +18,7 @@ mod arrays;
 mod authored;
 mod builder;
 mod contacts;
+mod dynamics;
 mod errors;
 mod ids;
 mod log;

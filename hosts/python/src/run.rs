@@ -46,6 +46,25 @@ pub(crate) struct Run {
     tunnelled: u64,
     /// What `pong run` warns of after a run.
     warnings: Vec<String>,
+    /// Whether `stop` ended it.
+    stopped: bool,
+}
+
+/// What is asked of a run.
+pub(crate) struct Wanted {
+    pub steps: u64,
+    /// Every how many-th instant is kept.
+    pub every: u64,
+    pub log: Option<RunLog>,
+    pub stop: Option<Stop>,
+}
+
+/// A condition of the caller that ends a run.
+pub(crate) struct Stop {
+    /// Called with the time and the states; true ends the run.
+    pub asked: Py<PyAny>,
+    /// After every how many-th step it is asked.
+    pub every: u64,
 }
 
 /// A log to be written.
@@ -61,16 +80,33 @@ struct Kept {
     states: Vec<f64>,
     wrenches: Vec<f64>,
     contacts: Vec<u64>,
+    stopped: bool,
 }
 
 impl Kept {
     fn keep(&mut self, simulation: &Simulation) {
         self.time.push(simulation.time());
+        self.states.extend(state_rows(simulation));
         for (id, _) in simulation.bodies() {
-            self.states.extend(motion_row(&simulation.pose(id), &simulation.twist(id)));
             self.wrenches.extend(wrench_row(&simulation.contact_wrench(id)));
         }
         self.contacts.push(simulation.world().contact_count() as u64);
+    }
+}
+
+/// A row of 13 numbers for each body, one after the other.
+fn state_rows(simulation: &Simulation) -> impl Iterator<Item = f64> {
+    simulation.bodies().flat_map(|(id, _)| motion_row(&simulation.pose(id), &simulation.twist(id)))
+}
+
+impl Stop {
+    /// Whether the run ends here.
+    fn ends(&self, simulation: &Simulation) -> PyResult<bool> {
+        Python::attach(|py| {
+            let bodies = simulation.bodies().len();
+            let states = PyArray1::from_iter(py, state_rows(simulation)).reshape([bodies, STATE])?;
+            self.asked.bind(py).call1((simulation.time(), states))?.is_truthy()
+        })
     }
 }
 
@@ -78,6 +114,7 @@ impl Kept {
 enum Failure {
     Dynamics(ExecutiveError),
     Log(LogError),
+    /// By an exception of the caller's program: Ctrl-C, or of his condition.
     Interrupted(PyErr),
 }
 
@@ -93,17 +130,11 @@ impl Failure {
 
 impl Run {
     /// Runs some steps.
-    pub fn of(
-        py: Python<'_>,
-        built: &mut BuiltScene,
-        steps: u64,
-        every: u64,
-        log: Option<RunLog>,
-        bodies: &[String],
-    ) -> PyResult<Self> {
+    pub fn of(py: Python<'_>, built: &mut BuiltScene, wanted: &Wanted, bodies: &[String]) -> PyResult<Self> {
         let done = py.detach(|| {
-            let mut recorder = log.map(|log| start_log(built, &log, every)).transpose()?;
-            let done = advance(built, steps, every, recorder.as_mut());
+            let log = wanted.log.as_ref();
+            let mut recorder = log.map(|log| start_log(built, log, wanted.every)).transpose()?;
+            let done = advance(built, wanted, recorder.as_mut());
             // What was recorded before a failure is what its cause is sought in.
             let closed = recorder.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(Failure::Log));
             let done = done?;
@@ -147,14 +178,14 @@ impl Run {
             worst_balance: statistics.worst_balance,
             tunnelled: statistics.tunnelled,
             warnings: warnings.collect(),
+            stopped: kept.stopped,
         })
     }
 }
 
 fn advance(
     built: &mut BuiltScene,
-    steps: u64,
-    every: u64,
+    wanted: &Wanted,
     mut log: Option<&mut Recorder>,
 ) -> Result<(Kept, RunStatistics), Failure> {
     let ledger = built.ledger;
@@ -163,16 +194,24 @@ fn advance(
     let mut statistics = RunStatistics::new(simulation);
     let mut kept = Kept::default();
     let mut looked = Instant::now();
-    for done in 0..=steps {
+    for done in 0..=wanted.steps {
         if done > 0 {
             simulation.step().map_err(Failure::Dynamics)?;
             statistics.observe(simulation);
         }
-        if done.is_multiple_of(every) || done == steps {
+        let asked = wanted.stop.iter().filter(|stop| done.is_multiple_of(stop.every));
+        for stop in asked {
+            kept.stopped = stop.ends(simulation).map_err(Failure::Interrupted)?;
+        }
+        let due = done.is_multiple_of(wanted.every);
+        if due || done == wanted.steps || kept.stopped {
             kept.keep(simulation);
         }
         if let Some(log) = &mut log {
-            record(log, simulation, ledger, done.is_multiple_of(every)).map_err(Failure::Log)?;
+            record(log, simulation, ledger, due).map_err(Failure::Log)?;
+        }
+        if kept.stopped {
+            break;
         }
         if looked.elapsed() > LOOK_EVERY {
             Python::attach(|py| py.check_signals()).map_err(Failure::Interrupted)?;

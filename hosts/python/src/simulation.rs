@@ -2,9 +2,10 @@
 
 use crate::arrays::{self, Rows, STATE};
 use crate::contacts;
+use crate::dynamics;
 use crate::errors::{PhaseError, bad_value, of_engine, of_executive};
 use crate::model::{surface_from, surface_values};
-use crate::run::{Run, RunLog};
+use crate::run::{Run, RunLog, Stop, Wanted};
 use crate::world::FrameReport;
 use numpy::PyArray2;
 use pong_executive::scene::BuiltScene;
@@ -190,6 +191,41 @@ impl Simulation {
         Ok(())
     }
 
+    /// Gravity, m/s², along the common axes.
+    #[getter]
+    fn gravity(&self) -> PyResult<(f64, f64, f64)> {
+        let gravity = self.lock()?.simulation.gravity();
+        Ok((gravity.x, gravity.y, gravity.z))
+    }
+
+    /// Mass, inertia and mass centre of a free body, by their names.
+    fn mass<'py>(&self, py: Python<'py>, body: &str) -> PyResult<Bound<'py, PyDict>> {
+        let id = self.body(body)?;
+        dynamics::mass(py, &self.lock()?.simulation, id)
+    }
+
+    /// Replaces mass, inertia and mass centre of a free body. Its pose and velocities stay.
+    fn set_mass(&self, py: Python<'_>, body: &str, values: &Bound<'_, PyDict>) -> PyResult<()> {
+        let id = self.body(body)?;
+        dynamics::set_mass(py, &mut self.lock()?.simulation, id, values)
+    }
+
+    /// Number of springs; they are counted from 0 in the order of the scene.
+    #[getter]
+    fn springs(&self) -> PyResult<usize> {
+        Ok(self.lock()?.simulation.springs().len())
+    }
+
+    /// Stiffness, damping and preload of a spring, by their names.
+    fn spring<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyDict>> {
+        dynamics::spring(py, &self.lock()?.simulation, number)
+    }
+
+    /// Replaces stiffness, damping and preload of a spring. Its ends and its pose at rest stay.
+    fn set_spring(&self, py: Python<'_>, number: usize, values: &Bound<'_, PyDict>) -> PyResult<()> {
+        dynamics::set_spring(py, &mut self.lock()?.simulation, number, values)
+    }
+
     /// Names of the models.
     #[getter]
     fn models(&self) -> PyResult<Vec<String>> {
@@ -229,7 +265,10 @@ impl Simulation {
 
     /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as the scene
     /// says; the first and the last always. `log` is a folder for a response log of the same instants.
-    #[pyo3(signature = (steps = None, *, every = None, log = None, overwrite = false))]
+    ///
+    /// `stop(time, states)` is called at the start and after every `stop_every`-th step; true ends the run there.
+    #[pyo3(signature = (steps = None, *, every = None, log = None, overwrite = false, stop = None, stop_every = 1))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn run(
         &self,
         py: Python<'_>,
@@ -237,19 +276,25 @@ impl Simulation {
         every: Option<u64>,
         log: Option<PathBuf>,
         overwrite: bool,
+        stop: Option<Py<PyAny>>,
+        stop_every: u64,
     ) -> PyResult<Run> {
         let mut built = self.lock()?;
         let every = every.unwrap_or(built.record_every);
-        if every == 0 {
-            return Err(bad_value(
-                "every",
-                "it is 0",
-                "give the number of steps between instants, at least 1",
-            ));
+        for (name, value) in [("every", every), ("stop_every", stop_every)] {
+            if value == 0 {
+                let cure = "give the number of steps between instants, at least 1";
+                return Err(bad_value(name, "it is 0", cure));
+            }
         }
-        let log = log.map(|folder| RunLog { folder, overwrite });
         let left = built.steps.saturating_sub(steps_done(&built));
-        Run::of(py, &mut built, steps.unwrap_or(left), every, log, &self.bodies)
+        let wanted = Wanted {
+            steps: steps.unwrap_or(left),
+            every,
+            log: log.map(|folder| RunLog { folder, overwrite }),
+            stop: stop.map(|asked| Stop { asked, every: stop_every }),
+        };
+        Run::of(py, &mut built, &wanted, &self.bodies)
     }
 }
 

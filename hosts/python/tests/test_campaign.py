@@ -16,7 +16,7 @@ from support import SCENE, scene_folder
 
 import pong
 from pong import campaign
-from pong.campaign import _case, _dispersions, _run, plots
+from pong.campaign import _addresses, _criteria, _dispersions, _rigid, _run, plots
 
 # A short drop: 100 steps, at the end of which some balls have touched.
 SHORT = SCENE.replace("duration: 0.3", "duration: 0.02").replace("step: 1e-4", "step: 2e-4").replace("0.0, 0.2)", "0.0, 0.101)")
@@ -91,22 +91,22 @@ def test_an_object_is_displaced_as_one_rigid_body():
     states[:, :3], states[:, 7:] = rng.normal(size=(3, 3)), rng.normal(size=(3, 6))
     states[:, 3:7] = rng.normal(size=(3, 4))
     states[:, 3:7] /= np.linalg.norm(states[:, 3:7], axis=1, keepdims=True)
-    change = {motion: rng.normal(size=3) for motion in _case.MOTIONS}
+    change = {motion: rng.normal(size=3) for motion in _addresses.MOTIONS}
     pivot = rng.normal(size=3)
-    out = _case.displaced(states, pivot, change)
+    out = _rigid.displaced(states, pivot, change)
     # Poses of the other groups seen from the root stay; the pivot goes where only the displacement takes it.
     for i in (1, 2):
-        before, after = (_case.in_frame_of(array[0], array[i, :3] - array[0, :3]) for array in (states, out))
+        before, after = (_rigid.in_frame_of(array[0], array[i, :3] - array[0, :3]) for array in (states, out))
         np.testing.assert_allclose(after, before, atol=1e-12)
-    at = states[0, :3] + _case.in_common(states[0], pivot)
-    np.testing.assert_allclose(out[0, :3] + _case.in_common(out[0], pivot), at + change["position"], atol=1e-12)
+    at = states[0, :3] + _rigid.in_common(states[0], pivot)
+    np.testing.assert_allclose(out[0, :3] + _rigid.in_common(out[0], pivot), at + change["position"], atol=1e-12)
     # A rotation vector of a quarter turn about z takes x to y.
-    quarter = {**{motion: np.zeros(3) for motion in _case.MOTIONS}, "rotation": np.array([0, 0, math.pi / 2])}
+    quarter = {**{motion: np.zeros(3) for motion in _addresses.MOTIONS}, "rotation": np.array([0, 0, math.pi / 2])}
     unit = np.zeros((1, 13))
     unit[0, 0], unit[0, 3] = 1.0, 1.0
-    turned = _case.displaced(unit, np.array([-1.0, 0, 0]), quarter)[0]
+    turned = _rigid.displaced(unit, np.array([-1.0, 0, 0]), quarter)[0]
     np.testing.assert_allclose(turned[:3], [0, 1, 0], atol=1e-15)
-    np.testing.assert_allclose(_case.in_common(turned, np.array([1.0, 0, 0])), [0, 1, 0], atol=1e-15)
+    np.testing.assert_allclose(_rigid.in_common(turned, np.array([1.0, 0, 0])), [0, 1, 0], atol=1e-15)
     # What is added is the velocity field of a rigid body about the pivot.
     arm = out[2, :3] - (at + change["position"])
     expected = states[2, 7:10] + change["velocity"] + np.cross(change["angular_velocity"], arm)
@@ -120,13 +120,13 @@ def test_a_criterion_holds_in_any_pose():
         q = rng.normal(size=4)
         other = np.concatenate([rng.normal(size=3), q / np.linalg.norm(q), rng.normal(size=6)])
         for place, inside in (((0.2, 0.2, 0.2), True), ((0.2, 0.35, 0.2), False), ((0.05, 0.2, 0.2), False)):
-            arm = _case.in_common(other, np.array(place))
+            arm = _rigid.in_common(other, np.array(place))
             own = other.copy()
             own[:3] += arm
             own[7:10] += np.cross(other[10:], arm)
-            assert _case.met(criterion, ["a", "b"], np.array([own, other])) is inside
+            assert _criteria.met(criterion, ["a", "b"], np.array([own, other])) is inside
             own[7] += 0.2
-            assert not _case.met(criterion, ["a", "b"], np.array([own, other]))
+            assert not _criteria.met(criterion, ["a", "b"], np.array([own, other]))
 
 
 # --- runs on workers
@@ -197,6 +197,13 @@ def test_a_campaign_that_was_stopped_goes_on(tmp_path, cluster, monkeypatch):
     # A file that was being written when the power failed is none.
     (tmp_path / "part" / "parts" / "part-00000099.parquet.half").write_bytes(b"PAR1")
     assert run(plan, tmp_path / "part", cluster).equals(whole)
+
+
+def test_two_processes_cannot_run_one_campaign(tmp_path, cluster):
+    plan = plan_of(tmp_path, runs=2)
+    with campaign._store.Store(tmp_path / "out").locked():
+        refused(lambda: run(plan, tmp_path / "out", cluster), "another process runs it", "another folder")
+    assert run(plan, tmp_path / "out", cluster).num_rows == 2, "free again"
 
 
 def test_runs_that_fail_are_kept_apart_and_can_be_repeated(tmp_path, cluster):

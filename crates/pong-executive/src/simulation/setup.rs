@@ -4,6 +4,7 @@ use super::{Simulation, check_step};
 use crate::body::{BodyId, Motion, RigidBody};
 use crate::error::ExecutiveError;
 use crate::load::Load;
+use crate::mass::MassProperties;
 use crate::path::Path;
 use crate::spring::Spring;
 use crate::state::{FreeState, Inertia};
@@ -80,6 +81,51 @@ impl Simulation {
     pub fn clear_springs(&mut self) {
         self.system.springs.clear();
         self.powers = self.system.powers(self.time());
+    }
+
+    /// Replaces a spring by its number, in the order in which springs were added: other values, or other ends.
+    ///
+    /// # Errors
+    /// A number that no spring has; as [`add_spring`](Self::add_spring). The spring is then as it was.
+    pub fn set_spring(&mut self, number: usize, spring: Spring) -> Result<(), ExecutiveError> {
+        let what = format!("spring {number}");
+        let count = self.system.springs.len();
+        if number >= count {
+            let cause = format!("there are {count} springs, counted from 0");
+            return Err(ExecutiveError::invalid(what, cause, "give the number of one of them"));
+        }
+        for body in [spring.first.body, spring.second.body].into_iter().flatten() {
+            self.check_body(&what, body)?;
+        }
+        if let Some(cause) = spring.fault() {
+            return Err(fault(&what, &cause));
+        }
+        self.system.springs[number] = spring;
+        self.powers = self.system.powers(self.time());
+        Ok(())
+    }
+
+    /// Gives a free body other mass properties. Its group frame keeps its pose and twist, so that momentum and energy change.
+    ///
+    /// # Errors
+    /// A body that is not there or is not free; mass properties that no body can have. The body is then as it was.
+    pub fn set_mass(&mut self, body: BodyId, mass: MassProperties) -> Result<(), ExecutiveError> {
+        self.check_body("set_mass", body)?;
+        let index = body.index();
+        let name = &self.system.bodies[index].name;
+        mass.check(name)?;
+        let slot = self.system.free.iter().position(|(free, _)| *free == index);
+        // The check refuses every tensor that has no inverse.
+        let (Some(slot), Some(inertia)) = (slot, Inertia::new(&mass)) else {
+            let cause = "it is not free, so that no mass has an effect on its motion";
+            return Err(ExecutiveError::invalid(format!("body `{name}`"), cause, "name a free body"));
+        };
+        let (pose, twist) = &self.system.motions[index];
+        self.states[slot] = FreeState::of_motion(&inertia, pose, twist);
+        self.system.free[slot].1 = inertia;
+        self.system.bodies[index].motion = Motion::Free(mass);
+        self.settled = false;
+        Ok(())
     }
 
     /// Sets uniform gravity, m/s², along the common axes.

@@ -5,6 +5,7 @@ use crate::body::{BodyId, RigidBody};
 use crate::energy::Energy;
 use crate::error::ExecutiveError;
 use crate::integrate::Integrator;
+use crate::spring::Spring;
 use crate::stability::group_mass;
 use crate::state::FreeState;
 use pong_advise::{ActingReport, GroupMass, StepPlan, StepReport, StepWarning};
@@ -105,6 +106,16 @@ impl Simulation {
     /// All bodies in the order in which they were added.
     pub fn bodies(&self) -> impl ExactSizeIterator<Item = (BodyId, &RigidBody)> {
         self.system.bodies.iter().enumerate().map(|(index, body)| (BodyId(index), body))
+    }
+
+    /// The springs in the order in which they were added.
+    pub fn springs(&self) -> &[Spring] {
+        &self.system.springs
+    }
+
+    /// Uniform gravity, m/s², along the common axes.
+    pub fn gravity(&self) -> Vec3 {
+        self.system.gravity
     }
 
     /// Pose of a body's group frame.

@@ -13,15 +13,19 @@
     print(campaign.summary("results"))
 """
 
+from ._criteria import Within
 from ._dispersions import Normal, Uniform
 from ._errors import CampaignError
-from ._plan import Plan, Within
+from ._plan import Plan
 from ._run import repeat, run
+from ._stops import Beyond, Held
 from ._store import failures, results
 from ._summary import Proportion, Quantile, Summary, quantile_interval, summary, wilson
 
 __all__ = [
+    "Beyond",
     "CampaignError",
+    "Held",
     "Normal",
     "Plan",
     "Proportion",

@@ -1,26 +1,23 @@
-"""What a campaign is: scene, dispersions, criteria. All of it stands in campaign.json."""
+"""What a campaign is: scene, dispersions, criteria, stops. All of it stands in campaign.json."""
 
 import math
 import os
 from dataclasses import asdict, dataclass, field
 
 from . import _dispersions as dispersions_of
+from . import _stops as stops_of
+from ._criteria import Within, triple
 from ._errors import CampaignError
 
 
-def triple(thing, unit, given):
-    """Three numbers, or an error that names the thing."""
-    try:
-        values = tuple(float(x) for x in given)
-    except (TypeError, ValueError):
-        values = ()
-    if len(values) != 3 or any(map(math.isnan, values)):
-        raise CampaignError(f"{thing}: it is {given!r}; give three numbers (x, y, z), {unit}")
-    return values
+INTEGRATORS = ("SemiImplicitEuler", "RungeKutta4", "ZeroOrderHold")
+
+# Columns of the results that are there in every campaign.
+COLUMNS = ("run", "time_at_end", "ended_by", "contacts_at_start", "contacts_at_end", "tunnelled", "warnings", "error", "message")
 
 
 def listed(thing, kinds, given):
-    """A list of dispersions or criteria, or an error that names what is none."""
+    """A list of dispersions, criteria or stops, or an error that names what is none."""
     names = " or ".join(kind.__name__ for kind in kinds)
     if not isinstance(given, list | tuple):
         raise CampaignError(f"{thing}: they are {given!r}; give a list, each entry a {names}")
@@ -31,31 +28,11 @@ def listed(thing, kinds, given):
 
 
 @dataclass(frozen=True)
-class Within:
-    """At the end of a run, the origin of `body`, seen in the frame of the body `of`, lies between `low` and `high` (m),
-    and moves no faster against it than `speed` (m/s)."""
-
-    name: str
-    body: str
-    of: str
-    low: tuple
-    high: tuple
-    speed: float = math.inf
-
-    def __post_init__(self):
-        for end in ("low", "high"):
-            object.__setattr__(self, end, triple(f"criterion `{self.name}`, {end}", "m", getattr(self, end)))
-        for axis, low, high in zip("xyz", self.low, self.high):
-            if low > high:
-                cure = "give the lower end first"
-                raise CampaignError(f"criterion `{self.name}`: along {axis}, low is {low} and high is {high}; {cure}")
-
-
-@dataclass(frozen=True)
 class Plan:
     """A scene, what is dispersed, and what counts as a success.
 
     `method` is "random", "latin_hypercube" or "corners" (every combination of both ends; `runs` is then left out).
+    `stops` end a run before its duration is over; they are looked at every `look_every` seconds.
     `pivots` names, for an Object, the point in the frame of its root group about which its rotation is dispersed.
     """
 
@@ -68,6 +45,9 @@ class Plan:
     pivots: dict = field(default_factory=dict)
     duration: float | None = None
     step: float | None = None
+    integrator: str | None = None
+    stops: list = field(default_factory=list)
+    look_every: float = 0.1
 
     def __post_init__(self):
         # Where symbolic links lead is the worker's affair: the path is kept as it was given.
@@ -75,6 +55,8 @@ class Plan:
         kinds = (dispersions_of.Uniform, dispersions_of.Normal)
         object.__setattr__(self, "dispersions", listed("dispersions", kinds, self.dispersions))
         object.__setattr__(self, "criteria", listed("criteria", (Within,), self.criteria))
+        object.__setattr__(self, "stops", listed("stops", (stops_of.Held, stops_of.Beyond), self.stops))
+        stops_of.positive("look_every", "s", self.look_every)
         pivots = {name: triple(f"pivot of `{name}`", "m", at) for name, at in self.pivots.items()}
         object.__setattr__(self, "pivots", pivots)
         self._check()
@@ -99,8 +81,17 @@ class Plan:
         for dispersion in self.dispersions:
             if dispersion.fault():
                 problems.append(f"dispersion of `{dispersion.parameter}`: {dispersion.fault()}")
+        if self.integrator not in (None, *INTEGRATORS):
+            problems.append(f"integrator: there is no `{self.integrator}`; give one of {', '.join(INTEGRATORS)}")
         criteria = [criterion.name for criterion in self.criteria]
-        for what, given in (("dispersion", names), ("criterion", criteria)):
+        stops = [stop.name for stop in self.stops]
+        problems += [f"criterion `{name}`: the results have a column of this name; give another" for name in criteria if name in COLUMNS]
+        for stop in self.stops:
+            if isinstance(stop, stops_of.Held) and stop.criterion not in criteria:
+                problems.append(f"stop `{stop.name}`: there is no criterion `{stop.criterion}`; add it to `criteria`")
+            if stop.name == "duration":
+                problems.append("stop `duration`: runs that no stop ends are told by this name; give another")
+        for what, given in (("dispersion", names), ("criterion", criteria), ("stop", stops)):
             problems += [f"{what} `{name}`: it is given twice; keep one" for name in sorted({n for n in given if given.count(n) > 1})]
         if problems:
             raise CampaignError("the plan cannot be used:\n  " + "\n  ".join(problems))
@@ -112,6 +103,7 @@ class Plan:
     def to_json(self):
         entry = asdict(self)
         entry["dispersions"] = [{"kind": dispersions_of.kind_of(d), **asdict(d)} for d in self.dispersions]
+        entry["stops"] = [{"kind": type(stop).__name__, **asdict(stop)} for stop in self.stops]
         # JSON has no infinity.
         for criterion in entry["criteria"]:
             criterion["speed"] = None if math.isinf(criterion["speed"]) else criterion["speed"]
@@ -124,6 +116,7 @@ class Plan:
         entry["criteria"] = [
             Within(**c | {"speed": math.inf if c["speed"] is None else c["speed"]}) for c in entry["criteria"]
         ]
+        entry["stops"] = [stops_of.from_json(stop) for stop in entry["stops"]]
         if entry["method"] == "corners":
             entry["runs"] = 0
         return cls(**entry)

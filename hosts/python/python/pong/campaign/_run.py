@@ -9,6 +9,7 @@ import pong
 from . import _case, _dispersions
 from ._errors import CampaignError
 from ._plan import Plan
+from ._stops import Beyond
 from ._store import Store
 
 # Tasks that a worker has at hand beside the one it runs: enough that it never waits for the network.
@@ -18,7 +19,7 @@ TASKS_AHEAD = 3
 def job_of(plan, digest=None, scene_hash=None):
     """What a worker must know of a plan."""
     entry = plan.to_json()
-    keys = ("scene", "step", "duration", "criteria", "pivots")
+    keys = ("scene", "step", "integrator", "duration", "criteria", "stops", "look_every", "pivots")
     job = {key: entry[key] for key in keys} | {"parameters": plan.parameters, "scene_hash": scene_hash}
     try:
         job["digest"] = _case.read(plan.scene)[1] if digest is None else digest
@@ -33,10 +34,12 @@ def checked(plan):
     simulation = _case.build(job)
     job["scene_hash"] = simulation.scene_hash
     bodies = simulation.bodies
-    for criterion in plan.criteria:
-        for name in (criterion.body, criterion.of):
+    named = [(f"criterion `{criterion.name}`", criterion) for criterion in plan.criteria]
+    named += [(f"stop `{stop.name}`", stop) for stop in plan.stops if isinstance(stop, Beyond)]
+    for thing, entry in named:
+        for name in (entry.body, entry.of):
             if name not in bodies:
-                raise CampaignError(f"criterion `{criterion.name}`: there is no body `{name}`; name one of: {', '.join(bodies)}")
+                raise CampaignError(f"{thing}: there is no body `{name}`; name one of: {', '.join(bodies)}")
     for name in plan.pivots:
         if name not in {body.split("/")[0] for body in bodies}:
             raise CampaignError(f"pivot of `{name}`: there is no such Object; name one of: {', '.join(bodies)}")
@@ -62,14 +65,21 @@ def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress
         if not (isinstance(given, int) and given >= 1):
             raise CampaignError(f"{thing}: it is {given!r}; give a whole number from 1 up")
     job = checked(plan)
-    store.begin(plan, job, pong.__version__)
+    with store.locked():
+        store.begin(plan, job, pong.__version__)
+        finish(store, plan, job, (workers, scheduler), runs_per_task, progress)
+    return store.table()
+
+
+def finish(store, plan, job, hands, runs_per_task, progress):
+    """Does the runs of a campaign that are not done."""
     values = _dispersions.values(plan)
     done = store.done()
     left = [index for index in range(plan.runs) if index not in done]
     tasks = [left[first : first + runs_per_task] for first in range(0, len(left), runs_per_task)]
     bar = Progress(plan.runs, len(done), len(store.failures())) if progress else None
     if tasks:
-        with client(workers, scheduler) as connected:
+        with client(*hands) as connected:
             refuse_unless_ready(connected, job)
             for rows in finished(connected, job, tasks, values):
                 store.add(rows)
@@ -77,7 +87,6 @@ def run(plan, folder, *, workers=None, scheduler=None, runs_per_task=1, progress
                     bar.count(rows)
     if bar:
         bar.end()
-    return store.table()
 
 
 @contextlib.contextmanager

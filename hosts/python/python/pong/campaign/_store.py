@@ -1,5 +1,6 @@
 """The folder of a campaign.
 
+    lock                   held by the process that runs the campaign
     campaign.json          the plan, digests of the scene and its models, versions
     parts/part-….parquet   rows of runs that came to their end
     failures.jsonl         a line for each run that did not, with its values
@@ -7,6 +8,8 @@
 A part is written under another name and renamed when it is whole; a line is written at once. What is there is whole.
 """
 
+import contextlib
+import fcntl
 import json
 import os
 import pathlib
@@ -26,6 +29,18 @@ class Store:
         self.head = self.folder / "campaign.json"
         self.parts = self.folder / "parts"
         self.failed = self.folder / "failures.jsonl"
+
+    @contextlib.contextmanager
+    def locked(self):
+        """Holds the folder: two processes that run one campaign would do the same runs. The system frees it when one dies."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with (self.folder / "lock").open("w") as file:
+            try:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError:
+                cure = "wait for its end, or name another folder"
+                raise CampaignError(f"campaign `{self.folder}`: another process runs it at this moment; {cure}") from None
+            yield
 
     def begin(self, plan, job, version):
         """Makes the folder, or takes up the campaign that is in it, if it is the same."""

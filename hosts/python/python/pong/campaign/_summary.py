@@ -91,6 +91,7 @@ class Summary:
     finished: int
     failed: int
     tunnelled: int
+    touching_at_start: int
     confidence: float
     proportions: list
     quantiles: list
@@ -102,6 +103,8 @@ class Summary:
             lines.append(f"in {self.tunnelled} runs something went right through something else: make the step shorter")
         for p in self.proportions:
             lines.append(f"{p.name}: {p.count} of {p.of}, {p.share:.4f}, between {p.low:.4f} and {p.high:.4f}")
+        if self.touching_at_start:
+            lines.append(f"in {self.touching_at_start} runs bodies touch at the start already: if they should not, start farther away")
         width = max([len(q.name) for q in self.quantiles], default=0)
         for q in self.quantiles:
             low, high = (f"{x:.4g}" if math.isfinite(x) else "unknown: too few runs" for x in (q.low, q.high))
@@ -134,5 +137,7 @@ def summary(folder, *, quantiles=QUANTILES, quantities=None, confidence=0.95):
                 # The value itself is an order statistic too: no value is made up between two runs.
                 value = float(np.quantile(values, share, method="inverted_cdf"))
                 told.append(Quantile(name, share, value, low, high))
-    tunnelled = int(np.count_nonzero(table["tunnelled"].to_numpy())) if table.num_rows else 0
-    return Summary(plan.runs, table.num_rows, len(failed), tunnelled, confidence, proportions, told)
+    tunnelled, touching = (
+        int(np.count_nonzero(table[name].to_numpy())) if table.num_rows else 0 for name in ("tunnelled", "contacts_at_start")
+    )
+    return Summary(plan.runs, table.num_rows, len(failed), tunnelled, touching, confidence, proportions, told)

@@ -4,7 +4,7 @@ import numpy as np
 
 from ._errors import CampaignError
 from ._store import Store
-from ._summary import QUANTILES, quantile_interval
+from ._summary import QUANTILES, quantile_interval, wilson
 
 
 def _column(table, name):
@@ -45,4 +45,29 @@ def envelope(folder, x, y, criterion):
         axes.scatter(across[chosen], up[chosen], marker=mark, color=color, s=12, label=label)
     axes.set(xlabel=x, ylabel=y)
     axes.legend()
+    return figure
+
+
+def share(folder, parameter, criterion, *, bins=12, confidence=0.95):
+    """The share of runs that met a criterion, over a dispersed parameter, with Wilson's interval of each of its bins.
+
+    `parameter` is the name of a column, or a pair of a label and a value for each row of the results."""
+    table = Store(folder).table()
+    met = _column(table, criterion).astype(bool)
+    label, values = (parameter, _column(table, parameter)) if isinstance(parameter, str) else parameter
+    values = np.asarray(values, dtype=float)
+    if values.shape != met.shape:
+        raise CampaignError(f"quantity `{label}`: it has {values.size} values; give one for each of the {len(met)} rows of the results")
+    edges = np.linspace(values.min(), values.max(), bins + 1)
+    places = np.clip(np.searchsorted(edges, values, side="right") - 1, 0, bins - 1)
+    figure, axes = _figure()
+    for place in range(bins):
+        inside = met[places == place]
+        # A bin without runs says nothing.
+        if len(inside):
+            low, high = wilson(int(inside.sum()), len(inside), confidence)
+            middle = 0.5 * (edges[place] + edges[place + 1])
+            axes.plot([middle, middle], [low, high], color="black", linewidth=1)
+            axes.plot(middle, inside.mean(), "o", color="tab:blue", markersize=4)
+    axes.set(xlabel=label, ylabel=f"share {criterion}, {100 * confidence:g} % confidence", ylim=(0, 1.02))
     return figure

@@ -1,0 +1,119 @@
+//! Masses and springs of a scene as dictionaries.
+
+use crate::errors::{bad_value, of_executive};
+use pong_executive::{BodyId, MassProperties, Simulation, Spring};
+use pong_geometry::{Mat3, Vec3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+const MASS: [&str; 3] = ["mass", "inertia", "mass_center"];
+const SPRING: [&str; 3] = ["stiffness", "damping", "preload"];
+
+/// Mass (kg), inertia about the mass centre (kg·m², three rows) and mass centre (m), along the axes of the group.
+pub(crate) fn mass<'py>(
+    py: Python<'py>,
+    simulation: &Simulation,
+    body: BodyId,
+) -> PyResult<Bound<'py, PyDict>> {
+    let known = mass_of(simulation, body)?;
+    let tensor: Vec<[f64; 3]> = known.inertia.row_iter().map(|row| [row[0], row[1], row[2]]).collect();
+    let told = PyDict::new(py);
+    told.set_item("mass", known.mass)?;
+    told.set_item("inertia", tensor)?;
+    told.set_item("mass_center", <[f64; 3]>::from(known.mass_center))?;
+    Ok(told)
+}
+
+fn mass_of(simulation: &Simulation, body: BodyId) -> PyResult<&MassProperties> {
+    let (_, known) = simulation.bodies().nth(body.index()).expect("an id of a body of this simulation");
+    known.mass().ok_or_else(|| {
+        let cause = format!("`{}` is not free, so that no mass has an effect on its motion", known.name);
+        bad_value("body", cause, "name a body with motion: Free")
+    })
+}
+
+pub(crate) fn set_mass(
+    py: Python<'_>,
+    simulation: &mut Simulation,
+    body: BodyId,
+    values: &Bound<'_, PyDict>,
+) -> PyResult<()> {
+    mass_of(simulation, body)?;
+    whole("mass", values, &MASS)?;
+    let rows: [[f64; 3]; 3] = value("mass", values, "inertia")?;
+    let properties = MassProperties {
+        mass: value("mass", values, "mass")?,
+        inertia: Mat3::from_fn(|row, column| rows[row][column]),
+        mass_center: Vec3::from(value::<[f64; 3]>("mass", values, "mass_center")?),
+    };
+    simulation.set_mass(body, properties).map_err(|error| of_executive(py, &error))
+}
+
+/// Three translations (N/m, N·s/m, N), then three rotations (N·m/rad, N·m·s/rad, N·m).
+pub(crate) fn spring<'py>(
+    py: Python<'py>,
+    simulation: &Simulation,
+    number: usize,
+) -> PyResult<Bound<'py, PyDict>> {
+    let known = spring_of(simulation, number)?;
+    let told = PyDict::new(py);
+    for (name, values) in SPRING.into_iter().zip([known.stiffness, known.damping, known.preload]) {
+        told.set_item(name, values)?;
+    }
+    Ok(told)
+}
+
+fn spring_of(simulation: &Simulation, number: usize) -> PyResult<Spring> {
+    simulation.springs().get(number).copied().ok_or_else(|| {
+        let cause = format!("there is no spring {number}");
+        let cure = match simulation.springs().len() {
+            0 => "the scene has none; add one to `springs`".to_owned(),
+            count => format!("give a number from 0 to {}, in the order of the scene", count - 1),
+        };
+        bad_value("spring", cause, &cure)
+    })
+}
+
+pub(crate) fn set_spring(
+    py: Python<'_>,
+    simulation: &mut Simulation,
+    number: usize,
+    values: &Bound<'_, PyDict>,
+) -> PyResult<()> {
+    let known = spring_of(simulation, number)?;
+    whole("spring", values, &SPRING)?;
+    let [stiffness, damping, preload] = SPRING.map(|name| value::<[f64; 6]>("spring", values, name));
+    let spring = Spring { stiffness: stiffness?, damping: damping?, preload: preload?, ..known };
+    simulation.set_spring(number, spring).map_err(|error| of_executive(py, &error))
+}
+
+/// Refuses a dictionary with a key too few or too many: what is misspelt must not stay as it was without a word.
+fn whole(thing: &str, values: &Bound<'_, PyDict>, names: &[&str]) -> PyResult<()> {
+    for key in values.keys() {
+        let key: String = key.extract()?;
+        if !names.contains(&key.as_str()) {
+            let cure = format!("give {}", names.join(", "));
+            return Err(bad_value(thing, format!("there is no value `{key}`"), &cure));
+        }
+    }
+    for name in names {
+        if !values.contains(name)? {
+            let cure = format!("give all of {}, as `{thing}` of the simulation gives them", names.join(", "));
+            return Err(bad_value(thing, format!("`{name}` is missing"), &cure));
+        }
+    }
+    Ok(())
+}
+
+fn value<T: for<'a, 'py> FromPyObject<'a, 'py>>(
+    thing: &str,
+    values: &Bound<'_, PyDict>,
+    name: &str,
+) -> PyResult<T> {
+    let given = values.get_item(name)?;
+    let read = given.as_ref().and_then(|given| given.extract::<T>().ok());
+    read.ok_or_else(|| {
+        let cause = format!("`{name}` cannot be read as numbers");
+        bad_value(thing, cause, "give it in the shape in which the simulation gives it")
+    })
+}
