@@ -1,14 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of surfaces and pairs as Python data: written as RON, and read and judged as those of a model file."""
+"""Tables of surfaces and pairs as Python data, read and judged as those of a model file."""
 
 from __future__ import annotations
 
-import re
-
-from .engine import WheelMissing
+from .engine import WheelMissing, wheel
 from .model import Tagged
 from .read import Fault, ModelFaults, read_text
-from .ron_text import number, text
 
 
 def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, list, list[Fault]]:
@@ -29,52 +26,32 @@ def checked(surfaces: dict, pairs: list, model: str = "model") -> tuple[dict, li
 
 def _document(surfaces: dict, pairs: list, model: str) -> str:
     """A model of these tables around a point, which has the first surface, or one of its own where there is none."""
-    tables = {str(name): fields for name, fields in surfaces.items()} or {"-": {"stiffness": 1.0}}
-    entries = ", ".join(f"{text(name)}: {_ron(fields)}" for name, fields in tables.items())
-    point = f"Point(name: {text('-')}, surface: {text(next(iter(tables)))}, position: (0, 0, 0))"
-    return (
-        f'(format: "pong-model", version: 1, name: {text(model or "-")}, surfaces: {{{entries}}}, '
-        f"pairs: [{', '.join(map(_pair, pairs))}], root: (name: {text('-')}, primitives: [{point}]))"
-    )
+    tables = {str(name): _plain(fields) for name, fields in surfaces.items()} or {"-": {"stiffness": 1.0}}
+    point = {"Point": {"name": "-", "surface": next(iter(tables)), "position": (0.0, 0.0, 0.0)}}
+    data = {"name": model or "-", "surfaces": tables, "pairs": [_pair(pair) for pair in pairs]}
+    return wheel().model.write(data | {"root": {"name": "-", "primitives": [point]}})
 
 
-def _pair(pair) -> str:
-    if not isinstance(pair, dict):
-        return _ron(pair)
-    return "(" + ", ".join(f"{_name(key)}: {_names(key, value)}" for key, value in pair.items()) + ")"
+def _pair(pair):
+    data = _plain(pair)
+    if isinstance(data, dict) and isinstance(data.get("surfaces"), list):
+        data["surfaces"] = tuple(data["surfaces"])
+    return data
 
 
-def _names(key: str, value) -> str:
-    if key == "surfaces" and isinstance(value, (list, tuple)):
-        return "(" + ", ".join(map(_ron, value)) + ")"
-    return _ron(value)
-
-
-def _ron(value) -> str:
-    """A value as RON, whatever it is; {"Linear": {…}} is a law."""
+def _plain(value):
+    """A value as `pong.model` has it: JSON has no infinity, and a choice of no law is the word for it."""
     if isinstance(value, Tagged):
-        return _name(value.name) + _ron_fields(value.fields)
+        return {value.name: _plain(value.fields)}
     if isinstance(value, dict):
-        law = law_of(value)
-        return _ron(law) if law else _ron_fields(value)
+        return {str(name): _plain(inner) for name, inner in value.items()}
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(map(_ron, value)) + "]"
-    if value is None or value == "None":
-        return "None"
-    if isinstance(value, str):
-        return "inf" if value in ("inf", "Infinity") else text(value)
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return number(value).replace("nan", "NaN")
-
-
-def _ron_fields(fields: dict) -> str:
-    return "(" + ", ".join(f"{_name(name)}: {_ron(value)}" for name, value in fields.items()) + ")"
-
-
-def _name(name) -> str:
-    """A name of a field; RON has a form for those that are no plain words."""
-    return name if re.fullmatch(r"[A-Za-z_]\w*", str(name), re.ASCII) else f"r#{name}"
+        return [_plain(item) for item in value]
+    if value == "None":
+        return None
+    if value in ("inf", "Infinity"):
+        return float("inf")
+    return value if value is None or isinstance(value, (bool, str)) else float(value)
 
 
 def law_of(value: dict) -> Tagged | None:

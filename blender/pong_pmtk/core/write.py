@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`Model` -> model file. The same model gives the same bytes, and reading them back gives the same model."""
+"""`Model` -> model file. The same model gives the same bytes, and reading them back gives the same model.
+
+The wheel lays the text out (`pong.model.write`); what is written, and in which order, is said here.
+"""
 
 from __future__ import annotations
 
@@ -10,30 +13,14 @@ from pathlib import Path
 import numpy as np
 
 from .canonical import canonical
+from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .ron_text import Block, Filled, lay_out, number, rows, text, tuple_of
 from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES
 
 
 def write_text(model: Model) -> str:
-    """The text of a model file."""
-    model = canonical(model)
-    items = [
-        ("format: ", text("pong-model")),
-        ("version: ", "1"),
-        ("name: ", text(model.name)),
-    ]
-    if not model.entry_memory:
-        items.append(("entry_memory: ", "false"))
-    surfaces = [(text(name) + ": ", surface(fields)) for name, fields in model.surfaces.items()]
-    items.append(("surfaces: ", Block("{", "}", surfaces, broken=bool(surfaces))))
-    if model.pairs:
-        items.append(("pairs: ", Block("[", "]", [("", pair(fields)) for fields in model.pairs], broken=True)))
-    items.append(("root: ", group(model.root)))
-    out: list[str] = []
-    lay_out("", Block("(", ")", items, broken=True), "", out)
-    out[-1] = ")"
-    return "\n".join(out) + "\n"
+    """The text of a model file. Raises `WheelMissing`."""
+    return wheel().model.write(data_of(canonical(model)))
 
 
 def write_files(path, model: Model, meshes: dict[str, bytes] | None = None) -> None:
@@ -61,120 +48,112 @@ def write_files(path, model: Model, meshes: dict[str, bytes] | None = None) -> N
                 os.unlink(temporary)
 
 
-def surface(fields: dict) -> Block:
-    items = [("stiffness: ", number(fields["stiffness"]))]
+def data_of(model: Model) -> dict:
+    """A model as `pong.model` has it: fields in our order, `None` for what is left out."""
+    return {
+        "format": "pong-model",
+        "version": 1,
+        "name": model.name,
+        "entry_memory": None if model.entry_memory else False,
+        "surfaces": {name: _surface(fields) for name, fields in model.surfaces.items()},
+        "pairs": [_pair(fields) for fields in model.pairs] or None,
+        "root": _group(model.root),
+    }
+
+
+def _surface(fields: dict) -> dict:
+    data = {"stiffness": float(fields["stiffness"])}
     if fields.get("normal") is not None:
-        items.append(("normal: ", law(fields["normal"], NORMAL_LAWS)))
+        data["normal"] = _law(fields["normal"], NORMAL_LAWS)
     if fields.get("friction") is not None or ("friction" in fields and fields["stiffness"] == float("inf")):
-        items.append(("friction: ", law(fields["friction"], FRICTION_LAWS)))
-    return Block("(", ")", items)
+        data["friction"] = _law(fields["friction"], FRICTION_LAWS)
+    return data
 
 
-def pair(fields: dict) -> Block:
-    items: list[tuple[str, object]] = [("surfaces: ", "(" + ", ".join(map(text, fields["surfaces"])) + ")")]
+def _pair(fields: dict) -> dict:
+    data: dict = {"surfaces": tuple(fields["surfaces"])}
     if fields.get("stiffness") is not None:
-        items.append(("stiffness: ", number(fields["stiffness"])))
+        data["stiffness"] = float(fields["stiffness"])
     if fields.get("normal") is not None:
-        items.append(("normal: ", law(fields["normal"], NORMAL_LAWS)))
+        data["normal"] = _law(fields["normal"], NORMAL_LAWS)
     if "friction" in fields:
-        items.append(("friction: ", law(fields["friction"], FRICTION_LAWS)))
-    return Block("(", ")", items)
+        data["friction"] = _law(fields["friction"], FRICTION_LAWS)
+    return data
 
 
-def law(tagged: Tagged | None, laws: dict) -> Block | str:
+def _law(tagged: Tagged | None, laws: dict) -> dict | None:
     if tagged is None:
-        return "None"
-    items = []
+        return None
+    data = {}
     for field in laws[tagged.name]:
         value = tagged.fields.get(field.name)
         if value is not None and not (field.name == "parameters" and not len(value)):
-            items.append((field.name + ": ", _law_value(value)))
-    return Block(tagged.name + "(", ")", items)
+            data[field.name] = _plain(value)
+    return {tagged.name: data}
 
 
-def _law_value(value):
+def _plain(value):
+    """Numbers of laws, alone, in lists and in groups of their own, as float."""
     if isinstance(value, dict):
-        return Block("(", ")", [(key + ": ", number(inner)) for key, inner in value.items()])
-    if isinstance(value, str):
-        return text(value)
-    return Filled([number(x) for x in value]) if isinstance(value, (list, tuple)) else number(value)
+        return {key: float(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [float(x) for x in value]
+    return value if isinstance(value, str) else float(value)
 
 
-def group(node: Group) -> Block:
-    items: list[tuple[str, object]] = [("name: ", text(node.name))]
-    if node.movable:
-        items.append(("movable: ", "true"))
-    if node.position is not None or node.orientation is not None:
-        items.append(("pose: ", pose(node)))
-    if node.bound is not None:
-        items.append(("bound: ", bound(node.bound)))
-    if node.leaf_size is not None:
-        items.append(("leaf_size: ", str(node.leaf_size)))
-    if node.surface is not None:
-        items.append(("surface: ", text(node.surface)))
-    if node.groups:
-        items.append(("groups: ", Block("[", "]", [("", group(below)) for below in node.groups], broken=True)))
-    if node.primitives:
-        below = [("", primitive(item)) for item in node.primitives]
-        items.append(("primitives: ", Block("[", "]", below, broken=True)))
-    return Block("(", ")", items, broken=True)
+def _group(group: Group) -> dict:
+    bound = group.bound
+    if bound is not None and bound.startswith("Custom:"):
+        bound = {"Custom": bound[7:]}
+    pose = {"position": _numbers(group.position), "orientation": _numbers(group.orientation)}
+    return {
+        "name": group.name,
+        "movable": group.movable or None,
+        "pose": pose if any(part is not None for part in pose.values()) else None,
+        "bound": bound,
+        "leaf_size": group.leaf_size,
+        "surface": group.surface,
+        "groups": [_group(below) for below in group.groups] or None,
+        "primitives": [_primitive(primitive) for primitive in group.primitives] or None,
+    }
 
 
-def bound(kind: str) -> str:
-    return f"Custom({text(kind[7:])})" if kind.startswith("Custom:") else kind
+def _numbers(values) -> tuple[float, ...] | None:
+    return None if values is None else tuple(map(float, values))
 
 
-def pose(node: Group) -> Block:
-    items = []
-    if node.position is not None:
-        items.append(("position: ", tuple_of(node.position)))
-    if node.orientation is not None:
-        items.append(("orientation: ", tuple_of(node.orientation)))
-    return Block("(", ")", items)
+def _primitive(primitive: Primitive) -> dict:
+    fields = {"name": primitive.name, "surface": primitive.surface}
+    for field in PRIMITIVES[primitive.kind]:
+        if field.name in primitive.fields:
+            fields[field.name] = _AS_DATA[field.kind](primitive.fields[field.name])
+    return {primitive.kind: fields}
 
 
-def primitive(item: Primitive) -> Block:
-    items = [("name: ", text(item.name))]
-    if item.surface is not None:
-        items.append(("surface: ", text(item.surface)))
-    for field in PRIMITIVES[item.kind]:
-        if field.name in item.fields:
-            items.append((field.name + ": ", _SHOWN[field.kind](item.fields[field.name])))
-    return Block(item.kind + "(", ")", items)
+def _places(places) -> tuple:
+    return tuple(map(_numbers, places))
 
 
-def _places(places) -> Block:
-    return Block("(", ")", [("", tuple_of(place)) for place in places])
+def _faces(faces) -> np.ndarray | list:
+    return faces if isinstance(faces, np.ndarray) else [np.asarray(face, dtype=np.int64) for face in faces]
 
 
-def _triangles(faces) -> Filled:
-    if isinstance(faces, np.ndarray):
-        return Filled(rows(faces))
-    return Filled(["(" + face[1:-1] + ")" for face in _faces(faces).tokens])
-
-
-def _faces(faces) -> Filled:
-    lists = faces.tolist() if isinstance(faces, np.ndarray) else faces
-    return Filled(["[" + ", ".join(map(str, map(int, face))) + "]" for face in lists])
-
-
-_SHOWN = {
-    "vector": tuple_of,
-    "direction": tuple_of,
-    "semi_axes": tuple_of,
-    "rotation": tuple_of,
+_AS_DATA = {
+    "vector": _numbers,
+    "direction": _numbers,
+    "semi_axes": _numbers,
+    "rotation": _numbers,
     "vectors2": _places,
     "vectors3": _places,
-    "number": number,
-    "positive": number,
-    "finite_stiffness": number,
-    "not_negative": number,
-    "text_value": text,
-    "boolean": lambda value: "true" if value else "false",
+    "number": float,
+    "positive": float,
+    "not_negative": float,
+    "text_value": str,
+    "boolean": bool,
     "response": str,
-    "numbers": lambda values: Filled([number(x) for x in values]),
-    "indices": lambda values: Filled([str(int(x)) for x in values]),
-    "vertices": lambda array: Filled(rows(np.asarray(array, dtype=np.float64).reshape(-1, 3))),
-    "triangles": _triangles,
+    "numbers": lambda values: [float(x) for x in values],
+    "indices": lambda values: [int(x) for x in values],
+    "vertices": lambda array: np.asarray(array, dtype=np.float64).reshape(-1, 3),
+    "triangles": _faces,
     "faces": _faces,
 }

@@ -1,5 +1,9 @@
 """Model files as data, and the rules of the loader for programs that make models."""
 
+import os
+import pathlib
+import random
+
 import numpy as np
 import pytest
 from support import BALL, GROUND
@@ -98,6 +102,52 @@ def test_faults_have_place_cause_and_cure(tmp_path):
     with pytest.raises(pong.ModelError) as told:
         pong.model.read(tmp_path / "latin.ron")
     assert told.value.errors[0]["line"] == 2 and "UTF-8" in told.value.errors[0]["cure"]
+
+
+def same(a, b):
+    """Whether data is the same to the last bit, arrays with it."""
+    if isinstance(a, dict):
+        return isinstance(b, dict) and list(a) == list(b) and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, (list, tuple)):
+        return type(a) is type(b) and len(a) == len(b) and all(map(same, a, b))
+    if isinstance(a, np.ndarray):
+        return isinstance(b, np.ndarray) and a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+    return type(a) is type(b) and (a == b or a != a)
+
+
+def test_what_is_written_is_read_as_it_was():
+    models = pathlib.Path(os.environ["REPOSITORY"]).glob("models/*/*.ron")
+    texts = [text for text in map(pathlib.Path.read_text, models) if '"pong-model"' in text]
+    assert len(texts) > 50
+    for text in [*texts, BALL, GROUND]:
+        data = pong.model.parse(text)
+        written = pong.model.write(data)
+        assert same(pong.model.parse(written), data)
+        assert max(map(len, written.splitlines())) <= 120
+        assert pong.model.write(pong.model.parse(written)) == written
+
+
+def test_every_number_and_every_text_comes_back():
+    random.seed(3)
+    numbers = [random.uniform(-1, 1) * 10.0 ** random.randint(-300, 99) for _ in range(300)]
+    numbers += [0.1, 1e22, 5e-324, 1e100, -0.0, 123456789.123456789]
+    names = ['a"b', "back\\slash", "line\nbreak", "µ-Größe", "tab\t", "\u200b", "// no comment"]
+    surfaces = {name: {"stiffness": float("inf"), "friction": None} for name in names}
+    surfaces["s"] = {"stiffness": 1.0, "friction": {"Bristle": {"mu": 0.3}}}
+    own = [{"Custom": {"name": name.replace("/", "|"), "surface": name, "kind": name, "parameters": numbers}} for name in names]
+    faces = [np.array([0, 1, 2]), np.array([0, 3, 2, 1])]
+    own.append({"Polyhedron": {"name": "p", "vertices": np.array(numbers).reshape(-1, 3), "faces": faces}})
+    root = {"name": "m", "surface": "s", "bound": {"Custom": "torus"}, "leaf_size": 7, "primitives": own}
+    data = {"format": "pong-model", "version": 1, "name": "m", "surfaces": surfaces, "root": root}
+    assert same(pong.model.parse(pong.model.write(data)), data)
+
+
+def test_what_has_no_form_is_refused():
+    with pytest.raises(TypeError, match="no form for .*, which is a set"):
+        pong.model.write({"name": {1, 2}})
+    # What it would mean is the loader's to say.
+    with pytest.raises(pong.ModelError, match="unknown-field"):
+        pong.model.parse(pong.model.write(pong.model.parse(BALL) | {"colour": 1}))
 
 
 def test_check_gives_all_errors_or_the_model_with_its_warnings():

@@ -1,6 +1,7 @@
 """Model files as data, and their rules for programs that make models (docs/python.md, Model files as data).
 
     data = pong.model.read("gripper.ron")            the file as it is written: dictionaries, tuples, arrays
+    text = pong.model.write(data)                    data like that as the text of a model file
     found = pong.model.check(text)                   every error and warning of a text
     pong.model.check_polyhedron(vertices, faces)     what keeps a shape from being a polyhedron
     pong.model.check_triangles(corners)              what is wrong about the triangles of one body
@@ -16,14 +17,15 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from . import _pong
+from . import _pong, _write
 from ._pong import Model, ModelError
 
-__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "parse", "read"]
+__all__ = ["Checked", "check", "check_polyhedron", "check_triangles", "parse", "read", "write"]
 
 _Path = str | os.PathLike[str]
+_Indices = NDArray[np.integer[Any]]
 
 
 @dataclass
@@ -45,6 +47,12 @@ def parse(text: str, *, name: str = "model") -> dict[str, Any]:
     return _pong.parse_authored(text, name=name)
 
 
+def write(data: dict[str, Any]) -> str:
+    """The text of a model file with this data, in the form that `read` gives. The same data gives the same text, and reading
+    it gives the same data: numbers keep every bit. Nothing is judged; `check` judges the text."""
+    return _write.write(data)
+
+
 def check(
     text: str, *, name: str = "model", folder: _Path | None = None, allow_files_below: Sequence[_Path] = ()
 ) -> Checked:
@@ -57,7 +65,7 @@ def check(
 
 
 def check_polyhedron(
-    vertices: ArrayLike, faces: ArrayLike | Sequence[ArrayLike], inactive: Sequence[int] = ()
+    vertices: ArrayLike, faces: _Indices | Sequence[Sequence[int] | _Indices], inactive: Sequence[int] = ()
 ) -> list[dict[str, Any]]:
     """All that keeps vertices (n, 3) and faces of vertex indices from being a polyhedron; nothing if it is taken."""
     indices = faces.tolist() if isinstance(faces, np.ndarray) else [np.asarray(face).tolist() for face in faces]
