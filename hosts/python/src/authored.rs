@@ -77,15 +77,21 @@ fn fields<'py>(py: Python<'py>, fields: &[Field]) -> PyResult<Bound<'py, PyDict>
             ("vertices", Value::Rows(_) | Value::List(_)) => vertices(py, &rows(&node.value))?,
             ("triangles" | "faces", Value::Rows(_) | Value::List(_)) => faces(py, &rows(&node.value))?,
             ("inactive_faces", Value::List(items)) => {
-                let numbers = items.iter().filter_map(|item| number(item).map(|number| number as i64));
-                PyList::new(py, numbers.collect::<Vec<_>>())?.into_py_any(py)?
+                let numbers = items.iter().filter_map(number).map(|number| whole(py, number));
+                PyList::new(py, numbers.collect::<PyResult<Vec<_>>>()?)?.into_py_any(py)?
             }
-            ("leaf_size" | "version", Value::Number(number)) => (*number as i64).into_py_any(py)?,
+            ("leaf_size" | "version", Value::Number(number)) => whole(py, *number)?,
             _ => value(py, node)?,
         };
         all.set_item(name, content)?;
     }
     Ok(all)
+}
+
+/// A number that is to be whole, as an int; what is none stays as it is, for the loader to refuse.
+fn whole(py: Python<'_>, number: f64) -> PyResult<Py<PyAny>> {
+    let int = number as i64;
+    if int as f64 == number { int.into_py_any(py) } else { number.into_py_any(py) }
 }
 
 /// Rows of numbers, whatever way the list was read. All of it has been checked to be numbers.

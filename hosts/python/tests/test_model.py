@@ -88,6 +88,9 @@ def test_what_is_read_is_not_judged_by_its_shape(tmp_path):
     (tmp_path / "m.ron").write_text(with_root('primitives: [TriangleMesh(name: "t", file: "none.obj")]'))
     (mesh,) = pong.model.read(tmp_path / "m.ron")["root"]["primitives"]
     assert mesh == {"TriangleMesh": {"name": "t", "file": "none.obj"}}
+    # How many faces the file has is not known here, so what is no face is handed on as it is.
+    (solid,) = primitives('Polyhedron(name: "p", file: "none.obj", inactive_faces: [1, 1.5])')
+    assert solid["Polyhedron"]["inactive_faces"] == [1, 1.5]
 
 
 def test_faults_have_place_cause_and_cure(tmp_path):
