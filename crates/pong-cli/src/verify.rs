@@ -30,6 +30,9 @@ pub(crate) struct Arguments {
     /// With --invariances: the first scene of the seed, to see one again.
     #[arg(long, requires = "invariances", default_value_t = 0)]
     first: u64,
+    /// With --invariances: one line for each scene that differs, with the command that shows it, and no scene made small.
+    #[arg(long, requires = "invariances")]
+    list_findings: bool,
     /// With --extremes: also the soaks, which take minutes.
     #[arg(long, requires = "extremes")]
     long: bool,
@@ -149,7 +152,7 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
         scenes: arguments.scenes,
         only: arguments.only.clone(),
         threads: std::thread::available_parallelism().map_or(1, usize::from),
-        kept: 1,
+        kept: usize::from(!arguments.list_findings),
     };
     let told = AtomicUsize::new(0);
     let survey = Survey::run(&order, &|done| {
@@ -159,6 +162,9 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
         }
     });
     survey.found.iter().for_each(|found| print(&found.text()));
+    if arguments.list_findings {
+        print(&survey.list());
+    }
     print(&survey.text());
     if survey.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

@@ -266,3 +266,27 @@ fn a_custom_volume_is_fitted_and_tested_in_either_order() {
     let disc = CustomBounds(&Disc);
     assert!((measure(&fitted(&BoundKind::Sphere, &disc)) - 2f64.sqrt()).abs() < 1e-9, "by the box around it");
 }
+
+/// Where a face pushes an ellipsoid, the foot of the deepest point lies within the reach of feet of the centre along each axis,
+/// or within the ellipsoid's own extent: with the centre in front, in the plane, or behind it by up to the smallest semi-axis.
+#[test]
+fn the_reach_of_feet_holds_every_foot() {
+    let mut random = Random(77);
+    let mut beside = 0;
+    for _ in 0..20_000 {
+        let semi_axes = Vec3::from_fn(|_, _| 0.05 + 0.95 * random.unit());
+        let ellipsoid = Ellipsoid { center: Vec3::zeros(), axes: random.rotation(), semi_axes };
+        let normal = random.direction();
+        let half_width = ellipsoid.half_width(&normal);
+        let height = half_width - (half_width + semi_axes.min()) * random.unit();
+        let foot = ellipsoid.support(&-normal) + normal * (half_width - height);
+        assert!((normal.dot(&foot) + height).abs() < 1e-12, "in the plane");
+        for axis in [Vec3::x(), Vec3::y(), Vec3::z()] {
+            let own = ellipsoid.half_width(&axis);
+            let along = axis.dot(&foot).abs();
+            assert!(along <= own.max(ellipsoid.reach_of_feet()) * (1.0 + 1e-12), "{foot:?} of {semi_axes:?}");
+            beside += usize::from(along > own);
+        }
+    }
+    assert!(beside > 500, "only {beside} feet lie beside the extent");
+}

@@ -314,3 +314,26 @@ fn beside_a_seam_one_piece_pushes() {
         }
     }
 }
+
+/// A centre on a convex edge or vertex lies in the planes of all faces there. One contact pushes it, along the mean of their
+/// normals, however the surface is turned and cut.
+#[test]
+fn a_centre_on_a_convex_rim_is_pushed_once() {
+    let mut random = Random(703);
+    let cube = cuboid(Vec3::repeat(-0.5), Vec3::repeat(0.5));
+    for round in 0..2000 {
+        let motion = random.motion(1.0);
+        let mesh = skin(&moved(&cube, &motion));
+        let along = if round % 4 == 0 { 0.5 } else { random.between(-0.49, 0.49) };
+        let place = Vec3::new(0.5, 0.5, along);
+        let normals = if along == 0.5 { Vec3::repeat(1.0) } else { Vec3::new(1.0, 1.0, 0.0) };
+        let sphere = Sphere { center: motion.point(&place), radius: 0.4 };
+        let contacts = counting_contacts(&sphere, &mesh, 1e-3);
+        let [contact] = contacts[..] else { panic!("{} contacts at {place:?}", contacts.len()) };
+        let expected = motion.rotation * normals.normalize();
+        assert!((contact.depth - 0.4).abs() < 1e-12, "{}", contact.depth);
+        // A corner of the cube has one or two triangles of each face.
+        let slack = if along == 0.5 { 0.5 } else { 1e-12 };
+        assert!((contact.normal_b - expected).norm() < slack, "{:?} at {place:?}", contact.normal_b);
+    }
+}

@@ -73,3 +73,34 @@ fn no_place_of_the_triangle_is_nearer() {
         assert!(square <= least + 1e-12 && least.sqrt() - square.sqrt() < 0.06, "{square} {least}");
     }
 }
+
+/// A place beyond an edge and over one of its ends belongs to the edge for both triangles, or to the corner for both,
+/// however they name it and wherever they are.
+#[test]
+fn both_triangles_of_an_edge_agree_where_it_ends() {
+    let mut random = Random(32);
+    let mut on_edge = 0;
+    for _ in 0..20_000 {
+        let motion = random.motion(1.0);
+        let slope = random.between(0.1, 2.0);
+        let corners = [
+            Vec3::zeros(),
+            Vec3::y(),
+            Vec3::new(-1.0, random.between(-0.5, 1.5), slope),
+            Vec3::new(1.0, random.between(-0.5, 1.5), slope),
+        ];
+        let [a, b, left, right] = corners.map(|corner| motion.point(&corner));
+        // Behind the fold, straight below its end.
+        let p = motion.point(&Vec3::new(0.0, 1.0, -random.between(0.01, 1.0)));
+        let place_of = |triangle: [Vec3; 3]| nearest_on_triangle(&p, &triangle).1;
+        let is_edge = [place_of([a, b, left]), place_of([right, b, a])].map(|place| match place {
+            Place::Edge(_) => true,
+            Place::Corner(_) => false,
+            Place::Face => panic!("{p:?} is over neither face"),
+        });
+        assert_eq!(is_edge[0], is_edge[1], "{p:?} below {b:?}");
+        on_edge += usize::from(is_edge[0]);
+    }
+    println!("{on_edge} of 20,000 on the edge");
+    assert!((4_000..16_000).contains(&on_edge), "rounding decides");
+}

@@ -5,13 +5,22 @@
 //! does not change, but different ones on the two sides, as different as what was found, and both answers found are among
 //! them. An answer that only rounding decides is none of that: a step away it is the same all around (a seam), or does
 //! not settle anywhere (a branch taken on noise).
+//!
+//! Where two jumps coincide (a centre in the planes of two rims at once) rounding decides each of them by itself. It may
+//! combine their sides in a way that no step of a whole body can: two planes that are one leave nothing between them. Then
+//! the numbers of the shapes are displaced as well, each by itself, so that the two jumps come apart. Corners that are equal
+//! to the bit stay so, and with them what hangs together.
 
-use crate::allowance::{Allowance, distance};
+mod displaced;
+
+use crate::allowance::{Allowance, distance, thinnest};
 use crate::base::Base;
+use crate::play::Stage;
 use crate::random::Random;
 use crate::twin::Twin;
+use displaced::{beside, reshaped};
 use pong_engine::State;
-use pong_geometry::{Pose, Vec3, Wrench};
+use pong_geometry::Wrench;
 
 /// How many places around are tried at a time, and how often more of them: where three surfaces meet, or a direction turns
 /// through a wide angle, few places say little.
@@ -32,70 +41,120 @@ pub fn is_there(
     allowance: &Allowance,
     random: &mut Random,
 ) -> bool {
-    let lever = allowance.lever;
     let first = base.answers[frame].wrenches;
-    let difference = distance(&first, read, lever);
+    let difference = distance(&first, read, allowance.lever);
     let size = base.scene.size;
     // So far that what changes smoothly stays well below the difference: depths change by the step.
     let smooth = 0.02 * difference / base.largest(frame).max(difference) * depth / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
-    let mut settled: Vec<[Wrench; 2]> = Vec::new();
-    for round in 1..=ROUNDS {
+    let mut around = Around { answers: [first, *read], difference, allowance, settled: Vec::new(), tried: 0 };
+    for _ in 0..ROUNDS {
         for _ in 0..PLACES {
-            let mut frames = displaced(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
-            let Some(there) = last(base, &frames) else { return false };
-            let mut is_settled = true;
-            for _ in 0..2 {
-                frames = displaced(&frames, 4.0 * f64::EPSILON, size, false, random);
-                let Some(again) = last(base, &frames) else { return false };
-                is_settled &=
-                    distance(&there, &again, lever) < (0.05 * difference).max(2.0 * allowance.force);
-            }
-            if is_settled {
-                settled.push(there);
+            let frames = beside(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
+            if around.look(&mut base.stage, frames, size, random).is_none() {
+                return false;
             }
         }
-        if settled.len() < round * PLACES / 4 {
-            return false;
+        match around.verdict() {
+            Seen::Nothing => return false,
+            Seen::Both => return true,
+            Seen::Some => {}
         }
-        let spread = settled.iter().map(|there| distance(there, &settled[0], lever)).fold(0.0, f64::max);
-        let nearest = |answer: &[Wrench; 2]| {
-            settled.iter().map(|there| distance(there, answer, lever)).fold(f64::INFINITY, f64::min)
-        };
-        let near = 0.25 * difference.max(spread) + allowance.force;
-        if spread > 0.5 * difference && nearest(&first) < near && nearest(read) < near {
-            return true;
+    }
+    // Thin triangles turn by more than their corners move.
+    let longest = (step * thinnest(&base.scene)).max(SHORTEST_STEP);
+    around.settled.clear();
+    around.tried = 0;
+    for _ in 0..ROUNDS {
+        for _ in 0..PLACES {
+            let scene = reshaped(&base.scene, (SHORTEST_STEP, longest), random);
+            let step = random.log_between(SHORTEST_STEP, longest);
+            let frames = beside(&scene.frames[..=frame], step, size, random.chance(0.5), random);
+            let Ok(mut stage) = Stage::set_up(&scene, 0) else { return false };
+            if around.look(&mut stage, frames, size, random).is_none() {
+                return false;
+            }
+        }
+        match around.verdict() {
+            Seen::Nothing => return false,
+            Seen::Both => return true,
+            // Nothing jumps here at all.
+            Seen::Some if !around.is_jump() => return false,
+            Seen::Some => {}
         }
     }
     false
 }
 
-/// The wrenches of the last frame of a history.
-fn last(base: &mut Base, frames: &[[State; 2]]) -> Option<[Wrench; 2]> {
-    base.stage.play(frames).ok()?.pop().map(|answer| answer.wrenches)
+/// Answers beside a place that rounding does not change.
+struct Around<'a> {
+    /// The two that were found.
+    answers: [[Wrench; 2]; 2],
+    /// How far these are apart, N.
+    difference: f64,
+    allowance: &'a Allowance,
+    settled: Vec<[Wrench; 2]>,
+    tried: usize,
 }
 
-/// The history with A beside its place by `step` sizes of the scene and turned as little: the same in all frames, or another
-/// in each.
-fn displaced(
-    frames: &[[State; 2]],
-    step: f64,
-    size: f64,
-    is_same: bool,
-    random: &mut Random,
-) -> Vec<[State; 2]> {
-    let mut any = || (random.vector(step * size), random.vector(step));
-    let same = any();
-    let shifted = |state: &State, (shift, turn): (Vec3, Vec3)| {
-        let pose = state.pose();
-        let turn = nalgebra::UnitQuaternion::new_normalize(nalgebra::Quaternion::new(
-            1.0,
-            0.5 * turn.x,
-            0.5 * turn.y,
-            0.5 * turn.z,
-        ));
-        let pose = Pose { position: pose.position + shift, orientation: turn * pose.orientation };
-        State::from_motion(&pose, &state.twist())
-    };
-    frames.iter().map(|[a, b]| [shifted(a, if is_same { same } else { any() }), *b]).collect()
+/// What is seen among the answers around.
+enum Seen {
+    /// Too few of them settle.
+    Nothing,
+    /// Not both answers, or no jump between them.
+    Some,
+    /// A jump, and both answers beside it.
+    Both,
+}
+
+impl Around<'_> {
+    /// The last answer of a history, kept if two further roundings of its states do not change it. `None` if it cannot be played.
+    fn look(
+        &mut self,
+        stage: &mut Stage,
+        mut frames: Vec<[State; 2]>,
+        size: f64,
+        random: &mut Random,
+    ) -> Option<()> {
+        let lever = self.allowance.lever;
+        let there = last(stage, &frames)?;
+        let mut is_settled = true;
+        for _ in 0..2 {
+            frames = beside(&frames, 4.0 * f64::EPSILON, size, false, random);
+            let again = last(stage, &frames)?;
+            is_settled &=
+                distance(&there, &again, lever) < (0.05 * self.difference).max(2.0 * self.allowance.force);
+        }
+        self.tried += 1;
+        if is_settled {
+            self.settled.push(there);
+        }
+        Some(())
+    }
+
+    /// How far the settled answers are apart, N.
+    fn spread(&self) -> f64 {
+        let lever = self.allowance.lever;
+        self.settled.iter().map(|there| distance(there, &self.settled[0], lever)).fold(0.0, f64::max)
+    }
+
+    fn is_jump(&self) -> bool {
+        self.spread() > 0.5 * self.difference
+    }
+
+    fn verdict(&self) -> Seen {
+        if self.settled.len() < self.tried / 4 {
+            return Seen::Nothing;
+        }
+        let lever = self.allowance.lever;
+        let near = 0.25 * self.difference.max(self.spread()) + self.allowance.force;
+        let is_beside =
+            |answer: &[Wrench; 2]| self.settled.iter().any(|there| distance(there, answer, lever) < near);
+        if self.is_jump() && self.answers.iter().all(is_beside) { Seen::Both } else { Seen::Some }
+    }
+}
+
+/// The wrenches of the last frame of a history.
+fn last(stage: &mut Stage, frames: &[[State; 2]]) -> Option<[Wrench; 2]> {
+    stage.play(frames).ok()?.pop().map(|answer| answer.wrenches)
 }

@@ -30,6 +30,14 @@ pub struct Order {
     pub kept: usize,
 }
 
+impl Order {
+    /// Options of the command that shows the scene of an index again.
+    fn again(&self, name: &str, index: u64) -> String {
+        let family = self.family.as_ref().map_or(String::new(), |family| format!(" --family {family}"));
+        format!("--only {name}{family} --seed {} --first {index} --scenes 1", self.seed)
+    }
+}
+
 /// Counts of one invariance.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
@@ -45,6 +53,23 @@ pub struct Tally {
     pub families: BTreeMap<&'static str, u64>,
     /// Of what stands at jumps, how many by family of scene.
     pub jumps: BTreeMap<&'static str, u64>,
+}
+
+/// One scene that disagrees, in short.
+#[derive(Clone, Debug, PartialEq, PartialOrd)]
+pub struct Listed {
+    /// Index of the scene.
+    pub index: u64,
+    /// Which invariance.
+    pub name: &'static str,
+    /// Family of the scene.
+    pub family: &'static str,
+    /// In which frame first.
+    pub frame: usize,
+    /// Ratio of the difference to the largest term.
+    pub relative: f64,
+    /// Options of the command that shows it again.
+    pub again: String,
 }
 
 /// A disagreement made small.
@@ -75,6 +100,8 @@ pub struct Survey {
     pub tallies: BTreeMap<&'static str, Tally>,
     /// Some disagreements made small.
     pub found: Vec<Found>,
+    /// All disagreements, in the order of the scenes.
+    pub listed: Vec<Listed>,
 }
 
 /// Scenes that a thread takes at a time.
@@ -113,7 +140,9 @@ impl Survey {
                 });
             }
         });
-        total.into_inner().unwrap_or_default()
+        let mut total = total.into_inner().unwrap_or_default();
+        total.listed.sort_by(|a, b| (a.index, a.name).cmp(&(b.index, b.name)));
+        total
     }
 
     /// One index: its scene against all twins, and the scenes that invariances make for themselves.
@@ -172,6 +201,14 @@ impl Survey {
                 tally.differ += 1;
                 tally.worst = tally.worst.max(finding.relative);
                 *tally.families.entry(base.scene.family).or_default() += 1;
+                self.listed.push(Listed {
+                    index,
+                    name: invariance.name,
+                    family: base.scene.family,
+                    frame: finding.frame,
+                    relative: finding.relative,
+                    again: order.again(invariance.name, index),
+                });
                 let known =
                     |found: &&Found| found.name == invariance.name && found.whole.family == base.scene.family;
                 if self.found.iter().filter(known).count() < order.kept {
@@ -186,6 +223,7 @@ impl Survey {
         self.refused += other.refused;
         self.refusals.extend(other.refusals);
         self.refusals.truncate(5);
+        self.listed.extend(other.listed);
         for (name, tally) in other.tallies {
             let sum = self.tallies.entry(name).or_default();
             sum.compared += tally.compared;
@@ -227,6 +265,18 @@ impl Survey {
     /// Answers at jumps of all invariances.
     pub fn at_jumps(&self) -> u64 {
         self.tallies.values().map(|tally| tally.at_a_jump).sum()
+    }
+
+    /// One line for each disagreement: where it is, how large, and the command that shows it again.
+    pub fn list(&self) -> String {
+        let mut text = String::new();
+        for Listed { name, family, frame, relative, again, .. } in &self.listed {
+            let _ = writeln!(
+                text,
+                "{name:<16} {family:<10} frame {frame}  {relative:.1e}  pong verify --invariances {again}"
+            );
+        }
+        text
     }
 
     /// A table to read.
@@ -286,8 +336,7 @@ fn smallest(
     let differs = |scene: &Scene| verdict(scene).is_some_and(|found| found.is_refusal == finding.is_refusal);
     let scene = if invariance.is_general { reduce::reduce(whole, differs) } else { whole.clone() };
     let name = invariance.name;
-    let family = order.family.as_ref().map_or(String::new(), |family| format!(" --family {family}"));
-    let again = format!("--only {name}{family} --seed {} --first {index} --scenes 1", order.seed);
+    let again = order.again(name, index);
     let finding = verdict(&scene).unwrap_or(finding);
     Found { name, again, whole: whole.clone(), scene, finding }
 }

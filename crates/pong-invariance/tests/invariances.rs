@@ -59,6 +59,39 @@ fn are_balls_on_fronts(scene: &Scene) -> bool {
     all_touch_as("Sphere", scene) && scene.bodies[1].shapes.iter().all(is_front)
 }
 
+/// Scenes of long runs that differed once, each for a cause of its own.
+#[test]
+fn scenes_that_once_differed() {
+    const SEED: u64 = 5;
+    let told = [
+        // An edge whose triangles disagreed on where it ends.
+        ("turned", 40234),
+        // A line in the plane of a face had crossed it.
+        ("turned", 94889),
+        // A line through a vertex from outside was inside for one face, and outside for the next.
+        ("moved", 56296),
+        ("moved", 62356),
+        // A centre on a convex vertex, pushed by all of its faces.
+        ("turned", 62386),
+        // The foot of a deep ellipsoid lay beyond a cut and a fold.
+        ("cut", 48490),
+        ("cut", 74128),
+        // The foot of a slender ellipsoid lay beside its box.
+        ("group_frame", 98704),
+        // Two jumps at one place, which rounding combined otherwise.
+        ("turned", 75486),
+        ("turned", 87486),
+    ];
+    for (name, index) in told {
+        let invariance = find(name).expect("an invariance");
+        let scene = pong_invariance::invariances::scene(invariance, None, SEED, index);
+        let mut base = Base::new(scene).expect("a scene that loads");
+        if let Verdict::Differs(found) = invariance.judge(&mut base, &mut numbers(invariance, SEED, index)) {
+            panic!("{name}, scene {index}: {}\n{}", found.says, text::scene(&base.scene));
+        }
+    }
+}
+
 #[test]
 fn balls_on_the_seams_of_flat_plates() {
     nothing_differs_where(&["turned", "scaled", "cut", "group_frame"], "plate", 2000, are_balls_on_fronts);

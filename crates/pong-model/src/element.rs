@@ -3,7 +3,7 @@
 use crate::model::{Item, MovableGroup};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::{Bounded, CustomBounds, PointCloud};
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::primitive::{Ellipsoid, PrimitiveKind};
 
 /// One element of a body, as a thing to fit volumes around.
 #[derive(Clone, Copy)]
@@ -19,6 +19,9 @@ struct ThickTriangle {
     /// Explicit thickness, m; the default one needs no room, since the body that touches is larger.
     thickness: f64,
 }
+
+/// An ellipsoid and all places at which a triangle may push it.
+struct WithFeet<'a>(&'a Ellipsoid);
 
 impl<'b> Element<'b> {
     /// The element that an item of the body's tree names.
@@ -59,7 +62,7 @@ impl<'b> Element<'b> {
             PrimitiveKind::LineSegment => ask(&body.segments[index]),
             PrimitiveKind::Ray => ask(&body.rays[index]),
             PrimitiveKind::Sphere => ask(&body.spheres[index]),
-            PrimitiveKind::Ellipsoid => ask(&body.ellipsoids[index]),
+            PrimitiveKind::Ellipsoid => ask(&WithFeet(&body.ellipsoids[index])),
             PrimitiveKind::Polyhedron => ask(&body.polyhedra[index]),
             PrimitiveKind::Plane => ask(&body.planes[index]),
             PrimitiveKind::Custom => ask(&CustomBounds(body.customs[index].as_ref())),
@@ -108,5 +111,22 @@ impl Bounded for ThickTriangle {
 
     fn representatives(&self, out: &mut Vec<Vec3>) {
         out.extend(self.corners);
+    }
+}
+
+impl Bounded for WithFeet<'_> {
+    fn support(&self, direction: &Vec3) -> f64 {
+        let Self(ellipsoid) = self;
+        let feet = direction.dot(&ellipsoid.center) + ellipsoid.reach_of_feet() * direction.norm();
+        Bounded::support(*ellipsoid, direction).max(feet)
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        let Self(ellipsoid) = self;
+        ellipsoid.farthest(from).max((ellipsoid.center - from).norm() + ellipsoid.reach_of_feet())
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        self.0.representatives(out);
     }
 }

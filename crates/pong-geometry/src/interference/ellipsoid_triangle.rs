@@ -223,7 +223,7 @@ impl Tester<'_> {
     /// edges have lost it and the centre says so (see the head of this file).
     fn stands_in(&self, foot: &Vec3) -> bool {
         let lost = |k: &usize| self.is_lost(*k, foot);
-        if !(0..3).filter(lost).all(|k| self.is_lost_beyond(k)) {
+        if !self.is_lost_in_folds(foot) {
             return false;
         }
         if self.is_behind(self.height) {
@@ -239,14 +239,47 @@ impl Tester<'_> {
         self.edges.beyond(k, foot) > self.foot_slack
     }
 
-    /// Whether edge `k`, beyond which the foot lies, is concave or flat, and the other face does not hold its own foot
-    /// there either.
-    fn is_lost_beyond(&self, k: usize) -> bool {
-        let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
-        let other = TriangleView::new(self.set, neighbor);
+    /// Whether the foot lies beyond concave edges, and none of the faces there holds its own foot either. How the plane is cut
+    /// does not matter: across a flat edge the next triangle tells where the foot is.
+    fn is_lost_in_folds(&self, foot: &Vec3) -> bool {
+        /// Triangles of one plane between the centre and the foot, at most; a foot that is farther is not looked for.
+        const TRIANGLES_MAX: usize = 32;
+        let mut triangles = [self.view.index; TRIANGLES_MAX];
+        let mut count = 1;
+        let mut next = 0;
+        while next < count {
+            let view = TriangleView::new(self.set, triangles[next]);
+            let edges = TriangleEdges::new(self.set, &view);
+            let mut holds = true;
+            for k in (0..3).filter(|&k| edges.beyond(k, foot) > self.foot_slack) {
+                holds = false;
+                let EdgeClass::Silent { neighbor, outward } = edges.class(k) else { return false };
+                if view.normal.dot(&outward) < -CONCAVE_SINE_MIN {
+                    if !self.is_lost_to(neighbor, &outward, &view.edge_ends(k)[0]) {
+                        return false;
+                    }
+                } else if !triangles[..count].contains(&neighbor) {
+                    if count == TRIANGLES_MAX {
+                        return false;
+                    }
+                    triangles[count] = neighbor;
+                    count += 1;
+                }
+            }
+            if holds && next > 0 {
+                return false;
+            }
+            next += 1;
+        }
+        true
+    }
+
+    /// Whether the foot on a face beyond a concave edge lies beyond this edge as well; `outward` points out of the face, and
+    /// `end` is an end of the edge.
+    fn is_lost_to(&self, face: u32, outward: &Vec3, end: &Vec3) -> bool {
+        let other = TriangleView::new(self.set, face);
         let depth = self.prepared.widened(&other.normal).norm() - other.height(&self.ellipsoid.center);
-        let from_edge = self.foot_on(&other.normal, depth) - self.view.edge_ends(k)[0];
-        depth <= 0.0 || outward.dot(&from_edge) > self.foot_slack
+        depth <= 0.0 || outward.dot(&(self.foot_on(&other.normal, depth) - end)) > self.foot_slack
     }
 
     /// Whether the centre lies beyond edge `k`; what only rounding puts there does not.

@@ -1,6 +1,6 @@
 //! The point of a triangle nearest to a given point, and on which side of the surface that point lies there.
 
-use super::triangle_features::{TriangleView, vertex_is_seen_from_front};
+use super::triangle_features::{TriangleView, lexicographically_before, vertex_is_seen_from_front};
 use crate::Vec3;
 use crate::primitive::{NO_NEIGHBOR, TriangleSet};
 
@@ -16,28 +16,35 @@ pub enum Place {
 }
 
 /// The square of the distance (m²) between a point and a triangle, and where in the triangle the nearest point lies.
+///
+/// A point that lies beyond an edge, and between its ends, has its nearest point on it. Where an edge ends is worked out in
+/// one direction, whichever of its two triangles asks: so they never disagree on whether a point belongs to the edge or to
+/// its corner.
 pub fn nearest_on_triangle(p: &Vec3, corners: &[Vec3; 3]) -> (f64, Place) {
     let edges = [0, 1, 2].map(|k| corners[(k + 1) % 3] - corners[k]);
     let arms = corners.map(|corner| p - corner);
     let normal = edges[0].cross(&edges[1]);
-    if (0..3).all(|k| edges[k].cross(&normal).dot(&arms[k]) <= 0.0) {
+    let beyond = [0, 1, 2].map(|k| edges[k].cross(&normal).dot(&arms[k]) > 0.0);
+    if beyond == [false; 3] {
         let height = normal.dot(&arms[0]);
         return (height * height / normal.norm_squared(), Place::Face);
     }
+    for k in (0..3).filter(|&k| beyond[k]) {
+        let (from, to) = (corners[k], corners[(k + 1) % 3]);
+        let (first, second) = if lexicographically_before(&to, &from) { (to, from) } else { (from, to) };
+        let along = second - first;
+        let arm = p - first;
+        let share = along.dot(&arm) / along.norm_squared();
+        if share > 0.0 && share < 1.0 {
+            return ((arm - along * share).norm_squared(), Place::Edge(k));
+        }
+    }
+    // A corner is measured by itself, so that all triangles around it come to the same number.
     let mut nearest = (f64::INFINITY, Place::Face);
-    for k in 0..3 {
-        let share = edges[k].dot(&arms[k]) / edges[k].norm_squared();
-        // A corner is measured by itself, so that all triangles around it come to the same number.
-        let (arm, place) = if share <= 0.0 {
-            (arms[k], Place::Corner(k))
-        } else if share >= 1.0 {
-            (arms[(k + 1) % 3], Place::Corner((k + 1) % 3))
-        } else {
-            (arms[k] - edges[k] * share, Place::Edge(k))
-        };
+    for (k, arm) in arms.iter().enumerate() {
         let square = arm.norm_squared();
         if square < nearest.0 {
-            nearest = (square, place);
+            nearest = (square, Place::Corner(k));
         }
     }
     nearest

@@ -6,6 +6,7 @@
 use super::behind_triangle::has_behind;
 use super::triangle_features::{
     EdgeClass, Standing, TriangleContact, TriangleEdges, TriangleView, vertex_pushes, walk_fan,
+    walk_fan_while,
 };
 use super::triangle_reach::InReach;
 use super::{Feature, Interference, ball_over_point};
@@ -15,6 +16,8 @@ use crate::primitive::{Sphere, TriangleSet};
 /// How far beyond an edge a centre behind the face may lie, as a share of the coordinates, and still be emitted as spare:
 /// some thousand roundings.
 const FOOT_SLACK: f64 = 1e-12;
+/// Two faces count as flat, and not as meeting concavely, up to this sine of the angle between them.
+const FLAT_SINE_MAX: f64 = 1e-9;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
 ///
@@ -59,6 +62,11 @@ fn emit_features(
         let sure = near.beyond[k] | near.within[k];
         if sure { near.beyond[k] } else { edges.is_beyond(k, &sphere.center) }
     });
+    match on_convex_rim(sphere, &edges, height) {
+        Some(Rim::Edge(k)) => return emit_on_edge(sphere, &edges, k, emit),
+        Some(Rim::Vertex(corner)) => return emit_on_vertex(sphere, &edges, corner, emit),
+        None => {}
+    }
     // In front nobody owns what is clearly beyond an edge.
     let nobodys = near.in_front && near.beyond.contains(&true);
     let has_beyond = || match height > 0.0 {
@@ -77,6 +85,89 @@ fn emit_features(
     for corner in 0..3 {
         emit_vertex(sphere, set, view, corner, emit);
     }
+}
+
+/// What of a triangle a centre may lie on, whose faces meet convexly there.
+enum Rim {
+    Edge(usize),
+    Vertex(usize),
+}
+
+/// The convex edge or vertex of the triangle that the centre lies on, within rounding: there each of its faces holds the
+/// centre in its plane, and the edge or the vertex alone pushes.
+fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
+    let (center, corners) = (&sphere.center, &edges.view.corners);
+    let slack = FOOT_SLACK * ((center - corners[0]).amax() + center.amax());
+    if height.abs() > slack {
+        return None;
+    }
+    if let Some(corner) = (0..3).find(|&corner| (center - corners[corner]).amax() <= slack) {
+        return is_convex_at(edges, corner).then_some(Rim::Vertex(corner));
+    }
+    let is_on = |k: usize| {
+        let [first, second] = edges.view.edge_ends(k);
+        let along = second - first;
+        let is_in_other_plane = || match edges.class(k) {
+            EdgeClass::Convex { normal, .. } => normal.dot(&(center - first)).abs() <= slack,
+            EdgeClass::Free | EdgeClass::Silent { .. } => false,
+        };
+        edges.beyond(k, center).abs() <= slack
+            && along.dot(&(center - first)) > 0.0
+            && along.dot(&(center - second)) < 0.0
+            && is_in_other_plane()
+    };
+    (0..3).find(|&k| is_on(k)).map(Rim::Edge)
+}
+
+/// Whether the faces around a vertex meet in convex edges, and otherwise flat.
+fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
+    let mut has_convex = false;
+    let all = walk_fan_while(edges.set, edges.view.index, corner, |t, at| {
+        let view = TriangleView::new(edges.set, t);
+        [at, (at + 2) % 3].into_iter().all(|k| match view.classify_edge(edges.set, k) {
+            EdgeClass::Convex { .. } => {
+                has_convex = true;
+                true
+            }
+            EdgeClass::Free => true,
+            EdgeClass::Silent { outward, .. } => view.normal.dot(&outward) >= -FLAT_SINE_MAX,
+        })
+    });
+    all.is_some() && has_convex
+}
+
+/// The contact of a centre on convex edge `k`, along the mean of the two normals.
+fn emit_on_edge(sphere: &Sphere, edges: &TriangleEdges, k: usize, emit: &mut dyn FnMut(TriangleContact)) {
+    let EdgeClass::Convex { normal, .. } = edges.class(k) else { return };
+    let view = edges.view;
+    if view.pushes_with_edge(edges.set, k) {
+        emit_on_rim(sphere, &(view.normal + normal), Feature::edge(3 * view.index as usize + k), emit);
+    }
+}
+
+/// The contact of a centre on a convex vertex, along the mean of the normals there.
+fn emit_on_vertex(
+    sphere: &Sphere,
+    edges: &TriangleEdges,
+    corner: usize,
+    emit: &mut dyn FnMut(TriangleContact),
+) {
+    let (set, view) = (edges.set, edges.view);
+    if view.may_own_vertex(set, corner) {
+        let mut mean = Vec3::zeros();
+        let fan = walk_fan(set, view.index, corner, &mut |t, _| mean += set.normal(t));
+        let vertex = set.triangles[view.index as usize].vertices[corner];
+        if fan.lowest == view.index {
+            emit_on_rim(sphere, &mean, Feature::vertex(vertex as usize), emit);
+        }
+    }
+}
+
+fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn FnMut(TriangleContact)) {
+    let normal_b = mean.normalize();
+    let deepest_b = sphere.center - normal_b * sphere.radius;
+    let interference = Interference { depth: sphere.radius, normal_b, deepest_b, feature };
+    emit(TriangleContact { interference, standing: Standing::Front });
 }
 
 /// Whether rounding alone puts a centre behind a triangle beyond some of its edges, all of them silent: behind a vertex of a

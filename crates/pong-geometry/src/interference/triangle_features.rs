@@ -404,6 +404,6 @@ fn edge_towards(set: &TriangleSet, triangle: u32, neighbor: u32) -> usize {
 
 /// The order in which both faces of an edge see its ends.
 #[inline]
-fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
+pub(super) fn lexicographically_before(a: &Vec3, b: &Vec3) -> bool {
     (a.x, a.y, a.z) < (b.x, b.y, b.z)
 }

@@ -51,6 +51,18 @@ impl Ellipsoid {
         self.center + self.axes * scaled.component_mul(&self.semi_axes) / half_width
     }
 
+    /// How far from its centre a triangle may lie that pushes it, beside those that it overlaps, m.
+    ///
+    /// A face pushes where it holds the foot of the deepest point: the point straight above, in the plane of the face. Of a
+    /// slender ellipsoid that lies askew, most of the way up is outside of it. With the centre in the plane the foot is as far
+    /// from the centre as the deepest point is aside, at most the difference of the largest and the smallest semi-axis. With
+    /// the centre behind, it is farther up by no more than the thickness; the default one is the smallest semi-axis, and for
+    /// any other the volume of the triangle has room.
+    pub fn reach_of_feet(&self) -> f64 {
+        let (smallest, largest) = (self.semi_axes.min(), self.semi_axes.max());
+        ((largest - smallest) * (largest - smallest) + smallest * smallest).sqrt()
+    }
+
     /// The smallest semi-axis, m.
     pub fn smallest_semi_axis(&self) -> f64 {
         self.semi_axes.min()

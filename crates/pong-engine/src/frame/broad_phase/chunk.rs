@@ -71,7 +71,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
             None => {
                 carry_each(body, items, x_ba, carried);
                 if carried.len() == items.len() {
-                    LaneBoxes::of_each(carried.iter().map(TransformedPrimitive::bounds))
+                    LaneBoxes::of_each(carried.iter().map(|one| one.bounds(meets_triangles)))
                 } else {
                     let lanes = 0..items.len() as u32;
                     LaneBoxes::of_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)))

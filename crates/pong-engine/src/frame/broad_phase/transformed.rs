@@ -32,8 +32,8 @@ impl TransformedPrimitive {
         })
     }
 
-    /// Least and greatest coordinates, m.
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    /// Least and greatest coordinates, m, of what may touch: triangles push an ellipsoid at feet that may lie beside it.
+    pub fn bounds(&self, meets_triangles: bool) -> (Vec3, Vec3) {
         let around = |center: &Vec3, half: Vec3| (center - half, center + half);
         match self {
             Self::Point(point) => (point.position, point.position),
@@ -46,7 +46,9 @@ impl TransformedPrimitive {
             }
             Self::Sphere(sphere) => around(&sphere.center, Vec3::repeat(sphere.radius)),
             Self::Ellipsoid(ellipsoid) => {
-                let half = [Vec3::x(), Vec3::y(), Vec3::z()].map(|axis| ellipsoid.half_width(&axis));
+                let least = if meets_triangles { ellipsoid.reach_of_feet() } else { 0.0 };
+                let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+                let half = axes.map(|axis| ellipsoid.half_width(&axis).max(least));
                 around(&ellipsoid.center, Vec3::from(half))
             }
         }

@@ -261,7 +261,8 @@ fn drop_deeper_faces(group: &mut [ContactCandidate]) {
     }
 }
 
-/// With the centre behind, of two faces that meet convexly only the less deep pushes, as in a polyhedron.
+/// With the centre behind, a face yields to a less deep one that meets it convexly, as in a polyhedron, and to such an edge or
+/// vertex: a centre on the rim of a face in front is behind the next by rounding alone.
 fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &TriangleSet) {
     if !group.iter().any(|contact| contact.status == CandidateStatus::BackFace) {
         return;
@@ -275,10 +276,11 @@ fn drop_deeper_of_convex_faces(group: &mut [ContactCandidate], triangles: &Trian
         }
         let is_covered = group.iter().any(|other| {
             let counts = other.role == ContactRole::Active && other.status != CandidateStatus::Culled;
-            counts
-                && is_triangles_face(other)
-                && pushes_before(other, contact)
-                && (meet_in_an_edge(contact, other, triangles) || meet_below(contact, other, triangles))
+            let meet = || match is_triangles_face(other) {
+                true => meet_in_an_edge(contact, other, triangles) || meet_below(contact, other, triangles),
+                false => touch_convexly(contact, other),
+            };
+            counts && pushes_before(other, contact) && meet()
         });
         if is_covered {
             group[i].role = ContactRole::Tracked;

@@ -4,7 +4,7 @@
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::nearest_on_triangle::{is_in_front_at, nearest_on_triangle};
-use pong_geometry::interference::triangle_features::{TriangleContact, is_in_front_of_a_face};
+use pong_geometry::interference::triangle_features::{TriangleContact, TriangleView, is_in_front_of_a_face};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{LANES, Portable};
 use pong_model::box_tree::{Child, lanes};
@@ -60,6 +60,14 @@ impl Nearby<'_> {
         let rounding = if self.is_mirror() { -rounding } else { rounding };
         let (set, triangle) = (&self.body.triangles, self.item.element);
         height <= -rounding && !is_in_front_of_a_face(&self.center_b, set, triangle, *feature, rounding)
+    }
+
+    /// Whether a place is in front of the triangle's plane, or within rounding of it. What is so near the plane of a two-sided
+    /// triangle is on its front, and so behind its back.
+    pub fn is_in_front_of_triangle(&self, p: &Vec3) -> bool {
+        let view = TriangleView::new(&self.body.triangles, self.item.element);
+        let rounding = ROUNDING * ((p - view.corners[0]).amax() + p.amax());
+        if self.is_mirror() { view.height(p) > rounding } else { view.height(p) >= -rounding }
     }
 
     /// The surface that the triangle belongs to; that of its front, if it is a back.

@@ -195,9 +195,9 @@ impl TriangleEntry<'_> {
     }
 
     /// Whether the centre was in front of one of the triangles that meet at a feature at the last commit, whichever of them
-    /// the feature is counted with. A centre in a two-sided triangle is on its front.
+    /// the feature is counted with. A centre in a triangle is in front of it; in a two-sided one it is on its front.
     fn was_in_front(&self, earlier: &Vec3, feature: Feature) -> bool {
-        let rounding = if self.nearby().is_mirror() { -ROUNDING * earlier.amax() } else { 0.0 };
+        let rounding = ROUNDING * earlier.amax() * if self.nearby().is_mirror() { -1.0 } else { 1.0 };
         is_in_front_of_a_face(earlier, &self.body.triangles, self.triangle.element, feature, rounding)
     }
 
@@ -235,18 +235,35 @@ impl TriangleEntry<'_> {
     ///
     /// One line tells the crossings from either side, so that both sides of a two-sided triangle tell the same of it. A line
     /// that begins or ends within rounding of the surface begins or ends in front of it; of a two-sided triangle on its front.
+    /// A line that goes in and out at one place, as through a vertex from without, has crossed nothing there.
     fn last_crossings(&self, earlier: &Vec3, shell: u32) -> LastCrossings {
+        let length = (self.center_b - earlier).norm();
+        let rounding = ROUNDING * (length + earlier.amax() + self.center_b.amax());
+        let mut since = 0.0;
+        loop {
+            let last = self.last_crossings_before(earlier, shell, since);
+            let LastCrossings { from_behind, from_front } = last;
+            // Nothing is as far as infinity; the difference of two infinities is never asked for.
+            if !last.are_any() || from_behind.max(from_front) > from_behind.min(from_front) + rounding {
+                return last;
+            }
+            since = from_behind.max(from_front) + rounding;
+        }
+    }
+
+    /// The last crossings that lie more than `since` (m) before the end of the line.
+    fn last_crossings_before(&self, earlier: &Vec3, shell: u32, since: f64) -> LastCrossings {
         let path = self.center_b - earlier;
         let length = path.norm();
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
         if length == 0.0 {
             return last;
         }
-        let (before, after) = (ROUNDING * earlier.amax(), ROUNDING * self.center_b.amax());
+        // Where the line begins and ends is told by heights: along the line, what grazes a face meets it anywhere.
         let ray = Ray {
             origin: *earlier,
             direction: path / length,
-            length: length + after,
+            length: f64::MAX,
             reach: None,
             response: RayResponse::Normal,
         };
@@ -255,19 +272,18 @@ impl TriangleEntry<'_> {
             if set.triangles[triangle as usize].shell != shell {
                 return;
             }
-            let is_mirror = Nearby { item, ..self.nearby() }.is_mirror();
-            // From the side to which a centre within the surface belongs, or to it.
-            let leaves = |distance: f64| distance < length - after;
-            let comes = |distance: f64| distance > before;
-            if let Some(hit) = ray_triangle(&ray, set, triangle, before)
-                && if is_mirror { comes(hit.distance) } else { leaves(hit.distance) }
-            {
-                last.from_front = last.from_front.min(length - hit.distance);
+            let front = ray_triangle(&ray, set, triangle, f64::MAX);
+            let back = || ray_back_of_triangle(&ray, set, triangle, f64::MAX);
+            let Some(hit) = front.or_else(back) else { return };
+            let ago = (length - hit.distance).clamp(0.0, length);
+            if since > 0.0 && ago <= since {
+                return;
             }
-            if let Some(hit) = ray_back_of_triangle(&ray, set, triangle, before)
-                && if is_mirror { leaves(hit.distance) } else { comes(hit.distance) }
-            {
-                last.from_behind = last.from_behind.min(length - hit.distance);
+            let nearby = Nearby { item, ..self.nearby() };
+            match [earlier, &self.center_b].map(|p| nearby.is_in_front_of_triangle(p)) {
+                [true, false] => last.from_front = last.from_front.min(ago),
+                [false, true] => last.from_behind = last.from_behind.min(ago),
+                _ => {}
             }
         });
         last

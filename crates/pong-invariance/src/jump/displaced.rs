@@ -1,0 +1,88 @@
+//! A scene a small step away: its states, and the numbers of its shapes.
+
+use crate::random::Random;
+use crate::scene::{Scene, Shape};
+use pong_engine::State;
+use pong_geometry::{Pose, Quat, Vec3};
+use std::collections::BTreeMap;
+
+/// The history with A beside its place by `step` sizes of the scene and turned as little: the same in all frames, or another
+/// in each.
+pub fn beside(
+    frames: &[[State; 2]],
+    step: f64,
+    size: f64,
+    is_same: bool,
+    random: &mut Random,
+) -> Vec<[State; 2]> {
+    let mut any = || (random.vector(step * size), random.vector(step));
+    let same = any();
+    let shifted = |state: &State, (shift, turn): (Vec3, Vec3)| {
+        let pose = state.pose();
+        let pose =
+            Pose { position: pose.position + shift, orientation: little_turn(&turn) * pose.orientation };
+        State::from_motion(&pose, &state.twist())
+    };
+    frames.iter().map(|[a, b]| [shifted(a, if is_same { same } else { any() }), *b]).collect()
+}
+
+/// The scene with every length of its shapes displaced by up to `longest` sizes of it, and every direction turned as little.
+/// Corners that are equal to the bit are displaced alike, as they hold together what shares them. Some are displaced by much less than others, down to `shortest`: of
+/// two surfaces that share a place, one then moves by itself.
+pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Random) -> Scene {
+    let mut reshaped = scene.clone();
+    let step = |random: &mut Random| random.log_between(shortest, longest);
+    let length = |random: &mut Random| step(random) * scene.size;
+    let point = |p: &mut Vec3, random: &mut Random| {
+        let length = length(random);
+        *p += random.vector(length);
+    };
+    let mut moved: BTreeMap<[u64; 3], Vec3> = BTreeMap::new();
+    let mut corner = |p: &mut Vec3, random: &mut Random| {
+        let place = [p.x, p.y, p.z].map(f64::to_bits);
+        *p = *moved.entry(place).or_insert_with(|| {
+            point(p, random);
+            *p
+        });
+    };
+    let longer = |x: &mut f64, random: &mut Random| {
+        let length = length(random);
+        *x += random.between(-length, length);
+    };
+    let turn = |random: &mut Random| {
+        let step = step(random);
+        little_turn(&random.vector(step))
+    };
+    for shape in reshaped.bodies.iter_mut().flat_map(|body| &mut body.shapes) {
+        match shape {
+            Shape::Point { position } => point(position, random),
+            Shape::Segment { ends } => ends.iter_mut().for_each(|end| point(end, random)),
+            Shape::Ray { origin, direction, length, .. } => {
+                point(origin, random);
+                *direction = turn(random) * *direction;
+                longer(length, random);
+            }
+            Shape::Sphere { center, radius } => {
+                point(center, random);
+                longer(radius, random);
+            }
+            Shape::Ellipsoid { center, semi_axes, orientation } => {
+                point(center, random);
+                semi_axes.iter_mut().for_each(|axis| longer(axis, random));
+                *orientation = turn(random) * *orientation;
+            }
+            Shape::Plane { normal, offset } => {
+                *normal = turn(random) * *normal;
+                longer(offset, random);
+            }
+            Shape::Polyhedron(_) | Shape::Mesh(_) => {
+                shape.vertices_mut().iter_mut().for_each(|vertex| corner(vertex, random));
+            }
+        }
+    }
+    reshaped
+}
+
+fn little_turn(turn: &Vec3) -> Quat {
+    Quat::new_normalize(nalgebra::Quaternion::new(1.0, 0.5 * turn.x, 0.5 * turn.y, 0.5 * turn.z))
+}
