@@ -30,6 +30,34 @@ enum ModelRef<'py> {
     Path(PathBuf),
 }
 
+/// What is given where a model that was added is wanted.
+#[derive(FromPyObject)]
+enum AddedRef<'py> {
+    Added(PyRef<'py, AddedModel>),
+    Other(Bound<'py, PyAny>),
+}
+
+impl<'py> AddedRef<'py> {
+    fn resolve(self) -> PyResult<PyRef<'py, AddedModel>> {
+        match self {
+            Self::Added(model) => Ok(model),
+            Self::Other(given) => Err(bad_value(
+                "model",
+                format!("{} is not a model of this builder", given.repr()?),
+                "give what `add_model` answers: `builder.create_object(builder.add_model(\"ball.ron\"), \"ball\")`",
+            )),
+        }
+    }
+}
+
+/// So many threads that share the work of a frame with the calling thread; 0 for none.
+pub(crate) fn worker_settings(workers: i64) -> PyResult<Option<WorkerSettings>> {
+    let cure = "give the number of threads that help the calling thread, or 0";
+    let workers = usize::try_from(workers)
+        .map_err(|_| bad_value("workers", format!("{workers} threads cannot be started"), cure))?;
+    Ok((workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() }))
+}
+
 #[pymethods]
 impl WorldBuilder {
     #[new]
@@ -47,11 +75,11 @@ impl WorldBuilder {
         ledger: bool,
         accounts: Option<&str>,
         delay_frames: u32,
-        workers: usize,
+        workers: i64,
         allow_files_below: Vec<PathBuf>,
     ) -> PyResult<Self> {
         let accounts = accounts.map(|name| coupling("accounts", name, delay_frames)).transpose()?;
-        let workers = (workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() });
+        let workers = worker_settings(workers)?;
         let config = Config { contact_capacity, ledger, accounts, workers };
         let extensions = extensions(allow_files_below.clone());
         let builder = pong_engine::WorldBuilder::with_extensions(config, extensions, Laws::default());
@@ -77,7 +105,8 @@ impl WorldBuilder {
     }
 
     /// Creates an Object from a model. Objects of one model are independent.
-    fn create_object(&self, py: Python<'_>, model: &AddedModel, name: &str) -> PyResult<Object> {
+    fn create_object(&self, py: Python<'_>, model: AddedRef<'_>, name: &str) -> PyResult<Object> {
+        let model = model.resolve()?;
         self.with(|setup| {
             let id = setup.builder.create_object(model.id, name).map_err(|error| of_engine(py, &error))?;
             Ok(Object { id, name: name.to_owned() })

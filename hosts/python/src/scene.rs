@@ -1,9 +1,9 @@
 //! Scene files (docs/scene_format.md).
 
+use crate::builder::worker_settings;
 use crate::errors::{bad_value, of_scene};
 use crate::model::extensions;
 use crate::simulation::Simulation;
-use pong_engine::WorkerSettings;
 use pong_executive::Integrator;
 use pong_executive::scene::Variation;
 use pyo3::prelude::*;
@@ -89,7 +89,7 @@ impl Scene {
         integrator: Option<&str>,
         substeps: u32,
         delay_frames: u32,
-        workers: usize,
+        workers: i64,
         alternative: Option<&str>,
     ) -> PyResult<Simulation> {
         let integrator = match integrator {
@@ -102,7 +102,7 @@ impl Scene {
                 return Err(bad_value("integrator", format!("there is no `{other}`"), cure));
             }
         };
-        let workers = (workers > 0).then(|| WorkerSettings { workers, ..WorkerSettings::default() });
+        let workers = worker_settings(workers)?;
         let built = py.detach(|| {
             let variation = Variation { step, integrator, workers, alternative, ..Variation::default() };
             self.scene.build_varied(&variation)

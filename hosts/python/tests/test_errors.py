@@ -37,6 +37,13 @@ def test_names_and_ids_that_lead_nowhere():
     told(pong.NotFoundError, lambda: builder().pair("ball", "sky"), "sky")
 
 
+def test_arguments_of_another_kind(tmp_path):
+    told(pong.BadValueError, lambda: pong.WorldBuilder(workers=-1), "workers: -1", "or 0")
+    scene = pong.Scene.load(scene_folder(tmp_path))
+    told(pong.BadValueError, lambda: scene.build(workers=-2), "workers: -2", "or 0")
+    told(pong.BadValueError, lambda: builder().create_object("ball", "ball"), "'ball'", "add_model")
+
+
 def test_a_name_given_twice():
     made = builder()
     model = made.add_model(pong.Model.parse(BALL))
