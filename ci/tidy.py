@@ -28,7 +28,7 @@ ARROWS = {
     "pong-invariance": {"pong-testkit", "pong-geometry", "pong-model", "pong-engine"},
     "pong-fpenv": set(),
     "pong-fmu": {"pong-engine", "pong-executive", "pong-fpenv", "pong-geometry", "pong-model"},
-    "pong-testkit": set(),
+    "pong-testkit": {"pong-geometry", "pong-model", "pong-engine"},
     "pong-view": {"pong-geometry", "pong-model", "pong-record"},
     "pong-capi": {"pong-advise", "pong-fpenv", "pong-geometry", "pong-model", "pong-engine", "pong-record", "pong-threads"},
     "pong-cli": {

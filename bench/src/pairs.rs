@@ -2,7 +2,7 @@
 //! benchmark of testers all.
 
 use crate::hull::{self, Hull, TRIANGLE};
-use crate::random::Random;
+use crate::random::{Random, rotation};
 use crate::ron;
 use pong_engine::has_tester;
 use pong_geometry::primitive::PrimitiveKind;
@@ -208,7 +208,7 @@ impl Queries {
         for i in 0..count {
             let x_ba = pose(&mut random, mover, target, out.hits[i], &touches);
             let position = Vec3::from_fn(|_, _| random.between(-TARGET_PLACES, TARGET_PLACES));
-            let x_wb = Pose { position, orientation: random.rotation() };
+            let x_wb = Pose { position, orientation: rotation(&mut random) };
             out.add([x_wb.compose(&x_ba), x_wb]);
         }
         out.shuffle();
@@ -248,7 +248,7 @@ fn pose(
     touches: &impl Fn(&Transform) -> bool,
 ) -> Pose {
     let (orientation, line) = loop {
-        let (orientation, line) = (random.rotation(), random.direction());
+        let (orientation, line) = (rotation(random), random.direction());
         if let Some(line) = usable_line(mover, target, &orientation, line) {
             break (orientation, line);
         }

@@ -5,7 +5,7 @@ use core_affinity::CoreId;
 use pong_engine::{
     Config, EngineError, InterfaceId, PairId, SealReport, State, WorkerSettings, World, WorldBuilder,
 };
-use pong_model::Model;
+use pong_model::{Fnv, Model};
 use std::sync::{Arc, OnceLock};
 
 /// Objects, paired and sealed.
@@ -171,26 +171,19 @@ fn cores() -> &'static [usize] {
     })
 }
 
-/// FNV-1a over the bits of numbers: equal hashes mean equal results.
-pub struct Fingerprint(u64);
-
-impl Default for Fingerprint {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
+/// A hash over the bits of numbers: equal hashes mean equal results.
+#[derive(Default)]
+pub struct Fingerprint(Fnv);
 
 impl Fingerprint {
     /// Takes numbers in.
     pub fn add(&mut self, numbers: &[f64]) {
-        for byte in numbers.iter().flat_map(|x| x.to_le_bytes()) {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-        }
+        self.0.numbers(numbers.iter().copied());
     }
 }
 
 impl std::fmt::Display for Fingerprint {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:016x}", self.0)
+        write!(f, "{:016x}", self.0.value())
     }
 }

@@ -1,7 +1,7 @@
 //! One pair of bounding volumes per query: every pair of kinds, overlapping and apart.
 
 use crate::pairs::place;
-use crate::random::Random;
+use crate::random::{Random, rotation};
 use pong_geometry::bounding::{Volume, VolumeTests};
 use pong_geometry::{Pose, Transform, Vec3};
 
@@ -48,7 +48,7 @@ impl VolumePair {
 fn kinds(random: &mut Random) -> Vec<Volume> {
     let mut shape = || (random.direction() * 0.05, Vec3::from_fn(|_, _| random.between(0.2, 0.5)));
     let [(c, h), (d, k), (e, r)] = [shape(), shape(), shape()];
-    let axes = random.rotation().to_rotation_matrix().into_inner();
+    let axes = rotation(random).to_rotation_matrix().into_inner();
     let mut all = vec![
         Volume::Aabb { center: c, half: h },
         Volume::Sphere { center: e, radius: r.x },
@@ -70,7 +70,7 @@ fn is_benched(volume: &Volume) -> bool {
 
 /// From the place where the centres meet, along a random line, until their test takes them for apart.
 fn pose(random: &mut Random, a: &Volume, b: &Volume, overlap: bool) -> Transform {
-    let (orientation, line) = (random.rotation(), random.direction());
+    let (orientation, line) = (rotation(random), random.direction());
     let tests = VolumeTests::default();
     let at = |along: f64| Pose { position: line * along, orientation };
     place(random, overlap, at, |x_ba| tests.overlap(a, b, x_ba)).transform()

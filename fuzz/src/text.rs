@@ -7,6 +7,7 @@
 //! new ways, and nothing becomes good of that.
 
 use crate::input::NUMBERS;
+use pong_testkit::Random;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
@@ -31,7 +32,7 @@ pub fn accepted(text: &[u8]) {
 
 /// As libFuzzer asks of a mutator: `data[..size]` is the text, room is for `max_size` bytes; answers the new length.
 pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize {
-    let mut dice = Dice(u64::from(seed) | 1 << 40);
+    let mut dice = Random(u64::from(seed) | 1 << 40);
     let is_text = std::str::from_utf8(&data[..size]).is_ok();
     if size == 0 || !is_text || dice.below(8) < OWN {
         return libfuzzer_sys::fuzzer_mutate(data, size, max_size);
@@ -48,36 +49,36 @@ pub fn mutate(data: &mut [u8], size: usize, max_size: usize, seed: u32) -> usize
 }
 
 /// What a mutation begins with.
-fn base(given: &[u8], dice: &mut Dice) -> Vec<u8> {
+fn base(given: &[u8], dice: &mut Random) -> Vec<u8> {
     let kept = ACCEPTED.lock().unwrap_or_else(PoisonError::into_inner);
     if kept.is_empty() || dice.below(2) == 0 { given.to_vec() } else { kept[dice.below(kept.len())].clone() }
 }
 
-fn change(text: &mut Vec<u8>, dice: &mut Dice) {
+fn change(text: &mut Vec<u8>, dice: &mut Random) {
     let parts = Parts::new(text);
     let (place, new) = match dice.below(8) {
         0..=3 => {
-            let Some(place) = dice.one_of(&parts.numbers) else { return };
+            let Some(place) = one_of(dice, &parts.numbers) else { return };
             (place.clone(), number(&text[place], &parts, text, dice))
         }
         4 => {
-            let (Some(place), Some(other)) = (dice.one_of(&parts.words), dice.one_of(&parts.words)) else {
+            let (Some(place), Some(other)) = (one_of(dice, &parts.words), one_of(dice, &parts.words)) else {
                 return;
             };
             (place, text[other].to_vec())
         }
         5 => {
-            let Some(piece) = dice.one_of(&parts.pieces) else { return };
+            let Some(piece) = one_of(dice, &parts.pieces) else { return };
             (with_separator(&piece, text), Vec::new())
         }
         6 => {
-            let Some(piece) = dice.one_of(&parts.pieces) else { return };
+            let Some(piece) = one_of(dice, &parts.pieces) else { return };
             let copy = &text[piece.clone()];
             let separator = if text.get(piece.end) == Some(&b'\n') { b'\n' } else { b',' };
             (piece.clone(), [copy, &[separator], copy].concat())
         }
         _ => {
-            let (Some(place), Some(other)) = (dice.one_of(&parts.pieces), dice.one_of(&parts.pieces)) else {
+            let (Some(place), Some(other)) = (one_of(dice, &parts.pieces), one_of(dice, &parts.pieces)) else {
                 return;
             };
             (place, text[other].to_vec())
@@ -87,13 +88,13 @@ fn change(text: &mut Vec<u8>, dice: &mut Dice) {
 }
 
 /// Another number: one at which a check may change its mind, one from elsewhere in the text, or a multiple.
-fn number(old: &[u8], parts: &Parts, text: &[u8], dice: &mut Dice) -> Vec<u8> {
+fn number(old: &[u8], parts: &Parts, text: &[u8], dice: &mut Random) -> Vec<u8> {
     const FACTORS: [f64; 8] = [-1.0, 0.0, 0.5, 0.999_999_9, 1.000_000_1, 2.0, 10.0, 1e-3];
     let value: f64 = std::str::from_utf8(old).ok().and_then(|word| word.parse().ok()).unwrap_or(1.0);
     let new = match dice.below(8) {
         0 => NUMBERS[dice.below(NUMBERS.len())],
         1 => dice.below(12) as f64,
-        2 | 3 => return dice.one_of(&parts.numbers).map_or_else(Vec::new, |other| text[other].to_vec()),
+        2 | 3 => return one_of(dice, &parts.numbers).map_or_else(Vec::new, |other| text[other].to_vec()),
         4 => value + (dice.below(9) as f64 - 4.0) * 0.25,
         _ => value * FACTORS[dice.below(FACTORS.len())],
     };
@@ -183,17 +184,6 @@ fn is_of_word(byte: u8) -> bool {
     byte.is_ascii_alphanumeric() || b"_+-.".contains(&byte)
 }
 
-/// Numbers that hang on the seed alone.
-struct Dice(u64);
-
-impl Dice {
-    /// Below `count`, which is not 0.
-    fn below(&mut self, count: usize) -> usize {
-        self.0 = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(0x1405_7b7e_f767_814f);
-        (self.0 >> 33) as usize % count
-    }
-
-    fn one_of(&mut self, places: &[Range<usize>]) -> Option<Range<usize>> {
-        if places.is_empty() { None } else { Some(places[self.below(places.len())].clone()) }
-    }
+fn one_of(random: &mut Random, places: &[Range<usize>]) -> Option<Range<usize>> {
+    if places.is_empty() { None } else { Some(places[random.below(places.len())].clone()) }
 }

@@ -4,19 +4,15 @@ use pong_advise::{
     ActingReport, GroupMass, StepNote, StepPlan, StepReport, StepWarning, WrenchCoupling, acting_report,
     pressed_report, step_report,
 };
-use pong_engine::{Config, InterfaceId, State, World, WorldBuilder};
-use pong_geometry::extension::Extensions;
+use pong_engine::{Config, InterfaceId, State, World};
 use pong_geometry::{Pose, Vec3};
-use std::sync::Arc;
+use pong_testkit::worlds::paired_with_first;
+use pong_testkit::{is_near, ron};
 
 const K: f64 = 1e6;
 
 fn model(name: &str, primitives: &str, stiffness: f64, friction: &str) -> String {
-    format!(
-        r#"(format: "pong-model", version: 1, name: "{name}",
-            surfaces: {{ "s": (stiffness: {stiffness:?}, friction: {friction}) }},
-            root: (name: "{name}", surface: "s", primitives: [{primitives}]))"#
-    )
+    ron::model(name, &ron::surface(stiffness, &format!("friction: {friction}")), primitives)
 }
 
 /// Some Objects, of which the first is paired with each of the others.
@@ -28,21 +24,8 @@ struct Meeting {
 
 impl Meeting {
     fn new(texts: &[&str], masses: &[GroupMass]) -> Self {
-        let mut builder = WorldBuilder::new(Config::default());
-        let mut objects = Vec::new();
-        for (i, text) in texts.iter().enumerate() {
-            let model =
-                pong_model::parse(text, "m", None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-            let model = builder.add_model(Arc::new(model));
-            objects.push(builder.create_object(model, &format!("o{i}")).unwrap());
-        }
-        for other in &objects[1..] {
-            builder.pair(objects[0], *other).unwrap();
-        }
-        let interfaces: Vec<_> =
-            objects.iter().map(|object| builder.scene().interface(*object, "").unwrap()).collect();
+        let (world, report, interfaces) = paired_with_first(Config::default(), texts);
         let masses = interfaces.iter().copied().zip(masses.iter().copied()).collect();
-        let (world, report) = builder.seal().unwrap();
         assert_eq!(report.warnings, []);
         Self { world, interfaces, masses }
     }
@@ -71,7 +54,7 @@ fn meet(texts: [&str; 2], masses: [GroupMass; 2], plan: &StepPlan) -> StepReport
 }
 
 fn close(got: f64, expected: f64) -> bool {
-    (got / expected - 1.0).abs() < 1e-12
+    is_near(got, expected, 1e-12)
 }
 
 /// Of undamped semi-implicit Euler.

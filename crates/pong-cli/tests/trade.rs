@@ -7,20 +7,9 @@ use std::path::PathBuf;
 
 const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces: { "soft": (stiffness: 1e5) },
     root: (name: "ball", surface: "soft", primitives: [Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)]))"#;
-const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfaces: { "rigid": (stiffness: inf) },
-    root: (name: "ground", surface: "rigid", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
-const REST: &str = r#"(format: "pong-scene", version: 1, name: "rest",
-    models: { "ball": "ball.ron", "ground": "ground.ron" },
-    objects: [
-        (name: "ball", model: "ball", bodies: [
-            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.0999))]),
-        (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
-    pairs: [("ball", "ground")], gravity: (0, 0, -9.81),
-    integrator: RungeKutta4, step: 1e-3, duration: 0.064)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let files = [("ball.ron", BALL), ("ground.ron", GROUND), ("rest.ron", REST)];
-    common::folder(&format!("trade/{test}"), &files)
+    common::resting_ball(&format!("trade/{test}"), BALL, 0.064)
 }
 
 /// The page and the files, for a scene and for its log; what was stopped in between does not show in errors.csv.

@@ -9,20 +9,9 @@ const BALL: &str = r#"(format: "pong-model", version: 1, name: "ball", surfaces:
     // The skin of the ball.
     root: (name: "ball", surface: "soft", groups: [(name: "inner", groups: [(name: "core", primitives: [
         Sphere(name: "skin", center: (0, 0, 0), radius: 0.1)])])]))"#;
-const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground", surfaces: { "rigid": (stiffness: inf) },
-    root: (name: "ground", surface: "rigid", primitives: [Plane(name: "floor", normal: (0, 0, 1), offset: 0)]))"#;
-const REST: &str = r#"(format: "pong-scene", version: 1, name: "rest",
-    models: { "ball": "ball.ron", "ground": "ground.ron" },
-    objects: [
-        (name: "ball", model: "ball", bodies: [
-            (motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), position: (0, 0, 0.0999))]),
-        (name: "ground", model: "ground", bodies: [(motion: Fixed)])],
-    pairs: [("ball", "ground")], gravity: (0, 0, -9.81),
-    integrator: RungeKutta4, step: 1e-3, duration: 0.2)"#;
 
 fn folder(test: &str) -> PathBuf {
-    let files = [("ball.ron", BALL), ("ground.ron", GROUND), ("rest.ron", REST)];
-    common::folder(&format!("tune/{test}"), &files)
+    common::resting_ball(&format!("tune/{test}"), BALL, 0.2)
 }
 
 /// A scene and its log. A file is written if and only if the page says so; it loads, and runs of it answer the same bytes.
@@ -47,7 +36,9 @@ fn a_scene_and_its_log_are_tuned() {
             "{text}"
         );
         assert_eq!(pong(&folder, &["check", "ball_tuned.ron"]).0, 0);
-        let scene = REST.replace("\"ball.ron\"", "\"ball_tuned.ron\"");
+        let scene = std::fs::read_to_string(folder.join("rest.ron"))
+            .unwrap()
+            .replace("\"ball.ron\"", "\"ball_tuned.ron\"");
         std::fs::write(folder.join("again.ron"), scene).unwrap();
         for scene in ["rest.ron", "again.ron"] {
             let folder_of = format!("{scene}_out");

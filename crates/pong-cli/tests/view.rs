@@ -13,9 +13,7 @@ fn text(bytes: &[u8]) -> String {
 
 /// A folder with the log `run` of the sampler, which holds primitives of all kinds but custom ones.
 fn run(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("view").join(name);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), &format!("view/{name}"));
     let from = Path::new(env!("CARGO_MANIFEST_DIR")).join("../pong-view/tests/browser/scene.ron");
     let output = pong(&folder, &["run", "-q", from.to_str().unwrap(), "--log", "run"]);
     assert!(output.status.success(), "{}", text(&output.stderr));

@@ -1,50 +1,14 @@
 //! What a Rust user can add: force laws, primitives, bounding volumes.
 
 mod common;
+#[path = "common/own_kinds.rs"]
+mod own_kinds;
 
 use common::*;
 use pong_engine::*;
-use pong_geometry::bounding::{Bounded, CustomVolume, Volume};
-use pong_geometry::extension::{Extensions, PrimitiveRef};
-use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::CustomPrimitive;
-use pong_geometry::{Quat, Transform, Vec3};
+use pong_geometry::extension::Extensions;
+use pong_geometry::{Quat, Vec3};
 use std::sync::Arc;
-
-/// F = k·δ²: not built in.
-#[derive(Debug)]
-struct Quadratic;
-
-impl NormalForce for Quadratic {
-    fn force(&self, input: &NormalInput<'_>) -> f64 {
-        input.parameters[0] * input.depth * input.depth
-    }
-
-    fn stored(&self, input: &NormalInput<'_>) -> f64 {
-        input.parameters[0] * input.depth.powi(3) / 3.0
-    }
-}
-
-/// A spring to the place of first touch: remembers three numbers.
-#[derive(Debug)]
-struct Glue;
-
-impl FrictionForce for Glue {
-    fn state_len(&self) -> usize {
-        3
-    }
-
-    fn evaluate(&self, input: &FrictionInput<'_>, state: &mut [f64]) -> FrictionOutput {
-        let stretch = Vec3::new(state[0], state[1], state[2]) + input.slip_b;
-        state.copy_from_slice(stretch.as_slice());
-        FrictionOutput {
-            force_b: stretch * -input.parameters[0],
-            bristle_b: Vec3::zeros(),
-            sticks: true,
-            stored: 0.5 * input.parameters[0] * stretch.norm_squared(),
-        }
-    }
-}
 
 fn custom_laws() -> (String, String) {
     let own = surface(
@@ -71,10 +35,7 @@ fn sealed_with(laws: Laws) -> Result<(World, [InterfaceId; 2]), EngineError> {
 
 #[test]
 fn registered_laws_are_used_and_their_state_is_saved() {
-    let mut laws = Laws::default();
-    laws.add_normal("quadratic", Arc::new(Quadratic));
-    laws.add_friction("glue", Arc::new(Glue));
-    let (mut world, [tip, floor]) = sealed_with(laws.clone()).unwrap();
+    let (mut world, [tip, floor]) = sealed_with(own_kinds::laws()).unwrap();
     let place = |world: &mut World, x: f64| {
         world.set_state(floor, &State::identity()).unwrap();
         world.set_state(tip, &at(Vec3::new(x, 0.0, -2e-3), Quat::identity())).unwrap();
@@ -141,83 +102,9 @@ fn a_law_that_nobody_registered_is_refused_at_seal() {
     assert!(error.contains("quadratic") && error.contains("register"), "{error}");
 }
 
-/// A vertical cylinder without ends: `x² + y² ≤ r²`.
-#[derive(Debug)]
-struct Post {
-    radius: f64,
-}
-
-impl CustomPrimitive for Post {
-    fn kind_name(&self) -> &str {
-        "Post"
-    }
-
-    fn support(&self, direction: &Vec3) -> f64 {
-        if direction.z != 0.0 { f64::INFINITY } else { self.radius * direction.norm() }
-    }
-
-    fn as_any(&self) -> &dyn std::any::Any {
-        self
-    }
-}
-
-#[derive(Debug)]
-struct Everywhere;
-
-impl CustomVolume for Everywhere {
-    fn kind_name(&self) -> &str {
-        "Everywhere"
-    }
-
-    fn as_any(&self) -> &dyn std::any::Any {
-        self
-    }
-}
-
-fn extensions(with_volume_test: bool) -> Extensions {
-    let mut extensions = Extensions::new();
-    extensions.add_primitive(
-        "Post",
-        Arc::new(|parameters: &[f64]| match parameters {
-            [radius] if *radius > 0.0 => Ok(Arc::new(Post { radius: *radius }) as Arc<dyn CustomPrimitive>),
-            _ => Err("a Post takes one positive parameter, its radius".to_owned()),
-        }),
-    );
-    extensions.add_contact_test(
-        "Point",
-        "Post",
-        Arc::new(|a: PrimitiveRef<'_>, b: PrimitiveRef<'_>, x_ba: &Transform| {
-            let (PrimitiveRef::Point(point), PrimitiveRef::Custom(post)) = (a, b) else { return None };
-            let post = post.as_any().downcast_ref::<Post>()?;
-            let p = x_ba.point(&point.position);
-            let out = Vec3::new(p.x, p.y, 0.0);
-            let depth = post.radius - out.norm();
-            (depth > 0.0).then(|| Interference {
-                depth,
-                normal_b: out.normalize(),
-                deepest_b: p,
-                feature: Feature::WHOLE,
-            })
-        }),
-    );
-    extensions.add_volume(
-        "Everywhere",
-        Arc::new(|_: &[&dyn Bounded]| Arc::new(Everywhere) as Arc<dyn CustomVolume>),
-    );
-    if with_volume_test {
-        for kind in ["Aabb", "Sphere", "Obb", "Everywhere"] {
-            extensions.add_volume_test(
-                "Everywhere",
-                kind,
-                Arc::new(|_: &Volume, _: &Volume, _: &Transform| true),
-            );
-        }
-    }
-    extensions
-}
-
 fn post_world(with_volume_test: bool) -> Result<(World, [InterfaceId; 2]), EngineError> {
-    let extensions = extensions(with_volume_test);
+    let extensions =
+        if with_volume_test { own_kinds::extensions() } else { own_kinds::without_volume_tests() };
     let mut builder = WorldBuilder::with_extensions(Config::default(), extensions.clone(), Laws::default());
     let steel = surface(2e5, "");
     let tip = model("tip", &steel, "Point(name: \"p\", position: (0,0,0))")

@@ -86,18 +86,9 @@ impl Mesh {
     }
 
     fn text(&self) -> String {
-        let vertices: Vec<String> =
-            self.vertices.iter().map(|v| format!("({:?},{:?},{:?})", v.x, v.y, v.z)).collect();
-        let triangles: Vec<String> =
-            self.triangles.iter().map(|[a, b, c]| format!("({a},{b},{c})")).collect();
-        let thickness = self.thickness.map_or(String::new(), |t| format!(", thickness: {t:?}"));
-        let text = format!(
-            "TriangleMesh(name: \"m\", vertices: [{}], triangles: [{}], two_sided: {}{thickness})",
-            vertices.join(","),
-            triangles.join(","),
-            self.two_sided,
-        );
-        model("mesh", &steel(), &text)
+        let thickness = self.thickness.map_or(String::new(), |t| format!("thickness: {t:?},"));
+        let more = format!("two_sided: {}, {thickness}", self.two_sided);
+        model("mesh", &steel(), &triangle_mesh("m", &self.vertices, &self.triangles, &more))
     }
 
     fn corners(&self, triangle: usize) -> [Vec3; 3] {

@@ -5,6 +5,7 @@ mod common;
 use common::{Rig, load, model, surface};
 use pong_engine::{Config, EngineError, SealReport, SetupNote, SetupWarning, WorldBuilder};
 use pong_geometry::{Quat, Vec3};
+use pong_testkit::assert_near;
 
 const TIP: &str = "Point(name: \"p\", position: (0, 0, 0))";
 const FLOOR: &str = "Plane(name: \"f\", normal: (0, 0, 1), offset: 0)";
@@ -63,7 +64,7 @@ fn an_entry_can_tell_surfaces_of_one_name_apart() {
     let tip = |name: &str| model(name, &surface(1e5, ""), TIP);
     let floor = model("floor", &surface(3e5, ""), FLOOR);
     let of_series = 1e-3 / (1.0 / 1e5 + 1.0 / 3e5);
-    let near = |got: f64, expected: f64| assert!((got / expected - 1.0).abs() < 1e-12, "{got} {expected}");
+    let near = |got: f64, expected: f64| assert_near(got, expected, 1e-12);
     let entry = |names: &str, k: &str| format!("(surfaces: ({names}), stiffness: {k})");
     let one = with_pairs(&floor, &entry("\"a/s\", \"floor/s\"", "5e4"));
     near(force(&tip("a"), &one), 50.0);

@@ -4,10 +4,10 @@ use pong_advise::{
     Accuracy, ContactAdvice, ContactWish, GroupMass, StepPlan, StepWarning, WrenchCoupling, advise_contact,
     step_report,
 };
-use pong_engine::{Config, World, WorldBuilder};
+use pong_engine::{Config, World};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
-use pong_geometry::extension::Extensions;
-use std::sync::Arc;
+use pong_testkit::Random;
+use pong_testkit::worlds::paired_with_first;
 
 const GROUND: &str = r#"(format: "pong-model", version: 1, name: "ground",
     surfaces: { "rigid": (stiffness: inf, friction: Bristle(mu: 0.5)) },
@@ -22,26 +22,6 @@ const COUPLINGS: [WrenchCoupling; 5] = [
     WrenchCoupling::ZeroOrderHold { delay_frames: 2 },
 ];
 
-/// Numbers that look random and are the same everywhere (Marsaglia's xorshift).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        for (left, by) in [(true, 13), (false, 7), (true, 17)] {
-            self.0 ^= if left { self.0 << by } else { self.0 >> by };
-        }
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-
-    fn of_magnitudes(&mut self, low: f64, high: f64) -> f64 {
-        low * (high / low).powf(self.next())
-    }
-}
-
 /// One contact of a mass of points on a plane.
 struct Case {
     stiffness: f64,
@@ -51,10 +31,10 @@ struct Case {
 impl Case {
     /// Mass, stiffness, restitution and speed at random; the depth that the stiffness makes, by the closed form.
     fn new(random: &mut Random, coupling: WrenchCoupling) -> Self {
-        let mass = random.of_magnitudes(1e-2, 1e5);
-        let stiffness = random.of_magnitudes(1e2, 1e9);
+        let mass = random.log_between(1e-2, 1e5);
+        let stiffness = random.log_between(1e2, 1e9);
         let restitution = random.between(0.1, 1.0);
-        let speed = random.of_magnitudes(1e-3, 10.0);
+        let speed = random.log_between(1e-3, 10.0);
         let zeta = zeta_of(restitution);
         let depth = speed / (stiffness / mass).sqrt() * depth_over(zeta);
         let accuracy = Accuracy::default();
@@ -109,17 +89,9 @@ fn world(wish: &ContactWish, advice: &ContactAdvice, step: f64) -> (World, Vec<S
                 friction: Bristle(mu: 0.5, stiffness: {friction_stiffness:?}, damping: {friction_damping:?})) }},
             root: (name: "point", surface: "soft", primitives: [Point(name: "tip", position: (0.0, 0.0, 0.0))]))"#
     );
-    let mut builder = WorldBuilder::new(Config::default());
-    let objects = [("point", point.as_str()), ("ground", GROUND)].map(|(name, text)| {
-        let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-        let model = builder.add_model(Arc::new(model));
-        builder.create_object(model, name).unwrap()
-    });
-    builder.pair(objects[0], objects[1]).unwrap();
+    let (world, report, interfaces) = paired_with_first(Config::default(), &[&point, GROUND]);
     let masses = [GroupMass::point(wish.mass), GroupMass::immovable()];
-    let interfaces = objects.map(|object| builder.scene().interface(object, "").unwrap());
     let masses: Vec<_> = interfaces.into_iter().zip(masses).collect();
-    let (world, report) = builder.seal().unwrap();
     assert_eq!(report.warnings, []);
     let warnings = step_report(&world, &StepPlan::new(step, wish.coupling), &masses).unwrap().warnings;
     (world, warnings)
@@ -164,7 +136,7 @@ fn advised_contacts_keep_their_promises_at_the_advised_step_and_warn_at_three_ti
             assert!(advice.step < advice.stable_step, "case {number}: {advice:?}");
             let (made, warnings) = world(&wish, &advice, advice.step);
             assert_eq!(warnings, [], "case {number}, {coupling:?}: {wish:?}");
-            let (depth, speed) = bounce(made, &wish, advice.step, 3.0 + random.next());
+            let (depth, speed) = bounce(made, &wish, advice.step, 3.0 + random.unit());
             let depth_error = (depth / wish.depth - 1.0).abs();
             let rebound_error = (speed / (wish.restitution * wish.speed) - 1.0).abs();
             assert!(depth_error < 0.05, "case {number}: {depth_error} of the depth; {wish:?} {advice:?}");

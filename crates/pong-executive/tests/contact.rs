@@ -1,9 +1,8 @@
 //! Bodies that touch: the executive and the engine together.
 
-use pong_engine::{Config, WorldBuilder};
+use pong_engine::Config;
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
-use pong_geometry::extension::Extensions;
-use std::sync::Arc;
+use pong_testkit::worlds::paired_with_first;
 
 const G: f64 = 9.81;
 
@@ -32,17 +31,8 @@ fn ball_of(
             root: (name: "ground", surface: "rigid", primitives: [
                 Plane(name: "floor", normal: (0.0, 0.0, 1.0), offset: 0.0)]))"#
     );
-    let mut builder =
-        WorldBuilder::new(Config { accounts: integrator.wrench_coupling(), ..Config::default() });
-    let mut touching = Vec::new();
-    for (name, text) in [("ball", ball.as_str()), ("ground", ground.as_str())] {
-        let model = pong_model::parse(text, name, None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-        let model = builder.add_model(Arc::new(model));
-        touching.push(builder.create_object(model, name).unwrap());
-    }
-    builder.pair(touching[0], touching[1]).unwrap();
-    let (world, _) = builder.seal().unwrap();
-    let interfaces = [0, 1].map(|i| world.scene().interface(touching[i], "").unwrap());
+    let config = Config { accounts: integrator.wrench_coupling(), ..Config::default() };
+    let (world, _, interfaces) = paired_with_first(config, &[&ball, &ground]);
     let mut simulation = Simulation::new(world, integrator, step).unwrap();
     simulation.set_gravity(Vec3::new(0.0, 0.0, -G));
     let pose = Pose::new(Vec3::new(0.0, 0.0, 0.1 + height), [1.0, 0.0, 0.0, 0.0]);

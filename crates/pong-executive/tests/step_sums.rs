@@ -1,20 +1,17 @@
 //! Contacts that act together need shorter steps than any of them alone: at 0.99 times the step that the adviser calls
 //! surely stable nothing grows, at 1.01 times it everything does. The scenes are such that its bound is exact.
 
-use pong_engine::{Config, WorldBuilder};
+use pong_engine::Config;
 use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
-use pong_geometry::extension::Extensions;
-use std::sync::Arc;
+use pong_testkit::ron;
+use pong_testkit::worlds::paired_with_first;
 
 const EULER: Integrator = Integrator::SemiImplicitEuler;
 const KUTTA: Integrator = Integrator::RungeKutta4;
 const HELD: Integrator = Integrator::ZeroOrderHold { substeps: 1, delay_frames: 0 };
 
 fn model(name: &str, surface: &str, primitives: &str) -> String {
-    format!(
-        r#"(format: "pong-model", version: 1, name: "{name}", surfaces: {{ "s": ({surface}) }},
-            root: (name: "{name}", surface: "s", primitives: [{primitives}]))"#
-    )
+    ron::model(name, &format!("\"s\": ({surface})"), primitives)
 }
 
 fn plane(name: &str, up: f64) -> String {
@@ -39,27 +36,15 @@ impl Rig {
         rest: Pose,
         twist: Twist,
     ) -> Self {
-        let mut builder = WorldBuilder::new(Config::default());
-        let mut objects = Vec::new();
-        let texts = std::iter::once((body, 0.0)).chain(others.iter().map(|(text, at)| (text.as_str(), *at)));
-        for (i, (text, _)) in texts.clone().enumerate() {
-            let model =
-                pong_model::parse(text, "m", None, &Extensions::new()).unwrap_or_else(|e| panic!("{e}"));
-            let model = builder.add_model(Arc::new(model));
-            objects.push(builder.create_object(model, &format!("o{i}")).unwrap());
-        }
-        for other in &objects[1..] {
-            builder.pair(objects[0], *other).unwrap();
-        }
-        let (world, _) = builder.seal().unwrap();
-        let interfaces: Vec<_> =
-            objects.iter().map(|object| world.scene().interface(*object, "").unwrap()).collect();
+        let texts: Vec<&str> =
+            std::iter::once(body).chain(others.iter().map(|(text, _)| text.as_str())).collect();
+        let (world, _, interfaces) = paired_with_first(Config::default(), &texts);
         let mut simulation = Simulation::new(world, integrator, step).unwrap();
         simulation.set_gravity(load / mass.mass);
         let moving = RigidBody::free("body", mass).at(rest).moving(twist).touching(interfaces[0]);
         let body = simulation.add_body(moving).unwrap();
-        for (i, (_, height)) in texts.enumerate().skip(1) {
-            let at = Pose { position: Vec3::z() * height, ..Pose::identity() };
+        for (i, (_, height)) in (1..).zip(others) {
+            let at = Pose { position: Vec3::z() * *height, ..Pose::identity() };
             let fixed = RigidBody::fixed(&format!("f{i}")).at(at).touching(interfaces[i]);
             simulation.add_body(fixed).unwrap();
         }

@@ -4,7 +4,7 @@
 mod bounding_support;
 mod common;
 
-use bounding_support::{KINDS, Random};
+use bounding_support::{KINDS, Random, tricky_direction};
 use common::{fibonacci_sphere, stretched_hull};
 use pong_geometry::bounding::{
     BoundKind, Bounded, CustomBounds, CustomVolume, Dilated, PointCloud, Volume, fit,
@@ -98,12 +98,12 @@ fn check(known: &Known<'_>, random: &mut Random) {
     assert!(told.iter().all(|p| near(p, stand_for_it)), "{name}: {told:?}");
     assert!(stand_for_it.iter().all(|p| near(p, &told)), "{name}: {told:?}");
     for _ in 0..300 {
-        let direction = random.direction();
+        let direction = tricky_direction(random);
         let reached = points.iter().map(|p| direction.dot(p)).fold(f64::NEG_INFINITY, f64::max);
         let support = thing.support(&direction);
         assert!(support >= reached - ROUNDING, "{name}: support {support}, but {reached}");
         assert!(support <= reached + missed + ROUNDING, "{name}: support {support}, reached {reached}");
-        let from = random.in_cube() * 4.0;
+        let from = random.vector(1.0) * 4.0;
         let reached = points.iter().map(|p| (p - from).norm()).fold(0.0, f64::max);
         let farthest = thing.farthest(&from);
         assert!(farthest >= reached - ROUNDING, "{name}: farthest {farthest}, but {reached}");
@@ -114,7 +114,7 @@ fn check(known: &Known<'_>, random: &mut Random) {
 #[test]
 fn things_reach_as_far_as_their_points() {
     let mut random = Random(31);
-    let axes = common::Random(32).rotation();
+    let axes = Random(32).rotation_matrix();
     let (one, other) = (Vec3::new(1.0, 2.0, -0.5), Vec3::new(-0.75, 0.25, 3.0));
     let (point, segment) = (Point { position: one }, LineSegment { ends: [one, other] });
     let ray = Ray {
@@ -168,10 +168,10 @@ fn things_reach_as_far_as_their_points() {
 /// The search for the farthest point of an ellipsoid does not hang on the unit of length.
 #[test]
 fn farthest_scales_with_the_scene() {
-    let axes = common::Random(34).rotation();
+    let axes = Random(34).rotation_matrix();
     let mut random = Random(35);
     for _ in 0..100 {
-        let from = random.in_cube() * 4.0;
+        let from = random.vector(1.0) * 4.0;
         let farthest = |scale: f64| {
             let e = Ellipsoid { center: CENTER * scale, axes, semi_axes: HALF * scale };
             e.farthest(&(from * scale)) / scale
@@ -197,9 +197,9 @@ fn a_thing_of_ones_own_is_asked_for_six_supports() {
         thing.representatives(&mut corners);
         assert_eq!(corners, expected);
         for _ in 0..100 {
-            let direction = random.direction();
+            let direction = tricky_direction(&mut random);
             assert_eq!(thing.support(&direction), told.0.support(&direction));
-            let from = random.in_cube() * 4.0;
+            let from = random.vector(1.0) * 4.0;
             assert!((thing.farthest(&from) - cube.farthest(&from)).abs() < ROUNDING);
         }
     }

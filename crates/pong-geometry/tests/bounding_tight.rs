@@ -5,7 +5,9 @@
 
 mod bounding_support;
 
-use bounding_support::{KINDS, Random, extreme_of, fitted_bodies, meeting};
+use bounding_support::{
+    KINDS, Random, extreme_of, fitted_bodies, meeting, tricky_direction, tricky_rotation,
+};
 use pong_geometry::bounding::{Bounded, Volume, VolumeTests};
 use pong_geometry::{Mat3, Transform, Vec3};
 
@@ -60,12 +62,15 @@ fn volumes_apart_along_any_direction_are_told_apart() {
     for (i, kind_a) in KINDS.iter().enumerate() {
         for (j, kind_b) in KINDS.iter().enumerate() {
             for trial in 0..TRIALS {
-                let (a, b) = (&random.pick(&bodies).volumes[i], &random.pick(&bodies).volumes[j]);
+                let (a, b) = (
+                    &bodies[random.below(bodies.len())].volumes[i],
+                    &bodies[random.below(bodies.len())].volumes[j],
+                );
                 if visible_gap(a, b) == 0.0 {
                     continue; // A point on a point.
                 }
-                let n_b = random.direction();
-                let x_ba = placed_apart(a, b, random.rotation(), &n_b);
+                let n_b = tricky_direction(&mut random);
+                let x_ba = placed_apart(a, b, tricky_rotation(&mut random), &n_b);
                 assert!(!tests.overlap(a, b, &x_ba), "{kind_a:?} {kind_b:?} {trial}: {a:?} {b:?} {x_ba:?}");
             }
         }
@@ -79,9 +84,9 @@ fn boxes_apart_edge_over_edge_are_told_apart() {
     let bodies = fitted_bodies(&mut random, 600);
     let tests = VolumeTests::default();
     for trial in 0..TRIALS {
-        let a = &random.pick(&bodies).volumes[2 * random.below(2)];
-        let b = &random.pick(&bodies).volumes[2 * random.below(2)];
-        let rotation = random.rotation();
+        let a = &bodies[random.below(bodies.len())].volumes[2 * random.below(2)];
+        let b = &bodies[random.below(bodies.len())].volumes[2 * random.below(2)];
+        let rotation = tricky_rotation(&mut random);
         let (edge_a, edge_b) = (axes(a).column(random.below(3)) * 1.0, axes(b).column(random.below(3)) * 1.0);
         let n_b = edge_b.cross(&(rotation * edge_a));
         if n_b.norm() < 1e-3 || visible_gap(a, b) == 0.0 {
@@ -127,16 +132,17 @@ fn box_verdicts_agree_with_the_nearest_point() {
     for _ in 0..30_000 {
         let mut volume = |oriented: bool| {
             let half = Vec3::from_fn(|_, _| 0.2 + random.unit());
-            let center = random.in_cube();
+            let center = random.vector(1.0);
             if oriented {
-                Volume::Obb { center, axes: random.rotation(), half }
+                Volume::Obb { center, axes: tricky_rotation(&mut random), half }
             } else {
                 Volume::Aabb { center, half }
             }
         };
         let (a, b) = (volume(true), volume(false));
         for (a, b) in [(&a, &a), (&a, &b), (&b, &a), (&b, &b)] {
-            let x_ba = Transform { rotation: random.rotation(), translation: random.in_cube() * 3.0 };
+            let x_ba =
+                Transform { rotation: tricky_rotation(&mut random), translation: random.vector(1.0) * 3.0 };
             let carried: Vec<_> = corners(a).iter().map(|p| x_ba.point(p)).collect();
             let Some(expected) = nearest_point_verdict(&carried, &corners(b), 1e-4) else { continue };
             *(if expected { &mut overlapping } else { &mut apart }) += 1;

@@ -12,7 +12,7 @@ fn closed_form_on_tilted_planes() {
     let mut random = Random(21);
     for _ in 0..10_000 {
         let semi_axes = Vec3::from_fn(|_, _| 10.0_f64.powf(random.between(-4.0, 0.0)));
-        let e = Ellipsoid { center: random.direction() * 3.0, axes: random.rotation(), semi_axes };
+        let e = Ellipsoid { center: random.direction() * 3.0, axes: random.rotation_matrix(), semi_axes };
         let normal = random.direction();
         let half_width =
             (0..3).map(|i| (semi_axes[i] * e.axes.column(i).dot(&normal)).powi(2)).sum::<f64>().sqrt();

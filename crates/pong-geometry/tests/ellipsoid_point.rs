@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Random, scaled_ellipsoid};
+use common::{Random, random_motion, scaled_ellipsoid};
 use pong_geometry::interference::ellipsoid_math::{
     nearest_on_ellipse, nearest_on_ellipsoid, second_nearest_on_ellipse, second_nearest_on_ellipsoid,
 };
@@ -375,7 +375,7 @@ fn contacts_move_and_scale_with_the_scene() {
     for _ in 0..2000 {
         let e = Ellipsoid {
             center: random.direction(),
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes: random_semi_axes(&mut random, 1.0),
         };
         let inside = e.axes * random.direction().component_mul(&e.semi_axes) * random.between(0.0, 0.95);
@@ -390,7 +390,7 @@ fn contacts_move_and_scale_with_the_scene() {
             assert!((big.depth - contact.depth * factor).abs() < 1e-10 * contact.depth * factor);
             assert!((big.normal_b - contact.normal_b).norm() < 1e-9);
         }
-        let x = random.motion(3.0);
+        let x = random_motion(&mut random, 3.0);
         let far = point_ellipsoid(&x.point(&p), &e.carried(&x)).expect("inside");
         assert!((far.depth - contact.depth).abs() < 1e-13);
         let outside = e.center + inside / unit_radius(&e, &inside) * 1.0001;

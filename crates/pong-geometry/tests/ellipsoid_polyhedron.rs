@@ -7,8 +7,8 @@
 mod common;
 
 use common::{
-    Random, cuboid, cuboid_corners, fibonacci_sphere, hull_with_walls, moved, scaled, scaled_ellipsoid,
-    stretched_hull,
+    Random, cuboid, cuboid_corners, fibonacci_sphere, hull_with_walls, moved, random_motion, scaled,
+    scaled_ellipsoid, stretched_hull,
 };
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ellipsoid_polyhedron::{ellipsoid_piece, ellipsoid_polyhedron};
@@ -95,7 +95,11 @@ fn refine(e: &Ellipsoid, p: &Polyhedron, start: (f64, Vec3), random: &mut Random
 }
 
 fn random_ellipsoid(random: &mut Random, semi_axes: Vec3, reach: f64) -> Ellipsoid {
-    Ellipsoid { center: random.direction() * random.between(0.0, reach), axes: random.rotation(), semi_axes }
+    Ellipsoid {
+        center: random.direction() * random.between(0.0, reach),
+        axes: random.rotation_matrix(),
+        semi_axes,
+    }
 }
 
 fn check_contact(e: &Ellipsoid, p: &Polyhedron, contact: &Interference, depth_slack: f64) {
@@ -190,7 +194,7 @@ fn a_face_of_many_corners_is_searched_to_the_end() {
         let angle = random.between(0.0, 6.3);
         let e = Ellipsoid {
             center: Vec3::new(angle.cos(), angle.sin(), 0.2) * random.between(0.8, 1.2),
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes: Vec3::from_fn(|_, _| random.between(0.05, 0.4)),
         };
         let Some(contact) = ellipsoid_polyhedron(&e, &disc) else { continue };
@@ -371,7 +375,7 @@ fn rigid_motion_and_scale_change_nothing() {
         for _ in 0..500 {
             let e = random_ellipsoid(&mut random, ELLIPSOID, 0.6);
             let contact = ellipsoid_polyhedron(&e, &p);
-            let x = random.motion(2.0);
+            let x = random_motion(&mut random, 2.0);
             let far = ellipsoid_polyhedron(&e.carried(&x), &moved(&p, &x));
             assert_same(&contact, &far, 1.0, |v| x.vector(v));
             for factor in [1e-4, 1e4] {
@@ -401,7 +405,7 @@ fn assert_same(
 #[test]
 fn depth_is_continuous_along_a_path_over_edges_and_corners() {
     let p = cuboid(Vec3::new(-0.5, -0.4, -0.3), Vec3::new(0.5, 0.4, 0.3));
-    let axes = Random(91).rotation();
+    let axes = Random(91).rotation_matrix();
     let at = |s: f64| Ellipsoid {
         center: Vec3::new(-0.7 + s, -0.55 + 0.7 * s, 0.36 - 0.03 * s),
         axes,
@@ -423,7 +427,7 @@ fn grazing_contacts_fade_to_nothing() {
     let p = stretched_hull(8, HULL);
     let mut random = Random(92);
     for _ in 0..300 {
-        let axes = random.rotation();
+        let axes = random.rotation_matrix();
         let outward = random.direction();
         let at = |s: f64| Ellipsoid { center: outward * s, axes, semi_axes: ELLIPSOID };
         let (mut touching, mut apart) = (0.0, 2.0);
@@ -445,7 +449,7 @@ fn abutting_pieces_push_as_one_plate() {
         hull_with_walls(&cuboid_corners(Vec3::new(low, -1.0, -0.5), Vec3::new(high, 1.0, 0.0)), &wall_at_zero)
     };
     let (left, right) = (piece(-1.0, 0.0), piece(0.0, 1.0));
-    let axes = Random(93).rotation();
+    let axes = Random(93).rotation_matrix();
     for k in -500..=500 {
         let x = 1e-3 * f64::from(k);
         let mut e = Ellipsoid { center: Vec3::new(x, 0.1, 0.0), axes, semi_axes: Vec3::new(0.3, 0.12, 0.2) };

@@ -27,7 +27,7 @@ fn posed(p: &Polyhedron, low: f64, high: f64) -> Vec<Ellipsoid> {
     let mut random = Random(7);
     (0..2000)
         .map(|_| {
-            let (axes, line) = (random.rotation(), random.direction());
+            let (axes, line) = (random.rotation_matrix(), random.direction());
             let at = |s: f64| Ellipsoid { center: line * s, axes, semi_axes: Vec3::new(0.2, 0.12, 0.08) };
             let (mut touching, mut apart) = (0.0, 1.0);
             for _ in 0..40 {
@@ -76,7 +76,7 @@ fn time_per_query() {
         .map(|_| {
             let e = Ellipsoid {
                 center: random.direction(),
-                axes: random.rotation(),
+                axes: random.rotation_matrix(),
                 semi_axes: Vec3::from_fn(|_, _| random.between(0.1, 1.0)),
             };
             (e.center + e.axes * random.direction().component_mul(&e.semi_axes) * random.unit(), e)

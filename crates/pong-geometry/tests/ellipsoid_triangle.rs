@@ -6,7 +6,9 @@
 
 mod common;
 
-use common::{Random, cuboid, patch, scaled_ellipsoid, stretched_hull, surface_of, triangle_set};
+use common::{
+    Random, cuboid, patch, random_motion, scaled_ellipsoid, stretched_hull, surface_of, triangle_set,
+};
 use pong_geometry::interference::Feature;
 use pong_geometry::interference::ellipsoid_polyhedron::ellipsoid_polyhedron;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -67,7 +69,7 @@ fn flat_tessellation_is_one_plane() {
     let set = patch(6, &mut random, &|_, _| 0.0);
     for case in 0..20_000 {
         let semi_axes = Vec3::from_fn(|_, _| random.between(0.02, 0.1));
-        let mut e = Ellipsoid { center: Vec3::zeros(), axes: random.rotation(), semi_axes };
+        let mut e = Ellipsoid { center: Vec3::zeros(), axes: random.rotation_matrix(), semi_axes };
         let depth = random.between(1e-6, 1.0) * 0.02;
         e.center.z = e.half_width(&Vec3::z()) - depth;
         // The foot: anywhere, or exactly over a vertex or the middle of an edge.
@@ -103,7 +105,7 @@ fn convex_surfaces_push_as_the_polyhedron() {
             let semi_axes = Vec3::from_fn(|_, _| random.between(0.05, 0.15));
             let e = Ellipsoid {
                 center: random.direction() * random.between(0.3, 0.8),
-                axes: random.rotation(),
+                axes: random.rotation_matrix(),
                 semi_axes,
             };
             let Some(expected) = ellipsoid_polyhedron(&e, &p) else {
@@ -139,7 +141,7 @@ fn deep_on_a_convex_surface_the_least_is_among_them_and_nothing_is_lost() {
         let semi_axes = Vec3::from_fn(|_, _| random.between(0.03, 0.3));
         let e = Ellipsoid {
             center: random.direction() * random.between(0.4, 0.8),
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes,
         };
         let Some(expected) = ellipsoid_polyhedron(&e, &p) else { continue };
@@ -257,7 +259,7 @@ fn a_foot_on_a_convex_edge_is_not_lost() {
     for _ in 0..5000 {
         let e = Ellipsoid {
             center: Vec3::zeros(),
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes: Vec3::from_fn(|_, _| random.between(0.1, 0.3)),
         };
         let deepest = e.axes
@@ -364,7 +366,7 @@ fn a_sphere_as_the_sphere_tester() {
         };
         let e = Ellipsoid {
             center: sphere.center,
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes: Vec3::repeat(sphere.radius),
         };
         let mut expected = Vec::new();
@@ -475,7 +477,7 @@ fn both_walls_of_a_concave_corner_push() {
 fn least_depth_is_continuous_over_a_ridge() {
     let lift = |x: f64, _: f64| -0.8 * x.abs();
     let set = patch(2, &mut Random(u64::MAX), &|x, y| if x.abs() < 0.3 { 0.0 } else { lift(x, y) });
-    let axes = Random(5).rotation();
+    let axes = Random(5).rotation_matrix();
     let mut before = None;
     const STEPS: usize = 20_000;
     for k in 0..=STEPS {
@@ -507,7 +509,7 @@ fn rigid_motion_and_scale_change_nothing() {
     for _ in 0..1000 {
         let e = Ellipsoid {
             center: random.direction() * random.between(0.5, 0.6),
-            axes: random.rotation(),
+            axes: random.rotation_matrix(),
             semi_axes: Vec3::new(0.15, 0.1, 0.12),
         };
         let expected = pushing(&e, &set, 0.1);
@@ -518,7 +520,7 @@ fn rigid_motion_and_scale_change_nothing() {
                 assert!((a.interference.depth * factor - b.interference.depth).abs() < 1e-12 * factor);
             }
         }
-        let x = random.motion(1.0);
+        let x = random_motion(&mut random, 1.0);
         let found = pushing(&e.carried(&x), &changed(&|v| x.point(v)), 0.1);
         assert_eq!(found.len(), expected.len());
         for (a, b) in expected.iter().zip(&found) {

@@ -6,7 +6,9 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, scaled, stretched_hull};
+use common::{
+    Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, random_motion, scaled, stretched_hull,
+};
 use oracle_support::{Worst, close_lower_walls, join_pieces};
 use pong_geometry::interference::line_segment_polyhedron::line_segment_polyhedron;
 use pong_geometry::primitive::{LineSegment, Polyhedron};
@@ -37,7 +39,7 @@ fn a_bar_lying_flat_carries_all_of_it() {
     let mut random = Random(601);
     let mut worst = Worst::new("flat bar: force, moment about its middle");
     for _ in 0..3000 {
-        let motion = random.motion(2.0);
+        let motion = random_motion(&mut random, 2.0);
         let shape = [moved(&brick(), &motion)];
         let angle = random.between(0.0, 6.3);
         let along = Vec3::new(angle.cos(), angle.sin(), 0.0);
@@ -110,7 +112,7 @@ fn a_tip_or_one_crossing_is_the_minimum_translation() {
     let mut random = Random(602);
     let mut worst = Worst::new("single contact: depth and normal of the minimum translation");
     let (mut tips, mut crossings, mut steps) = (0, 0, 0);
-    let shape = moved(&brick(), &random.motion(1.0));
+    let shape = moved(&brick(), &random_motion(&mut random, 1.0));
     let middle = shape.vertices.iter().map(|v| v.position).sum::<Vec3>() / 8.0;
     let mut rounds = 0;
     while tips < 2000 || crossings < 2000 {
@@ -200,7 +202,7 @@ fn the_wrench_is_continuous_through_parallel() {
 fn a_bar_that_passes_right_through_does_no_work_along_itself() {
     let mut random = Random(604);
     let mut worst = Worst::new("through: force along the bar, change as it slides");
-    let shape = [moved(&brick(), &random.motion(1.0))];
+    let shape = [moved(&brick(), &random_motion(&mut random, 1.0))];
     let middle = shape[0].vertices.iter().map(|v| v.position).sum::<Vec3>() / 8.0;
     let mut count = 0;
     while count < 5000 {
@@ -385,7 +387,7 @@ fn an_edge_is_carried_by_the_end_that_reaches_farther_out() {
     let mut crossed = [0, 0];
     for _ in 0..2000 {
         let mut corners = cuboid_corners(Vec3::new(-1.0, -0.8, -0.6), Vec3::new(1.0, 0.8, 0.0));
-        let motion = random.motion(2.0);
+        let motion = random_motion(&mut random, 2.0);
         // Over the edge between the top and the side at x = 1.
         let depth = random.between(0.01, 0.1);
         let place = Vec3::new(1.0 - depth, random.between(-0.3, 0.3), -depth);
@@ -414,7 +416,7 @@ fn an_edge_is_carried_by_the_end_that_reaches_farther_out() {
 fn a_bar_that_only_touches_is_not_carried() {
     let mut random = Random(615);
     for round in 0..3000 {
-        let motion = random.motion(2.0);
+        let motion = random_motion(&mut random, 2.0);
         let shape = moved(&brick(), &motion);
         let y = random.between(-0.5, 0.5);
         let segment = match round % 3 {

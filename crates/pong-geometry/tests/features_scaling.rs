@@ -5,7 +5,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid_corners, hull_with_walls, moved, scaled, stretched_hull};
+use common::{Random, cuboid_corners, hull_with_walls, moved, random_motion, scaled, stretched_hull};
 use oracle_support::{Worst, counting_contacts, dented_ball, map_vertices, moved_surface};
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::line_segment_plane::line_segment_plane;
@@ -134,7 +134,8 @@ fn scenes(seed: u64, count: usize) -> Vec<Scene> {
         hull_with_walls(&cuboid_corners(Vec3::new(-0.8, -0.6, -0.5), Vec3::new(0.7, 0.6, 0.4)), &|n, _| {
             n.x > 0.9
         });
-    let solids = [moved(&walled, &random.motion(0.1)), stretched_hull(16, Vec3::new(1.0, 0.8, 0.6))];
+    let solids =
+        [moved(&walled, &random_motion(&mut random, 0.1)), stretched_hull(16, Vec3::new(1.0, 0.8, 0.6))];
     let mesh = dented_ball(5, 7, 0.2, &mut random);
     (0..count).map(|_| Scene::random(&mut random, &solids, &mesh)).collect()
 }
@@ -195,7 +196,7 @@ fn rigid_motions_move() {
     let mut random = Random(803);
     let mut other_features = 0;
     for scene in scenes(802, 3000) {
-        let x = random.motion(3.0);
+        let x = random_motion(&mut random, 3.0);
         let inverse = x.inverse();
         let back = |c: &Interference| Interference {
             normal_b: inverse.vector(&c.normal_b),

@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, moved, stretched_hull};
+use common::{Random, cuboid, moved, random_motion, stretched_hull};
 use oracle_support::{
     Worst, all_contacts, counting_contacts, fan_plate, moved_surface, nearest_on_polyhedron, nudge,
     regular_plate, rounded_to_f32, shared_push, skin, surface, wedges,
@@ -48,7 +48,11 @@ fn plates_have_no_gaps() {
     let mut exact = Worst::new("plate: depth and normal of what pushes, over the plate's own roughness");
     for round in 0..50 {
         let plate = if round % 2 == 0 { regular_plate(6) } else { fan_plate(&mut random) };
-        let motion = if round % 5 == 0 { pong_geometry::Transform::identity() } else { random.motion(2.0) };
+        let motion = if round % 5 == 0 {
+            pong_geometry::Transform::identity()
+        } else {
+            random_motion(&mut random, 2.0)
+        };
         let mut plate = moved_surface(&plate, &motion);
         if round % 3 == 0 {
             plate = rounded_to_f32(&plate);
@@ -102,7 +106,7 @@ fn closed_convex_surfaces_have_no_gaps() {
     ];
     for round in 0..9 {
         let solid = &solids[round % 3];
-        let solid = if round < 3 { solid.clone() } else { moved(solid, &random.motion(1.5)) };
+        let solid = if round < 3 { solid.clone() } else { moved(solid, &random_motion(&mut random, 1.5)) };
         let mesh = skin(&solid);
         for _ in 0..2500 {
             let place = feature_place(&mesh, &mut random);
@@ -160,7 +164,7 @@ fn continuous(push: &dyn Fn(&Vec3) -> Option<Vec3>, lines: usize, seed: u64, nam
 
 #[test]
 fn the_push_is_continuous_across_features() {
-    let solid = moved(&stretched_hull(20, Vec3::new(0.9, 0.7, 0.5)), &Random(7).motion(0.1));
+    let solid = moved(&stretched_hull(20, Vec3::new(0.9, 0.7, 0.5)), &random_motion(&mut Random(7), 0.1));
     let outside = |solid: &Polyhedron, p: &Vec3| {
         let (foot, _) = nearest_on_polyhedron(solid, p);
         !solid.contains(p) && (foot - p).norm() > 0.02

@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, cuboid_corners, hull_with_walls, moved, stretched_hull};
+use common::{Random, cuboid, cuboid_corners, hull_with_walls, moved, random_motion, stretched_hull};
 use oracle_support::{Worst, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
@@ -31,7 +31,7 @@ fn shapes(random: &mut Random) -> Vec<Polyhedron> {
         hull_with_walls(&cuboid_corners(Vec3::repeat(-0.7), Vec3::repeat(0.6)), &|n, _| n.y > 0.9),
     ]
     .iter()
-    .map(|shape| moved(shape, &random.motion(0.3)))
+    .map(|shape| moved(shape, &random_motion(random, 0.3)))
     .collect()
 }
 

@@ -7,7 +7,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, stretched_hull};
+use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, random_motion, stretched_hull};
 use oracle_support::{Worst, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::line_segment_plane::line_segment_plane;
@@ -204,7 +204,7 @@ fn polyhedra_as_the_rule_says() {
         walled,
         stretched_hull(10, Vec3::new(1.0, 0.8, 0.5)),
     ]
-    .map(|shape| moved(&shape, &random.motion(0.2)));
+    .map(|shape| moved(&shape, &random_motion(&mut random, 0.2)));
     compare_with_the_rule(&shapes, 10_000, &mut random);
 }
 
@@ -215,7 +215,7 @@ fn however_many_faces_as_the_rule_says() {
     let mut random = Random(503);
     for (vertices, touching) in [(18, 600), (30, 600), (80, 300), (280, 100)] {
         let shape = stretched_hull(vertices, Vec3::new(1.0, 0.8, 0.5));
-        compare_with_the_rule(&[moved(&shape, &random.motion(0.2))], touching, &mut random);
+        compare_with_the_rule(&[moved(&shape, &random_motion(&mut random, 0.2))], touching, &mut random);
     }
 }
 
@@ -251,8 +251,10 @@ fn compare_with_the_rule(shapes: &[Polyhedron], wanted: usize, random: &mut Rand
 fn a_crossing_that_two_faces_claim_is_at_the_end_farther_out() {
     let mut random = Random(504);
     for _ in 0..300 {
-        let shape =
-            moved(&cuboid(Vec3::new(-0.8, -0.6, -0.4), Vec3::new(0.7, 0.6, 0.3)), &random.motion(0.5));
+        let shape = moved(
+            &cuboid(Vec3::new(-0.8, -0.6, -0.4), Vec3::new(0.7, 0.6, 0.3)),
+            &random_motion(&mut random, 0.5),
+        );
         for edge in &shape.edges {
             let [from, to] = edge.vertices.map(|v| shape.vertices[v as usize].position);
             let middle = from + (to - from) * random.between(0.4, 0.6);

@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, hull, hull_with_walls, moved, stretched_hull};
+use common::{Random, cuboid, hull, hull_with_walls, moved, random_motion, stretched_hull};
 use oracle_support::{Worst, join_pieces, nearest_on_polyhedron, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_plane::point_plane;
@@ -141,7 +141,7 @@ fn shapes(random: &mut Random) -> Vec<Polyhedron> {
     let prism: Vec<Vec3> =
         outline.iter().flat_map(|&(x, y)| [-0.4, 0.5].map(|z| Vec3::new(x, y, z))).collect();
     shapes.push(hull(&prism));
-    shapes.iter().map(|shape| moved(shape, &random.motion(1.0))).collect()
+    shapes.iter().map(|shape| moved(shape, &random_motion(random, 1.0))).collect()
 }
 
 fn middle(shape: &Polyhedron) -> Vec3 {

@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid_corners, hull_with_walls, moved, stretched_hull};
+use common::{Random, cuboid_corners, hull_with_walls, moved, random_motion, stretched_hull};
 use oracle_support::{
     Worst, close_lower_walls, dented_ball, fan_plate, hilly_sheet, join_pieces, moved_surface, polygon,
     rounded_to_f32, skin, surface, winding_number,
@@ -155,7 +155,7 @@ fn polyhedra_against_their_polygons() {
         stretched_hull(60, Vec3::new(1.0, 0.7, 0.5)),
         hull_with_walls(&cuboid_corners(Vec3::repeat(-0.6), Vec3::repeat(0.7)), &|n, _| n.x > 0.9),
     ]
-    .map(|shape| moved(&shape, &random.motion(0.2)));
+    .map(|shape| moved(&shape, &random_motion(&mut random, 0.2)));
     let (mut hits, mut border) = (0, 0);
     while hits < 10_000 {
         let shape = &shapes[(random.bits() % 4) as usize];
@@ -244,7 +244,7 @@ fn no_ray_slips_through_a_seam() {
             3 => skin(&stretched_hull(30, Vec3::new(1.0, 0.9, 0.7))),
             _ => oracle_support::regular_plate(6),
         };
-        let set = moved_surface(&set, &random.motion(3.0));
+        let set = moved_surface(&set, &random_motion(&mut random, 3.0));
         let set = if round % 2 == 0 { rounded_to_f32(&set) } else { set };
         for _ in 0..6 {
             let middle = set.vertices.iter().sum::<Vec3>() / set.vertices.len() as f64;
@@ -303,7 +303,7 @@ fn no_ray_slips_between_pieces() {
     let mut random = Random(305);
     for round in 0..3000 {
         let still = pong_geometry::Transform::identity();
-        let motion = if round % 2 == 0 { still } else { random.motion(2.0) };
+        let motion = if round % 2 == 0 { still } else { random_motion(&mut random, 2.0) };
         let cut = if round % 4 == 0 { 0.0 } else { 0.25 };
         let mut pieces = pieces(cut, &motion);
         if round % 3 == 0 {

@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, stretched_hull};
+use common::{Random, random_motion, stretched_hull};
 use oracle_support::{
     Nearest, Worst, all_contacts, counting_contacts, dented_ball, fan_plate, hilly_sheet, local_minima,
     moved_surface, regular_plate, rounded_to_f32, shared_push, shuffled, skin, surface, winding_number,
@@ -98,9 +98,9 @@ fn compare(set: &TriangleSet, rounds: usize, closed: bool, seed: u64, name: &'st
 #[test]
 fn closed_convex_surfaces_push_from_every_local_minimum() {
     let ball = skin(&stretched_hull(40, Vec3::new(1.0, 0.8, 0.6)));
-    compare(&moved_surface(&ball, &Random(7).motion(0.2)), 3500, true, 201, "convex mesh");
+    compare(&moved_surface(&ball, &random_motion(&mut Random(7), 0.2)), 3500, true, 201, "convex mesh");
     let brick = skin(&common::cuboid(Vec3::new(-0.6, -0.5, -0.4), Vec3::new(0.5, 0.6, 0.3)));
-    compare(&moved_surface(&brick, &Random(8).motion(0.2)), 3500, true, 202, "box mesh");
+    compare(&moved_surface(&brick, &random_motion(&mut Random(8), 0.2)), 3500, true, 202, "box mesh");
 }
 
 #[test]
@@ -108,7 +108,13 @@ fn closed_concave_surfaces_push_from_every_local_minimum() {
     let mut random = Random(203);
     for seed in 0..4 {
         let ball = dented_ball(6, 9, 0.25, &mut random);
-        compare(&moved_surface(&ball, &random.motion(0.1)), 2500, true, 204 + seed, "dented mesh");
+        compare(
+            &moved_surface(&ball, &random_motion(&mut random, 0.1)),
+            2500,
+            true,
+            204 + seed,
+            "dented mesh",
+        );
     }
 }
 
@@ -117,7 +123,13 @@ fn open_sheets_push_from_every_local_minimum_in_front() {
     let mut random = Random(210);
     for seed in 0..4 {
         let sheet = hilly_sheet(4, 0.35, &mut random);
-        compare(&moved_surface(&sheet, &random.motion(0.1)), 2500, false, 211 + seed, "hilly sheet");
+        compare(
+            &moved_surface(&sheet, &random_motion(&mut random, 0.1)),
+            2500,
+            false,
+            211 + seed,
+            "hilly sheet",
+        );
     }
 }
 
@@ -189,7 +201,7 @@ fn rounded_plates_push_like_one_plane() {
     let mut worst = Worst::new("f32 plate: shared push, relative to depth, over the slope of its facets");
     for round in 0..60 {
         let plate = if round % 2 == 0 { regular_plate(7) } else { fan_plate(&mut random) };
-        let motion = random.motion(2.0);
+        let motion = random_motion(&mut random, 2.0);
         let tilted = rounded_to_f32(&moved_surface(&plate, &motion));
         let normal = motion.rotation.column(2).into_owned();
         // How far the rounded facets lean and lie off the plane.

@@ -152,7 +152,7 @@ fn marked_surfaces_push_as_unmarked_ones() {
             let expected = all_contacts(&sphere, &set, sphere.radius);
             assert_eq!(all_contacts(&sphere, &marked, sphere.radius), expected, "{name} {sphere:?}");
             let semi_axes = Vec3::new(1.0, 0.6, 0.4) * sphere.radius;
-            let e = Ellipsoid { center: sphere.center, axes: random.rotation(), semi_axes };
+            let e = Ellipsoid { center: sphere.center, axes: random.rotation_matrix(), semi_axes };
             let of = |set: &TriangleSet| {
                 let mut found = Vec::new();
                 for t in 0..set.triangles.len() as u32 {

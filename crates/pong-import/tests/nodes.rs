@@ -4,21 +4,8 @@ mod common;
 
 use common::*;
 use pong_import::Options;
+use pong_testkit::Random;
 use serde_json::{Value, json};
-
-/// Numbers between −1 and 1, the same ones every time.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 11) as f64 / (1u64 << 52) as f64) - 1.0
-    }
-
-    fn three(&mut self) -> [f64; 3] {
-        [self.next(), self.next(), self.next()]
-    }
-}
 
 /// `rotate(v)` by the quaternion (x, y, z, w), from its definition q·v·q̄.
 fn rotated([x, y, z, w]: [f64; 4], v: [f64; 3]) -> [f64; 3] {
@@ -42,10 +29,10 @@ fn a_cube_below_any_chain_of_transforms_has_the_corners_that_their_product_gives
         let mut parent = None;
         for depth in 0..=case % 4 {
             let (translation, scale) = (
-                random.three().map(|x| 3.0 * x),
-                random.three().map(|x| if x < 0.0 { x - 0.3 } else { x + 0.3 }),
+                <[f64; 3]>::from(random.vector(1.0)).map(|x| 3.0 * x),
+                <[f64; 3]>::from(random.vector(1.0)).map(|x| if x < 0.0 { x - 0.3 } else { x + 0.3 }),
             );
-            let rotation = [random.next(), random.next(), random.next(), random.next()];
+            let rotation = [0; 4].map(|_| random.between(-1.0, 1.0));
             let mut node = json!({"name": format!("n{depth}"), "translation": translation, "rotation": rotation, "scale": scale});
             if depth == case % 4 {
                 node["mesh"] = json!(mesh);

@@ -6,10 +6,24 @@
 pub mod heap;
 pub mod meshes;
 pub mod random;
+pub mod ron;
+#[cfg(feature = "worlds")]
+pub mod worlds;
 
 pub use random::Random;
 
 use std::path::{Path, PathBuf};
+
+/// Whether a number is another but for this part of it.
+pub fn is_near(got: f64, expected: f64, relative: f64) -> bool {
+    (got - expected).abs() <= relative * expected.abs()
+}
+
+/// Panics unless a number is another but for this part of it.
+#[track_caller]
+pub fn assert_near(got: f64, expected: f64, relative: f64) {
+    assert!(is_near(got, expected, relative), "{got} instead of {expected}");
+}
 
 /// An empty folder for one test, below the crate's own scratch folder: `scratch(env!("CARGO_TARGET_TMPDIR"), "name")`.
 pub fn scratch(below: &str, test: &str) -> PathBuf {

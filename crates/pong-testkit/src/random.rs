@@ -1,6 +1,6 @@
 //! A deterministic source of numbers: the same seed gives the same scenes on every machine.
 
-use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 type Vec3 = Vector3<f64>;
 type Quat = UnitQuaternion<f64>;
@@ -87,6 +87,11 @@ impl Random {
     /// Any rotation: every axis and every angle as likely. The same bits everywhere.
     pub fn orientation(&mut self) -> Quat {
         self.small_rotation(std::f64::consts::PI)
+    }
+
+    /// The matrix of any rotation, as [`orientation`](Self::orientation) draws it.
+    pub fn rotation_matrix(&mut self) -> Matrix3<f64> {
+        self.orientation().to_rotation_matrix().into_inner()
     }
 
     /// A rotation by at most `angle`, rad.

@@ -2,6 +2,7 @@
 
 use pong_executive::Simulation;
 use pong_executive::scene::{BuiltScene, Scene};
+use pong_testkit::assert_near;
 use std::path::PathBuf;
 
 fn load(name: &str) -> BuiltScene {
@@ -10,15 +11,11 @@ fn load(name: &str) -> BuiltScene {
     scene.build().unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-fn close(got: f64, expected: f64, tolerance: f64) {
-    assert!((got - expected).abs() <= tolerance * expected.abs(), "{got} instead of {expected}");
-}
-
 #[test]
 fn v1_static_rest() {
     let mut scene = load("scene_v1_static_rest.ron");
     scene.simulation.observe(scene.steps, 1, &mut |_: &Simulation| ()).unwrap();
-    close(scene.simulation.world().contacts()[0].depth, 9.81e-5, 1e-9);
+    assert_near(scene.simulation.world().contacts()[0].depth, 9.81e-5, 1e-9);
 }
 
 #[test]
@@ -32,10 +29,10 @@ fn v7_two_spheres() {
         }
     };
     scene.simulation.observe(scene.steps, 1, &mut watch).unwrap();
-    close(touch.unwrap(), 5.0, 1e-4);
-    close(deepest, 0.210903, 1e-4);
+    assert_near(touch.unwrap(), 5.0, 1e-4);
+    assert_near(deepest, 0.210903, 1e-4);
     let speed = scene.simulation.twist(scene.objects[1].bodies[0]).linear.x;
-    close(speed, 0.778965, 1e-4);
+    assert_near(speed, 0.778965, 1e-4);
 }
 
 #[test]
@@ -50,6 +47,6 @@ fn v16_stick_slip() {
         stuck = sticks;
     };
     scene.simulation.observe(scene.steps, 1, &mut watch).unwrap();
-    close(breaks[0], 7.5, 2e-3);
-    close(breaks[2] - breaks[1], 7.61126, 2e-3);
+    assert_near(breaks[0], 7.5, 2e-3);
+    assert_near(breaks[2] - breaks[1], 7.61126, 2e-3);
 }

@@ -5,6 +5,7 @@ use crate::count;
 use crate::input::Input;
 use pong::status::{pong_last_message, pong_status};
 use pong::world::pong_world;
+use pong_model::Fnv;
 use std::collections::HashSet;
 use std::ffi::{CStr, CString, c_char};
 use std::mem::MaybeUninit;
@@ -75,7 +76,7 @@ pub struct Session<'a> {
     refused: Vec<usize>,
     left_out: HashSet<usize>,
     /// What the frames were, as one number.
-    frames: u64,
+    frames: Fnv,
     /// No second thread, worker or clock had a part in it.
     pub alone: bool,
     /// Expensive things done so far.
@@ -94,7 +95,7 @@ impl<'a> Session<'a> {
             made: 0,
             refused: Vec::new(),
             left_out: HashSet::new(),
-            frames: 0xcbf2_9ce4_8422_2325,
+            frames: Fnv::default(),
             alone: true,
             costs: 0,
             copied: 0,
@@ -107,7 +108,7 @@ impl<'a> Session<'a> {
     }
 
     /// Ends all worlds; answers the calls that were refused, the frames, and whether no other thread had a part.
-    pub fn finish(mut self) -> (Vec<usize>, u64, bool) {
+    pub fn finish(mut self) -> (Vec<usize>, Fnv, bool) {
         for slot in 0..WORLDS {
             self.current = slot;
             self.destroy();
@@ -151,7 +152,7 @@ impl<'a> Session<'a> {
     /// Takes note of what a frame was.
     pub fn note(&mut self, words: impl Iterator<Item = u64>) {
         for word in words {
-            self.frames = (self.frames ^ word).wrapping_mul(0x0000_0100_0000_01b3);
+            self.frames.word(word);
         }
     }
 

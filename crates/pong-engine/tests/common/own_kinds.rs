@@ -53,7 +53,7 @@ impl NormalForce for Quadratic {
 
 /// A spring to the place of first touch: remembers three numbers.
 #[derive(Debug)]
-struct Glue;
+pub struct Glue;
 
 impl FrictionForce for Glue {
     fn state_len(&self) -> usize {
@@ -128,12 +128,22 @@ impl CustomVolume for Everywhere {
 }
 
 pub fn extensions() -> Extensions {
+    let mut extensions = without_volume_tests();
+    for kind in ["Aabb", "Sphere", "Obb", "Unbounded", "Everywhere"] {
+        let always = |_: &Volume, _: &Volume, _: &Transform| true;
+        extensions.add_volume_test("Everywhere", kind, Arc::new(always));
+    }
+    extensions
+}
+
+/// The same, but nothing tells whether the bounding volume meets another.
+pub fn without_volume_tests() -> Extensions {
     let mut extensions = Extensions::new();
     extensions.add_primitive(
         "Post",
         Arc::new(|parameters: &[f64]| match parameters {
-            [radius] => Ok(Arc::new(Post { radius: *radius }) as Arc<dyn CustomPrimitive>),
-            _ => Err("a Post takes its radius".to_owned()),
+            [radius] if *radius > 0.0 => Ok(Arc::new(Post { radius: *radius }) as Arc<dyn CustomPrimitive>),
+            _ => Err("a Post takes one positive parameter, its radius".to_owned()),
         }),
     );
     for kind in ["Point", "Sphere"] {
@@ -143,13 +153,6 @@ pub fn extensions() -> Extensions {
         "Everywhere",
         Arc::new(|_: &[&dyn Bounded]| Arc::new(Everywhere) as Arc<dyn CustomVolume>),
     );
-    for kind in ["Aabb", "Sphere", "Obb", "Unbounded", "Everywhere"] {
-        extensions.add_volume_test(
-            "Everywhere",
-            kind,
-            Arc::new(|_: &Volume, _: &Volume, _: &Transform| true),
-        );
-    }
     extensions
 }
 

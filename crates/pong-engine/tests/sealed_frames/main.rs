@@ -4,6 +4,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod heap;
+#[path = "../common/own_kinds.rs"]
+mod own_kinds;
 mod registered;
 mod scene;
 

@@ -2,7 +2,8 @@
 
 use crate::common::*;
 use crate::heap::during;
-use crate::registered::{extensions, laws};
+use crate::own_kinds::extensions;
+use crate::registered::laws;
 use pong_engine::*;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Quat, Vec3};
@@ -44,7 +45,7 @@ fn ground(surface: &str) -> String {
         box_polyhedron("left", [2.95, 0.0, -0.1], [0.05, 0.2, 0.1], "5"),
         box_polyhedron("right", [3.05, 0.0, -0.1], [0.05, 0.2, 0.1], "4"),
         pit.to_owned(),
-        "Custom(name: \"post\", kind: \"Post\", parameters: [])".to_owned(),
+        "Custom(name: \"post\", kind: \"Post\", parameters: [0.1])".to_owned(),
     ];
     model("ground", surface, &parts.join(","))
 }

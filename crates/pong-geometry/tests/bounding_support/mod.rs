@@ -8,69 +8,27 @@ use pong_geometry::{Mat3, Quat, Transform, Vec3};
 
 pub const KINDS: [BoundKind; 3] = [BoundKind::Aabb, BoundKind::Sphere, BoundKind::Obb];
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-pub struct Random(pub u64);
+pub use pong_testkit::Random;
 
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+/// A unit vector; one in four lies along an axis of the frame.
+pub fn tricky_direction(random: &mut Random) -> Vec3 {
+    if random.chance(0.25) {
+        let mut axis = Vec3::zeros();
+        axis[random.below(3)] = random.pick(&[1.0, -1.0]);
+        return axis;
     }
+    random.direction()
+}
 
-    pub fn below(&mut self, count: usize) -> usize {
-        (self.bits() % count as u64) as usize
-    }
-
-    /// In 0…1.
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// In −1…1.
-    pub fn signed(&mut self) -> f64 {
-        2.0 * self.unit() - 1.0
-    }
-
-    /// In 10^low … 10^high, evenly in the exponent.
-    pub fn power(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(low + (high - low) * self.unit())
-    }
-
-    pub fn pick<'a, T>(&mut self, items: &'a [T]) -> &'a T {
-        &items[self.below(items.len())]
-    }
-
-    pub fn in_cube(&mut self) -> Vec3 {
-        Vec3::new(self.signed(), self.signed(), self.signed())
-    }
-
-    /// A unit vector; one in four lies along an axis of the frame.
-    pub fn direction(&mut self) -> Vec3 {
-        if self.below(4) == 0 {
-            let mut axis = Vec3::zeros();
-            axis[self.below(3)] = if self.below(2) == 0 { 1.0 } else { -1.0 };
-            return axis;
-        }
-        loop {
-            let v = self.in_cube();
-            if (0.01..1.0).contains(&v.norm()) {
-                return v.normalize();
-            }
-        }
-    }
-
-    /// Any rotation; often one that leaves axes parallel, exactly or nearly so.
-    pub fn rotation(&mut self) -> Mat3 {
-        let axis = nalgebra::Unit::new_normalize(self.direction());
-        let angle = match self.below(4) {
-            0 => self.below(4) as f64 * std::f64::consts::FRAC_PI_2,
-            1 => self.power(-17.0, 0.0),
-            _ => self.signed() * std::f64::consts::PI,
-        };
-        Quat::from_axis_angle(&axis, angle).to_rotation_matrix().into_inner()
-    }
+/// Any rotation; often one that leaves axes parallel, exactly or nearly so.
+pub fn tricky_rotation(random: &mut Random) -> Mat3 {
+    let axis = nalgebra::Unit::new_normalize(tricky_direction(random));
+    let angle = match random.below(4) {
+        0 => random.below(4) as f64 * std::f64::consts::FRAC_PI_2,
+        1 => random.log_between(1e-17, 1.0),
+        _ => random.between(-1.0, 1.0) * std::f64::consts::PI,
+    };
+    Quat::from_axis_angle(&axis, angle).to_rotation_matrix().into_inner()
 }
 
 /// Something to be bounded of which single points can be told.
@@ -83,26 +41,26 @@ pub enum Body {
 impl Body {
     /// Of 1e-4 to 1e4 m, round, flat, thin or degenerate, at or far from its frame's origin, along the frame or not.
     pub fn random(random: &mut Random) -> Self {
-        let scale = random.power(-4.0, 4.0);
-        let offset = random.in_cube() * *random.pick(&[0.0, scale, 1e3 * scale, 1e4]);
-        let flatness = [1.0, random.power(-8.0, 0.0), 0.0];
+        let scale = random.log_between(1e-4, 1e4);
+        let offset = random.vector(1.0) * random.pick(&[0.0, scale, 1e3 * scale, 1e4]);
+        let flatness = [1.0, random.log_between(1e-8, 1.0), 0.0];
         let stretch = Vec3::from_fn(|_, _| scale * random.pick(&flatness));
-        let turn = if random.below(3) == 0 { Mat3::identity() } else { random.rotation() };
-        let mut place = || offset + turn * random.in_cube().component_mul(&stretch);
+        let turn = if random.below(3) == 0 { Mat3::identity() } else { tricky_rotation(random) };
+        let mut place = || offset + turn * random.vector(1.0).component_mul(&stretch);
         match (scale.to_bits() >> 3) % 4 {
             0 => Self::Points((0..8).map(|i| corner(i, &stretch)).map(|p| offset + turn * p).collect()),
             1 => Self::Points((0..12).map(|_| place()).collect()),
             2 => {
                 let centers: Vec<_> = (0..4).map(|_| place()).collect();
-                let ball = |center| Sphere { center, radius: scale * random.power(-3.0, 0.0) };
+                let ball = |center| Sphere { center, radius: scale * random.log_between(1e-3, 1.0) };
                 Self::Spheres(centers.into_iter().map(ball).collect())
             }
             _ => {
                 let centers: Vec<_> = (0..3).map(|_| place()).collect();
                 let ellipsoid = |center| Ellipsoid {
                     center,
-                    axes: random.rotation(),
-                    semi_axes: Vec3::from_fn(|_, _| scale * random.power(-3.0, 0.0)),
+                    axes: tricky_rotation(random),
+                    semi_axes: Vec3::from_fn(|_, _| scale * random.log_between(1e-3, 1.0)),
                 };
                 Self::Ellipsoids(centers.into_iter().map(ellipsoid).collect())
             }
@@ -131,7 +89,7 @@ impl Body {
 
     /// Any point of its hull.
     pub fn inside(&self, random: &mut Random) -> Vec3 {
-        let (p, q) = (self.extreme(&random.direction()), self.extreme(&random.direction()));
+        let (p, q) = (self.extreme(&tricky_direction(random)), self.extreme(&tricky_direction(random)));
         p + (q - p) * random.unit()
     }
 }

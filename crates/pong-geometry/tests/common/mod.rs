@@ -5,53 +5,15 @@ use pong_geometry::primitive::{
     EdgePush, Ellipsoid, MayPush, NO_NEIGHBOR, Polyhedron, PolyhedronEdge, PolyhedronFace, PolyhedronParts,
     PolyhedronVertex, RimEdge, TriangleRecord, TriangleSet,
 };
-use pong_geometry::{Mat3, Quat, Transform, Vec3};
+use pong_geometry::{Transform, Vec3};
 
-/// A small deterministic generator (splitmix64).
-pub struct Random(pub u64);
+pub use pong_testkit::Random;
 
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in 0…1.
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Uniform between two values.
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// A unit vector, uniform over the sphere.
-    pub fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
-            let square = v.norm_squared();
-            if square > 0.01 && square < 1.0 {
-                return v / square.sqrt();
-            }
-        }
-    }
-
-    /// A rotation, uniform.
-    pub fn rotation(&mut self) -> Mat3 {
-        let axis = nalgebra::Unit::new_normalize(self.direction());
-        let other = nalgebra::Unit::new_normalize(self.direction());
-        let q = Quat::from_axis_angle(&axis, self.between(0.0, 6.3))
-            * Quat::from_axis_angle(&other, self.between(0.0, 6.3));
-        q.to_rotation_matrix().into_inner()
-    }
-
-    /// A rigid transform.
-    pub fn motion(&mut self, reach: f64) -> Transform {
-        Transform { rotation: self.rotation(), translation: self.direction() * self.between(0.0, reach) }
+/// A rigid transform, its translation at most `reach` long.
+pub fn random_motion(random: &mut Random, reach: f64) -> Transform {
+    Transform {
+        rotation: random.rotation_matrix(),
+        translation: random.direction() * random.between(0.0, reach),
     }
 }
 

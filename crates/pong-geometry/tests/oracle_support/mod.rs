@@ -1,7 +1,7 @@
 //! Surfaces and slow, plain answers shared by the oracle and feature tests.
 #![allow(dead_code, unreachable_pub, missing_docs)]
 
-use crate::common::Random;
+use crate::common::{Random, random_motion};
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle::sphere_triangle;
 use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
@@ -417,7 +417,7 @@ pub fn close_lower_walls(pieces: &mut [Polyhedron]) {
 
 /// A body of two wedges with a slanted wall between them, turned at random and rebuilt from the turned corners.
 pub fn wedges(random: &mut Random) -> Vec<Polyhedron> {
-    let motion = random.motion(1.0);
+    let motion = random_motion(random, 1.0);
     let lean = random.between(-0.4, 0.4);
     let corners = |left: [f64; 2], right: [f64; 2]| -> Vec<Vec3> {
         [-0.8, 0.7]

@@ -2,15 +2,11 @@ use super::build::Boxed;
 use super::{BoxNode, BoxTree, Child, NarrowBox, WIDTH, lanes, round_down, round_up};
 use pong_geometry::Vec3;
 use pong_geometry::simd::Portable;
+use pong_testkit::Random;
 use std::collections::BTreeSet;
 
-fn scatter(seed: &mut u64) -> f64 {
-    *seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-    (*seed >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-fn boxes(count: usize, seed: &mut u64, around: &Vec3) -> Vec<Boxed<u32>> {
-    let mut corner = || Vec3::from_fn(|_, _| scatter(seed));
+fn boxes(count: usize, random: &mut Random, around: &Vec3) -> Vec<Boxed<u32>> {
+    let mut corner = || Vec3::from_fn(|_, _| random.unit());
     let one = |item| {
         let low = around + corner();
         Boxed { item, low, high: low + corner() * 0.05 }
@@ -21,10 +17,10 @@ fn boxes(count: usize, seed: &mut u64, around: &Vec3) -> Vec<Boxed<u32>> {
 /// Rounding outward never loses a place, for numbers of every size.
 #[test]
 fn single_precision_boxes_hold_their_numbers() {
-    let mut seed = 1;
+    let mut random = Random(1);
     for exponent in -330..330 {
         let size: f64 = format!("1e{exponent}").parse().unwrap();
-        let x = (scatter(&mut seed) - 0.5) * size;
+        let x = (random.unit() - 0.5) * size;
         for x in [x, f64::from(x as f32), f64::from((x as f32).next_up()), -x] {
             let beyond = x.abs() >= f64::from(f32::MAX);
             assert!(beyond || (f64::from(round_down(x)) <= x && f64::from(round_up(x)) >= x), "{x:e}");
@@ -43,14 +39,14 @@ fn single_precision_boxes_hold_their_numbers() {
 /// Whatever is asked, every element that the question touches is found: compared with asking all of them.
 #[test]
 fn nothing_that_a_box_touches_is_missed() {
-    let mut seed = 2;
+    let mut random = Random(2);
     for count in [0, 1, 7, 8, 9, 64, 65, 96, 513, 3000] {
         let around = Vec3::new(1e4, -3e3, 50.0);
-        let mut elements = boxes(count, &mut seed, &around);
+        let mut elements = boxes(count, &mut random, &around);
         let tree = BoxTree::build(&mut elements);
         for _ in 0..200 {
-            let low = around + Vec3::from_fn(|_, _| scatter(&mut seed));
-            let high = low + Vec3::from_fn(|_, _| scatter(&mut seed) * 0.1);
+            let low = around + Vec3::from_fn(|_, _| random.unit());
+            let high = low + Vec3::from_fn(|_, _| random.unit() * 0.1);
             let mut found = BTreeSet::new();
             tree.visit(Portable, &tree.narrowed(&low, &high), |node, met| {
                 for lane in lanes(met) {
@@ -70,13 +66,13 @@ fn nothing_that_a_box_touches_is_missed() {
 /// A ball within the box leaves out what it does not reach, and nothing else; places far from the origin too.
 #[test]
 fn nothing_that_a_ball_reaches_is_missed() {
-    let mut seed = 4;
+    let mut random = Random(4);
     let (mut reached, mut seen) = (0, 0);
     for around in [Vec3::zeros(), Vec3::new(1e4, -3e3, 50.0), Vec3::repeat(1e25)] {
-        let mut elements = boxes(3000, &mut seed, &around);
+        let mut elements = boxes(3000, &mut random, &around);
         let tree = BoxTree::build(&mut elements);
         for round in 0..200 {
-            let center = around + Vec3::from_fn(|_, _| scatter(&mut seed));
+            let center = around + Vec3::from_fn(|_, _| random.unit());
             // A radius that just reaches one of the boxes.
             let element = &elements[round * 7];
             let nearest = center.sup(&element.low).inf(&element.high);
@@ -106,9 +102,9 @@ fn nothing_that_a_ball_reaches_is_missed() {
 /// Bottom nodes are full but for the last of a part, and every node bounds what is below it.
 #[test]
 fn nodes_are_full_and_hold_what_is_below() {
-    let mut seed = 3;
+    let mut random = Random(3);
     for count in [8, 96, 5000] {
-        let mut elements = boxes(count, &mut seed, &Vec3::zeros());
+        let mut elements = boxes(count, &mut random, &Vec3::zeros());
         let tree = BoxTree::build(&mut elements);
         let bottoms = tree.nodes.iter().filter(|node| node.is_bottom());
         assert_eq!(bottoms.count(), count.div_ceil(WIDTH));

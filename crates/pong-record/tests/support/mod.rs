@@ -28,10 +28,7 @@ pub struct Scene {
 
 /// An empty folder of the test's own.
 pub fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
+    pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), test)
 }
 
 /// Model files in `folder/given`, and the world.

@@ -19,9 +19,7 @@ pub fn ball_scene(
     (step, duration): (f64, f64),
     more: &str,
 ) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
+    let folder = pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), test);
     let ball = |stiffness: f64| {
         format!(
             r#"(format: "pong-model", version: 1, name: "ball", surfaces: {{ "soft": (stiffness: {stiffness:?},

@@ -4,6 +4,7 @@ use crate::case::Failure;
 use pong_engine::{Config, Contact, InterfaceId, State, World, WorldBuilder};
 use pong_executive::{Pose, Quat, Twist, Vec3, Wrench};
 use pong_geometry::extension::Extensions;
+use pong_testkit::ron;
 use std::sync::Arc;
 
 /// A world of two Objects.
@@ -58,10 +59,7 @@ impl Rig {
 
 /// A model of one movable group.
 pub fn model(surface: &str, primitives: &str) -> String {
-    format!(
-        "(format: \"pong-model\", version: 1, name: \"part\", surfaces: {{ \"s\": ({surface}) }}, \
-         root: (name: \"part\", surface: \"s\", primitives: [ {primitives} ]))"
-    )
+    ron::model("part", &format!("\"s\": ({surface})"), primitives)
 }
 
 /// A surface without damping and friction.
@@ -69,38 +67,20 @@ pub fn spring(stiffness: f64) -> String {
     format!("stiffness: {stiffness:?}, normal: Linear(damping: 0.0)")
 }
 
-/// Coordinates as an author writes them.
-pub fn at(v: Vec3) -> String {
-    format!("({:?},{:?},{:?})", v.x, v.y, v.z)
-}
-
 /// A box about a centre, placed by `carry`.
 pub fn block(name: &str, center: Vec3, half: Vec3, carry: impl Fn(Vec3) -> Vec3) -> String {
-    let corner = |i: usize| {
-        let sign = |bit: usize| if i >> bit & 1 == 1 { 1.0 } else { -1.0 };
-        at(carry(center + half.component_mul(&Vec3::new(sign(0), sign(1), sign(2)))))
-    };
-    let vertices: Vec<String> = (0..8).map(corner).collect();
-    format!(
-        "Polyhedron(name: \"{name}\", vertices: [{}], \
-         faces: [[0,2,3,1],[4,5,7,6],[0,1,5,4],[2,6,7,3],[0,4,6,2],[1,3,7,5]])",
-        vertices.join(",")
-    )
+    ron::carried_box(name, [center, half], "", carry)
 }
 
 /// A square sheet of cells of two triangles, `n` by `n` and 1 m wide, its front to where `x × y` of `place` points.
 pub fn sheet(name: &str, rest: &str, n: usize, place: impl Fn(f64, f64) -> Vec3) -> String {
     let coordinate = |i: usize| i as f64 / n as f64 - 0.5;
     let row = |j: usize| (0..=n).map(move |i| (coordinate(i), coordinate(j)));
-    let vertices: Vec<String> = (0..=n).flat_map(row).map(|(x, y)| at(place(x, y))).collect();
+    let vertices: Vec<Vec3> = (0..=n).flat_map(row).map(|(x, y)| place(x, y)).collect();
     let cell = |j: usize, i: usize| {
         let v = j * (n + 1) + i;
-        format!("({v},{},{}),({v},{},{})", v + 1, v + n + 2, v + n + 2, v + n + 1)
+        [[v, v + 1, v + n + 2], [v, v + n + 2, v + n + 1]]
     };
-    let triangles: Vec<String> = (0..n).flat_map(|j| (0..n).map(move |i| cell(j, i))).collect();
-    format!(
-        "TriangleMesh(name: \"{name}\", {rest} vertices: [{}], triangles: [{}])",
-        vertices.join(","),
-        triangles.join(",")
-    )
+    let triangles: Vec<[usize; 3]> = (0..n).flat_map(|j| (0..n).flat_map(move |i| cell(j, i))).collect();
+    ron::triangle_mesh(name, &vertices, &triangles, rest)
 }

@@ -1,13 +1,14 @@
 //! Sizes, stiffness, mass ratios.
 
 use super::extreme::{Answer, Extreme, Length};
-use super::rig::{Rig, at, block, model, sheet};
+use super::rig::{Rig, block, model, sheet};
 use crate::case::{Failure, Outcome};
 use crate::measure::rotation;
 use crate::row::Row;
 use crate::scene::{Duo, Run};
 use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Twist, Vec3, Wrench};
 use pong_testkit::Random;
+use pong_testkit::ron::place_of;
 
 pub const SIZES: Extreme = Extreme {
     id: "E2",
@@ -41,7 +42,7 @@ fn scene(size: f64, stiffness: f64) -> Result<Rig, Failure> {
          friction: Bristle(mu: 0.3, static_excess: 0.2, damping: {:?})",
         0.1 * damping
     );
-    let v = |x: f64, y: f64, z: f64| at(Vec3::new(x, y, z) * size);
+    let v = |x: f64, y: f64, z: f64| place_of(&(Vec3::new(x, y, z) * size));
     let movers = [
         format!("Point(name: \"p\", position: {})", v(0.02, 0.01, -0.205)),
         format!("LineSegment(name: \"l\", ends: ({}, {}))", v(-0.3, 0.1, -0.202), v(0.25, -0.1, -0.207)),
