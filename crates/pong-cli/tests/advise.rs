@@ -63,6 +63,10 @@ fn the_advised_surface_does_in_a_scene_what_was_wished() {
     let (code, out, err) = pong(&here, "advise scene.ron");
     assert_eq!((code, err.as_str()), (0, ""));
     assert!(out.contains("closing at 0.5 m/s (the scene's start)") && !out.contains("warning"), "{out}");
+    assert!(
+        out.contains("one contact that carries the whole mass") && out.contains("`--contacts n`"),
+        "{out}"
+    );
     let (_, out, err) = pong(&here, "run scene.ron --csv");
     assert_eq!(err, "", "{out}");
     let states = std::fs::read_to_string(here.join("scene_out/states.csv")).unwrap();

@@ -4,7 +4,7 @@ use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
 use crate::law::registry::Laws;
 use crate::report::Clock;
-use crate::running::Running;
+use crate::runtime::Runtime;
 use crate::scene::{Config, GroupInstance, Object, ObjectPair, Scene, State, States, Surfaces};
 use crate::seal::{self, SealReport};
 use crate::world::World;
@@ -223,10 +223,10 @@ impl WorldBuilder {
             Err(error) => return Err(SealError { error, builder: self }),
         };
         let scene = Arc::new(self.scene);
-        match Running::start(&scene, Arc::new(sealed), Arc::new(tables), self.clock) {
-            Ok(running) => {
-                report.workers = running.worker_starts().to_vec();
-                Ok((World::new(scene, self.surfaces, self.states, running), report))
+        match Runtime::start(&scene, Arc::new(sealed), Arc::new(tables), self.clock) {
+            Ok(runtime) => {
+                report.workers = runtime.worker_starts().to_vec();
+                Ok((World::new(scene, self.surfaces, self.states, runtime), report))
             }
             Err(error) => {
                 // A worker that the system has not run yet may still hold the scene; then the builder gets a copy.

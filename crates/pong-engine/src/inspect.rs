@@ -6,7 +6,7 @@
 
 use crate::error::EngineError;
 use crate::law::PairProps;
-use crate::running::Running;
+use crate::runtime::Runtime;
 use crate::scene::Scene;
 use crate::seal::can_be_tested;
 pub use crate::sealed::GroupPair;
@@ -17,7 +17,7 @@ use pong_model::{MovableGroup, PrimitiveInfo};
 #[derive(Clone, Copy)]
 pub struct Inspection<'w> {
     scene: &'w Scene,
-    running: &'w Running,
+    runtime: &'w Runtime,
 }
 
 /// A contact of the last frame that pushes, seen from B.
@@ -50,8 +50,8 @@ pub struct PushingContact<'w> {
 }
 
 impl<'w> Inspection<'w> {
-    pub(crate) fn new(scene: &'w Scene, running: &'w Running) -> Self {
-        Self { scene, running }
+    pub(crate) fn new(scene: &'w Scene, runtime: &'w Runtime) -> Self {
+        Self { scene, runtime }
     }
 
     /// How many movable groups the world has.
@@ -71,7 +71,7 @@ impl<'w> Inspection<'w> {
 
     /// The pairs of movable groups that are tested.
     pub fn pairs(&self) -> &'w [GroupPair] {
-        &self.running.sealed.group_pairs
+        &self.runtime.sealed.group_pairs
     }
 
     /// Whether primitives of two movable groups have a test, the first as A.
@@ -82,12 +82,12 @@ impl<'w> Inspection<'w> {
     /// The combined values of two surfaces that can meet, by the table of their direction ([`GroupPair::tables`]) and their
     /// indices in the two models.
     pub fn surface_values(&self, table: usize, (a, b): (u32, u32)) -> &'w PairProps {
-        self.running.tables[table].props(a, b)
+        self.runtime.tables[table].props(a, b)
     }
 
     /// `model/surface` of two surfaces of a table.
     pub fn surface_names(&self, table: usize, (a, b): (u32, u32)) -> [String; 2] {
-        let table = &self.running.tables[table];
+        let table = &self.runtime.tables[table];
         let full = |model: usize, surface: u32| {
             let model = &self.scene.models[model];
             format!("{}/{}", model.name, model.surfaces[surface as usize].name)
@@ -100,7 +100,7 @@ impl<'w> Inspection<'w> {
     /// # Errors
     /// [`EngineError::WrongPhase`] before the first frame.
     pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact<'w>>, EngineError> {
-        let Running { sealed, frame, .. } = self.running;
+        let Runtime { sealed, frame, .. } = self.runtime;
         if !frame.computed {
             let cure = "evaluate or step a frame first";
             return Err(EngineError::WrongPhase { call: "ask what pushes", cure });

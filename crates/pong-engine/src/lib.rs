@@ -26,7 +26,7 @@ mod ids;
 pub mod inspect;
 mod law;
 mod report;
-mod running;
+mod runtime;
 mod scene;
 mod seal;
 mod sealed;

@@ -41,6 +41,8 @@ fn main() {
         let own = executive.contact_wrench(target);
         assert_eq!(wrench[..3], *own.force.as_slice());
         let ratio = through / direct;
-        println!("round {round}: executive {direct:.2} µs a step, fmi3DoStep {through:.2} µs: {ratio:.2} times");
+        println!(
+            "round {round}: executive {direct:.2} µs a step, fmi3DoStep {through:.2} µs: {ratio:.2} times"
+        );
     }
 }

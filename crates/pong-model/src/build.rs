@@ -4,7 +4,7 @@ use crate::draft::{BodyDraft, ModelDraft};
 use crate::model::{Model, MovableGroup};
 use crate::pieces::join_walls;
 use crate::read::{LISTED_PER_MESH, Reader};
-use crate::triangle_topology::{self, Findings, MeshWarning};
+use crate::triangle_topology::{self, MeshWarning, TopologyReport};
 use crate::weld::Welder;
 use crate::weld::WordMap;
 use crate::{arrange, hash, polyhedra, tree};
@@ -30,7 +30,7 @@ pub(crate) fn finish(reader: &mut Reader<'_>, draft: ModelDraft) -> Option<Model
 /// The tree comes last and only when nothing is wrong so far, since it trusts every element.
 fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     draft.welder = Welder::default();
-    let findings = knit_triangles(reader, draft);
+    let findings = connect_triangles(reader, draft);
     let surface_of = join_pieces(reader, draft);
     set_shells(&mut draft.body, &findings, &surface_of);
     if reader.fault_count() > 0 {
@@ -54,12 +54,12 @@ fn finish_body(reader: &mut Reader<'_>, draft: &mut BodyDraft) {
     }
 }
 
-fn knit_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Findings {
+fn connect_triangles(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> TopologyReport {
     if draft.body.triangles.triangles.len() > triangle_topology::TRIANGLE_LIMIT {
         let cause = "more triangles than one body may have";
         let cure = format!("{} is the most", triangle_topology::TRIANGLE_LIMIT);
         reader.fault(draft.groups[0].at, &draft.body.path, "too-many-triangles", cause, cure);
-        return Findings::default();
+        return TopologyReport::default();
     }
     let findings = triangle_topology::build_adjacency(&mut draft.body);
     for &(repeated, earlier) in findings.duplicates.iter().take(LISTED_PER_MESH) {
@@ -139,7 +139,7 @@ fn join_pieces(reader: &mut Reader<'_>, draft: &mut BodyDraft) -> Vec<u32> {
 }
 
 /// Numbers the shells in the order of their first element.
-fn set_shells(body: &mut MovableGroup, findings: &Findings, surface_of: &[u32]) {
+fn set_shells(body: &mut MovableGroup, findings: &TopologyReport, surface_of: &[u32]) {
     let mut count = 0;
     let mut next = || {
         count += 1;

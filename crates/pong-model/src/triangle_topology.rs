@@ -22,9 +22,9 @@ pub(crate) enum MeshWarning {
     TJunction { triangle: u32, vertex: u32 },
 }
 
-/// What was found while knitting.
+/// What was found while triangles were connected.
 #[derive(Default)]
-pub(crate) struct Findings {
+pub(crate) struct TopologyReport {
     pub(crate) mesh_warnings: Vec<MeshWarning>,
     /// Triangles that repeat an earlier one: (repeated, earlier).
     pub(crate) duplicates: Vec<(u32, u32)>,
@@ -36,9 +36,9 @@ pub(crate) struct Findings {
 type HalfEdge = (u64, u32);
 
 /// Sets the neighbours of all triangles, and which of their features may push.
-pub(crate) fn build_adjacency(body: &mut MovableGroup) -> Findings {
+pub(crate) fn build_adjacency(body: &mut MovableGroup) -> TopologyReport {
     let mut findings =
-        Findings { shell_leader: vec![0; body.triangles.triangles.len()], ..Findings::default() };
+        TopologyReport { shell_leader: vec![0; body.triangles.triangles.len()], ..TopologyReport::default() };
     for mirrors in [false, true] {
         let part = triangles_of(body, mirrors);
         let set = &mut body.triangles;

@@ -25,6 +25,10 @@ pub(super) fn told(report: &StepReport, plan: &StepPlan, friction_share: f64) ->
         ];
         let rows: Vec<Vec<String>> = report.pairs.iter().map(|pair| row(pair, plan)).collect();
         text += &table::aligned(&heading, &rows);
+        if report.pairs.iter().any(|pair| pair.bounce.is_some()) {
+            text += "Depth and rebound are those of one contact that carries the whole mass. Where n contacts share it, they are \
+                     farther off: ask without a file, with `--contacts n`.\n";
+        }
         text += &friction(report, plan, friction_share);
         text += &together(report);
         text += &first_to_fail(report, plan);

@@ -111,8 +111,8 @@ impl PairEnergies {
         }
     }
 
-    /// The pair is forgotten: no episode lasts, nothing is on its way, and what it had stored is gone.
-    pub fn forget(&mut self, pair: usize, stored: f64) {
+    /// The history of the pair is cleared: no episode lasts, nothing is on its way, and what it had stored is gone.
+    pub fn clear_history(&mut self, pair: usize, stored: f64) {
         if let Some(energy) = self.pairs.get_mut(pair) {
             energy.total.inserted -= stored;
             energy.episode = ContactEpisode::default();

@@ -9,8 +9,8 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::frame::narrow_phase::element_pair::Findings;
-use crate::frame::narrow_phase::testers::{Target, test_waiting};
+use crate::frame::narrow_phase::element_pair::ChunkCandidates;
+use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
@@ -71,7 +71,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let plan = &sealed.plans[block.plan as usize];
         let context = PairContext::new(scene, sealed, input, plan);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, waiting, out } = worker;
+        let WorkerContext { arena, scratch, candidates, deferred, out } = worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -79,7 +79,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut carried = arena.list(LANES).expect(room);
-        let mut found = Findings::new(arena.list(sealed.limits.found).expect(room), waiting);
+        let mut found = ChunkCandidates::new(arena.list(sealed.limits.found).expect(room), deferred);
         let law_state = arena.slice(sealed.law_state_len, 0.0).expect(room);
         let mut shared_contacts = arena.list(sealed.limits.found).expect(room);
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
@@ -163,7 +163,7 @@ fn test_chunk<S: Simd, L: Laps>(
     reach: &[Reach<'_>],
     (mut traversal, candidates): (Option<Traversal>, &mut CandidatePairs),
     carried: &mut List<'_, TransformedPrimitive>,
-    found: &mut Findings<'_>,
+    found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
     watch: &mut Watched<'_, L>,
 ) {
@@ -193,8 +193,8 @@ fn test_chunk<S: Simd, L: Laps>(
                 target.test_lanes(simd, &chunk, near, found, counts);
             }
         }
-        if found.waits() {
-            test_waiting(context, &chunk, found, counts);
+        if found.has_deferred() {
+            test_deferred(context, &chunk, found, counts);
         }
         watch.laps.lap(Work::NarrowPhase, watch.times);
         if through {

@@ -2,7 +2,7 @@
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
 use crate::frame::forces::contact_buffer::ContactBuffer;
-use crate::frame::narrow_phase::element_pair::Waiting;
+use crate::frame::narrow_phase::element_pair::DeferredPairs;
 use crate::sealed::Sealed;
 use pong_arena::Arena;
 
@@ -14,7 +14,7 @@ pub(crate) struct WorkerContext {
     /// For one solution among contacts of one key.
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
-    pub(crate) waiting: Waiting,
+    pub(crate) deferred: DeferredPairs,
     pub out: ContactBuffer,
 }
 
@@ -25,7 +25,7 @@ impl WorkerContext {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
-            waiting: Waiting::default(),
+            deferred: DeferredPairs::default(),
             out: ContactBuffer::new(sealed.law_state_len, contacts, ranks),
         }
     }

@@ -106,3 +106,10 @@ impl Scene {
         format!("{}/{}", object.name, self.body(instance).path)
     }
 }
+
+/// The path of a movable group below the root of its model; empty for the root.
+pub(crate) fn below_root<'m>(model: &Model, group: &'m MovableGroup) -> &'m str {
+    let below =
+        group.path.strip_prefix(model.bodies[0].path.as_str()).expect("every path begins with the root's");
+    below.strip_prefix('/').unwrap_or(below)
+}

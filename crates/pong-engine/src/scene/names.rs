@@ -1,6 +1,6 @@
 //! Names and ids: from one to the other, and to what they stand for.
 
-use super::Scene;
+use super::{Scene, below_root};
 use crate::energy::account::WrenchCoupling;
 use crate::error::EngineError;
 use crate::ids::{InterfaceId, ModelId, ObjectId, PairId};
@@ -95,21 +95,23 @@ impl Scene {
         Ok([pair.a, pair.b].map(|index| ObjectId::new(self.stamp, index)))
     }
 
-    /// The Interface of a movable group by its path in the model, `root/arm/latch`, or by its bare name where
-    /// only one movable group has it. An empty path is the root.
+    /// The Interface of a movable group by its path in the model, `root/arm/latch`, by its path below the root, `arm/latch`,
+    /// or by its bare name where only one movable group has it. An empty path is the root.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Object that this scene did not give out, [`EngineError::UnknownName`] for a path that
     /// leads to no movable group and for a bare name that several have.
     pub fn interface(&self, object: ObjectId, path: &str) -> Result<InterfaceId, EngineError> {
         let object = &self.objects[self.object_index(object)?];
-        let bodies = &self.models[object.model].bodies;
+        let model = &self.models[object.model];
+        let bodies = &model.bodies;
         let by_path = bodies.iter().position(|body| body.path == path);
+        let below = || bodies.iter().position(|body| below_root(model, body) == path);
         let by_name = || {
             let mut named = bodies.iter().enumerate().filter(|(_, body)| body.name == path);
             named.next().filter(|_| named.next().is_none()).map(|(index, _)| index)
         };
-        let found = if path.is_empty() { Some(0) } else { by_path.or_else(by_name) };
+        let found = if path.is_empty() { Some(0) } else { by_path.or_else(below).or_else(by_name) };
         match found {
             Some(body) => Ok(InterfaceId::new(self.stamp, object.first_body + body)),
             None => Err(EngineError::UnknownName {
@@ -130,7 +132,21 @@ impl Scene {
         Ok((0..count).map(|body| InterfaceId::new(self.stamp, object.first_body + body)).collect())
     }
 
-    /// `object/path` of a movable group, as messages name it.
+    /// The name of a movable group in scenes and logs: that of its Object for the root, `object/path below the root` for
+    /// others.
+    ///
+    /// # Errors
+    /// [`EngineError::UnknownId`] for an id that this scene did not give out.
+    pub fn group_name(&self, interface: InterfaceId) -> Result<String, EngineError> {
+        let body = self.body_index(interface)?;
+        let object = &self.objects[self.bodies[body].object];
+        Ok(match below_root(&self.models[object.model], self.body(body)) {
+            "" => object.name.clone(),
+            path => format!("{}/{path}", object.name),
+        })
+    }
+
+    /// `object/path` of a movable group, with the root of its model, as messages name it.
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an id that this scene did not give out.

@@ -122,7 +122,7 @@ pub(crate) struct Remembered<'a> {
 pub(crate) struct PairPose {
     /// Pose of the first group seen from the second, and of the second seen from the first.
     pub relative: [Pose; 2],
-    /// False until the first commit, and again after the pair was forgotten or switched off.
+    /// False until the first commit, and again after the history of the pair was cleared or switched off.
     pub known: bool,
 }
 
@@ -295,22 +295,22 @@ impl ContactMemory {
         &self.law_state[record * self.law_state_len..(record + 1) * self.law_state_len]
     }
 
-    /// Drops everything remembered of the pairs of movable groups that `forgotten` names.
-    pub fn forget(&mut self, forgotten: impl Fn(u32) -> bool) {
+    /// Drops everything remembered of the pairs of movable groups that `cleared` names.
+    pub fn clear_history(&mut self, cleared: impl Fn(u32) -> bool) {
         for (index, pose) in self.poses.iter_mut().enumerate() {
-            if forgotten(index as u32) {
+            if cleared(index as u32) {
                 *pose = PairPose::unknown();
                 if !self.pair_energies.pairs.is_empty() {
                     let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
                     let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
-                    self.pair_energies.forget(index, pushing.map(|record| record.stored).sum());
+                    self.pair_energies.clear_history(index, pushing.map(|record| record.stored).sum());
                 }
             }
         }
         let stride = self.law_state_len;
         let mut kept = 0;
         for index in 0..self.records.len() {
-            if !forgotten(self.records[index].key.group_pair) {
+            if !cleared(self.records[index].key.group_pair) {
                 self.records[kept] = self.records[index];
                 self.law_state.copy_within(index * stride..(index + 1) * stride, kept * stride);
                 self.energies.copy_within(index, kept);

@@ -134,7 +134,7 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
         let forgotten = random.below(1 << GROUP_PAIRS);
         let is_forgotten = |pair: u32| forgotten >> pair & 1 == 1;
         let mut left = memory.clone();
-        left.forget(is_forgotten);
+        left.clear_history(is_forgotten);
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_forgotten(record.key.group_pair));
         assert_eq!(listed(&left), expected);

@@ -16,7 +16,7 @@ impl World {
         let pair = self.scene.pair_index(pair)?;
         if self.states.enabled[pair] != enabled {
             self.states.enabled[pair] = enabled;
-            self.running.forget(|groups| groups.pair == pair);
+            self.runtime.clear_history(|groups| groups.pair == pair);
         }
         Ok(())
     }
@@ -36,8 +36,9 @@ impl World {
     pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.scene.object_index(object)?;
         let bodies = &self.scene.bodies;
-        self.running
-            .forget(|pair| bodies[pair.first].object == object || bodies[pair.second].object == object);
+        self.runtime.clear_history(|pair| {
+            bodies[pair.first].object == object || bodies[pair.second].object == object
+        });
         Ok(())
     }
 
@@ -50,10 +51,10 @@ impl World {
     pub fn set_surface(&mut self, model: ModelId, surface: &Surface) -> Result<(), EngineError> {
         let model = self.scene.model_index(model)?;
         let before = self.surfaces.replace(model, surface)?;
-        let pairs = &self.running.sealed.group_pairs;
+        let pairs = &self.runtime.sealed.group_pairs;
         match seal::surface_tables(&self.scene, &self.surfaces.of_models, pairs) {
             Ok(tables) => {
-                self.running.set_tables(tables);
+                self.runtime.set_tables(tables);
                 Ok(())
             }
             Err(problems) => {

@@ -20,7 +20,7 @@ impl World {
     /// [`EngineError::OutOfMemory`] if the system has not the memory that frames take, [`EngineError::Workers`] if the workers
     /// cannot be started. This world is as it was.
     pub fn try_clone(&self) -> Result<Self, EngineError> {
-        self.clone_of(Arc::clone(&self.scene), Arc::clone(&self.running.tables))
+        self.clone_of(Arc::clone(&self.scene), Arc::clone(&self.runtime.tables))
     }
 
     /// As [`try_clone`](Self::try_clone), with other instances of the registered laws under the same names: for laws that keep
@@ -39,7 +39,7 @@ impl World {
             );
         }
         let scene = Scene { laws, ..Scene::clone(&self.scene) };
-        let sealed = &self.running.sealed;
+        let sealed = &self.runtime.sealed;
         let tables = seal::surface_tables(&scene, &self.surfaces.of_models, &sealed.group_pairs)
             .map_err(|problems| EngineError::Seal { problems })?;
         if seal::law_state_len(&tables) != sealed.law_state_len {
@@ -51,8 +51,8 @@ impl World {
     }
 
     fn clone_of(&self, scene: Arc<Scene>, tables: Arc<Vec<SurfaceTable>>) -> Result<Self, EngineError> {
-        seal::require_memory_of_clone(&scene, &self.running.sealed)?;
-        let running = self.running.start_clone(&scene, tables)?;
-        Ok(Self { scene, surfaces: self.surfaces.clone(), states: self.states.clone(), running })
+        seal::require_memory_of_clone(&scene, &self.runtime.sealed)?;
+        let runtime = self.runtime.start_clone(&scene, tables)?;
+        Ok(Self { scene, surfaces: self.surfaces.clone(), states: self.states.clone(), runtime })
     }
 }

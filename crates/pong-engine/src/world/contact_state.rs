@@ -7,17 +7,17 @@ impl World {
     /// Size of the largest contact state block that this world can have, bytes; fixed by the seal. A buffer of this size is
     /// always large enough to save into.
     pub fn state_size(&self) -> usize {
-        self.running.state_size()
+        self.runtime.state_size()
     }
 
     /// Size of the block of what is remembered now, bytes: it grows and shrinks with the contacts of the last commit.
     pub fn state_used(&self) -> usize {
-        self.running.state_used()
+        self.runtime.state_used()
     }
 
     /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.
     pub fn has_contact_state(&self) -> bool {
-        let memory = &self.running.memory;
+        let memory = &self.runtime.memory;
         memory.poses.iter().any(|pair| pair.known)
             || memory.records.iter().len() > 0
             || (memory.work, memory.dissipated) != (0.0, 0.0)
@@ -29,14 +29,14 @@ impl World {
     /// # Errors
     /// [`EngineError::State`] if the buffer is too small.
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), EngineError> {
-        Ok(self.running.save_state(out)?)
+        Ok(self.runtime.save_state(out)?)
     }
 
     /// Saves the committed contact state into a buffer that becomes as long as the block. The last eight bytes are a hash
     /// of all before them.
     pub fn save_state_packed(&self, out: &mut Vec<u8>) {
-        out.resize(self.running.state_used(), 0);
-        self.running.save_state(out).expect("the buffer is as long as the block");
+        out.resize(self.runtime.state_used(), 0);
+        self.runtime.save_state(out).expect("the buffer is as long as the block");
     }
 
     /// Restores a contact state that a world built by the same calls saved: the block alone, or with zeros behind it up to
@@ -45,6 +45,6 @@ impl World {
     /// # Errors
     /// [`EngineError::State`] for a block of another world, another format, or that was damaged; what is remembered stays.
     pub fn restore_state(&mut self, block: &[u8]) -> Result<(), EngineError> {
-        Ok(self.running.restore_state(&self.scene, block)?)
+        Ok(self.runtime.restore_state(&self.scene, block)?)
     }
 }

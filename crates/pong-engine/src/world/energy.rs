@@ -8,7 +8,7 @@ use crate::ids::{InterfaceId, PairId};
 impl World {
     /// Energies at the last commit, J. Zero unless [`Config::ledger`](crate::Config::ledger) is set.
     pub fn ledger(&self) -> Ledger {
-        let memory = &self.running.memory;
+        let memory = &self.runtime.memory;
         let stored = memory.records.iter().map(|record| record.stored).sum();
         Ledger { stored, work: memory.work, dissipated: memory.dissipated }
     }
@@ -16,7 +16,7 @@ impl World {
     /// Accounts of the contacts of the last frame, one for each of [`contacts`](Self::contacts) and in their order; empty
     /// unless [`Config::accounts`](crate::Config::accounts) is set.
     pub fn contact_accounts(&self) -> impl Iterator<Item = EnergyAccount> + '_ {
-        let kept = self.scene.config.accounts.map(|_| self.running.frame.list_accounts());
+        let kept = self.scene.config.accounts.map(|_| self.runtime.frame.list_accounts());
         kept.into_iter().flatten()
     }
 
@@ -24,7 +24,7 @@ impl World {
     /// [`Config::accounts`](crate::Config::accounts) is set.
     pub fn pair_accounts(&self) -> impl Iterator<Item = PairEnergyAccount> + '_ {
         let stamp = self.scene.stamp;
-        self.running.pair_energies().map(move |(pair, energy, total, episode, stiffest)| PairEnergyAccount {
+        self.runtime.pair_energies().map(move |(pair, energy, total, episode, stiffest)| PairEnergyAccount {
             pair: PairId::new(stamp, pair.pair),
             interfaces: [pair.first, pair.second].map(|body| InterfaceId::new(stamp, body)),
             total,

@@ -27,7 +27,7 @@ impl World {
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
         // A host that sets the same states again, for a commit, must not pay for a second evaluation.
         if self.states.set(&self.scene, states)? {
-            self.running.changed();
+            self.runtime.changed();
         }
         Ok(())
     }
@@ -57,18 +57,18 @@ impl World {
     /// [`EngineError::UnsetState`] while a movable group of an enabled pair has no state; [`EngineError::NotFinite`] if forces,
     /// moments or energies are beyond what a number holds.
     pub fn evaluate(&mut self) -> Result<FrameReport, EngineError> {
-        self.running.evaluate(&self.scene, &self.states)
+        self.runtime.evaluate(&self.scene, &self.states)
     }
 
     /// Whether the last frame belongs to the states presently set: a commit would accept it as it is.
     pub fn is_evaluated(&self) -> bool {
-        self.running.evaluated
+        self.runtime.evaluated
     }
 
     /// Whether wrenches and contacts are those of the states, pairs and surfaces as they are set now. A commit does not
     /// change that.
     pub fn frame_is_current(&self) -> bool {
-        self.running.current
+        self.runtime.current
     }
 
     /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated.
@@ -77,7 +77,7 @@ impl World {
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.require_evaluated()?;
-        self.running.commit();
+        self.runtime.commit();
         Ok(())
     }
 
@@ -92,7 +92,7 @@ impl World {
         self.require_evaluated()?;
         let stamp = self.scene.stamp;
         let accepts = |pair| pairs.iter().any(|accepted| accepted.index_in(stamp) == Some(pair));
-        self.running.commit_pairs(accepts);
+        self.runtime.commit_pairs(accepts);
         Ok(())
     }
 
@@ -131,11 +131,11 @@ impl World {
             return Err(EngineError::BadValue { what: "preload of friction".to_owned(), cause });
         }
         self.commit()?;
-        Ok(self.running.preload(&self.scene, index, preload))
+        Ok(self.runtime.preload(&self.scene, index, preload))
     }
 
     fn require_evaluated(&mut self) -> Result<(), EngineError> {
-        if !self.running.evaluated {
+        if !self.runtime.evaluated {
             self.evaluate()?;
         }
         Ok(())

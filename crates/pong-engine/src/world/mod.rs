@@ -19,7 +19,7 @@ mod results;
 mod workers;
 
 use crate::inspect::Inspection;
-use crate::running::Running;
+use crate::runtime::Runtime;
 use crate::scene::{Scene, States, Surfaces};
 use std::sync::Arc;
 
@@ -32,12 +32,12 @@ pub struct World {
     scene: Arc<Scene>,
     surfaces: Surfaces,
     states: States,
-    running: Running,
+    runtime: Runtime,
 }
 
 impl World {
-    pub(crate) fn new(scene: Arc<Scene>, surfaces: Surfaces, states: States, running: Running) -> Self {
-        Self { scene, surfaces, states, running }
+    pub(crate) fn new(scene: Arc<Scene>, surfaces: Surfaces, states: States, runtime: Runtime) -> Self {
+        Self { scene, surfaces, states, runtime }
     }
 
     /// What was set up: models, Objects, pairs and laws, with their names and ids.
@@ -47,16 +47,16 @@ impl World {
 
     /// Hash of the sealed scene: two worlds with equal hashes can exchange contact state.
     pub fn scene_hash(&self) -> u64 {
-        self.running.sealed.hash
+        self.runtime.sealed.hash
     }
 
     /// Most contacts of a frame.
     pub fn contact_capacity(&self) -> usize {
-        self.running.sealed.contact_capacity
+        self.runtime.sealed.contact_capacity
     }
 
     /// What a tool beside the engine reads of the world.
     pub fn inspect(&self) -> Inspection<'_> {
-        Inspection::new(&self.scene, &self.running)
+        Inspection::new(&self.scene, &self.runtime)
     }
 }

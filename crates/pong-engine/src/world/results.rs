@@ -6,7 +6,7 @@ use crate::error::EngineError;
 use crate::frame::TunnellingEvent;
 use crate::ids::InterfaceId;
 use crate::report::{FrameCounts, FrameReport, TunnellingReport};
-use crate::running::Running;
+use crate::runtime::Runtime;
 use pong_geometry::Wrench;
 
 impl World {
@@ -37,7 +37,7 @@ impl World {
 
     /// As [`contacts`](Self::contacts), one by one and without a list of their own.
     pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
-        self.running.frame.list_contacts(&self.scene, &self.running.sealed)
+        self.runtime.frame.list_contacts(&self.scene, &self.runtime.sealed)
     }
 
     /// Number of contacts of the last frame.
@@ -47,7 +47,7 @@ impl World {
 
     /// The last frame in short.
     pub fn report(&self) -> FrameReport {
-        self.running.frame.report
+        self.runtime.frame.report
     }
 
     /// What went right through something else between the last commit and the last frame, if anything did
@@ -55,7 +55,7 @@ impl World {
     /// the middle of a segment are followed along straight lines; what is shorter than half of the thinnest part of the
     /// other movable group is taken to have gone through none.
     pub fn tunnelling(&self) -> Option<TunnellingReport> {
-        let events = &self.running.frame.tunnelling;
+        let events = &self.runtime.frame.tunnelling;
         let TunnellingEvent { body_a, primitive_a, body_b } = events.first?;
         let interface = |body| InterfaceId::new(self.scene.stamp, body);
         Some(TunnellingReport {
@@ -68,13 +68,13 @@ impl World {
 
     /// How often what was tested in the last frame, and what that found.
     pub fn counts(&self) -> FrameCounts {
-        self.running.frame.counts
+        self.runtime.frame.counts
     }
 
     /// What runs, if a frame has been computed.
-    fn framed(&self) -> Result<&Running, EngineError> {
-        if self.running.frame.computed {
-            return Ok(&self.running);
+    fn framed(&self) -> Result<&Runtime, EngineError> {
+        if self.runtime.frame.computed {
+            return Ok(&self.runtime);
         }
         Err(EngineError::WrongPhase { call: "get a wrench", cure: "evaluate or step a frame first" })
     }

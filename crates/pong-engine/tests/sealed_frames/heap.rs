@@ -33,7 +33,7 @@ const CALLS: [&str; 15] = [
     "commit_pairs",
     "step",
     "set_pair_enabled",
-    "forget",
+    "clear_contact_history",
     "save_state",
     "restore_state",
     "contacts_iter",

@@ -206,7 +206,7 @@ impl Bench {
             5 => {
                 let object = self.movers[(i / 7) as usize % 2];
                 if (i / 14).is_multiple_of(5) {
-                    during("forget", || world.clear_contact_history(object)).unwrap();
+                    during("clear_contact_history", || world.clear_contact_history(object)).unwrap();
                 }
                 during("step", || world.step()).unwrap();
             }

@@ -79,6 +79,8 @@ impl ObjectBodies<'_> {
             group => format!("{}/{group}", self.object.name),
         };
         let interface = self.setting.interface(self.document, &name, thing, faults);
+        // One name for one body, however the scene writes its group.
+        let name = interface.and_then(|id| self.setting.world.scene().group_name(id).ok()).unwrap_or(name);
         let start = self.start(entry, interface, thing, faults);
         let twist = start_twist(entry, thing, faults);
         let motion = motion(entry, &start, &twist, thing, faults);

@@ -13,8 +13,9 @@ pub struct Solid {
 
 /// The columns of any rotation.
 pub fn turn(random: &mut Random) -> [Vec3; 3] {
-    let rotation = random.rotation_matrix();
-    [0, 1, 2].map(|k| rotation.column(k).into())
+    let x = random.direction();
+    let y = random.across(&x);
+    [x, y, x.cross(&y)]
 }
 
 pub type Whole = [i64; 3];

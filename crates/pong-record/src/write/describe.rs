@@ -5,7 +5,6 @@ use crate::format::{FORMAT, VERSION};
 use crate::run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{EngineError, World};
-use pong_model::{Model, MovableGroup};
 
 /// What run.json says as a log begins. `models` are the files of the models in the folder of the log.
 pub(crate) fn describe(
@@ -19,7 +18,7 @@ pub(crate) fn describe(
         let name = world.scene().object_name(object)?;
         let model = world.scene().model_of(object)?;
         let first = bodies.len();
-        for body in &model.bodies {
+        for (body, interface) in model.bodies.iter().zip(world.scene().interfaces(object)?) {
             primitives.extend(body.primitives.iter().map(|primitive| RunPrimitive {
                 body: bodies.len(),
                 path: primitive.path.clone(),
@@ -27,7 +26,7 @@ pub(crate) fn describe(
                 surface: model.surfaces[primitive.surface as usize].name.clone(),
             }));
             bodies.push(RunBody {
-                name: body_name(name, model, body),
+                name: world.scene().group_name(interface)?,
                 object: object.index(),
                 path: body.path.clone(),
                 parent: body.parent.map(|parent| first + parent as usize),
@@ -66,13 +65,4 @@ pub(crate) fn describe(
 /// The file of a table.
 pub(super) fn file(table: &str) -> String {
     format!("{table}.npy")
-}
-
-/// The Object's name for the root, with the path below the root for others.
-fn body_name(object: &str, model: &Model, body: &MovableGroup) -> String {
-    let root = &model.bodies[0].path;
-    match body.path.strip_prefix(root.as_str()).and_then(|rest| rest.strip_prefix('/')) {
-        Some(below) => format!("{object}/{below}"),
-        None => object.to_owned(),
-    }
 }

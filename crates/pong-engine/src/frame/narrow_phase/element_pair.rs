@@ -15,38 +15,38 @@ use pong_geometry::primitive::{Containment, PrimitiveKind};
 use pong_geometry::simd::LANES;
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
-/// What testers find for one chunk of A.
-pub(crate) struct Findings<'m> {
+/// The candidates that contact testers find for one chunk of A.
+pub(crate) struct ChunkCandidates<'m> {
     pub list: List<'m, ContactCandidate>,
     /// How many there were, those without room included.
     pub seen: u64,
     /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
     /// less than a frame may keep.
     pub overflowed: bool,
-    pub waiting: &'m mut Waiting,
+    pub deferred: &'m mut DeferredPairs,
     pub sides: KnownSides,
 }
 
-/// Spheres that may touch triangles, until eight are together or the batch of B ends.
+/// Spheres that may touch triangles. Their tests are deferred until eight are together or the batch of B ends.
 #[derive(Debug)]
-pub(crate) struct Waiting {
+pub(crate) struct DeferredPairs {
     pub pairs: SphereTrianglePairs,
     /// Of each pair the lane of A and the triangle.
     pub from: [(u8, Item); LANES],
 }
 
-impl Default for Waiting {
+impl Default for DeferredPairs {
     fn default() -> Self {
         let nobody = Item { primitive: 0, element: 0 };
         Self { pairs: SphereTrianglePairs::default(), from: [(0, nobody); LANES] }
     }
 }
 
-impl<'m> Findings<'m> {
-    pub fn new(list: List<'m, ContactCandidate>, waiting: &'m mut Waiting) -> Self {
+impl<'m> ChunkCandidates<'m> {
+    pub fn new(list: List<'m, ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
         // A panic may have left some.
-        waiting.pairs.clear();
-        Self { list, seen: 0, overflowed: false, waiting, sides: KnownSides::default() }
+        deferred.pairs.clear();
+        Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
     }
 
     pub fn clear(&mut self) {
@@ -54,10 +54,10 @@ impl<'m> Findings<'m> {
         (self.seen, self.overflowed) = (0, false);
     }
 
-    /// Whether anything waits to be tested.
+    /// Whether pairs were put off that are not tested yet.
     #[inline]
-    pub fn waits(&self) -> bool {
-        self.waiting.pairs.count() > 0
+    pub fn has_deferred(&self) -> bool {
+        self.deferred.pairs.count() > 0
     }
 
     /// One candidate more.
@@ -130,13 +130,13 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    pub fn whole(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
+    pub fn whole(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |_| ());
         }
     }
 
-    pub fn sharing(&self, contact: Option<Interference>, found: &mut Findings<'_>) {
+    pub fn sharing(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |out| out.shares = true);
         }
@@ -145,7 +145,7 @@ impl<'a> ElementPair<'a> {
     pub fn emit(
         &self,
         contact: &Interference,
-        found: &mut Findings<'_>,
+        found: &mut ChunkCandidates<'_>,
         adjust: impl FnOnce(&mut ContactCandidate),
     ) {
         let mut out = ContactCandidate::new(self.key(), contact);

@@ -1,7 +1,7 @@
 //! What a sphere and an ellipsoid have in common on a triangle: the side that they came from, and how deep they are pushed.
 
 use super::candidate::CandidateStatus;
-use super::element_pair::{ElementPair, Findings};
+use super::element_pair::{ChunkCandidates, ElementPair};
 use super::nearest_side::{KnownSides, Nearby};
 use super::side_of_entry::TriangleEntry;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
@@ -19,7 +19,7 @@ pub(crate) fn on_triangle(
     pair: &ElementPair<'_>,
     (local, center): (&Vec3, &Vec3),
     contact: TriangleContact,
-    found: &mut Findings<'_>,
+    found: &mut ChunkCandidates<'_>,
 ) {
     let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(local));
     if earlier.is_none() && is_set_down_in_front(pair, center, &contact, &mut found.sides) {

@@ -1,12 +1,12 @@
 //! Tests that the host has registered.
 
-use super::element_pair::{ElementPair, Findings};
+use super::element_pair::{ChunkCandidates, ElementPair};
 use pong_geometry::extension::PrimitiveRef;
 use pong_geometry::primitive::PrimitiveKind::{self, Custom, Plane, Polyhedron, Triangle};
 use pong_model::{Item, MovableGroup};
 
 /// Runs the test that is registered for a pair of kinds, if there is one.
-pub(crate) fn test(pair: &ElementPair<'_>, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, found: &mut ChunkCandidates<'_>) {
     let a = element_ref(pair.body_a(), pair.item_a);
     let b = element_ref(pair.body_b(), pair.item_b);
     let extensions = &pair.context.scene.extensions;

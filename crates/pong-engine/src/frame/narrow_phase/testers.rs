@@ -1,6 +1,6 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
-use super::element_pair::{ElementPair, Findings, Waiting};
+use super::element_pair::{ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for_sphere;
 use super::pair_table::{Test, sphere_triangle, test_of};
 use super::registered;
@@ -27,12 +27,12 @@ impl<'a> Target<'a> {
         simd: S,
         chunk: &Chunk<'_, '_, '_>,
         near: LaneBits,
-        found: &mut Findings<'_>,
+        found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
     ) {
         if (chunk.kind, self.kind_b) == (PrimitiveKind::Sphere, Triangle) {
             counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
-            return self.let_wait(chunk, near, found, counts);
+            return self.defer(chunk, near, found, counts);
         }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
@@ -46,24 +46,24 @@ impl<'a> Target<'a> {
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
 
-    /// Keeps spheres near a triangle until there are eight such pairs.
+    /// Defers the tests of spheres near a triangle until there are eight such pairs.
     #[inline(always)]
-    fn let_wait(
+    fn defer(
         &self,
         chunk: &Chunk<'_, '_, '_>,
         near: LaneBits,
-        found: &mut Findings<'_>,
+        found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
     ) {
         let triangles = &self.context.body_b.triangles;
         for lane in lanes(near) {
             let sphere = chunk.sphere(lane);
             let thickness = thickness_for_sphere(self.context, self.item_b, &sphere);
-            let Waiting { pairs, from } = &mut *found.waiting;
+            let DeferredPairs { pairs, from } = &mut *found.deferred;
             from[pairs.count()] = (lane as u8, self.item_b);
             pairs.add(&sphere, triangles, self.item_b.element, thickness);
             if pairs.count() == LANES {
-                test_waiting(self.context, chunk, found, counts);
+                test_deferred(self.context, chunk, found, counts);
             }
         }
     }
@@ -83,7 +83,13 @@ impl<'a> Target<'a> {
     }
 
     #[inline(always)]
-    fn test_one(&self, test: Option<Test>, chunk: &Chunk<'_, '_, '_>, lane: usize, found: &mut Findings<'_>) {
+    fn test_one(
+        &self,
+        test: Option<Test>,
+        chunk: &Chunk<'_, '_, '_>,
+        lane: usize,
+        found: &mut ChunkCandidates<'_>,
+    ) {
         let pair = ElementPair {
             context: self.context,
             item_a: chunk.items[lane],
@@ -105,18 +111,18 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Tests the spheres of a chunk that wait for their triangles, in the order in which they came.
+/// Makes the deferred tests of a chunk, in the order in which they came.
 #[inline(never)]
-pub(crate) fn test_waiting(
+pub(crate) fn test_deferred(
     context: &PairContext<'_>,
     chunk: &Chunk<'_, '_, '_>,
-    found: &mut Findings<'_>,
+    found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {
     let before = found.seen;
-    let told = found.waiting.pairs.take();
+    let told = found.deferred.pairs.take();
     for place in lanes(told.near) {
-        let (lane, item_b) = found.waiting.from[place];
+        let (lane, item_b) = found.deferred.from[place];
         let lane = usize::from(lane);
         let pair = ElementPair { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
         sphere_triangle::test_sphere(&pair, &chunk.sphere(lane), told.over_face >> place & 1 == 1, found);

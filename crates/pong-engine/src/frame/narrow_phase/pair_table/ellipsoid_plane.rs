@@ -1,10 +1,10 @@
 //! An ellipsoid in a half space.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use pong_geometry::interference::ellipsoid_plane::ellipsoid_plane;
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Ellipsoid(ellipsoid) = a else { wrong_kind(a) };
     pair.whole(ellipsoid_plane(ellipsoid, &pair.body_b().planes[pair.item_b.element as usize]), found);
 }

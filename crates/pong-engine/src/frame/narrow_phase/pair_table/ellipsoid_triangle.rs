@@ -1,11 +1,11 @@
 //! An ellipsoid on a triangle.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use crate::frame::narrow_phase::on_triangle::{on_triangle, thickness_for_ellipsoid};
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Ellipsoid(ellipsoid) = a else { wrong_kind(a) };
     let local = pair.body_a().ellipsoids[pair.item_a.element as usize].center;
     let thickness = thickness_for_ellipsoid(pair, ellipsoid);

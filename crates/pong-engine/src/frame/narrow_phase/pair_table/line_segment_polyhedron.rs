@@ -2,12 +2,12 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::line_segment_polyhedron::{AtWall, line_segment_piece};
 use pong_geometry::primitive::{Containment, Polyhedron};
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Segment(segment) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     for (end, found_there) in line_segment_piece(segment, polyhedron).iter().enumerate() {

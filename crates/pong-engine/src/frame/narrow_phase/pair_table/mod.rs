@@ -30,12 +30,12 @@ mod sphere_polyhedron;
 mod sphere_sphere;
 pub(crate) mod sphere_triangle;
 
-use super::element_pair::{ElementPair, Findings};
+use super::element_pair::{ChunkCandidates, ElementPair};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_geometry::primitive::PrimitiveKind::{self, *};
 
 /// A contact tester: one element of A, carried into B's frame, against one element of B.
-pub(crate) type Test = fn(&ElementPair<'_>, &TransformedPrimitive, &mut Findings<'_>);
+pub(crate) type Test = fn(&ElementPair<'_>, &TransformedPrimitive, &mut ChunkCandidates<'_>);
 
 /// A pair of kinds that is tested.
 pub(crate) struct KindPair {

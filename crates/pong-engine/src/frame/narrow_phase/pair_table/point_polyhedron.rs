@@ -3,10 +3,10 @@
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::narrow_phase::element_pair::status_of;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use pong_geometry::interference::point_polyhedron::point_below_face;
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Point(point) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     let status = match polyhedron.planes().all_active {

@@ -2,11 +2,11 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::status_of;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
 use pong_geometry::primitive::Containment;
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Sphere(sphere) = a else { wrong_kind(a) };
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     let containment = polyhedron.containment(&sphere.center);

@@ -1,12 +1,12 @@
 //! A sphere on a triangle.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use crate::frame::narrow_phase::element_pair::{ElementPair, Findings, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use crate::frame::narrow_phase::on_triangle::{on_triangle, thickness_for_sphere};
 use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_triangle};
 use pong_geometry::primitive::Sphere;
 
-pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut Findings<'_>) {
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Sphere(sphere) = a else { wrong_kind(a) };
     test_sphere(pair, sphere, false, found);
 }
@@ -16,7 +16,7 @@ pub(crate) fn test_sphere(
     pair: &ElementPair<'_>,
     sphere: &Sphere,
     over_face: bool,
-    found: &mut Findings<'_>,
+    found: &mut ChunkCandidates<'_>,
 ) {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
     let local = pair.body_a().spheres[pair.item_a.element as usize].center;

@@ -1,4 +1,5 @@
-//! What exists once a world is sealed: its memory, its workers, its frames.
+//! What a seal starts: the memory, the workers and the frames of a world. [`World`](crate::World) checks what a host gives
+//! and keeps the states; everything here has been checked.
 
 use crate::energy::account::EnergyAccount;
 use crate::energy::contact::ContactEnergies;
@@ -18,8 +19,8 @@ use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
 use std::time::Duration;
 
-/// A sealed world at work.
-pub(crate) struct Running {
+/// The memory and the workers of a sealed world, and its last frame.
+pub(crate) struct Runtime {
     pub sealed: Arc<Sealed>,
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The committed contact state.
@@ -39,7 +40,7 @@ pub(crate) struct Running {
     contacts_peak: usize,
 }
 
-impl Running {
+impl Runtime {
     /// Takes all memory and starts the workers.
     pub fn start(
         scene: &Arc<Scene>,
@@ -191,12 +192,12 @@ impl Running {
     }
 
     /// Drops what is remembered of some pairs of movable groups.
-    pub fn forget(&mut self, forgotten: impl Fn(&GroupPair) -> bool) {
+    pub fn clear_history(&mut self, cleared: impl Fn(&GroupPair) -> bool) {
         self.let_go_of_memory();
         let pairs = &self.sealed.group_pairs;
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            next.forget(|index| forgotten(&pairs[index as usize]));
+            next.clear_history(|index| cleared(&pairs[index as usize]));
         });
         self.changed();
     }
