@@ -56,9 +56,8 @@ def executive(pong, scene, folder):
 
 
 def name_in_unit(body):
-    """The scenes name a movable group by its bare name: `chaser/ring/latch_0` of a table is `chaser.latch_0` in the unit."""
-    parts = body.split("/")
-    return parts[0] if len(parts) == 1 else f"{parts[0]}.{parts[-1]}"
+    """A body of the docking, `chaser/ring/latch_0` in the tables of a run, is `chaser.ring.latch_0` in the unit."""
+    return body.replace("/", ".")
 
 
 class Unit:
