@@ -1,4 +1,4 @@
-//! Every example of docs/scene_format.md is read and run.
+//! Every example of docs/scene_format.md is read and run; what the page says of names of bodies.
 
 use pong_executive::Integrator;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
@@ -166,4 +166,27 @@ fn groups_start_where_their_author_put_them() {
     let place = |index: usize| built.simulation.pose(bodies[index]).position;
     assert_eq!([place(1).x, place(1).z], [0.05, 1.0]);
     assert_eq!([place(2).x, place(2).z], [-0.05, 1.0]);
+}
+
+/// A movable group may be written by its bare name, by its path below the root and by its whole path. Its body has one name,
+/// which is that of logs.
+#[test]
+fn a_body_has_one_name_however_the_scene_writes_its_group() {
+    let folder = pong_testkit::scratch(env!("CARGO_TARGET_TMPDIR"), "one_name");
+    let hand = r#"(format: "pong-model", version: 1, name: "hand", surfaces: { "s": (stiffness: 1e5) },
+        root: (name: "palm", surface: "s", groups: [(name: "finger", movable: true, groups: [
+            (name: "tip", movable: true, primitives: [Point(name: "p", position: (0, 0, 0))])])]))"#;
+    std::fs::write(folder.join("hand.ron"), hand).unwrap();
+    for group in ["tip", "finger/tip", "palm/finger/tip"] {
+        let text = format!(
+            r#"(format: "pong-scene", version: 1, name: "s", models: {{ "hand": "hand.ron" }},
+                objects: [(name: "left", model: "hand", bodies: [(motion: Fixed), (group: "finger", motion: Fixed),
+                    (group: "{group}", motion: Fixed)])],
+                pairs: [], integrator: RungeKutta4, step: 1e-3, duration: 1.0)"#
+        );
+        let scene = Scene::parse(&text, "s.ron", &folder).unwrap_or_else(|errors| panic!("{errors}"));
+        let built = scene.build().unwrap_or_else(|errors| panic!("{errors}"));
+        let names: Vec<&str> = built.simulation.bodies().map(|(_, body)| body.name.as_str()).collect();
+        assert_eq!(names, ["left", "left/finger", "left/finger/tip"], "{group}");
+    }
 }
