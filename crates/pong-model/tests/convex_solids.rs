@@ -3,11 +3,10 @@
 
 mod common;
 
-use common::solids::{Solid, cut_box, geodesic, prism, turn, uv_sphere};
+use common::solids::{Random, Solid, cut_box, geodesic, prism, uv_sphere};
 use pong_geometry::Vec3;
 use pong_geometry::extension::Extensions;
 use pong_geometry::primitive::Polyhedron;
-use pong_testkit::Random;
 
 /// That of docs/model_format.md, in diameters.
 const TOLERANCE: f64 = 1e-6;
@@ -58,9 +57,9 @@ fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
     let squash = Vec3::new(1.0, random.between(0.05, 1.0), random.between(0.01, 1.0));
     let point = |random: &mut Random| match kind {
         0 => random.direction(),
-        1 => random.direction() * random.unit(),
+        1 => random.direction() * random.share(),
         2 => random.direction().component_mul(&squash),
-        3 => Vec3::new(random.unit(), random.unit(), random.unit()),
+        3 => Vec3::new(random.share(), random.share(), random.share()),
         // Many places in few planes, moved by less than the tolerance.
         4 => {
             let side = random.direction();
@@ -73,7 +72,7 @@ fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
         // A chamfer of about the tolerance along every edge of a box.
         _ => {
             let mut place = Vec3::new(1.0, 1.0, 1.0) - random.direction().abs() * random.between(0.0, 1e-5);
-            (0..3).for_each(|k| place[k] *= if random.unit() < 0.5 { -1.0 } else { 1.0 });
+            (0..3).for_each(|k| place[k] *= if random.share() < 0.5 { -1.0 } else { 1.0 });
             place
         }
     };
@@ -85,7 +84,7 @@ fn hulls_by_the_thousand_load() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut tried = 0;
     for round in 0..4000 {
-        let (kind, count) = (round % 6, 4 + (random.unit() * random.unit() * 90.0) as usize);
+        let (kind, count) = (round % 6, 4 + (random.share() * random.share() * 90.0) as usize);
         let points = cloud(&mut random, kind, count);
         let Some(hull) = Solid::hull_of(&points, 2.0_f64.powi(-22)).filter(has_no_sliver) else { continue };
         tried += 1;
@@ -95,7 +94,7 @@ fn hulls_by_the_thousand_load() {
         }
         let size = 10.0_f64.powf(random.between(-4.0, 4.0));
         let to = random.direction() * (size * random.between(0.0, 2.0));
-        let posed = hull.posed(turn(&mut random), to, size);
+        let posed = hull.posed(random.turn(), to, size);
         if has_no_sliver(&posed) && thickness(&posed) > 4.0 * TOLERANCE * posed.diameter() {
             holds(&posed, &format!("round {round}, turned"));
         }
@@ -136,14 +135,15 @@ fn shallow_caps_load() {
         let height = 10.0_f64.powf(random.between(-5.3, -2.0));
         let points: Vec<Vec3> = (0..60)
             .map(|_| {
-                let (radius, turn) = (0.7 * random.unit().sqrt(), random.between(0.0, std::f64::consts::TAU));
+                let (radius, turn) =
+                    (0.7 * random.share().sqrt(), random.between(0.0, std::f64::consts::TAU));
                 let z = height * (1.0 - (radius / 0.7).powi(2));
                 Vec3::new(radius * libm::cos(turn), radius * libm::sin(turn), z)
             })
             .collect();
         let Some(cap) = Solid::hull_of(&points, 2.0_f64.powi(-24)) else { continue };
         holds(&cap, &format!("cap {height:e} high, round {round}"));
-        let turned = cap.posed(turn(&mut random), Vec3::zeros(), 1.0);
+        let turned = cap.posed(random.turn(), Vec3::zeros(), 1.0);
         holds(&turned, &format!("cap {height:e} high, round {round}, turned"));
     }
 }
@@ -155,7 +155,7 @@ fn solids_of_many_faces_load() {
         for height in [1e-3, 1.0, 300.0] {
             let prism = prism(sides, height);
             for solid in [prism.triangulated(), prism] {
-                let posed = solid.posed(turn(&mut random), random.direction() * 0.5, 0.7);
+                let posed = solid.posed(random.turn(), random.direction() * 0.5, 0.7);
                 holds(&posed, &format!("prism of {sides} sides, {height} high"));
             }
         }
@@ -163,12 +163,12 @@ fn solids_of_many_faces_load() {
     for (circles, meridians) in [(8, 16), (32, 64), (100, 200)] {
         let ball = uv_sphere(circles, meridians);
         for solid in [ball.triangulated(), ball] {
-            let posed = solid.posed(turn(&mut random), Vec3::zeros(), 0.25);
+            let posed = solid.posed(random.turn(), Vec3::zeros(), 0.25);
             holds(&posed, &format!("ball of {circles} circles and {meridians} meridians"));
         }
     }
     for cuts in [1, 4, 16] {
-        let posed = geodesic(cuts).posed(turn(&mut random), Vec3::zeros(), 1.0);
+        let posed = geodesic(cuts).posed(random.turn(), Vec3::zeros(), 1.0);
         holds(&posed, &format!("geodesic ball, {cuts}"));
     }
 }
@@ -181,7 +181,7 @@ fn cut_boxes_are_boxes() {
         for round in 0..5 {
             let size = Vec3::new(1.0, random.between(0.05, 1.0), random.between(0.05, 1.0));
             let solid = cut_box(size, cuts).triangulated();
-            let posed = solid.posed(turn(&mut random), random.direction() * 0.3, 1.0);
+            let posed = solid.posed(random.turn(), random.direction() * 0.3, 1.0);
             let loaded = holds(&posed, &format!("box cut {cuts} times, round {round}"));
             assert_eq!(loaded.faces.len(), 6, "box cut {cuts} times, round {round}");
         }
@@ -225,7 +225,7 @@ fn depths_are_those_of_the_unmerged_solid() {
             .collect();
         for _ in 0..40 {
             // A place inside: a mean of vertices.
-            let shares: Vec<f64> = hull.vertices.iter().map(|_| random.unit().powi(4)).collect();
+            let shares: Vec<f64> = hull.vertices.iter().map(|_| random.share().powi(4)).collect();
             let sum: f64 = shares.iter().sum();
             let place = hull.vertices.iter().zip(&shares).map(|(v, share)| v * (share / sum)).sum::<Vec3>();
             let before = planes.iter().map(|(n, on)| n.dot(&(on - place))).fold(f64::INFINITY, f64::min);

@@ -2,7 +2,6 @@
 #![allow(dead_code)]
 
 use pong_geometry::Vec3;
-use pong_testkit::Random;
 
 /// Vertices and faces, counter-clockwise seen from outside.
 #[derive(Clone)]
@@ -11,11 +10,37 @@ pub struct Solid {
     pub faces: Vec<Vec<u32>>,
 }
 
-/// The columns of any rotation.
-pub fn turn(random: &mut Random) -> [Vec3; 3] {
-    let x = random.direction();
-    let y = random.across(&x);
-    [x, y, x.cross(&y)]
+/// Numbers that look random and are the same in every run (xorshift).
+pub struct Random(pub u64);
+
+impl Random {
+    /// From 0 up to 1.
+    pub fn share(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.share()
+    }
+
+    pub fn direction(&mut self) -> Vec3 {
+        loop {
+            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            if (0.01..1.0).contains(&v.norm_squared()) {
+                return v.normalize();
+            }
+        }
+    }
+
+    /// The columns of a turn.
+    pub fn turn(&mut self) -> [Vec3; 3] {
+        let x = self.direction();
+        let y = x.cross(&self.direction()).normalize();
+        [x, y, x.cross(&y)]
+    }
 }
 
 pub type Whole = [i64; 3];
