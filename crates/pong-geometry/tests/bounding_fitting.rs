@@ -278,8 +278,8 @@ fn the_reach_of_feet_holds_every_foot() {
     let mut beside = 0;
     for _ in 0..20_000 {
         let semi_axes = Vec3::from_fn(|_, _| 0.05 + 0.95 * random.unit());
-        let ellipsoid = Ellipsoid { center: Vec3::zeros(), axes: random.rotation(), semi_axes };
-        let normal = random.direction();
+        let ellipsoid = Ellipsoid { center: Vec3::zeros(), axes: tricky_rotation(&mut random), semi_axes };
+        let normal = tricky_direction(&mut random);
         let half_width = ellipsoid.half_width(&normal);
         let height = half_width - (half_width + semi_axes.min()) * random.unit();
         let foot = ellipsoid.support(&-normal) + normal * (half_width - height);

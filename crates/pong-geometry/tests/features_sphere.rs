@@ -326,7 +326,7 @@ fn a_centre_on_a_convex_rim_is_pushed_once() {
     let mut random = Random(703);
     let cube = cuboid(Vec3::repeat(-0.5), Vec3::repeat(0.5));
     for round in 0..2000 {
-        let motion = random.motion(1.0);
+        let motion = random_motion(&mut random, 1.0);
         let mesh = skin(&moved(&cube, &motion));
         let along = if round % 4 == 0 { 0.5 } else { random.between(-0.49, 0.49) };
         let place = Vec3::new(0.5, 0.5, along);

@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Random, hull, surface_of, triangle_set};
+use common::{Random, hull, random_motion, surface_of, triangle_set};
 use pong_geometry::Vec3;
 use pong_geometry::interference::nearest_on_triangle::{Place, is_in_front_at, nearest_on_triangle};
 use pong_geometry::primitive::TriangleSet;
@@ -81,7 +81,7 @@ fn both_triangles_of_an_edge_agree_where_it_ends() {
     let mut random = Random(32);
     let mut on_edge = 0;
     for _ in 0..20_000 {
-        let motion = random.motion(1.0);
+        let motion = random_motion(&mut random, 1.0);
         let slope = random.between(0.1, 2.0);
         let corners = [
             Vec3::zeros(),
