@@ -43,7 +43,7 @@ pub use ids::{InterfaceId, ModelId, ObjectId, PairId};
 pub use law::friction::{FrictionForce, FrictionInput, FrictionOutput};
 pub use law::registry::Laws;
 pub use law::{
-    CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, PairProps,
+    CombineError, FrictionProps, NormalForce, NormalInput, NormalProps, NormalTangent, PairProps,
     combine as combine_surfaces,
 };
 pub use pong_threads::{LaneWork, WorkerStart};

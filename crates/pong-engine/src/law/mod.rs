@@ -28,6 +28,29 @@ pub(crate) fn normal_force(props: &PairProps, w: f64, depth: f64, rate: f64) -> 
     (w * force).max(0.0)
 }
 
+/// How the normal force of a contact changes with its depth and with the rate of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalTangent {
+    /// ∂F/∂δ, N/m.
+    pub stiffness: f64,
+    /// ∂F/∂δ', N·s/m.
+    pub damping: f64,
+}
+
+/// The tangent of [`normal_force`] at a depth and rate; zero where the force is cut off at zero, `None` of a law of the host's.
+pub(crate) fn normal_tangent(props: &PairProps, w: f64, depth: f64, rate: f64) -> Option<NormalTangent> {
+    let k = props.stiffness;
+    let (stiffness, damping) = match &props.normal {
+        NormalProps::Linear { damping, ramp } => linear::tangent(k, *damping, *ramp, depth, rate),
+        NormalProps::HuntCrossley { dissipation, exponent } => {
+            hunt_crossley::tangent(k, *dissipation, *exponent, depth, rate)
+        }
+        NormalProps::Custom { .. } => return None,
+    };
+    let acts = if normal_force(props, w, depth, rate) > 0.0 { w } else { 0.0 };
+    Some(NormalTangent { stiffness: acts * stiffness, damping: acts * damping })
+}
+
 /// Energy stored by a contact of weight `w`, J.
 pub(crate) fn stored_energy(props: &PairProps, w: f64, depth: f64) -> f64 {
     let k = props.stiffness;

@@ -5,6 +5,7 @@ use crate::contact::Contact;
 use crate::error::EngineError;
 use crate::frame::TunnellingEvent;
 use crate::ids::InterfaceId;
+use crate::law::NormalTangent;
 use crate::report::{FrameCounts, FrameReport, TunnellingReport};
 use crate::runtime::Runtime;
 use pong_geometry::Wrench;
@@ -38,6 +39,17 @@ impl World {
     /// As [`contacts`](Self::contacts), one by one and without a list of their own.
     pub fn contacts_iter(&self) -> impl Iterator<Item = Contact> + '_ {
         self.runtime.frame.list_contacts(&self.scene, &self.runtime.sealed)
+    }
+
+    /// How the normal force of each contact of the last frame changes with its depth and the rate of that, in the order of
+    /// [`contacts_iter`](Self::contacts_iter): what a host needs that chooses its step by them or treats damping implicitly.
+    /// It has the weight of the contact, and is zero where the force is cut off at zero. `None` of a normal law of the host's.
+    ///
+    /// Together with a lever r about the mass centre, a contact adds stiffness·(n, r × n)(n, r × n)ᵀ to the stiffness of a
+    /// body; friction is not in it. See docs/theory.md, 3.
+    pub fn normal_tangents(&self) -> impl Iterator<Item = Option<NormalTangent>> + '_ {
+        let Running { frame, sealed, tables, .. } = &self.running;
+        frame.list_tangents(&self.scene, sealed, tables)
     }
 
     /// Number of contacts of the last frame.

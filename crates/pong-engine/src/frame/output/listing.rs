@@ -5,8 +5,9 @@ use crate::energy::account::EnergyAccount;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::ids::{InterfaceId, ObjectId, PairId};
+use crate::law::{NormalTangent, normal_tangent};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactRole;
 use pong_geometry::Vec3;
 
@@ -28,6 +29,25 @@ impl EvaluationBuffers {
         pushing.filter_map(|index| {
             let energy = self.energy.contacts.get(index)?.energy;
             Some(EnergyAccount { stored: out.contacts[index].stored, ..energy.account })
+        })
+    }
+
+    /// Tangents of the normal forces of the contacts that push, in key order.
+    pub fn list_tangents<'a>(
+        &'a self,
+        scene: &'a Scene,
+        sealed: &'a Sealed,
+        tables: &'a [SurfaceTable],
+    ) -> impl Iterator<Item = Option<NormalTangent>> + 'a {
+        self.pushing().map(move |contact| {
+            let found = &contact.found;
+            let pair = &sealed.group_pairs[found.key.group_pair as usize];
+            let (body_a, body_b) = sealed.bodies_of(&found.key);
+            let surface =
+                |body: usize, primitive: u32| scene.body(body).primitives[primitive as usize].surface;
+            let (a, b) = (surface(body_a, found.key.primitive_a), surface(body_b, found.primitive_b));
+            let props = tables[pair.tables[found.key.flipped as usize]].props(a, b);
+            normal_tangent(props, found.full_weight(), found.depth, contact.rate)
         })
     }
 
