@@ -3,7 +3,7 @@
     python hosts/python/examples/docking_envelope.py OUT [--runs 10000] [--workers 2] [--scheduler ADDRESS] [--reference]
 
 Writes the campaign into OUT, and pictures beside its tables. A second call does what is left. With `--reference` the same
-approaches are computed with the scene's own integrator and step, and to the end of the duration.
+approaches are computed with the scene's own integrator and step.
 """
 
 import argparse
@@ -59,7 +59,8 @@ def plan(runs, duration=16.0, reference=False):
             )
         ],
         duration=duration,
-        **({} if reference else training | {"stops": stops}),
+        stops=stops,
+        **({} if reference else training),
     )
 
 
