@@ -14,7 +14,7 @@ pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
 /// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> (f64, f64) {
     let x = depth / ramp;
-    let slope = if depth >= ramp { 0.0 } else { 6.0 * x * (1.0 - x) / ramp };
+    let slope = if depth < ramp { 6.0 * x * (1.0 - x) / ramp } else { 0.0 };
     (stiffness + damping * slope * rate, damping * ramp_factor(depth, ramp))
 }
 
