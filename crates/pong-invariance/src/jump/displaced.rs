@@ -26,7 +26,8 @@ pub fn beside(
     frames.iter().map(|[a, b]| [shifted(a, if is_same { same } else { any() }), *b]).collect()
 }
 
-/// The scene with every length of its shapes displaced by up to `longest` sizes of it, and every direction turned as little.
+/// The scene with every length of its shapes displaced by up to `longest` sizes of it, and every direction turned as little;
+/// solids stay as they are.
 /// Corners that are equal to the bit are displaced alike, as they hold together what shares them. Some are displaced by much less than others, down to `shortest`: of
 /// two surfaces that share a place, one then moves by itself.
 pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Random) -> Scene {
@@ -75,7 +76,10 @@ pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Ran
                 *normal = turn(random) * *normal;
                 longer(offset, random);
             }
-            Shape::Polyhedron(_) | Shape::Mesh(_) => {
+            // Its faces would be planes no more, nor its inner walls those of its neighbours: the cracks between pieces, which
+            // rounding must not open, would be part of the shape.
+            Shape::Polyhedron(_) => {}
+            Shape::Mesh(_) => {
                 shape.vertices_mut().iter_mut().for_each(|vertex| corner(vertex, random));
             }
         }
