@@ -223,20 +223,25 @@ impl Tester<'_> {
     /// edges have lost it and the centre says so (see the head of this file).
     fn stands_in(&self, foot: &Vec3) -> bool {
         let lost = |k: &usize| self.is_lost(*k, foot);
-        if !self.is_lost_in_folds(foot) {
-            return false;
+        if !self.is_behind(self.height) {
+            return (0..3).filter(lost).all(|k| self.is_lost_beyond(k) && !self.center_is_beyond(k));
         }
-        if self.is_behind(self.height) {
-            return !(0..3).any(|k| lost(&k))
+        self.is_lost_in_folds(foot)
+            && (!(0..3).any(|k| lost(&k))
                 || !(0..3).any(|k| self.center_is_beyond(k))
-                || has_behind(&self.edges, &self.ellipsoid.center, self.thickness, self.foot_slack);
-        }
-        (0..3).filter(lost).all(|k| !self.center_is_beyond(k))
+                || has_behind(&self.edges, &self.ellipsoid.center, self.thickness, self.foot_slack))
     }
 
     /// Whether the foot lies beyond edge `k` by more than rounding.
     fn is_lost(&self, k: usize, foot: &Vec3) -> bool {
         self.edges.beyond(k, foot) > self.foot_slack
+    }
+
+    /// Whether edge `k`, beyond which the foot lies, is concave or flat, and the other face does not hold its own foot
+    /// there either.
+    fn is_lost_beyond(&self, k: usize) -> bool {
+        let EdgeClass::Silent { neighbor, outward } = self.edges.class(k) else { return false };
+        self.is_lost_to(neighbor, &outward, &self.view.edge_ends(k)[0])
     }
 
     /// Whether the foot lies beyond concave edges, and none of the faces there holds its own foot either. How the plane is cut
