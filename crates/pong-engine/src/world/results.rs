@@ -48,7 +48,7 @@ impl World {
     /// Together with a lever r about the mass centre, a contact adds stiffness·(n, r × n)(n, r × n)ᵀ to the stiffness of a
     /// body; friction is not in it. See docs/theory.md, 3.
     pub fn normal_tangents(&self) -> impl Iterator<Item = Option<NormalTangent>> + '_ {
-        let Running { frame, sealed, tables, .. } = &self.running;
+        let Runtime { frame, sealed, tables, .. } = &self.runtime;
         frame.list_tangents(&self.scene, sealed, tables)
     }
 
