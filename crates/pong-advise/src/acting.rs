@@ -80,7 +80,7 @@ struct Acting {
 
 impl Acting {
     /// `None` for what cannot be judged.
-    fn new(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Self> {
+    fn new(setting: &Setting<'_>, contact: &PushingContact) -> Option<Self> {
         let (a, b) = (contact.group_a, contact.group_b);
         let masses = [setting.masses[a].as_ref()?, setting.masses[b].as_ref()?];
         let springs = setting.pressed_springs(contact)?;

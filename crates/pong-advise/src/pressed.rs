@@ -42,7 +42,7 @@ pub fn pressed_report(
 }
 
 /// `None` where masses are not told, or the law is the host's.
-fn known_of(setting: &Setting<'_>, contact: &PushingContact<'_>) -> Option<Known> {
+fn known_of(setting: &Setting<'_>, contact: &PushingContact) -> Option<Known> {
     if setting.masses[contact.group_a].is_none() || setting.masses[contact.group_b].is_none() {
         return None;
     }

@@ -49,7 +49,7 @@ impl<'w> Setting<'w> {
     }
 
     /// The springs of a contact that pushes, as deep and as hard pressed as it is; `None` for laws of the host's.
-    pub(crate) fn pressed_springs(&self, contact: &PushingContact<'_>) -> Option<ContactSprings> {
+    pub(crate) fn pressed_springs(&self, contact: &PushingContact) -> Option<ContactSprings> {
         let table = self.scene.pairs()[contact.pair].tables[contact.flipped];
         let props = self.scene.surface_values(table, contact.surfaces(&self.scene));
         pressed_springs(props, contact.depth, contact.normal_force).ok()

@@ -10,6 +10,7 @@ use crate::seal::{self, SealReport};
 use crate::world::World;
 use pong_geometry::extension::Extensions;
 use pong_model::{Model, Surface};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// A world in set-up: it takes models, Objects, pairs and laws, and [`seal`](Self::seal) makes a [`World`] of them, which
@@ -64,6 +65,8 @@ pub struct WorldBuilder {
     scene: Scene,
     surfaces: Surfaces,
     states: States,
+    /// The Objects of every pair, the lower index first.
+    paired: BTreeSet<(usize, usize)>,
     clock: Clock,
 }
 
@@ -79,6 +82,7 @@ impl WorldBuilder {
             scene: Scene::empty(config, extensions, laws),
             surfaces: Surfaces::default(),
             states: States::default(),
+            paired: BTreeSet::new(),
             clock: Clock::default(),
         }
     }
@@ -139,15 +143,17 @@ impl WorldBuilder {
     pub fn pair(&mut self, a: ObjectId, b: ObjectId) -> Result<PairId, EngineError> {
         let scene = &mut self.scene;
         let (a, b) = (scene.object_index(a)?, scene.object_index(b)?);
-        let names = format!("pair (`{}`, `{}`)", scene.objects[a].name, scene.objects[b].name);
-        if scene.pairs.iter().any(|pair| (pair.a, pair.b) == (a, b) || (pair.a, pair.b) == (b, a)) {
-            return Err(EngineError::Duplicate { what: names });
+        let names = || format!("pair (`{}`, `{}`)", scene.objects[a].name, scene.objects[b].name);
+        let objects = (a.min(b), a.max(b));
+        if self.paired.contains(&objects) {
+            return Err(EngineError::Duplicate { what: names() });
         }
         if a == b && scene.models[scene.objects[a].model].bodies.len() < 2 {
             let cause = "an Object paired with itself needs two movable groups; mark one as movable or leave the \
                          pair out";
-            return Err(EngineError::BadValue { what: names, cause: cause.to_owned() });
+            return Err(EngineError::BadValue { what: names(), cause: cause.to_owned() });
         }
+        self.paired.insert(objects);
         scene.pairs.push(ObjectPair { a, b });
         self.states.enabled.push(true);
         Ok(PairId::new(scene.stamp, scene.pairs.len() - 1))
@@ -226,6 +232,7 @@ impl WorldBuilder {
         match Runtime::start(&scene, Arc::new(sealed), Arc::new(tables), self.clock) {
             Ok(runtime) => {
                 report.workers = runtime.worker_starts().to_vec();
+                report.state_size = runtime.state_size();
                 Ok((World::new(scene, self.surfaces, self.states, runtime), report))
             }
             Err(error) => {

@@ -10,7 +10,7 @@ use crate::runtime::Runtime;
 use crate::scene::Scene;
 use crate::seal::can_be_tested;
 pub use crate::sealed::GroupPair;
-use pong_geometry::{Transform, Vec3};
+use pong_geometry::{Pose, Transform, Vec3};
 use pong_model::{MovableGroup, PrimitiveInfo};
 
 /// A view into a sealed world; see [`World::inspect`](crate::World::inspect).
@@ -22,7 +22,7 @@ pub struct Inspection<'w> {
 
 /// A contact of the last frame that pushes, seen from B.
 #[derive(Clone, Copy, Debug)]
-pub struct PushingContact<'w> {
+pub struct PushingContact {
     /// Index of its pair in [`Inspection::pairs`].
     pub pair: usize,
     /// 0 if A is in the pair's first movable group, 1 if in the second.
@@ -46,7 +46,7 @@ pub struct PushingContact<'w> {
     /// Where the force acts, m, in B's frame.
     pub point_b: Vec3,
     /// The pose of A seen from B.
-    pub x_ba: &'w Transform,
+    pub x_ba: Transform,
 }
 
 impl<'w> Inspection<'w> {
@@ -99,7 +99,7 @@ impl<'w> Inspection<'w> {
     ///
     /// # Errors
     /// [`EngineError::WrongPhase`] before the first frame.
-    pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact<'w>>, EngineError> {
+    pub fn pushing(&self) -> Result<impl Iterator<Item = PushingContact>, EngineError> {
         let Runtime { sealed, frame, .. } = self.runtime;
         if !frame.computed {
             let cure = "evaluate or step a frame first";
@@ -108,7 +108,7 @@ impl<'w> Inspection<'w> {
         Ok(frame.pushing().map(|contact| {
             let key = &contact.found.key;
             let (pair, flipped) = (key.group_pair as usize, key.flipped as usize);
-            let (group_a, group_b) = sealed.bodies_of(key);
+            let (group_a, group_b) = sealed.bodies_of(key.direction());
             PushingContact {
                 pair,
                 flipped,
@@ -121,13 +121,13 @@ impl<'w> Inspection<'w> {
                 normal_force: contact.normal_force,
                 normal_b: contact.found.normal_b,
                 point_b: contact.point_b,
-                x_ba: &frame.input.motions[pair][flipped].x_ba,
+                x_ba: Pose::relative(&frame.poses[group_a], &frame.poses[group_b]).transform(),
             }
         }))
     }
 }
 
-impl PushingContact<'_> {
+impl PushingContact {
     /// The surfaces of A and B: indices in their models.
     pub fn surfaces(&self, scene: &Inspection<'_>) -> (u32, u32) {
         let surface = |group: usize, primitive: u32| scene.body(group).primitives[primitive as usize].surface;

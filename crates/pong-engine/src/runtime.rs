@@ -6,14 +6,16 @@ use crate::energy::contact::ContactEnergies;
 use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
-    self, EvaluationBuffers, EvaluationInput, FrictionPreload, Motion, ROUND, WorkerInput, WorkerPool,
+    self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, WorkerInput,
+    WorkerPool,
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::seal::leave_room_for_small_things;
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    ContactKey, ContactMemory, ContactRole, Remembered, StateError, needed_len, read_block, write_block,
+    CommittedPoses, ContactKey, ContactMemory, ContactRole, Remembered, StateError, largest_len, needed_len,
+    read_block, write_block,
 };
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
@@ -50,15 +52,18 @@ impl Runtime {
     ) -> Result<Self, EngineError> {
         let pairs = sealed.group_pairs.len();
         let memory = || {
-            let memory = ContactMemory::with_capacity(pairs, sealed.record_capacity, sealed.law_state_len);
+            let poses =
+                CommittedPoses::new(Arc::clone(&sealed.paired_bodies), scene.bodies.len(), scene.pairs.len());
+            let memory =
+                ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
             Arc::new(memory.with_energies(energies, pairs))
         };
-        let nothing = Arc::new(ContactMemory::with_capacity(0, 0, 0));
+        let nothing = Arc::new(ContactMemory::default());
         let input = || WorkerInput {
             phase: 0,
-            motions: vec![[Motion::none(); 2]; pairs],
+            motions: Vec::with_capacity(pairs.min(MOTIONS_AT_ONCE)),
             memory: Arc::clone(&nothing),
             tables: Arc::clone(&tables),
             blocks: Vec::with_capacity(ROUND),
@@ -68,7 +73,7 @@ impl Runtime {
         let committed = memory();
         let spares = if scene.config.workers.is_some() { 2 } else { 1 };
         let spares = (0..spares).map(|_| memory()).collect();
-        let frame = EvaluationBuffers::new(scene.bodies.len(), &sealed, input());
+        let frame = EvaluationBuffers::new(scene, &sealed, input());
         let pool = match &scene.config.workers {
             None => None,
             Some(settings) => {
@@ -146,11 +151,12 @@ impl Runtime {
     }
 
     /// Makes what the frame found the committed contact state.
-    pub fn commit(&mut self) {
+    pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
         let Self { memory, spares, frame, .. } = self;
-        take_turns(memory, spares, |_, next| {
-            next.replace(fresh(frame), &frame.remembered);
+        take_turns(memory, spares, |old, next| {
+            next.poses.commit(&old.poses, &frame.poses, &states.enabled);
+            next.replace(fresh(frame));
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
@@ -160,15 +166,36 @@ impl Runtime {
 
     /// As [`commit`](Self::commit) for the accepted pairs of Objects; the others keep their contact state. Both
     /// together may be more than there is room for: then the strongest stay, and the status says so.
-    pub fn commit_pairs(&mut self, accepts: impl Fn(usize) -> bool) {
+    ///
+    /// # Errors
+    /// [`EngineError::BadValue`] if the others were last committed at more moments than there is room for beside this one.
+    /// Nothing is committed then.
+    pub fn commit_pairs(
+        &mut self,
+        states: &States,
+        accepts: impl Fn(usize) -> bool,
+    ) -> Result<(), EngineError> {
+        if !(0..self.memory.poses.pairs()).any(&accepts) {
+            self.evaluated = false;
+            return Ok(());
+        }
+        let Some(moment) = self.memory.poses.free_moment(&accepts) else {
+            let most = self.memory.poses.capacity();
+            let cause = format!(
+                "the pairs that keep their past were last committed at {most} different moments, and there is no room to \
+                 remember one more; commit some of them together, or all pairs at once"
+            );
+            return Err(EngineError::BadValue { what: "commit of some pairs".to_owned(), cause });
+        };
         self.let_go_of_memory();
         let mut watch = self.clock.start();
         let Self { sealed, memory, spares, frame, .. } = self;
         let accepted = |group_pair: u32| accepts(sealed.group_pairs[group_pair as usize].pair);
         let mut left_out = 0;
         take_turns(memory, spares, |old, next| {
-            left_out =
-                old.accept_into(fresh(frame), (&frame.remembered, &frame.energy.pairs), accepted, next);
+            let now = (&frame.poses[..], &states.enabled[..]);
+            next.poses.commit_some(&old.poses, now, moment, &accepts);
+            left_out = old.accept_into(fresh(frame), &frame.energy.pairs, accepted, next);
         });
         if left_out > 0 {
             frame.report.status.set(StatusBits::CONTACT_LIMIT);
@@ -177,12 +204,13 @@ impl Runtime {
         }
         watch.lap(Stage::Commit, &mut frame.times);
         self.evaluated = false;
+        Ok(())
     }
 
     /// Preloads the bristles of a pair of Objects after a commit of the last frame; answers how many there are.
     pub fn preload(&mut self, scene: &Scene, pair: usize, preload: &FrictionPreload) -> usize {
         self.let_go_of_memory();
-        let preloaded = self.frame.preloaded(scene, &self.sealed, pair, preload);
+        let preloaded = self.frame.preloaded(scene, &self.sealed, &self.memory, pair, preload);
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
             next.preload(&preloaded);
@@ -191,13 +219,13 @@ impl Runtime {
         preloaded.len()
     }
 
-    /// Drops what is remembered of some pairs of movable groups.
-    pub fn clear_history(&mut self, cleared: impl Fn(&GroupPair) -> bool) {
+    /// Drops what is remembered of some pairs of Objects.
+    pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool) {
         self.let_go_of_memory();
         let pairs = &self.sealed.group_pairs;
         take_turns(&mut self.memory, &mut self.spares, |old, next| {
             next.copy_from(old);
-            next.clear_history(|index| cleared(&pairs[index as usize]));
+            next.clear_history(&cleared, |index| pairs[index as usize].pair);
         });
         self.changed();
     }
@@ -227,7 +255,7 @@ impl Runtime {
     }
 
     pub fn state_size(&self) -> usize {
-        self.sealed.state_size()
+        largest_len(&self.memory)
     }
 
     pub fn save_state(&self, out: &mut [u8]) -> Result<(), StateError> {
@@ -242,7 +270,7 @@ impl Runtime {
         self.let_go_of_memory();
         let sealed = Arc::clone(&self.sealed);
         let exists = |key: &ContactKey| {
-            let (body_a, _) = sealed.bodies_of(key);
+            let (body_a, _) = sealed.bodies_of(key.direction());
             (key.primitive_a as usize) < scene.body(body_a).primitives.len()
         };
         let mut outcome = Ok(());

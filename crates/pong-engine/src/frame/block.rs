@@ -15,7 +15,7 @@ use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
+use crate::sealed::{Direction, Sealed};
 use pong_arena::List;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
@@ -68,8 +68,11 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         let Self { scene, sealed, input, block, worker, mut laps } = self;
-        let plan = &sealed.plans[block.plan as usize];
-        let context = PairContext::new(scene, sealed, input, plan);
+        let Direction { group_pair, flipped } = block.direction;
+        let plan = sealed.group_pairs[group_pair as usize].plans[flipped as usize];
+        let plan = &sealed.plans[plan as usize];
+        let motion = &input.motions[block.slot as usize][flipped as usize];
+        let context = PairContext::new(scene, sealed, input, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
         let WorkerContext { arena, scratch, candidates, deferred, out } = worker;
         let room = "sealing has sized the arena";

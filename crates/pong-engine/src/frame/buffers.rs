@@ -3,11 +3,14 @@
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::WorkerInput;
+use crate::frame::input::relative::Motions;
+use crate::frame::near_pairs::NearPairs;
 use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
+use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{ContactRole, PairPose};
+use crate::state::{CommittedPoses, ContactRole};
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};
 
@@ -18,10 +21,10 @@ pub(crate) struct EvaluationBuffers {
     // state in
     pub poses: Vec<Pose>,
     pub twists: Vec<Twist>,
+    /// The pairs of movable groups that the frame visits.
+    pub near: NearPairs,
     // relative, bounding
     pub input: WorkerInput,
-    /// Relative poses that a commit would remember.
-    pub remembered: Vec<PairPose>,
     // testers, sharing, forces: in no order
     pub caller: WorkerContext,
     // order, limit: the contacts that count, by place in `context.contacts`, in the order of every sum
@@ -44,15 +47,15 @@ pub(crate) struct Place {
 }
 
 impl EvaluationBuffers {
-    pub fn new(bodies: usize, sealed: &Sealed, input: WorkerInput) -> Self {
-        let pairs = sealed.group_pairs.len();
+    pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput) -> Self {
+        let bodies = scene.bodies.len();
         let nowhere = Place { head: 0, index: 0 };
         Self {
             computed: false,
             poses: vec![Pose::identity(); bodies],
             twists: vec![Twist::zero(); bodies],
+            near: NearPairs::new(scene, sealed),
             input,
-            remembered: vec![PairPose::unknown(); pairs],
             caller: WorkerContext::new(sealed, sealed.limits.lane_contacts, true),
             order: Table::with_capacity(sealed.limits.lane_contacts, nowhere),
             tunnelling: TunnellingEvents::default(),
@@ -68,12 +71,17 @@ impl EvaluationBuffers {
     pub fn begin(&mut self, sealed: &Sealed) {
         self.caller.out.begin(0);
         self.order.clear();
-        for &body in &sealed.paired_bodies {
+        for &body in &*sealed.paired_bodies {
             self.wrenches[body] = Wrench::zero();
         }
         self.report = FrameReport::default();
         self.counts = FrameCounts::default();
         self.times = StageTimes::default();
+    }
+
+    /// The motions of this frame since these poses.
+    pub fn motions<'a>(&'a self, sealed: &'a Sealed, committed: &'a CommittedPoses) -> Motions<'a> {
+        Motions { sealed, poses: &self.poses, twists: &self.twists, committed }
     }
 
     /// Every contact that counts, in the order of every sum.

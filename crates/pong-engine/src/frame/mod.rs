@@ -8,6 +8,7 @@ mod forces;
 mod input;
 pub(crate) mod load_sharing;
 pub(crate) mod narrow_phase;
+mod near_pairs;
 mod output;
 mod tunnelling;
 mod worker_context;
@@ -21,6 +22,7 @@ pub(crate) use forces::contact::FrameContact;
 pub(crate) use input::motion::Motion;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
+pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
 pub use output::preload::FrictionPreload;
 pub(crate) use tunnelling::events::TunnellingEvent;
 pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
@@ -28,7 +30,8 @@ pub(crate) use worker_pool::WorkerPool;
 
 use crate::report::{Stage, Work, WorkTimes};
 use broad_phase::blocks;
-use input::{relative, states};
+use input::relative::Motions;
+use input::states;
 use output::{order, reduce};
 use std::sync::Arc;
 use worker_context::WorkerContext;
@@ -39,18 +42,18 @@ pub(crate) fn evaluate(
     pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
 ) {
-    let EvaluationInput { scene, sealed, states, memory, clock } = *given;
+    let EvaluationInput { sealed, states, memory, clock, .. } = *given;
     frame.begin(sealed);
     let mut watch = clock.start();
     states::latch(sealed, states, frame);
-    relative::relate(given, frame);
+    frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
     watch.lap(Stage::Input, &mut frame.times);
     find_contacts(given, pool, frame);
     watch.lap(Stage::Contacts, &mut frame.times);
-    order::put_in_order(scene, sealed, frame);
+    order::put_in_order(given, frame);
     tunnelling::watch(given, frame);
     watch.lap(Stage::Order, &mut frame.times);
-    energy::balance(scene, sealed, memory, frame);
+    energy::balance(given, frame);
     watch.lap(Stage::Energy, &mut frame.times);
     reduce::sum(sealed, frame);
     watch.lap(Stage::Output, &mut frame.times);
@@ -62,15 +65,16 @@ fn find_contacts(
     mut pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
 ) {
-    let EvaluationInput { scene, sealed, states, memory, clock } = *given;
-    let EvaluationBuffers { input, caller, counts, times, .. } = frame;
+    let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
+    let EvaluationBuffers { input, caller, counts, times, near, poses, twists, .. } = frame;
+    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     (input.memory, input.clock) = (Arc::clone(memory), clock);
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
     // What is between the rounds is the caller's.
     let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
-    blocks::lay_out(scene, sealed, &states.enabled, input, counts, &mut |input, cost_ns| {
+    let mut work = |input: &mut WorkerInput, cost_ns| {
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
         let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller));
@@ -80,7 +84,11 @@ fn find_contacts(
             }
         }
         laps = clock.start();
-    });
+    };
+    for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
+        motions.relate(pairs, &mut input.motions);
+        blocks::lay_out(scene, sealed, pairs, input, counts, &mut work);
+    }
     laps.lap_work(Work::BroadPhase, &mut layout);
     caller.out.times.add(&layout);
     counts.add(&caller.out.counts);

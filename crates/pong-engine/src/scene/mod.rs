@@ -100,6 +100,12 @@ impl Scene {
         &self.models[self.objects[self.bodies[instance].object].model]
     }
 
+    /// The model of a movable group, and which of the model's it is: alike for all its instances.
+    pub(crate) fn group_of_model(&self, instance: usize) -> (usize, usize) {
+        let instance = &self.bodies[instance];
+        (self.objects[instance.object].model, instance.body)
+    }
+
     /// `object/path` of a movable group, for messages.
     pub(crate) fn body_name(&self, instance: usize) -> String {
         let object = &self.objects[self.bodies[instance].object];

@@ -20,7 +20,7 @@ const DEFAULT_CAPACITY_MIN: usize = 256;
 /// How much memory the frames of a scene get.
 pub(super) fn limits(
     scene: &Scene,
-    group_pairs: &[GroupPair],
+    paired_bodies: &[usize],
     record_capacity: usize,
     law_state_len: usize,
 ) -> Limits {
@@ -32,8 +32,8 @@ pub(super) fn limits(
     let found = record_capacity.max(FOUND_MIN);
     let lane_contacts = record_capacity + (record_capacity / 8).max(64);
     let in_tree = |count: fn(&Tree) -> usize| {
-        let bodies = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]);
-        bodies.map(|body| count(&scene.body(body).tree)).max().unwrap_or(0)
+        let bodies = paired_bodies.iter().map(|&body| count(&scene.body(body).tree));
+        bodies.max().unwrap_or(0)
     };
     let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
     let arena_bytes = arena_bytes(nodes, batches, found, law_state_len);
@@ -88,11 +88,14 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
 
 /// Contacts if everything that can touch did, by the table of pairs.
 pub(super) fn worst_case(scene: &Scene, group_pairs: &[GroupPair]) -> usize {
+    let movers = |body: usize| -> usize {
+        scene.body(body).primitives.iter().map(|info| most_contacts(info.kind)).sum()
+    };
+    let movers: Vec<usize> = (0..scene.bodies.len()).map(movers).collect();
     let mut total = 0_usize;
     for pair in group_pairs {
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            let movers: usize = scene.body(a).primitives.iter().map(|info| most_contacts(info.kind)).sum();
-            total = total.saturating_add(movers.saturating_mul(scene.body(b).shell_count as usize));
+            total = total.saturating_add(movers[a].saturating_mul(scene.body(b).shell_count as usize));
         }
     }
     total.clamp(DEFAULT_CAPACITY_MIN, DEFAULT_CAPACITY_MAX)

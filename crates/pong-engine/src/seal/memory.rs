@@ -8,10 +8,10 @@ use super::limits::{bytes_per_contact, least_lane_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
 use crate::error::EngineError;
-use crate::frame::{Block, Interval, Motion, ROUND};
+use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, Motion, NearPairs, ROUND};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits, Plan};
-use crate::state::PairPose;
+use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Twist, Wrench};
 use pong_threads::MAX_WORKERS;
 
@@ -50,7 +50,11 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
     const SORTING: usize = 2;
     /// What sets of bodies keep of a pair.
     const JUDGING: usize = 64;
-    let listed = SORTING * size_of::<GroupPair>() + 2 * GROWING * size_of::<Plan>() + JUDGING;
+    let listed = SORTING * size_of::<GroupPair>();
+    // At most as many plans as pairs of movable groups of the models, in both orders.
+    let groups = scene.models.iter().map(|model| model.bodies.len()).sum::<usize>();
+    let kinds = pairs.min(groups.saturating_mul(groups));
+    let plans = kinds.saturating_mul(4 * GROWING * size_of::<Plan>() + JUDGING);
     let tables = scene.pairs.iter().map(|pair| {
         let surfaces = |object: usize| scene.models[scene.objects[object].model].surfaces.len();
         2 * surfaces(pair.a) * surfaces(pair.b) * size_of::<Option<crate::law::PairProps>>()
@@ -58,7 +62,10 @@ pub(super) fn for_pairs(scene: &Scene, pairs: usize) -> usize {
     let names = scene.objects.iter().map(|object| 4 * object.name.len() + 256).sum::<usize>();
     let bodies = scene.bodies.len() * 256;
     let each = listed + scene.room_per_pair + per_pair(scene);
-    pairs.saturating_mul(each).saturating_add(tables.sum::<usize>() + names + bodies + SLACK)
+    pairs
+        .saturating_mul(each)
+        .saturating_add(plans)
+        .saturating_add(tables.sum::<usize>() + names + bodies + SLACK)
 }
 
 /// What frames keep of a pair of movable groups, bytes.
@@ -69,7 +76,7 @@ fn per_pair(scene: &Scene) -> usize {
     let intervals = if scene.config.accounts.is_some() { size_of::<Interval>() } else { 0 };
     // The contact states that take turns, the one that a stuck worker may hold, and the frame's own.
     let states = 3 + crew;
-    states * (size_of::<PairPose>() + energies) + intervals + (1 + crew) * size_of::<[Motion; 2]>()
+    states * energies + intervals + 2 * size_of::<u32>()
 }
 
 /// What the frames get, bytes.
@@ -86,11 +93,15 @@ pub(super) fn for_frames(
     let scratch = limits.arena_bytes + limits.scratch_bytes + least_lane_bytes(limits, stride);
     let blocks = 2 * ROUND * size_of::<Block>();
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
+    let committed =
+        (2 + usize::from(lanes > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());
+    let motions = (1 + usize::from(lanes > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<[Motion; 2]>();
+    let near = NearPairs::bytes(pairs, scene.bodies.len());
     let sum = pairs
         .saturating_mul(per_pair(scene))
         .saturating_add(contacts)
         .saturating_add((lanes + 1).saturating_mul(scratch))
-        .saturating_add(workers * STACK + blocks + bodies + SLACK);
+        .saturating_add(workers * STACK + blocks + bodies + committed + motions + near + SLACK);
     // Rounding up of every piece to what the allocator hands out.
     sum.saturating_add(sum / 16)
 }

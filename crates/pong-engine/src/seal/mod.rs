@@ -16,13 +16,14 @@ use crate::energy::account::WrenchCoupling;
 use crate::energy::contact::ContactEnergies;
 use crate::error::EngineError;
 use crate::scene::{ObjectPair, Scene};
-use crate::sealed::{GroupPair, Sealed, SurfaceTable};
+use crate::sealed::{GroupPair, NO_PLAN, Sealed, SurfaceTable};
 use limits::{limits, too_large, worst_case};
 use plan::plans;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::{Fnv, Surface};
 use pong_threads::WorkerStart;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use surfaces::friction_lost;
 pub(crate) use surfaces::law_state_len;
 use warnings::warnings;
@@ -78,16 +79,18 @@ pub(crate) fn seal(
     if !problems.is_empty() {
         return Err(EngineError::Seal { problems });
     }
+    let numbered = tables.iter().enumerate();
+    let table_of: BTreeMap<(usize, usize), usize> =
+        numbered.map(|(index, table)| ((table.model_a, table.model_b), index)).collect();
     for pair in &mut group_pairs {
-        let models = [pair.first, pair.second].map(|body| scene.objects[scene.bodies[body].object].model);
-        let find = |a, b| tables.iter().position(|table| (table.model_a, table.model_b) == (a, b));
-        pair.tables =
-            [find(models[0], models[1]), find(models[1], models[0])].map(|t| t.expect("made above"));
+        let [a, b] = [pair.first, pair.second].map(|body| scene.group_of_model(body).0);
+        pair.tables = [table_of[&(a, b)], table_of[&(b, a)]];
     }
     let contact_capacity = scene.config.contact_capacity.unwrap_or_else(|| worst_case(scene, &group_pairs));
     let record_capacity = 2 * contact_capacity;
     let hash = scene_hash(scene, contact_capacity, law_state_len);
-    let limits = limits(scene, &group_pairs, record_capacity, law_state_len);
+    let paired_bodies = paired_bodies(scene, &group_pairs);
+    let limits = limits(scene, &paired_bodies, record_capacity, law_state_len);
     let for_frames = memory::for_frames(scene, pair_count, &limits, contact_capacity, law_state_len);
     require_memory(
         "seal: the frames",
@@ -95,8 +98,8 @@ pub(crate) fn seal(
         "ask for a smaller `contact_capacity` or fewer workers, or pair fewer Objects",
     )?;
     let sealed = Sealed {
-        plans: plans(scene, &group_pairs),
-        paired_bodies: paired_bodies(&group_pairs),
+        plans: plans(scene, &mut group_pairs),
+        paired_bodies,
         rays_meet_groups: rays_meet_groups(scene, &group_pairs),
         group_pairs,
         limits,
@@ -110,7 +113,7 @@ pub(crate) fn seal(
     let report = SealReport {
         group_pairs: sealed.group_pairs.len(),
         contact_capacity,
-        state_size: sealed.state_size(),
+        state_size: 0,
         memory: for_pairs.saturating_add(for_frames),
         workers: Vec::new(),
         warnings: warnings(scene),
@@ -156,6 +159,7 @@ fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
                     second: a.max(b),
                     first_named_first: a < b,
                     tables: [0, 0],
+                    plans: [NO_PLAN; 2],
                 });
             }
         }
@@ -164,9 +168,13 @@ fn group_pairs(scene: &Scene, count: usize) -> Vec<GroupPair> {
     found
 }
 
-fn paired_bodies(group_pairs: &[GroupPair]) -> Vec<usize> {
-    let bodies: BTreeSet<usize> = group_pairs.iter().flat_map(|pair| [pair.first, pair.second]).collect();
-    bodies.into_iter().collect()
+/// The movable groups of all pairs, each once and in order.
+fn paired_bodies(scene: &Scene, group_pairs: &[GroupPair]) -> Arc<[usize]> {
+    let mut is_paired = vec![false; scene.bodies.len()];
+    for pair in group_pairs {
+        (is_paired[pair.first], is_paired[pair.second]) = (true, true);
+    }
+    (0..is_paired.len()).filter(|&body| is_paired[body]).collect()
 }
 
 fn rays_meet_groups(scene: &Scene, group_pairs: &[GroupPair]) -> bool {
@@ -182,12 +190,22 @@ fn rays_meet_groups(scene: &Scene, group_pairs: &[GroupPair]) -> bool {
 
 fn untestable_volumes(scene: &Scene, group_pairs: &[GroupPair], tests: &VolumeTests) -> Vec<String> {
     let mut problems = BTreeSet::new();
+    let mut testable = BTreeSet::new();
     let kinds = |body: usize| -> BTreeSet<String> {
         scene.body(body).tree.nodes.iter().map(|node| node.volume.kind_name().to_owned()).collect()
     };
     for pair in group_pairs {
-        for a in kinds(pair.first) {
-            for b in kinds(pair.second).into_iter().filter(|b| !tests.supports(&a, b)) {
+        let groups = [pair.first, pair.second].map(|body| scene.group_of_model(body));
+        if testable.contains(&groups) {
+            continue;
+        }
+        let (kinds_a, kinds_b) = (kinds(pair.first), kinds(pair.second));
+        if kinds_a.iter().all(|a| kinds_b.iter().all(|b| tests.supports(a, b))) {
+            testable.insert(groups);
+            continue;
+        }
+        for a in kinds_a {
+            for b in kinds_b.iter().filter(|b| !tests.supports(&a, b)) {
                 problems.insert(format!(
                     "bounding volumes {a} and {b} of `{}` and `{}`: no test is registered; register one or use \
                      another bound kind",

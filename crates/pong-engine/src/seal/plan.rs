@@ -4,16 +4,13 @@ use super::testable::{can_be_tested, kind_name};
 use crate::frame::narrow_phase::pair_table::{REGISTERED, kind_pair};
 use crate::frame::{least_travel_m, reach_m};
 use crate::scene::Scene;
-use crate::sealed::{GroupPair, Plan};
+use crate::sealed::{GroupPair, NO_PLAN, Plan};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{MovableGroup, PrimitiveInfo};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// What is tested in one direction of a pair.
-fn plan(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Plan {
-    let (body_a, body_b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
-    let (a, b) = (scene.body(body_a), scene.body(body_b));
-    let in_order = (flipped == 0) == pair.first_named_first;
+/// What is tested of A against B; `in_order` says that A's Object was named first.
+fn plan(scene: &Scene, (a, b): (&MovableGroup, &MovableGroup), in_order: bool) -> Plan {
     let (mut element_ns, mut touched) = ([None; PrimitiveKind::ALL.len()], [0; PrimitiveKind::ALL.len()]);
     for info_a in representatives(a) {
         let met = representatives(b)
@@ -27,8 +24,7 @@ fn plan(scene: &Scene, group_pair: usize, pair: &GroupPair, flipped: u32) -> Pla
     }
     let tests = |a: PrimitiveKind, b: PrimitiveKind| touched[a as usize] >> b as u16 & 1 == 1;
     let (least_travel_m, reach_a_m) = (least_travel_m(a, b, tests), reach_m(a));
-    let group_pair = group_pair as u32;
-    Plan { group_pair, flipped, body_a, body_b, element_ns, touched, least_travel_m, reach_a_m }
+    Plan { element_ns, touched, least_travel_m, reach_a_m }
 }
 
 /// One primitive of every kind in a body.
@@ -42,11 +38,25 @@ fn rough_cost_ns(a: PrimitiveKind, b: PrimitiveKind) -> u32 {
     kind_pair(a, b).map_or(REGISTERED.0, |row| row.cost_ns)
 }
 
-/// All directions of all pairs in which something can be found.
-pub(super) fn plans(scene: &Scene, group_pairs: &[GroupPair]) -> Vec<Plan> {
-    let directions = group_pairs
-        .iter()
-        .enumerate()
-        .flat_map(|(index, pair)| [0, 1].map(|flipped| plan(scene, index, pair, flipped)));
-    directions.filter(Plan::finds_something).collect()
+/// What is tested in the directions of all pairs, each plan once. Tells every pair which are its own.
+pub(super) fn plans(scene: &Scene, group_pairs: &mut [GroupPair]) -> Vec<Plan> {
+    let mut plans = Vec::new();
+    let mut known = BTreeMap::new();
+    for pair in group_pairs {
+        for flipped in [0, 1] {
+            let bodies = if flipped == 0 { [pair.first, pair.second] } else { [pair.second, pair.first] };
+            let in_order = (flipped == 0) == pair.first_named_first;
+            let groups = bodies.map(|body| scene.group_of_model(body));
+            pair.plans[flipped] = *known.entry((groups, in_order)).or_insert_with(|| {
+                let [a, b] = bodies.map(|body| scene.body(body));
+                let plan = plan(scene, (a, b), in_order);
+                if !plan.finds_something() {
+                    return NO_PLAN;
+                }
+                plans.push(plan);
+                plans.len() as u32 - 1
+            });
+        }
+    }
+    plans
 }

@@ -6,7 +6,7 @@ use crate::law::{FrictionProps, PairProps, combine, friction_name};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, SurfaceTable};
 use pong_model::{FrictionLaw, Model, MovableGroup, PairOverride, Surface, pair_entries};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Combines every pair of surfaces that can meet; all that cannot be combined are reported.
 pub(crate) fn surface_tables(
@@ -15,18 +15,20 @@ pub(crate) fn surface_tables(
     group_pairs: &[GroupPair],
 ) -> Result<Vec<SurfaceTable>, Vec<String>> {
     let mut tables: Vec<SurfaceTable> = Vec::new();
+    let (mut of_models, mut filled) = (BTreeMap::new(), BTreeSet::new());
     let mut problems = BTreeSet::new();
     for pair in group_pairs {
         for (a, b) in [(pair.first, pair.second), (pair.second, pair.first)] {
-            let model_of = |body: usize| scene.objects[scene.bodies[body].object].model;
-            let (model_a, model_b) = (model_of(a), model_of(b));
-            let index = match tables.iter().position(|t| (t.model_a, t.model_b) == (model_a, model_b)) {
-                Some(index) => index,
-                None => {
-                    tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
-                    tables.len() - 1
-                }
-            };
+            let groups = [a, b].map(|body| scene.group_of_model(body));
+            // One pair of instances speaks for all.
+            if !filled.insert(groups) {
+                continue;
+            }
+            let [(model_a, _), (model_b, _)] = groups;
+            let index = *of_models.entry((model_a, model_b)).or_insert_with(|| {
+                tables.push(SurfaceTable::empty(model_a, model_b, surfaces));
+                tables.len() - 1
+            });
             fill_table((scene, surfaces), &mut tables[index], scene.body(a), scene.body(b), &mut problems);
         }
     }

@@ -105,9 +105,12 @@ pub(super) fn warnings(scene: &Scene) -> Vec<SetupWarning> {
         let models = [pair.a, pair.b].map(|object| scene.objects[object].model);
         let in_order = models[0] <= models[1];
         let (one, other) = if in_order { (pair.a, pair.b) } else { (pair.b, pair.a) };
-        let objects = [one, other].map(|object| scene.objects[object].name.clone());
         let key = (if in_order { models } else { [models[1], models[0]] }, pair.a == pair.b);
-        paired.entry(key).and_modify(|met| met.more += 1).or_insert(MetIn { objects, more: 0 });
+        let objects = || [one, other].map(|object| scene.objects[object].name.clone());
+        paired
+            .entry(key)
+            .and_modify(|met| met.more += 1)
+            .or_insert_with(|| MetIn { objects: objects(), more: 0 });
     }
     let mut found = BTreeSet::new();
     for (([first, second], itself), met) in paired {

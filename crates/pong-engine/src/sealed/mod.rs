@@ -5,14 +5,12 @@ mod plan;
 mod surface_table;
 
 pub(crate) use limits::Limits;
-pub(crate) use plan::Plan;
+pub(crate) use plan::{Direction, Plan};
 pub(crate) use surface_table::SurfaceTable;
 
 use crate::energy::account::WrenchCoupling;
-use crate::energy::contact::ContactEnergies;
-use crate::energy::episodes::PairEnergies;
-use crate::state::{ContactKey, block_len};
 use pong_geometry::bounding::VolumeTests;
+use std::sync::Arc;
 
 /// A pair of movable groups that are tested against each other.
 #[derive(Clone, Copy, Debug)]
@@ -27,15 +25,20 @@ pub struct GroupPair {
     pub first_named_first: bool,
     /// Numbers of the tables of combined surface values: with A in the first body, with A in the second.
     pub tables: [usize; 2],
+    /// Numbers of the plans of its two directions; [`NO_PLAN`] where nothing can be found.
+    pub(crate) plans: [u32; 2],
 }
+
+/// In place of a plan: nothing of A can touch anything of B.
+pub(crate) const NO_PLAN: u32 = u32::MAX;
 
 /// What sealing makes of a scene.
 pub(crate) struct Sealed {
     pub group_pairs: Vec<GroupPair>,
-    /// The directions of those pairs in which something can be found, in order.
+    /// What is tested in the directions of those pairs.
     pub plans: Vec<Plan>,
     /// The movable groups of all pairs, each once.
-    pub paired_bodies: Vec<usize>,
+    pub paired_bodies: Arc<[usize]>,
     /// Whether a ray may hit two movable groups of one Object.
     pub rays_meet_groups: bool,
     pub limits: Limits,
@@ -61,16 +64,17 @@ impl Sealed {
         self.coupling.map_or(0, WrenchCoupling::delay)
     }
 
-    /// Size of the largest contact state block, bytes.
-    pub fn state_size(&self) -> usize {
-        let numbers = self.law_state_len + ContactEnergies::numbers_each(self.coupling);
-        let accounts = PairEnergies::block_len(self.account_pairs(), self.delay());
-        block_len(self.group_pairs.len(), self.record_capacity, numbers, accounts)
+    /// The bodies that hold A and B.
+    pub fn bodies_of(&self, direction: Direction) -> (usize, usize) {
+        let pair = &self.group_pairs[direction.group_pair as usize];
+        if direction.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
     }
 
-    /// The bodies that hold A and B of a contact.
-    pub fn bodies_of(&self, key: &ContactKey) -> (usize, usize) {
-        let pair = &self.group_pairs[key.group_pair as usize];
-        if key.flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) }
+    /// The directions of a pair in which something can be found, with what is tested.
+    pub fn plans_of(&self, group_pair: u32) -> impl Iterator<Item = (&Plan, Direction)> {
+        let plans = &self.group_pairs[group_pair as usize].plans;
+        [0, 1].into_iter().filter(|&flipped| plans[flipped] != NO_PLAN).map(move |flipped| {
+            (&self.plans[plans[flipped] as usize], Direction { group_pair, flipped: flipped as u32 })
+        })
     }
 }

@@ -2,14 +2,18 @@
 
 use pong_geometry::primitive::PrimitiveKind;
 
-/// One direction of a pair of movable groups in which something can be found.
-#[derive(Clone, Debug)]
-pub(crate) struct Plan {
+/// One direction of a pair of movable groups.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Direction {
     pub group_pair: u32,
     /// 0 if A is in the pair's first body, 1 if in the second.
     pub flipped: u32,
-    pub body_a: usize,
-    pub body_b: usize,
+}
+
+/// What of one movable group as A can touch what of another as B: the same for all pairs of the same two groups of
+/// models.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
     /// What an element of A of each kind may cost, ns, roughly; `None` for kinds that nothing of B can touch.
     pub element_ns: [Option<u32>; PrimitiveKind::ALL.len()],
     /// By the kind of A: a bit for every kind of B that it may touch.

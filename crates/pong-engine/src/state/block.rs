@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! magic 8 | version 4 | record count 4 | world hash 8 | ledger 2 × 8
-//! | poses: known 8, two poses of 7 × 8, per pair of movable groups
+//! | moments 8, poses of every moment: 7 × 8 per movable group that meets others
+//! | the moment of every pair of Objects: 1 each, 255 if nothing is remembered; zeros up to a multiple of 8
 //! | accounts, if they are kept: PairEnergy::NUMBERS × 8, and 6 × 8 for each frame that wrenches come late, per pair
 //! | records: RECORD_LEN + 8 × numbers of its friction law and of its energies, for each contact that is remembered
 //! | checksum 8 (FNV-1a of everything before)
@@ -11,18 +12,20 @@
 //! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
 //! any size between the two holds a block: behind it are zeros.
 
-use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole};
+use super::poses::{CommittedPoses, NEVER};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::{PairEnergies, PairEnergy};
 use pong_geometry::{Pose, Vec3, Wrench};
-use pong_model::Fnv;
+use pong_model::{Fnv, LARGEST};
 
 const MAGIC: [u8; 8] = *b"PONGSTAT";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const TOTALS_AT: usize = 8 + 4 + 4 + 8;
 const HEADER_LEN: usize = TOTALS_AT + 2 * 8;
-const POSE_LEN: usize = 8 + 2 * 7 * 8;
+const MOMENTS_AT: usize = HEADER_LEN;
+const POSE_LEN: usize = 7 * 8;
 const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
 
@@ -82,34 +85,37 @@ impl std::fmt::Display for StateError {
 
 impl std::error::Error for StateError {}
 
-/// Size of the largest block of a sealed world whose accounts of pairs take so many bytes.
-pub(crate) fn block_len(group_pairs: usize, capacity: usize, numbers_each: usize, accounts: usize) -> usize {
-    used_len(group_pairs, capacity, numbers_each) + accounts + CHECKSUM_LEN
-}
-
 /// Size of the largest block of a memory, bytes.
-fn most_len(memory: &ContactMemory) -> usize {
-    block_len(memory.poses.len(), memory.records.capacity(), memory.numbers_each(), accounts_len(memory))
+pub(crate) fn largest_len(memory: &ContactMemory) -> usize {
+    used_len(memory, memory.poses.capacity(), memory.records.capacity()) + CHECKSUM_LEN
 }
 
 /// Size of the block of what a memory holds now, bytes.
 pub(crate) fn needed_len(memory: &ContactMemory) -> usize {
-    block_len(memory.poses.len(), memory.records.len(), memory.numbers_each(), accounts_len(memory))
+    let (_, moments) = memory.poses.numbered();
+    used_len(memory, usize::from(moments), memory.records.len()) + CHECKSUM_LEN
 }
 
 fn accounts_len(memory: &ContactMemory) -> usize {
     PairEnergies::block_len(memory.pair_energies.pairs.len(), memory.pair_energies.delay)
 }
 
-/// What is written for a number of records, without accounts of pairs and checksum, bytes.
-fn used_len(group_pairs: usize, records: usize, numbers_each: usize) -> usize {
-    HEADER_LEN + group_pairs * POSE_LEN + records * (RECORD_LEN + 8 * numbers_each)
+/// What is written for a number of moments and records, without the checksum, bytes.
+fn used_len(memory: &ContactMemory, moments: usize, records: usize) -> usize {
+    let poses = 8 + moments * memory.poses.bodies().len() * POSE_LEN + padded(memory.poses.pairs());
+    let contacts = records * (RECORD_LEN + 8 * memory.numbers_each());
+    HEADER_LEN + poses + accounts_len(memory) + contacts
+}
+
+/// Up to a multiple of 8.
+fn padded(bytes: usize) -> usize {
+    bytes.next_multiple_of(8)
 }
 
 /// Writes the block into a buffer of at least [`needed_len`] bytes. What the buffer has room for beyond that, up to the
 /// largest block, is set to zero: buffers of one size can be compared and kept whole.
 pub(crate) fn write_block(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> Result<(), StateError> {
-    let (needed, most) = (needed_len(memory), most_len(memory));
+    let (needed, most) = (needed_len(memory), largest_len(memory));
     if out.len() < needed {
         return Err(StateError::Length { least: needed, most, got: out.len() });
     }
@@ -130,7 +136,7 @@ fn write_used(memory: &ContactMemory, world_hash: u64, out: &mut [u8]) -> usize 
     writer.bytes(&world_hash.to_le_bytes());
     writer.f64(memory.work);
     writer.f64(memory.dissipated);
-    memory.poses.iter().for_each(|pose| writer.pair_pose(pose));
+    writer.poses(&memory.poses);
     writer.pair_energies(&memory.pair_energies);
     for remembered in memory.iter() {
         writer.record(&remembered.record);
@@ -155,7 +161,7 @@ pub(crate) fn read_block(
     let mut reader = Reader { block, at: TOTALS_AT };
     memory.work = reader.f64();
     memory.dissipated = reader.f64();
-    memory.poses.iter_mut().for_each(|pose| *pose = reader.pair_pose());
+    reader.poses(&mut memory.poses);
     reader.pair_energies(&mut memory.pair_energies);
     memory.clear_records();
     for _ in 0..count {
@@ -192,8 +198,14 @@ fn check(
     if count > like.records.capacity() {
         return Err(StateError::Damaged);
     }
-    let used = used_len(like.poses.len(), count, like.numbers_each()) + accounts_len(like);
-    let (least, most) = (used + CHECKSUM_LEN, most_len(like));
+    reader.at = MOMENTS_AT;
+    let moments = if block.len() < MOMENTS_AT + 8 { 0 } else { reader.u64() as usize };
+    // So would such a number of moments.
+    if moments > like.poses.capacity() {
+        return Err(StateError::Damaged);
+    }
+    let used = used_len(like, moments, count);
+    let (least, most) = (used + CHECKSUM_LEN, largest_len(like));
     if !(least..=most).contains(&block.len()) {
         return Err(StateError::Length { least, most, got: block.len() });
     }
@@ -204,7 +216,7 @@ fn check(
     }
     reader.at = TOTALS_AT;
     let totals = [reader.f64(), reader.f64()];
-    let poses_make_sense = like.poses.iter().all(|_| is_finite_pose(&reader.pair_pose()));
+    let poses_make_sense = poses_make_sense(&like.poses, &mut reader);
     let accounts_make_sense = (0..accounts_len(like) / 8).all(|_| reader.f64().is_finite());
     let finite = totals.iter().all(|x| x.is_finite()) && poses_make_sense && accounts_make_sense;
     match finite && records_make_sense(like, reader, count, exists) {
@@ -213,9 +225,21 @@ fn check(
     }
 }
 
-fn is_finite_pose(pose: &PairPose) -> bool {
-    let finite = |x: &Pose| x.position.iter().chain(x.orientation.coords.iter()).all(|x| x.is_finite());
-    pose.relative.iter().all(finite)
+/// Whether all poses are some that a host may set, and every pair's moment is one of them.
+fn poses_make_sense(like: &CommittedPoses, reader: &mut Reader<'_>) -> bool {
+    let moments = reader.u64();
+    // False for what is no number, too. Nothing of a unit quaternion is larger than 1 by more than rounding.
+    let can_be = |pose: &Pose| {
+        pose.position.iter().all(|x| x.abs() <= LARGEST)
+            && pose.orientation.coords.iter().all(|x| x.abs() < 2.0)
+    };
+    let count = moments as usize * like.bodies().len();
+    let poses_can_be = (0..count).fold(true, |all, _| can_be(&reader.pose()) && all);
+    let moments_of = reader.bytes(padded(like.pairs()));
+    let (pairs, behind) = moments_of.split_at(like.pairs());
+    poses_can_be
+        && pairs.iter().all(|moment| *moment == NEVER || u64::from(*moment) < moments)
+        && is_zero(behind)
 }
 
 fn is_finite_record(record: &ContactRecord) -> bool {
@@ -240,7 +264,7 @@ fn records_make_sense(
             last = record.key;
             in_order
                 && is_finite_record(&record)
-                && (record.key.group_pair as usize) < like.poses.len()
+                && (record.key.group_pair as usize) < like.group_pairs
                 && record.key.flipped < 2
                 && exists(&record.key)
         })
@@ -277,12 +301,22 @@ impl Writer<'_> {
         v.iter().for_each(|x| self.f64(*x));
     }
 
-    fn pair_pose(&mut self, pose: &PairPose) {
-        self.u32(u32::from(pose.known));
-        self.u32(0);
-        for relative in &pose.relative {
-            self.vec3(&relative.position);
-            relative.orientation.coords.iter().for_each(|x| self.f64(*x));
+    fn poses(&mut self, poses: &CommittedPoses) {
+        let (number, count) = poses.numbered();
+        self.bytes(&u64::from(count).to_le_bytes());
+        for wanted in 0..count {
+            let moment = number.iter().position(|number| *number == wanted).expect("as many as are numbered");
+            for &body in poses.bodies() {
+                let pose = poses.pose(moment as u8, body);
+                self.vec3(&pose.position);
+                pose.orientation.coords.iter().for_each(|x| self.f64(*x));
+            }
+        }
+        for pair in 0..poses.pairs() {
+            self.bytes(&[number[usize::from(poses.moment_of(pair))]]);
+        }
+        for _ in poses.pairs()..padded(poses.pairs()) {
+            self.bytes(&[0]);
         }
     }
 
@@ -325,6 +359,11 @@ impl Reader<'_> {
         bytes
     }
 
+    fn bytes(&mut self, count: usize) -> &[u8] {
+        self.at += count;
+        &self.block[self.at - count..self.at]
+    }
+
     fn u32(&mut self) -> u32 {
         u32::from_le_bytes(self.take())
     }
@@ -349,10 +388,16 @@ impl Reader<'_> {
         Pose { position, orientation }
     }
 
-    fn pair_pose(&mut self) -> PairPose {
-        let known = self.u32() != 0;
-        self.u32();
-        PairPose { relative: [self.pose(), self.pose()], known }
+    fn poses(&mut self, poses: &mut CommittedPoses) {
+        let count = self.u64() as u8;
+        for moment in 0..count {
+            for place in 0..poses.bodies().len() {
+                let body = poses.bodies()[place];
+                poses.put_pose(moment, body, self.pose());
+            }
+        }
+        let moments = self.bytes(padded(poses.pairs()));
+        poses.put_moments(count, moments.iter().copied());
     }
 
     fn wrench(&mut self) -> Wrench {

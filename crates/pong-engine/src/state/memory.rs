@@ -1,10 +1,12 @@
-//! Contact records under their keys, and the relative poses of the last commit.
+//! Contact records under their keys, with all else that is remembered.
 
+use super::poses::CommittedPoses;
 use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
+use crate::sealed::Direction;
 use pong_arena::{Full, Table};
+use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
-use pong_geometry::{Pose, Vec3};
 
 /// In [`ContactRecord::entry_face`]: no side of entry is remembered.
 pub(crate) const NO_FACE: u32 = u32::MAX;
@@ -32,6 +34,12 @@ impl ContactKey {
     #[inline]
     fn rank(&self) -> (u64, u64) {
         (self.head(), u64::from(self.shell_b) << 32 | u64::from(self.end))
+    }
+
+    /// The pair of movable groups, and which of them holds A.
+    #[inline]
+    pub fn direction(&self) -> Direction {
+        Direction { group_pair: self.group_pair, flipped: self.flipped }
     }
 
     /// The first number: few contacts have it in common.
@@ -117,20 +125,13 @@ pub(crate) struct Remembered<'a> {
     pub energy: Option<ContactEnergyRef<'a>>,
 }
 
-/// Relative poses of a pair of movable groups at the last commit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PairPose {
-    /// Pose of the first group seen from the second, and of the second seen from the first.
-    pub relative: [Pose; 2],
-    /// False until the first commit, and again after the history of the pair was cleared or switched off.
-    pub known: bool,
-}
-
 /// All contact state of a world. Its size is fixed when it is made; nothing in it asks for memory afterwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ContactMemory {
-    /// One per pair of movable groups.
-    pub poses: Box<[PairPose]>,
+    /// Poses of the movable groups at the last commit of every pair of Objects.
+    pub poses: CommittedPoses,
+    /// Pairs of movable groups.
+    pub group_pairs: usize,
     /// Sorted by key, then piece and feature.
     pub records: Table<ContactRecord>,
     /// What registered friction laws remember: `law_state_len` numbers per record.
@@ -145,13 +146,6 @@ pub(crate) struct ContactMemory {
     pub dissipated: f64,
     /// Work done on the bodies since the world began, J.
     pub work: f64,
-}
-
-impl PairPose {
-    /// Before the first commit.
-    pub fn unknown() -> Self {
-        Self { relative: [Pose::identity(); 2], known: false }
-    }
 }
 
 impl ContactRecord {
@@ -178,9 +172,15 @@ impl ContactRecord {
 
 impl ContactMemory {
     /// An empty memory with room for so many records of so many numbers each.
-    pub fn with_capacity(group_pairs: usize, records: usize, law_state_len: usize) -> Self {
+    pub fn with_capacity(
+        poses: CommittedPoses,
+        group_pairs: usize,
+        records: usize,
+        law_state_len: usize,
+    ) -> Self {
         Self {
-            poses: vec![PairPose::unknown(); group_pairs].into_boxed_slice(),
+            poses,
+            group_pairs,
             records: Table::with_capacity(records, ContactRecord::blank()),
             law_state: Table::with_capacity(records * law_state_len, 0.0),
             law_state_len,
@@ -223,7 +223,7 @@ impl ContactMemory {
 
     /// Becomes equal to a memory of the same size.
     pub fn copy_from(&mut self, other: &Self) {
-        self.poses.copy_from_slice(&other.poses);
+        self.poses.copy_from(&other.poses);
         self.clear_records();
         let fits = self
             .records
@@ -295,16 +295,16 @@ impl ContactMemory {
         &self.law_state[record * self.law_state_len..(record + 1) * self.law_state_len]
     }
 
-    /// Drops everything remembered of the pairs of movable groups that `cleared` names.
-    pub fn clear_history(&mut self, cleared: impl Fn(u32) -> bool) {
-        for (index, pose) in self.poses.iter_mut().enumerate() {
+    /// Drops everything remembered of the pairs of Objects that `cleared` names; `pair_of` tells that of a pair of movable
+    /// groups.
+    pub fn clear_history(&mut self, cleared: impl Fn(usize) -> bool, pair_of: impl Fn(u32) -> usize) {
+        self.poses.clear_history(&cleared);
+        let cleared = |group_pair: u32| cleared(pair_of(group_pair));
+        for index in 0..self.pair_energies.pairs.len() {
             if cleared(index as u32) {
-                *pose = PairPose::unknown();
-                if !self.pair_energies.pairs.is_empty() {
-                    let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
-                    let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
-                    self.pair_energies.clear_history(index, pushing.map(|record| record.stored).sum());
-                }
+                let of_pair = self.records.iter().filter(|r| r.key.group_pair as usize == index);
+                let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
+                self.pair_energies.clear_history(index, pushing.map(|record| record.stored).sum());
             }
         }
         let stride = self.law_state_len;

@@ -4,37 +4,30 @@
 //! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
 //! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
 
-use super::memory::{ContactMemory, ContactRecord, PairPose, Remembered};
+use super::memory::{ContactMemory, ContactRecord, Remembered};
 use crate::energy::episodes::PairEnergies;
 use std::iter::Peekable;
 
 impl ContactMemory {
-    /// Takes over all that a frame would remember: `fresh` in key order, `poses` of every pair of movable groups. The
-    /// totals stay.
+    /// Takes over all records that a frame would remember, in key order. All else stays.
     ///
     /// Answers how many records were left out because there is no room for them.
-    pub fn replace<'a>(
-        &mut self,
-        fresh: impl Iterator<Item = Remembered<'a>> + Clone,
-        poses: &[PairPose],
-    ) -> usize {
-        self.poses.copy_from_slice(poses);
+    pub fn replace<'a>(&mut self, fresh: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
         self.fill(fresh)
     }
 
-    /// Writes into `next` what is remembered after a commit of the pairs of movable groups that `accepted` names:
-    /// of those `fresh`, `poses` and `energies`, of all others what is remembered now. The totals are the present ones.
+    /// Writes into `next` what is remembered of contacts after a commit of the pairs of movable groups that `accepted`
+    /// names: of those `fresh` and `energies`, of all others what is remembered now. The totals are the present ones.
     ///
     /// Answers how many records were left out because `next` has no room for them.
     pub fn accept_into<'a>(
         &'a self,
         fresh: impl Iterator<Item = Remembered<'a>> + Clone,
-        (poses, energies): (&[PairPose], &PairEnergies),
+        energies: &PairEnergies,
         accepted: impl Fn(u32) -> bool,
         next: &mut Self,
     ) -> usize {
-        for (index, pose) in next.poses.iter_mut().enumerate() {
-            *pose = if accepted(index as u32) { poses[index] } else { self.poses[index] };
+        for index in 0..self.pair_energies.pairs.len() {
             let energies = if accepted(index as u32) { energies } else { &self.pair_energies };
             next.pair_energies.copy_pair(index, energies);
         }

@@ -3,11 +3,13 @@
 mod block;
 mod memory;
 mod merge;
+mod poses;
 #[cfg(test)]
 mod tests;
 
 pub use block::StateError;
-pub(crate) use block::{block_len, needed_len, read_block, write_block};
+pub(crate) use block::{largest_len, needed_len, read_block, write_block};
 pub(crate) use memory::{
-    ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, PairPose, Remembered, SAME_WAY_COSINE_MIN,
+    ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, Remembered, SAME_WAY_COSINE_MIN,
 };
+pub(crate) use poses::{CommittedPoses, Past};

@@ -1,7 +1,8 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
-use super::block::{StateError, block_len, needed_len, write_block};
-use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, PairPose, Remembered};
+use super::block::{StateError, largest_len, needed_len, write_block};
+use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, Remembered};
+use super::poses::{CommittedPoses, NEVER, Past};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -12,6 +13,10 @@ use pong_testkit::Random;
 /// How many frames late the wrench comes where energies are kept.
 const DELAY: u32 = 2;
 const GROUP_PAIRS: usize = 5;
+/// Each of a pair of Objects of its own.
+const BODIES: [usize; 3] = [0, 1, 3];
+const ALL_BODIES: usize = 4;
+const MOMENTS: u8 = 3;
 const CAPACITY: usize = 24;
 const WORLD: u64 = 0x5eed;
 
@@ -23,6 +28,20 @@ fn pose_of(random: &mut Random) -> Pose {
     let [w, x, y, z] = [random.unit(), random.unit(), random.unit(), random.unit()];
     let orientation = Quat::new_unchecked(nalgebra::Quaternion::new(w, x, y, z));
     Pose { position: random.vector(0.5), orientation }
+}
+
+fn poses_of_all(random: &mut Random) -> Vec<Pose> {
+    (0..ALL_BODIES).map(|_| pose_of(random)).collect()
+}
+
+fn poses_of(random: &mut Random) -> CommittedPoses {
+    let mut poses = CommittedPoses::new(BODIES.into(), ALL_BODIES, GROUP_PAIRS);
+    for moment in 0..MOMENTS {
+        BODIES.iter().for_each(|&body| poses.put_pose(moment, body, pose_of(random)));
+    }
+    let moments = [0; GROUP_PAIRS].map(|_| [0, 1, 2, NEVER][random.below(4)]);
+    poses.put_moments(MOMENTS, moments.into_iter());
+    poses
 }
 
 fn record_of(random: &mut Random) -> ContactRecord {
@@ -72,11 +91,8 @@ fn memory_with(
     coupling: Option<WrenchCoupling>,
 ) -> ContactMemory {
     let energies = ContactEnergies::with_capacity(coupling, CAPACITY);
-    let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, stride)
+    let mut memory = ContactMemory::with_capacity(poses_of(random), GROUP_PAIRS, CAPACITY, stride)
         .with_energies(energies, PairEnergies::default());
-    for pose in &mut memory.poses {
-        *pose = PairPose { relative: [pose_of(random), pose_of(random)], known: random.below(2) == 1 };
-    }
     (memory.work, memory.dissipated) = (random.unit(), random.unit());
     let mut fresh: Vec<ContactRecord> = (0..records).map(|_| record_of(random)).collect();
     fresh.sort_by_key(|record| record.key);
@@ -134,17 +150,88 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
         let forgotten = random.below(1 << GROUP_PAIRS);
         let is_forgotten = |pair: u32| forgotten >> pair & 1 == 1;
         let mut left = memory.clone();
-        left.clear_history(is_forgotten);
+        left.clear_history(|pair| is_forgotten(pair as u32), |group_pair| group_pair as usize);
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_forgotten(record.key.group_pair));
         assert_eq!(listed(&left), expected);
         assert_eq!(left.law_state.len(), left.records.len() * left.law_state_len);
-        for (pair, (pose, before)) in left.poses.iter().zip(&memory.poses).enumerate() {
-            let unknown = PairPose::unknown();
-            assert_eq!(pose, if is_forgotten(pair as u32) { &unknown } else { before });
+        for pair in 0..GROUP_PAIRS {
+            let before = past_of(&memory.poses, pair).filter(|_| !is_forgotten(pair as u32));
+            assert_eq!(past_of(&left.poses, pair), before);
         }
         assert_eq!((left.work, left.dissipated), (memory.work, memory.dissipated));
     }
+}
+
+/// The poses at a pair's last commit, as a slow model holds them.
+fn past_of(poses: &CommittedPoses, pair: usize) -> Option<Vec<Pose>> {
+    let moment = poses.moment_of(pair);
+    (moment != NEVER).then(|| BODIES.iter().map(|&body| *poses.pose(moment, body)).collect())
+}
+
+/// Two states of a world take turns, as they do in frames, against a model that holds the poses of every pair.
+#[test]
+fn the_past_of_every_pair_is_that_of_its_last_commit() {
+    let mut random = Random(10);
+    let empty = CommittedPoses::new(BODIES.into(), ALL_BODIES, GROUP_PAIRS);
+    let (mut committed, mut spare) = (empty.clone(), empty);
+    let mut expected = vec![None; GROUP_PAIRS];
+    let mut enabled = [true; GROUP_PAIRS];
+    for round in 0..3000 {
+        let now = poses_of_all(&mut random);
+        let seen = || Some(BODIES.iter().map(|&body| now[body]).collect::<Vec<_>>());
+        let chosen = random.below(1 << GROUP_PAIRS);
+        let is_chosen = |pair: usize| chosen >> pair & 1 == 1;
+        match random.below(8) {
+            0 => {
+                let pair = random.below(GROUP_PAIRS);
+                enabled[pair] = !enabled[pair];
+                spare.copy_from(&committed);
+                spare.clear_history(|other| other == pair);
+                expected[pair] = None;
+            }
+            1 => {
+                spare.copy_from(&committed);
+                spare.clear_history(is_chosen);
+                (0..GROUP_PAIRS).filter(|&pair| is_chosen(pair)).for_each(|pair| expected[pair] = None);
+            }
+            2 | 3 if chosen > 0 => {
+                let moment = committed.free_moment(is_chosen).expect("a small world has room for every pair");
+                spare.commit_some(&committed, (&now, &enabled), moment, is_chosen);
+                for pair in (0..GROUP_PAIRS).filter(|&pair| is_chosen(pair)) {
+                    expected[pair] = seen().filter(|_| enabled[pair]);
+                }
+            }
+            _ => {
+                spare.commit(&committed, &now, &enabled);
+                assert_eq!(spare.past(), Past::OneMoment);
+                expected = enabled.map(|on| seen().filter(|_| on)).to_vec();
+            }
+        }
+        std::mem::swap(&mut committed, &mut spare);
+        let known: Vec<_> = (0..GROUP_PAIRS).map(|pair| past_of(&committed, pair)).collect();
+        assert!(known == expected, "round {round}");
+        assert_eq!(committed.knows_any(), expected.iter().any(Option::is_some));
+        let other = committed.moment_of.iter().any(|moment| *moment != NEVER && *moment != 0);
+        assert!(!other || committed.past() == Past::Several);
+    }
+}
+
+/// A large world has room for few moments; when all are taken, pairs that are committed together make room.
+#[test]
+fn a_large_world_tells_a_few_moments_apart() {
+    let bodies: Vec<usize> = (0..4096).collect();
+    let mut poses = CommittedPoses::new(bodies.into(), 4096, 20);
+    assert_eq!(poses.capacity(), 8);
+    let (now, enabled) = (vec![Pose::identity(); 4096], [true; 20]);
+    for pair in 0..8 {
+        let moment = poses.free_moment(|other| other == pair).unwrap();
+        let before = poses.clone();
+        poses.commit_some(&before, (&now, &enabled), moment, |other| other == pair);
+    }
+    assert_eq!(poses.free_moment(|other| other == 8), None);
+    assert!(poses.free_moment(|other| other == 7).is_some());
+    assert!(poses.free_moment(|_| true).is_some());
 }
 
 #[test]
@@ -157,8 +244,7 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
         let accepted = random.below(1 << GROUP_PAIRS);
         let is_accepted = |pair: u32| accepted >> pair & 1 == 1;
         let next = &mut next[memory.law_state_len];
-        let left_out =
-            memory.accept_into(fresh_of(&trial), (&trial.poses, &trial.pair_energies), is_accepted, next);
+        let left_out = memory.accept_into(fresh_of(&trial), &trial.pair_energies, is_accepted, next);
 
         let mut expected = listed(&memory);
         expected.retain(|(record, _)| !is_accepted(record.key.group_pair));
@@ -175,10 +261,6 @@ fn a_commit_of_some_pairs_replaces_theirs_and_keeps_the_rest() {
             expected = by_force.iter().map(|&i| expected[i].clone()).collect();
         }
         assert_eq!(listed(next), expected);
-        for pair in 0..GROUP_PAIRS {
-            let source = if is_accepted(pair as u32) { &trial } else { &memory };
-            assert_eq!(next.poses[pair], source.poses[pair]);
-        }
         assert_eq!((next.work, next.dissipated), (memory.work, memory.dissipated));
     }
     assert!(overflows > 50, "{overflows}");
@@ -190,8 +272,8 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
     for round in 0..300 {
         let (mut memory, trial) = two_memories(&mut random, round);
         let totals = (memory.work, memory.dissipated);
-        assert_eq!(memory.replace(fresh_of(&trial), &trial.poses), 0);
-        assert_eq!((listed(&memory), &memory.poses), (listed(&trial), &trial.poses));
+        assert_eq!(memory.replace(fresh_of(&trial)), 0);
+        assert_eq!(listed(&memory), listed(&trial));
         assert_eq!((memory.work, memory.dissipated), totals);
         let mut copy = memory_with_energies(&mut random, CAPACITY, memory.law_state_len);
         copy.copy_from(&memory);
@@ -215,7 +297,7 @@ fn records_of_one_key_are_found_together() {
 fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     let mut random = Random(9);
     let model = ContactRecord { role: ContactRole::Active, ..record_of(&mut random) };
-    let mut memory = ContactMemory::with_capacity(GROUP_PAIRS, CAPACITY, 0);
+    let mut memory = ContactMemory::with_capacity(poses_of(&mut random), GROUP_PAIRS, CAPACITY, 0);
     let oblique = Vec3::new(0.6, 0.0, 0.8);
     for (normal, feature, role) in [
         (Vec3::x(), 1, ContactRole::Active),
@@ -246,7 +328,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
 
 /// In a buffer that has room for the largest block.
 fn block_of(memory: &ContactMemory) -> Vec<u8> {
-    let mut block = vec![0xee; block_len(GROUP_PAIRS, CAPACITY, memory.numbers_each(), 0)];
+    let mut block = vec![0xee; largest_len(memory)];
     write_block(memory, WORLD, &mut block).unwrap();
     block
 }
@@ -258,25 +340,41 @@ fn tight_block_of(memory: &ContactMemory) -> Vec<u8> {
     block
 }
 
-/// The contents of a block of version 1 of the format, whose checksum stood behind room for all contacts: those of version 2
-/// are the same, with another number of the version. The hash was recorded while the blocks were those of version 1 to the
-/// bit.
+/// What a block of version 3 is, written down byte by byte.
 #[test]
-fn the_contents_of_the_block_are_still_those_of_version_1() {
+fn the_block_is_laid_out_as_version_3_says() {
     let mut random = Random(5);
-    let hash = (0..40).fold(0, |hash: u64, round| {
-        let memory = memory_of(&mut random, round % (CAPACITY + 1), round % 4);
-        let mut block = block_of(&memory);
-        let used = needed_len(&memory) - 8;
-        let (place, checksum) = (block.len() - 8, Fnv::of(&block[..used]).to_le_bytes());
-        assert_eq!(block[used..used + 8], checksum);
-        block[8] = 1;
-        block[used..used + 8].fill(0);
-        let checksum = Fnv::of(&block[..place]).to_le_bytes();
-        block[place..].copy_from_slice(&checksum);
-        hash.rotate_left(7) ^ Fnv::of(&block)
-    });
-    assert_eq!(hash, 0x3154_0bf1_7ee5_cd02);
+    for _ in 0..40 {
+        let memory = memory_of(&mut random, 0, 0);
+        let mut expected = b"PONGSTAT".to_vec();
+        let mut put = |bytes: &[u8]| expected.extend_from_slice(bytes);
+        put(&3_u32.to_le_bytes());
+        put(&0_u32.to_le_bytes());
+        put(&WORLD.to_le_bytes());
+        put(&memory.work.to_le_bytes());
+        put(&memory.dissipated.to_le_bytes());
+        let mut moments: Vec<u8> = Vec::new();
+        for pair in 0..GROUP_PAIRS {
+            let moment = memory.poses.moment_of(pair);
+            if moment != NEVER && !moments.contains(&moment) {
+                moments.push(moment);
+            }
+        }
+        put(&(moments.len() as u64).to_le_bytes());
+        for (moment, body) in moments.iter().flat_map(|moment| BODIES.map(|body| (*moment, body))) {
+            let pose = memory.poses.pose(moment, body);
+            let numbers = pose.position.iter().chain(pose.orientation.coords.iter());
+            numbers.for_each(|x| put(&x.to_le_bytes()));
+        }
+        for pair in 0..GROUP_PAIRS {
+            let place = moments.iter().position(|moment| *moment == memory.poses.moment_of(pair));
+            put(&[place.map_or(255, |place| place as u8)]);
+        }
+        put(&[0; 3]);
+        let checksum = Fnv::of(&expected).to_le_bytes();
+        expected.extend_from_slice(&checksum);
+        assert!(tight_block_of(&memory) == expected);
+    }
 }
 
 #[test]
@@ -319,7 +417,7 @@ fn a_block_has_no_room_for_contacts_that_there_are_not() {
         let (memory, mut other) = two_memories(&mut random, round);
         let (tight, whole) = (tight_block_of(&memory), block_of(&memory));
         let numbers = memory.records.len() * (RECORD_BYTES + 8 * memory.numbers_each());
-        assert_eq!(tight.len(), RECORD + numbers + 8);
+        assert_eq!(tight.len(), first_record(&memory) + numbers + 8);
         assert!(whole[..tight.len()] == tight && whole[tight.len()..].iter().all(|byte| *byte == 0));
         // Beyond the room for the largest block a buffer is left alone.
         let mut larger = vec![0xee; whole.len() + 100];
@@ -351,8 +449,23 @@ fn a_block_has_no_room_for_contacts_that_there_are_not() {
     assert!(read_block(&mut memory, WORLD, &[&tight[..], &[1]].concat()).is_err() && memory == before);
 }
 
-/// Where a record begins in the block, and its words in it.
-const RECORD: usize = 40 + GROUP_PAIRS * 120;
+/// Where the poses begin in the block, with how many moments there are.
+const POSES: usize = 40;
+/// A moment for each pair of Objects, with room up to a multiple of eight bytes.
+const PAIRS_BYTES: usize = 8;
+
+/// Where the moments of the pairs begin in the block.
+fn first_moment(memory: &ContactMemory) -> usize {
+    let (_, moments) = memory.poses.numbered();
+    POSES + 8 + usize::from(moments) * BODIES.len() * 56
+}
+
+/// Where the records begin in the block.
+fn first_record(memory: &ContactMemory) -> usize {
+    first_moment(memory) + PAIRS_BYTES
+}
+
+/// The words of a record in the block.
 const ROLE_WORD: usize = 9;
 const RECORD_BYTES: usize = 160;
 
@@ -373,11 +486,15 @@ fn a_block_that_holds_nonsense_under_a_good_checksum_is_refused_and_changes_noth
     let block = tight_block_of(&saved);
     let mut memory = memory_of(&mut random, 5, 0);
     let before = memory.clone();
-    let last = RECORD + 8 * RECORD_BYTES;
+    let last = first_record(&saved) + 8 * RECORD_BYTES;
+    let (_, moments) = saved.poses.numbered();
     let nonsense = [
         ("a role that there is not", last + 4 * ROLE_WORD, 3),
         ("a pair that there is not", last, GROUP_PAIRS as u32),
         ("keys out of order", last, 0),
+        ("a moment that there is not", first_moment(&saved), u32::from_le_bytes([moments; 4])),
+        ("more moments than there is room for", POSES, GROUP_PAIRS as u32 + 1),
+        ("something behind the moments", first_moment(&saved) + 4, 0x0100_0000),
     ];
     assert!(saved.records[7].key.group_pair > 0);
     for (what, at, word) in nonsense {

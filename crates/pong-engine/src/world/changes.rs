@@ -16,7 +16,7 @@ impl World {
         let pair = self.scene.pair_index(pair)?;
         if self.states.enabled[pair] != enabled {
             self.states.enabled[pair] = enabled;
-            self.runtime.clear_history(|groups| groups.pair == pair);
+            self.runtime.clear_history(|other| other == pair);
         }
         Ok(())
     }
@@ -35,10 +35,8 @@ impl World {
     /// [`EngineError::UnknownId`] for an Object of another world.
     pub fn clear_contact_history(&mut self, object: ObjectId) -> Result<(), EngineError> {
         let object = self.scene.object_index(object)?;
-        let bodies = &self.scene.bodies;
-        self.runtime.clear_history(|pair| {
-            bodies[pair.first].object == object || bodies[pair.second].object == object
-        });
+        let pairs = &self.scene.pairs;
+        self.runtime.clear_history(|pair| pairs[pair].a == object || pairs[pair].b == object);
         Ok(())
     }
 

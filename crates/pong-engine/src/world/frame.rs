@@ -77,14 +77,19 @@ impl World {
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.require_evaluated()?;
-        self.runtime.commit();
+        self.runtime.commit(&self.states);
         Ok(())
     }
 
     /// As [`commit`](Self::commit), for some pairs only: the others keep their last committed state.
     ///
+    /// The world remembers the poses of every moment at which pairs were last committed. There is room for as many moments
+    /// as there are pairs, but for no more than 255, and for 16,384 poses or 8 moments, whichever is more.
+    ///
     /// # Errors
-    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world. Nothing is committed then.
+    /// As [`evaluate`](Self::evaluate); [`EngineError::UnknownId`] for a pair of another world; [`EngineError::BadValue`] if the
+    /// pairs that are not committed were last committed at so many moments that there is no room for another. Nothing is
+    /// committed then.
     pub fn commit_pairs(&mut self, pairs: &[PairId]) -> Result<(), EngineError> {
         for pair in pairs {
             self.scene.pair_index(*pair)?;
@@ -92,8 +97,7 @@ impl World {
         self.require_evaluated()?;
         let stamp = self.scene.stamp;
         let accepts = |pair| pairs.iter().any(|accepted| accepted.index_in(stamp) == Some(pair));
-        self.runtime.commit_pairs(accepts);
-        Ok(())
+        self.runtime.commit_pairs(&self.states, accepts)
     }
 
     /// Evaluate and commit, for hosts that call once a frame.

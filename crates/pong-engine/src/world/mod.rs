@@ -55,6 +55,12 @@ impl World {
         self.runtime.sealed.contact_capacity
     }
 
+    /// The pairs that frames visit.
+    #[cfg(test)]
+    pub(crate) fn near_pairs(&mut self) -> &mut crate::frame::NearPairs {
+        &mut self.runtime.frame.near
+    }
+
     /// What a tool beside the engine reads of the world.
     pub fn inspect(&self) -> Inspection<'_> {
         Inspection::new(&self.scene, &self.runtime)

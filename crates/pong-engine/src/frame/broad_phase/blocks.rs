@@ -3,12 +3,12 @@
 use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
-use crate::sealed::{Plan, Sealed};
+use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::List;
 use pong_geometry::Transform;
 use pong_geometry::bounding::Volume;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
-use pong_model::{Batch, Node};
+use pong_model::{Batch, MovableGroup, Node};
 
 /// Blocks of one round: when so many are laid out they are worked off before more are.
 pub(crate) const ROUND: usize = 4096;
@@ -16,25 +16,27 @@ pub(crate) const ROUND: usize = 4096;
 /// What a block may cost before it is cut, ns: long against claiming one, short against a frame.
 const BLOCK_NS: u32 = 4000;
 
-/// Lays out all blocks of a frame, and calls `work` with them whenever a round is full and at the end. Every call
+/// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is full and at the end. Every call
 /// is told what the round may cost, ns.
 pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
-    enabled: &[bool],
+    pairs: &[u32],
     input: &mut WorkerInput,
     counts: &mut FrameCounts,
     work: &mut dyn FnMut(&mut WorkerInput, u64),
 ) {
     let mut cost = 0;
     input.blocks.clear();
-    for (index, plan) in sealed.plans.iter().enumerate() {
-        if !enabled[sealed.group_pairs[plan.group_pair as usize].pair] {
-            continue;
+    for (slot, &group_pair) in pairs.iter().enumerate() {
+        for (plan, direction) in sealed.plans_of(group_pair) {
+            let (body_a, body_b) = sealed.bodies_of(direction);
+            let bodies = (scene.body(body_a), scene.body(body_b));
+            let slot = slot as u32;
+            let mut layout =
+                Layout { sealed, plan, bodies, direction, slot, input, counts, cost: &mut cost, work };
+            layout.visit_leaves(0);
         }
-        let mut layout =
-            Layout { scene, sealed, plan, index: index as u32, input, counts, cost: &mut cost, work };
-        layout.visit_leaves(0);
     }
     work(input, cost);
     input.blocks.clear();
@@ -42,10 +44,12 @@ pub(crate) fn lay_out(
 
 /// Lays out the blocks of one direction of a pair of movable groups.
 struct Layout<'a, 'w> {
-    scene: &'a Scene,
     sealed: &'a Sealed,
     plan: &'a Plan,
-    index: u32,
+    /// A's and B's.
+    bodies: (&'a MovableGroup, &'a MovableGroup),
+    direction: Direction,
+    slot: u32,
     input: &'a mut WorkerInput,
     counts: &'a mut FrameCounts,
     cost: &'a mut u64,
@@ -54,19 +58,19 @@ struct Layout<'a, 'w> {
 
 impl Layout<'_, '_> {
     fn x_ba(&self) -> Transform {
-        self.input.motions[self.plan.group_pair as usize][self.plan.flipped as usize].x_ba
+        self.input.motions[self.slot as usize][self.direction.flipped as usize].x_ba
     }
 
     /// Whether a volume of A reaches the root of B's tree.
     fn reaches_b(&mut self, volume: &Volume) -> bool {
-        let root = &self.scene.body(self.plan.body_b).tree.nodes[0].volume;
+        let root = &self.bodies.1.tree.nodes[0].volume;
         let meets = self.sealed.volume_tests.overlap(volume, root, &self.x_ba());
         self.counts.note_volumes(volume, root, meets);
         meets
     }
 
     fn visit_leaves(&mut self, node: u32) {
-        let tree = &self.scene.body(self.plan.body_a).tree;
+        let tree = &self.bodies.0.tree;
         let Node { volume, children, batches, .. } = &tree.nodes[node as usize];
         if !self.reaches_b(volume) {
             return;
@@ -78,7 +82,8 @@ impl Layout<'_, '_> {
             let Some(element_ns) = self.plan.element_ns(tree.batches[batch as usize].kind) else { continue };
             let boxes = &tree.batches[batch as usize].boxes;
             let at_most = (BLOCK_NS / element_ns).next_multiple_of(8);
-            let block = Block { plan: self.index, leaf: node, batch, first: 0, end: 0 };
+            let block =
+                Block { direction: self.direction, slot: self.slot, leaf: node, batch, first: 0, end: 0 };
             self.cut(boxes, 0, at_most, element_ns, block);
         }
     }

@@ -16,10 +16,11 @@ use crate::energy::contact::{ContactEnergies, ContactEnergy};
 use crate::energy::episodes::PairEnergies;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::WorkerInput;
+use crate::frame::input::relative::Motions;
 use crate::law::stored_energy;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{ContactMemory, ContactRecord, ContactRole, PairPose};
+use crate::state::{ContactMemory, ContactRecord, ContactRole};
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Pose, Vec3, Wrench};
 
@@ -182,7 +183,7 @@ impl Accounts<'_> {
     /// The force of a contact by what makes it.
     fn force_parts(&self, contact: &FrameContact) -> ForceParts {
         let found = &contact.found;
-        let (body_a, body_b) = self.sealed.bodies_of(&found.key);
+        let (body_a, body_b) = self.sealed.bodies_of(found.key.direction());
         let surface_a = self.scene.body(body_a).primitives[found.key.primitive_a as usize].surface;
         let surface_b = self.scene.body(body_b).primitives[found.primitive_b as usize].surface;
         let pair = &self.sealed.group_pairs[found.key.group_pair as usize];
@@ -197,9 +198,9 @@ impl Accounts<'_> {
     }
 
     /// Ends a frame: sums of pairs, and episodes that are over.
-    pub fn close(&mut self, remembered: &[PairPose]) {
+    pub fn close(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
         if self.coupling.delay() > 0 {
-            self.exchange_wrenches(remembered);
+            self.exchange_wrenches(motions, enabled);
         }
         for (pair, interval) in self.intervals.iter().enumerate() {
             let mut sum = interval.sum;
@@ -218,19 +219,22 @@ impl Accounts<'_> {
     }
 
     /// What comes later is the wrench of a whole pair: it comes even if the contacts that made it are gone.
-    fn exchange_wrenches(&mut self, remembered: &[PairPose]) {
+    fn exchange_wrenches(&mut self, motions: &Motions<'_>, enabled: &[bool]) {
         let mut records = self.memory.records.iter().peekable();
-        for (pair, pose) in remembered.iter().enumerate() {
-            let earlier = &self.memory.poses[pair];
+        for (pair, groups) in self.sealed.group_pairs.iter().enumerate() {
+            let before = motions.committed.relative(groups.pair, groups.first, groups.second);
+            let seen = before.unwrap_or_else(Pose::identity);
             let mut sent = Wrench::zero();
             while let Some(record) = records.next_if(|record| record.key.group_pair as usize == pair) {
                 if record.role == ContactRole::Active {
-                    sent += on_first(record, &earlier.relative[0]);
+                    sent += on_first(record, &seen);
                 }
             }
             let arrives = self.pairs.exchange(pair, sent);
-            let known = earlier.known && pose.known;
-            self.intervals[pair].as_used = if known { work_on_first(&arrives, earlier, pose) } else { 0.0 };
+            let now = || Pose::relative(&motions.poses[groups.first], &motions.poses[groups.second]);
+            let followed = before.filter(|_| enabled[groups.pair]);
+            self.intervals[pair].as_used =
+                followed.map_or(0.0, |before| work_on_first(&arrives, &before, &now()));
         }
     }
 }
@@ -244,8 +248,8 @@ fn on_first(record: &ContactRecord, first_seen_from_second: &Pose) -> Wrench {
     Wrench::of_force_at(-(rotation * record.force_b), &(rotation * record.point_b))
 }
 
-fn work_on_first(wrench: &Wrench, earlier: &PairPose, now: &PairPose) -> f64 {
-    let (before, after) = (&earlier.relative[0], &now.relative[0]);
+/// Work of a wrench on the first group over its way, seen from the second.
+fn work_on_first(wrench: &Wrench, before: &Pose, after: &Pose) -> f64 {
     let rotation = rotation_vector(&(after.orientation * before.orientation.inverse()));
     wrench.force.dot(&(after.position - before.position)) + wrench.moment.dot(&rotation)
 }

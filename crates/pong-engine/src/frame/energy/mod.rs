@@ -16,24 +16,26 @@ pub(crate) mod interval;
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
-use crate::frame::input::WorkerInput;
+use crate::frame::input::EvaluationInput;
+use crate::frame::input::relative::Motions;
 use crate::frame::worker_context::WorkerContext;
-use crate::scene::Scene;
-use crate::sealed::Sealed;
-use crate::state::{ContactMemory, ContactRecord, ContactRole};
+use crate::state::{ContactRecord, ContactRole};
 use accounts::Accounts;
 use buffers::EnergyBuffers;
 use displacement::Displacement;
 use pong_geometry::Vec3;
 
 /// Fills in the energies of the contacts and the totals.
-pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, frame: &mut EvaluationBuffers) {
+pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
+    let EvaluationInput { scene, sealed, memory, .. } = *given;
+    let enabled = &given.states.enabled;
     frame.energy.work = memory.work;
     frame.energy.dissipated = memory.dissipated;
     if !scene.config.ledger {
         return;
     }
-    let EvaluationBuffers { input, caller, order, energy, .. } = frame;
+    let EvaluationBuffers { input, caller, order, energy, near, poses, twists, .. } = frame;
+    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let EnergyBuffers { work: all_work, dissipated: all_dissipated, contacts: energies, pairs, intervals } =
         energy;
     let WorkerContext { scratch, out, .. } = caller;
@@ -58,7 +60,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         if found.role != ContactRole::Active {
             continue;
         }
-        let motion = &input.motions[found.key.group_pair as usize][found.key.flipped as usize];
+        let motion = motions.known(near, input, found.key.direction());
         let mut before = Before::default();
         // Two contacts may continue one record; its energy goes to the first.
         let earlier = contact.continues.map(|i| i as usize).filter(|&i| !continued[i]);
@@ -68,7 +70,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
         }
         let mut work = 0.0;
         let displacement = motion.since_commit.as_ref().map(|since| {
-            let (body_a, _) = sealed.bodies_of(&found.key);
+            let (body_a, _) = sealed.bodies_of(found.key.direction());
             let reference = reference_point(scene.body(body_a), &found.key, found.element_a);
             Displacement::new(since, &motion.x_ba, &reference)
         });
@@ -88,7 +90,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
     let ended =
         memory.records.iter().enumerate().filter(|(i, r)| r.role == ContactRole::Active && !continued[*i]);
     for (index, earlier) in ended {
-        let displacement = displacement_of_ended(earlier, input);
+        let displacement = displacement_of_ended(earlier, &motions);
         let (work, dissipated) = end_contact(earlier, displacement.as_ref());
         *all_work += work;
         *all_dissipated += dissipated;
@@ -96,7 +98,7 @@ pub(crate) fn balance(scene: &Scene, sealed: &Sealed, memory: &ContactMemory, fr
             accounts.ended(index, displacement.as_ref());
         }
     }
-    accounts.iter_mut().for_each(|accounts| accounts.close(&frame.remembered));
+    accounts.iter_mut().for_each(|accounts| accounts.close(&motions, enabled));
 }
 
 /// What a contact was at the last commit; all zero if it was none.
@@ -122,8 +124,8 @@ impl Before {
 }
 
 /// Displacement at a contact that is no more.
-fn displacement_of_ended(earlier: &ContactRecord, input: &WorkerInput) -> Option<Displacement> {
-    let motion = &input.motions[earlier.key.group_pair as usize][earlier.key.flipped as usize];
+fn displacement_of_ended(earlier: &ContactRecord, motions: &Motions<'_>) -> Option<Displacement> {
+    let motion = motions.of(earlier.key.direction());
     let since = motion.since_commit.as_ref()?;
     // Any point carried by A serves as reference; the contact's own place then is at hand.
     let local = since.x_ba.inverse().point(&earlier.point_b);

@@ -7,13 +7,13 @@ pub(crate) mod reference_point;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::buffers::Place;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::input::PairContext;
 use crate::frame::input::motion::SinceCommit;
+use crate::frame::input::relative::Motions;
+use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::frame::worker_context::WorkerContext;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_force, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
-use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactRecord, ContactRole};
 use contact_buffer::ContactBuffer;
@@ -45,8 +45,10 @@ pub(crate) fn compute_forces(
 }
 
 /// Computes forces again, after some of their keys were left out by a limit: what is left carries the bristle.
-pub(crate) fn recompute_forces(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { input, caller, order, .. } = frame;
+pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
+    let EvaluationInput { scene, sealed, memory, .. } = *given;
+    let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
+    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     caller.scratch.reset();
     let WorkerContext { scratch, out, .. } = caller;
     let law_state = scratch.slice(out.law_state_len, 0.0).expect("sealing has sized the scratch");
@@ -57,7 +59,8 @@ pub(crate) fn recompute_forces(scene: &Scene, sealed: &Sealed, frame: &mut Evalu
         let key = key_of(out, first);
         let group;
         (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
-        let context = PairContext::of_direction(scene, sealed, input, key.group_pair, key.flipped);
+        let motion = motions.known(near, input, key.direction());
+        let context = PairContext::new(scene, sealed, input, key.direction(), &motion);
         for place in group {
             let index = place.index as usize;
             let found = out.contacts[index].found;

@@ -6,7 +6,7 @@ pub(crate) mod states;
 
 use crate::report::Clock;
 use crate::scene::{Scene, States};
-use crate::sealed::{Plan, Sealed, SurfaceTable};
+use crate::sealed::{Direction, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use motion::Motion;
 use pong_geometry::Vec3;
@@ -29,7 +29,7 @@ pub(crate) struct EvaluationInput<'a> {
 pub(crate) struct WorkerInput {
     /// Number of the phase: what a context holds of another one is stale.
     pub phase: u64,
-    /// Two directions per pair of movable groups.
+    /// Two directions of every pair of movable groups of this phase.
     pub motions: Vec<[Motion; 2]>,
     /// Committed contact state.
     pub memory: Arc<ContactMemory>,
@@ -45,7 +45,9 @@ pub(crate) struct WorkerInput {
 /// one key are found in one block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
-    pub plan: u32,
+    pub direction: Direction,
+    /// Where the pair's motions are.
+    pub slot: u32,
     /// Leaf of A's tree.
     pub leaf: u32,
     /// Batch of that leaf (index into the tree's batches).
@@ -60,7 +62,8 @@ impl WorkerInput {
     pub fn copy_from(&mut self, other: &Self) {
         self.phase = other.phase;
         self.clock = other.clock;
-        self.motions.copy_from_slice(&other.motions);
+        self.motions.clear();
+        self.motions.extend_from_slice(&other.motions);
         self.memory = Arc::clone(&other.memory);
         self.tables = Arc::clone(&other.tables);
         self.blocks.clear();
@@ -90,26 +93,23 @@ pub(crate) struct PairContext<'a> {
 }
 
 impl<'a> PairContext<'a> {
-    pub fn new(scene: &'a Scene, sealed: &'a Sealed, input: &'a WorkerInput, plan: &Plan) -> Self {
-        Self::of_direction(scene, sealed, input, plan.group_pair, plan.flipped)
-    }
-
-    pub fn of_direction(
+    pub fn new(
         scene: &'a Scene,
         sealed: &'a Sealed,
         input: &'a WorkerInput,
-        group_pair: u32,
-        flipped: u32,
+        direction: Direction,
+        motion: &'a Motion,
     ) -> Self {
+        let Direction { group_pair, flipped } = direction;
         let pair = &sealed.group_pairs[group_pair as usize];
-        let (a, b) = if flipped == 0 { (pair.first, pair.second) } else { (pair.second, pair.first) };
+        let (a, b) = sealed.bodies_of(direction);
         Self {
             scene,
             group_pair,
             flipped,
             body_a: scene.body(a),
             body_b: scene.body(b),
-            motion: &input.motions[group_pair as usize][flipped as usize],
+            motion,
             memory: &input.memory,
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,

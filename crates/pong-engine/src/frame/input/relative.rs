@@ -1,40 +1,60 @@
-//! Relative motion of every pair of movable groups, in both directions.
+//! Relative motion of pairs of movable groups.
 //!
 //! r = x_A − x_B and v = v_A − v_B are formed before anything is rotated, so that the results do not depend on
 //! where the common origin is or how fast it moves (docs/theory.md, 1).
 
-use super::EvaluationInput;
+use super::WorkerInput;
 use super::motion::{Motion, SinceCommit};
-use crate::frame::buffers::EvaluationBuffers;
-use crate::state::PairPose;
+use crate::frame::near_pairs::NearPairs;
+use crate::sealed::{Direction, Sealed};
+use crate::state::CommittedPoses;
 use pong_geometry::{Pose, Twist};
+use std::borrow::Cow;
 
-/// Fills in the motions of the directions in which something can be found, and the relative poses that a commit would
-/// remember. Of pairs that are off only if the ledger is kept: it asks for the motion of contacts that end.
-pub(crate) fn relate(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let (sealed, memory, enabled) = (given.sealed, given.memory, &given.states.enabled);
-    let ledger = given.scene.config.ledger;
-    for (index, pair) in sealed.group_pairs.iter().enumerate() {
-        frame.remembered[index] = PairPose::unknown();
-        if enabled[pair.pair] || ledger {
-            let (first, second) = (&frame.poses[pair.first], &frame.poses[pair.second]);
-            let relative = [Pose::relative(first, second), Pose::relative(second, first)];
-            frame.remembered[index] = PairPose { known: enabled[pair.pair], relative };
+/// What the relative motion of any pair is computed from.
+#[derive(Clone, Copy)]
+pub(crate) struct Motions<'a> {
+    pub sealed: &'a Sealed,
+    /// Poses and twists of all movable groups.
+    pub poses: &'a [Pose],
+    pub twists: &'a [Twist],
+    /// Their poses at the last commits.
+    pub committed: &'a CommittedPoses,
+}
+
+impl Motions<'_> {
+    /// Fills in the motions of some pairs, in the directions in which something can be found.
+    pub fn relate(&self, pairs: &[u32], out: &mut Vec<[Motion; 2]>) {
+        // What is of no use stays as it is: both directions may be written, and few are not.
+        out.resize(pairs.len(), [Motion::none(); 2]);
+        for (motions, &group_pair) in out.iter_mut().zip(pairs) {
+            for (_, direction) in self.sealed.plans_of(group_pair) {
+                motions[direction.flipped as usize] = self.of(direction);
+            }
         }
     }
-    for plan in &sealed.plans {
-        let (index, flipped) = (plan.group_pair as usize, plan.flipped as usize);
-        if enabled[sealed.group_pairs[index].pair] || ledger {
-            let pose = &frame.remembered[index].relative[flipped];
-            let committed = &memory.poses[index];
-            let earlier = committed.known.then(|| &committed.relative[flipped]);
-            let twists = (&frame.twists[plan.body_a], &frame.twists[plan.body_b]);
-            frame.input.motions[index][flipped] = motion(pose, twists, &frame.poses[plan.body_b], earlier);
-        }
+
+    /// The motion of A against B.
+    pub fn of(&self, direction: Direction) -> Motion {
+        let (body_a, body_b) = self.sealed.bodies_of(direction);
+        let pair = self.sealed.group_pairs[direction.group_pair as usize].pair;
+        let (x_wa, x_wb) = (&self.poses[body_a], &self.poses[body_b]);
+        let earlier = self.committed.relative(pair, body_a, body_b);
+        let twists = (&self.twists[body_a], &self.twists[body_b]);
+        motion(&Pose::relative(x_wa, x_wb), twists, x_wb, earlier.as_ref())
     }
-    if ledger {
-        let off = sealed.group_pairs.iter().enumerate().filter(|(_, pair)| !enabled[pair.pair]);
-        off.for_each(|(index, _)| frame.remembered[index] = PairPose::unknown());
+
+    /// The motion of a direction in which a contact was found: as the frame has it, or computed again.
+    pub fn known<'i>(
+        &self,
+        near: &NearPairs,
+        input: &'i WorkerInput,
+        direction: Direction,
+    ) -> Cow<'i, Motion> {
+        match near.slot(direction.group_pair) {
+            Some(slot) => Cow::Borrowed(&input.motions[slot][direction.flipped as usize]),
+            None => Cow::Owned(self.of(direction)),
+        }
     }
 }
 

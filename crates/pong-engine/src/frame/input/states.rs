@@ -7,6 +7,10 @@ use crate::sealed::Sealed;
 
 /// Refuses a frame while a movable group of an enabled pair has no state.
 pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
+    // As a rule all have one, and there may be many more pairs than movable groups.
+    if sealed.paired_bodies.iter().all(|&body| states.bodies[body].is_some()) {
+        return Ok(());
+    }
     for pair in sealed.group_pairs.iter().filter(|pair| states.enabled[pair.pair]) {
         for body in [pair.first, pair.second] {
             if states.bodies[body].is_none() {
@@ -19,7 +23,7 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
 
 /// Takes the states over into the frame.
 pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
-    for &body in &sealed.paired_bodies {
+    for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
             frame.poses[body] = state.pose();
             frame.twists[body] = state.twist();

@@ -9,7 +9,7 @@ use crate::law::{NormalTangent, normal_tangent};
 use crate::scene::Scene;
 use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactRole;
-use pong_geometry::Vec3;
+use pong_geometry::{Pose, Vec3};
 
 impl EvaluationBuffers {
     /// Every contact that pushes, in key order.
@@ -42,7 +42,7 @@ impl EvaluationBuffers {
         self.pushing().map(move |contact| {
             let found = &contact.found;
             let pair = &sealed.group_pairs[found.key.group_pair as usize];
-            let (body_a, body_b) = sealed.bodies_of(&found.key);
+            let (body_a, body_b) = sealed.bodies_of(found.key.direction());
             let surface =
                 |body: usize, primitive: u32| scene.body(body).primitives[primitive as usize].surface;
             let (a, b) = (surface(body_a, found.key.primitive_a), surface(body_b, found.primitive_b));
@@ -53,10 +53,9 @@ impl EvaluationBuffers {
 
     fn list_contact(&self, contact: &FrameContact, scene: &Scene, sealed: &Sealed) -> Contact {
         let pair = &sealed.group_pairs[contact.found.key.group_pair as usize];
-        let flipped = contact.found.key.flipped as usize;
-        let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
-        let x_ba = &self.input.motions[contact.found.key.group_pair as usize][flipped].x_ba;
+        let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
         let x_wb = &self.poses[body_b];
+        let x_ba = Pose::relative(&self.poses[body_a], x_wb);
         let to_common = |v: &Vec3| x_wb.orientation * v;
         let side = |body: usize, primitive: u32, element: u32, arm: Vec3| ContactSide {
             object: ObjectId::new(scene.stamp, scene.bodies[body].object),
@@ -65,7 +64,7 @@ impl EvaluationBuffers {
             element: element - scene.body(body).primitives[primitive as usize].elements.start,
             arm,
         };
-        let arm_a = to_common(&(contact.point_b - x_ba.translation));
+        let arm_a = to_common(&(contact.point_b - x_ba.position));
         let arm_b = to_common(&contact.point_b);
         Contact {
             pair: PairId::new(scene.stamp, pair.pair),

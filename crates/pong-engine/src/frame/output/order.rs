@@ -3,6 +3,7 @@
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::buffers::Place;
 use crate::frame::forces;
+use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
@@ -10,7 +11,8 @@ use crate::scene::Scene;
 use crate::sealed::Sealed;
 
 /// Puts the contacts in order, whoever found them.
-pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuffers) {
+pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
+    let EvaluationInput { scene, sealed, .. } = *given;
     list(frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
@@ -27,7 +29,7 @@ pub(crate) fn put_in_order(scene: &Scene, sealed: &Sealed, frame: &mut Evaluatio
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
         list(frame);
-        forces::recompute_forces(scene, sealed, frame);
+        forces::recompute_forces(given, frame);
     }
     if demand.unshared {
         frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
@@ -61,7 +63,7 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
     for (place, found) in order.iter().map(|place| &out.contacts[place.index as usize].found).enumerate() {
         if found.ray_distance < f64::INFINITY {
-            let (a, b) = sealed.bodies_of(&found.key);
+            let (a, b) = sealed.bodies_of(found.key.direction());
             let hit = (a, found.key.primitive_a, scene.bodies[b].object, place);
             hits.push((hit, found.ray_distance)).expect("as much room as contacts");
         }

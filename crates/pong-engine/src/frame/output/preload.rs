@@ -58,10 +58,11 @@ impl EvaluationBuffers {
         &self,
         scene: &Scene,
         sealed: &Sealed,
+        memory: &ContactMemory,
         pair: usize,
         preload: &FrictionPreload,
     ) -> Vec<Preloaded> {
-        let held = self.held(scene, sealed, pair);
+        let held = self.held(scene, sealed, memory, pair);
         let whole: f64 = held.iter().map(|held| held.stiffness).sum();
         let preloaded = |held: &Held<'_>| {
             let (bristle, sticks) = match preload {
@@ -82,7 +83,8 @@ impl EvaluationBuffers {
         held.iter().filter_map(preloaded).collect()
     }
 
-    fn held(&self, scene: &Scene, sealed: &Sealed, pair: usize) -> Vec<Held<'_>> {
+    fn held(&self, scene: &Scene, sealed: &Sealed, memory: &ContactMemory, pair: usize) -> Vec<Held<'_>> {
+        let motions = self.motions(sealed, &memory.poses);
         let contact_at = |place: usize| &self.caller.out.contacts[self.order[place].index as usize];
         let places: Vec<usize> = (0..self.order.len()).collect();
         let mut all = Vec::new();
@@ -91,7 +93,8 @@ impl EvaluationBuffers {
             if sealed.group_pairs[key.group_pair as usize].pair != pair {
                 continue;
             }
-            let context = PairContext::of_direction(scene, sealed, &self.input, key.group_pair, key.flipped);
+            let motion = motions.known(&self.near, &self.input, key.direction());
+            let context = PairContext::new(scene, sealed, &self.input, key.direction(), &motion);
             for place in group {
                 let contact = contact_at(*place);
                 let props = context.props(&contact.found);
@@ -126,7 +129,7 @@ impl EvaluationBuffers {
         force: &Vec3,
     ) -> Vec3 {
         let objects = &scene.pairs[pair];
-        let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
+        let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
         // Between the groups of one Object the first is the one of the lower number.
         let a_is_first =
             if objects.a == objects.b { body_a < body_b } else { scene.bodies[body_a].object == objects.a };

@@ -12,7 +12,7 @@ pub(crate) fn sum(sealed: &Sealed, frame: &mut EvaluationBuffers) {
     for place in order.iter() {
         let contact = &caller.out.contacts[place.index as usize];
         if contact.found.role == ContactRole::Active {
-            let (body_a, body_b) = sealed.bodies_of(&contact.found.key);
+            let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
             wrenches[body_a] += contact.wrenches[0];
             wrenches[body_b] += contact.wrenches[1];
         }
@@ -40,7 +40,7 @@ impl EvaluationBuffers {
             let bad = contacts.find(|contact| !holds(of_contact(contact)));
             let ledger = !holds(self.energy.work.abs() + self.energy.dissipated.abs());
             // Energies are nobody's: the first group stands for all.
-            bad.map(|contact| sealed.bodies_of(&contact.found.key).0).or(ledger.then_some(0))
+            bad.map(|contact| sealed.bodies_of(contact.found.key.direction()).0).or(ledger.then_some(0))
         })
     }
 }

@@ -45,8 +45,10 @@ pub(super) fn look_at_ended(
         if pushing(frame, record.key).any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN) {
             continue;
         }
-        let direction = (record.key.group_pair, record.key.flipped);
-        let seen = Seen::of_direction(given, direction, given.sealed.bodies_of(&record.key), frame);
+        let direction = record.key.direction();
+        // The two may be far apart by now, and the pair not among those that the frame has visited.
+        let motion = frame.motions(given.sealed, &given.memory.poses).of(direction);
+        let seen = Seen::new(given, direction, &motion, frame);
         if seen.came_out_behind(record) {
             events.note(seen.passed(record.key.primitive_a));
         }

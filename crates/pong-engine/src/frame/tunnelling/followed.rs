@@ -4,9 +4,10 @@ use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::{curved, sheets, solids, travel};
 use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::input::motion::Motion;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::sealed::Plan;
+use crate::sealed::{Direction, Plan};
 use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
@@ -25,17 +26,14 @@ pub(super) struct Seen<'a> {
 }
 
 impl<'a> Seen<'a> {
-    pub fn new(given: &EvaluationInput<'a>, plan: &Plan, frame: &'a EvaluationBuffers) -> Self {
-        Self::of_direction(given, (plan.group_pair, plan.flipped), (plan.body_a, plan.body_b), frame)
-    }
-
-    pub fn of_direction(
+    pub fn new(
         given: &EvaluationInput<'a>,
-        (pair, flipped): (u32, u32),
-        bodies: (usize, usize),
+        direction: Direction,
+        motion: &'a Motion,
         frame: &'a EvaluationBuffers,
     ) -> Self {
-        let mut context = PairContext::of_direction(given.scene, given.sealed, &frame.input, pair, flipped);
+        let bodies = given.sealed.bodies_of(direction);
+        let mut context = PairContext::new(given.scene, given.sealed, &frame.input, direction, motion);
         context.memory = given.memory;
         Self { context, bodies, frame }
     }

@@ -24,6 +24,8 @@ pub(crate) mod travel;
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::input::EvaluationInput;
+use crate::frame::input::relative::Motions;
+use crate::frame::near_pairs::MOTIONS_AT_ONCE;
 use crate::report::StatusBits;
 use events::TunnellingEvents;
 use followed::Seen;
@@ -31,21 +33,35 @@ use followed::Seen;
 /// Tells the status of what went through.
 pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     frame.caller.scratch.reset();
-    frame.tunnelling = find(given, frame);
+    frame.tunnelling = follow(given, frame);
+    let mut events = frame.tunnelling;
+    ended::look_at_ended(given, frame, &mut events);
+    frame.tunnelling = events;
     if frame.tunnelling.count > 0 {
         frame.report.status.set(StatusBits::TUNNELLED);
     }
 }
 
-fn find(given: &EvaluationInput<'_>, frame: &EvaluationBuffers) -> TunnellingEvents {
+/// Follows the lines of all pairs that are near.
+fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> TunnellingEvents {
     let mut events = TunnellingEvents::default();
-    for plan in &given.sealed.plans {
-        let motion = &frame.input.motions[plan.group_pair as usize][plan.flipped as usize];
-        let enabled = given.states.enabled[given.sealed.group_pairs[plan.group_pair as usize].pair];
-        if enabled && travel::may_go_through(plan, motion) {
-            Seen::new(given, plan, frame).follow_lines(plan, &mut events);
+    let rounds = frame.near.list().len().div_ceil(MOTIONS_AT_ONCE);
+    for round in 0..rounds {
+        let first = round * MOTIONS_AT_ONCE;
+        let end = frame.near.list().len().min(first + MOTIONS_AT_ONCE);
+        if rounds > 1 {
+            let EvaluationBuffers { near, input, poses, twists, .. } = &mut *frame;
+            let motions = Motions { sealed: given.sealed, poses, twists, committed: &given.memory.poses };
+            motions.relate(&near.list()[first..end], &mut input.motions);
+        }
+        for (slot, &group_pair) in frame.near.list()[first..end].iter().enumerate() {
+            for (plan, direction) in given.sealed.plans_of(group_pair) {
+                let motion = &frame.input.motions[slot][direction.flipped as usize];
+                if travel::may_go_through(plan, motion) {
+                    Seen::new(given, direction, motion, frame).follow_lines(plan, &mut events);
+                }
+            }
         }
     }
-    ended::look_at_ended(given, frame, &mut events);
     events
 }

@@ -1,0 +1,164 @@
+//! Pairs of movable groups that may find anything in a frame: the broad phase before the pairs.
+//!
+//! Where movable groups meet few others, every pair that is on is visited. Where they meet many, a pair is visited only
+//! if the bounds that the two have swept since the last commit overlap ([`SweptBounds`]; docs/theory.md, 2.7): of all
+//! others a visit would find nothing, neither a contact nor a passage. What is remembered of contacts that ended is
+//! looked at without a visit.
+//!
+//! Which bounds overlap is asked of a tree of widened bounds ([`BoundsTree`]) whose answer holds until a movable group
+//! has left its widened bounds. The pairs that are visited are those whose own bounds overlap, so they are the same
+//! with and without what is kept from earlier frames.
+
+mod swept;
+#[cfg(test)]
+mod tests;
+mod tree;
+
+use crate::scene::Scene;
+use crate::sealed::{GroupPair, Sealed};
+use crate::state::{CommittedPoses, Past};
+use pong_geometry::Pose;
+use swept::{Bounds, SweptBounds};
+use tree::BoundsTree;
+
+/// Pairs of movable groups whose motions are computed at once. More are near in worlds where everything is crowded or
+/// spins; then the frame's work is done in rounds.
+pub(crate) const MOTIONS_AT_ONCE: usize = 4096;
+
+/// A movable group that meets more others than this, on average, is bounded first: to visit so many pairs takes some ten
+/// times as long.
+const MET_MIN: usize = 32;
+
+/// Pairs of movable groups that a frame visits, in their order.
+pub(crate) struct NearPairs {
+    list: Vec<u32>,
+    /// None where groups meet few others.
+    many: Option<Box<ManyPairs>>,
+}
+
+impl NearPairs {
+    pub fn new(scene: &Scene, sealed: &Sealed) -> Self {
+        let many = are_many(sealed.group_pairs.len(), sealed.paired_bodies.len());
+        Self {
+            list: Vec::with_capacity(sealed.group_pairs.len()),
+            many: many.then(|| Box::new(ManyPairs::new(scene, sealed))),
+        }
+    }
+
+    /// Memory of so many pairs of so many movable groups, bytes.
+    pub fn bytes(pairs: usize, bodies: usize) -> usize {
+        let lists = if are_many(pairs, bodies) { 2 } else { 1 };
+        let of_body = size_of::<usize>() + SweptBounds::BYTES_EACH + BoundsTree::BYTES_EACH;
+        lists * pairs * size_of::<u32>() + bodies * (of_body + size_of::<Bounds>())
+    }
+
+    /// The pairs, in their order.
+    pub fn list(&self) -> &[u32] {
+        &self.list
+    }
+
+    /// Where the motions of a pair are, if they are those of this frame.
+    pub fn slot(&self, group_pair: u32) -> Option<usize> {
+        if self.list.len() > MOTIONS_AT_ONCE {
+            return None;
+        }
+        self.list.binary_search(&group_pair).ok()
+    }
+
+    /// Finds the pairs that a frame visits.
+    pub fn find(&mut self, sealed: &Sealed, enabled: &[bool], poses: &[Pose], committed: &CommittedPoses) {
+        self.list.clear();
+        let pairs = sealed.group_pairs.iter().enumerate();
+        match &mut self.many {
+            Some(many) if committed.past() != Past::Several => {
+                many.find(sealed, enabled, (poses, committed), &mut self.list);
+            }
+            _ => {
+                let on = pairs.filter(|(_, pair)| enabled[pair.pair]);
+                self.list.extend(on.map(|(index, _)| index as u32));
+            }
+        }
+    }
+
+    /// Visits every pair from now on, as if there were few.
+    #[cfg(test)]
+    pub fn visit_all(&mut self) {
+        self.many = None;
+    }
+}
+
+fn are_many(pairs: usize, bodies: usize) -> bool {
+    2 * pairs > MET_MIN * bodies
+}
+
+/// The bounds of all movable groups that meet others, and the pairs whose widened bounds overlap.
+struct ManyPairs {
+    swept: SweptBounds,
+    /// Widened bounds of every movable group, by which `candidates` were found.
+    widened: Vec<Bounds>,
+    /// Pairs whose widened bounds overlap, in their order.
+    candidates: Vec<u32>,
+    tree: BoundsTree,
+    /// Where the pairs of each movable group as the first of the two begin, and behind them the end of the last.
+    first_pair: Vec<usize>,
+}
+
+impl ManyPairs {
+    fn new(scene: &Scene, sealed: &Sealed) -> Self {
+        let bodies = scene.bodies.len();
+        let starts = |body| sealed.group_pairs.partition_point(|pair| pair.first < body);
+        Self {
+            swept: SweptBounds::new(scene, &sealed.paired_bodies),
+            widened: vec![Bounds::nothing(); bodies],
+            candidates: Vec::with_capacity(sealed.group_pairs.len()),
+            tree: BoundsTree::with_capacity(sealed.paired_bodies.len()),
+            first_pair: (0..=bodies).map(starts).collect(),
+        }
+    }
+
+    fn find(
+        &mut self,
+        sealed: &Sealed,
+        enabled: &[bool],
+        (poses, committed): (&[Pose], &CommittedPoses),
+        near: &mut Vec<u32>,
+    ) {
+        self.swept.sweep(&sealed.paired_bodies, poses, committed);
+        let swept = &self.swept.bounds;
+        let hold = |body: &usize| self.widened[*body].hold(&swept[*body]);
+        if !sealed.paired_bodies.iter().all(hold) {
+            self.widen(sealed);
+        }
+        let swept = &self.swept.bounds;
+        near.extend(self.candidates.iter().copied().filter(|&index| {
+            let pair = &sealed.group_pairs[index as usize];
+            enabled[pair.pair] && swept[pair.first].overlap(&swept[pair.second])
+        }));
+    }
+
+    /// Widens the present bounds, and lists the pairs that overlap then.
+    fn widen(&mut self, sealed: &Sealed) {
+        for &body in &*sealed.paired_bodies {
+            self.widened[body] = self.swept.widened(body);
+        }
+        self.candidates.clear();
+        let (candidates, first_pair) = (&mut self.candidates, &self.first_pair);
+        self.tree.overlaps(&sealed.paired_bodies, &self.widened, &mut |a, b| {
+            let (first, second) = (a.min(b), a.max(b));
+            let from = first_pair[first];
+            let of_first = &sealed.group_pairs[from..first_pair[first + 1]];
+            candidates.extend(place_of(second, of_first).map(|place| (from + place) as u32));
+        });
+        self.candidates.sort_unstable();
+    }
+}
+
+/// Where the pair with `second` is among the pairs of one movable group. Where each is paired with each it is at the place
+/// that the numbers tell.
+fn place_of(second: usize, of_first: &[GroupPair]) -> Option<usize> {
+    let guess = second.checked_sub(of_first.first()?.second)?;
+    if of_first.get(guess).is_some_and(|pair| pair.second == second) {
+        return Some(guess);
+    }
+    of_first.binary_search_by_key(&second, |pair| pair.second).ok()
+}
