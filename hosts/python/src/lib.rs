@@ -31,26 +31,34 @@ mod simulation;
 mod verify;
 mod world;
 
+use pyo3::PyClass;
 use pyo3::prelude::*;
+
+/// Adds a class. Python gives an object memory that is aligned to 16 bytes, and PyO3 puts the value there without asking:
+/// what is aligned more strictly (a world is, to lines of the cache) must be boxed.
+fn add_class<T: PyClass>(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    const { assert!(align_of::<T>() <= 16, "the class must box what it holds") };
+    module.add_class::<T>()
+}
 
 #[pymodule]
 fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     errors::register(module)?;
     module.add("CONTACT_DTYPE", contacts::dtype(module.py())?)?;
-    module.add_class::<model::Model>()?;
-    module.add_class::<ids::AddedModel>()?;
-    module.add_class::<ids::Object>()?;
-    module.add_class::<ids::Pair>()?;
-    module.add_class::<ids::Interface>()?;
-    module.add_class::<builder::WorldBuilder>()?;
-    module.add_class::<world::World>()?;
-    module.add_class::<world::FrameReport>()?;
-    module.add_class::<scene::Scene>()?;
-    module.add_class::<simulation::Simulation>()?;
-    module.add_class::<run::Run>()?;
-    module.add_class::<verify::Case>()?;
-    module.add_class::<verify::Row>()?;
+    add_class::<model::Model>(module)?;
+    add_class::<ids::AddedModel>(module)?;
+    add_class::<ids::Object>(module)?;
+    add_class::<ids::Pair>(module)?;
+    add_class::<ids::Interface>(module)?;
+    add_class::<builder::WorldBuilder>(module)?;
+    add_class::<world::World>(module)?;
+    add_class::<world::FrameReport>(module)?;
+    add_class::<scene::Scene>(module)?;
+    add_class::<simulation::Simulation>(module)?;
+    add_class::<run::Run>(module)?;
+    add_class::<verify::Case>(module)?;
+    add_class::<verify::Row>(module)?;
     module.add_function(wrap_pyfunction!(verify::verify, module)?)?;
     module.add_function(wrap_pyfunction!(advice::advise_contact, module)?)?;
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;

@@ -21,7 +21,7 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 /// One thread at a time may call it. `step` and `run` release the GIL.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct Simulation {
-    built: Mutex<BuiltScene>,
+    built: Mutex<Box<BuiltScene>>,
     bodies: Vec<String>,
     ids: Vec<BodyId>,
 }
@@ -29,10 +29,10 @@ pub(crate) struct Simulation {
 impl Simulation {
     pub(crate) fn new(built: BuiltScene) -> Self {
         let (ids, bodies) = built.simulation.bodies().map(|(id, body)| (id, body.name.clone())).unzip();
-        Self { built: Mutex::new(built), bodies, ids }
+        Self { built: Mutex::new(Box::new(built)), bodies, ids }
     }
 
-    fn lock(&self) -> PyResult<MutexGuard<'_, BuiltScene>> {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Box<BuiltScene>>> {
         match self.built.try_lock() {
             Ok(built) => Ok(built),
             Err(TryLockError::Poisoned(built)) => Ok(built.into_inner()),

@@ -19,7 +19,7 @@ use std::sync::{Mutex, MutexGuard, TryLockError};
 /// One thread at a time may call it. `evaluate`, `commit` and `step` release the GIL.
 #[pyclass(frozen, module = "pong")]
 pub(crate) struct World {
-    inner: Mutex<Inner>,
+    inner: Mutex<Box<Inner>>,
     /// All Interfaces, in the order of the rows of arrays.
     interfaces: Vec<Interface>,
     ids: Vec<InterfaceId>,
@@ -81,11 +81,11 @@ impl World {
             interfaces,
             warnings: report.warnings.iter().map(ToString::to_string).collect(),
             notes: report.notes.iter().map(ToString::to_string).collect(),
-            inner: Mutex::new(Inner { world, sources, recording: None, states: Vec::new() }),
+            inner: Mutex::new(Box::new(Inner { world, sources, recording: None, states: Vec::new() })),
         })
     }
 
-    fn lock(&self) -> PyResult<MutexGuard<'_, Inner>> {
+    fn lock(&self) -> PyResult<MutexGuard<'_, Box<Inner>>> {
         match self.inner.try_lock() {
             Ok(inner) => Ok(inner),
             // A law that panicked leaves the world usable.
@@ -205,7 +205,7 @@ impl World {
         let chosen = self.chosen(interfaces);
         let ids = chosen.as_deref().unwrap_or(&self.ids);
         let mut inner = self.lock()?;
-        let Inner { world, states: room, .. } = &mut *inner;
+        let Inner { world, states: room, .. } = &mut **inner;
         room.clear();
         let parts = [&position, &orientation, &linear_velocity, &angular_velocity];
         match &states {
@@ -267,7 +267,7 @@ impl World {
     /// Computes wrenches from the states and the committed contact state, and changes nothing else.
     fn evaluate(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         let report = py.detach(|| world.evaluate()).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(Recording::evaluated);
         Ok(report.into())
@@ -278,7 +278,7 @@ impl World {
     fn commit(&self, py: Python<'_>, pairs: Option<Vec<PyRef<'_, Pair>>>) -> PyResult<()> {
         let pairs: Option<Vec<_>> = pairs.map(|pairs| pairs.iter().map(|pair| pair.id).collect());
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         let done = py.detach(|| match &pairs {
             None => world.commit(),
             Some(pairs) => world.commit_pairs(pairs),
@@ -291,7 +291,7 @@ impl World {
     /// Evaluate and commit, for hosts that call once a frame.
     fn step(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         let report = py.detach(|| world.step()).map_err(|error| of_engine(py, &error))?;
         if let Some(recording) = recording {
             recording.evaluated();
@@ -360,7 +360,7 @@ impl World {
     /// Restores a contact state that a world built by the same calls saved.
     fn restore_state(&self, py: Python<'_>, block: &[u8]) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         world.restore_state(block).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(|recording| recording.restored(block));
         Ok(())
@@ -369,7 +369,7 @@ impl World {
     /// Drops the contact state of an Object, after a teleport or a reset.
     fn clear_contact_history(&self, py: Python<'_>, object: ObjectRef<'_>) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         let object = object.resolve(py, world.scene())?;
         world.clear_contact_history(object).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(|recording| recording.forgot(object));
@@ -379,7 +379,7 @@ impl World {
     /// Switches a pair on or off.
     fn set_pair_enabled(&self, py: Python<'_>, pair: &Pair, enabled: bool) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         world.set_pair_enabled(pair.id, enabled).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(|recording| recording.pair_switched(pair.id, enabled));
         Ok(())
@@ -401,7 +401,7 @@ impl World {
     ) -> PyResult<()> {
         let surface = surface_from(py, name, values)?;
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         world.set_surface(model.id, &surface).map_err(|error| of_engine(py, &error))?;
         recording.iter_mut().for_each(|recording| recording.surface_set(model.id, &surface));
         Ok(())
@@ -416,7 +416,7 @@ impl World {
             None => FrictionPreload::Sliding,
         };
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         let set = world.preload_friction(pair.id, &preload).map_err(|error| of_engine(py, &error))?;
         // For the log it is what a restored contact state is.
         if let Some(recording) = recording {
@@ -459,7 +459,7 @@ impl World {
     /// Records the frame last computed, at a time (s).
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut *inner;
+        let Inner { world, recording, .. } = &mut **inner;
         recording.as_mut().ok_or_else(no_log)?.record(py, world, time)
     }
 
