@@ -34,7 +34,8 @@ impl Motions<'_> {
         }
     }
 
-    /// The motion of A against B.
+    /// The motion of A against B. In place where it is asked for: it is large to hand around.
+    #[inline(always)]
     pub fn of(&self, direction: Direction) -> Motion {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
         let pair = self.sealed.group_pairs[direction.group_pair as usize].pair;
@@ -58,6 +59,7 @@ impl Motions<'_> {
     }
 }
 
+#[inline(always)]
 fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Option<&Pose>) -> Motion {
     let b_from_w = x_wb.orientation.inverse();
     Motion {
