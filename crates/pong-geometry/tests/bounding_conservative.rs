@@ -93,7 +93,7 @@ fn parents_overlap_whatever_touches_a_child() {
                     tricky_direction(&mut random),
                 );
                 let in_a = &children[random.below(children.len())].body.extreme(&-rotation.tr_mul(&n_b));
-                let x_ba = meeting(rotation, &in_a, &other.body.extreme(&n_b));
+                let x_ba = meeting(rotation, in_a, &other.body.extreme(&n_b));
                 for volume in &other.volumes {
                     assert!(tests.overlap(&parent, volume, &x_ba));
                     assert!(tests.overlap(volume, &parent, &x_ba.inverse()));
