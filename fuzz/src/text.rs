@@ -78,7 +78,8 @@ fn change(text: &mut Vec<u8>, dice: &mut Random) {
             (piece.clone(), [copy, &[separator], copy].concat())
         }
         _ => {
-            let (Some(place), Some(other)) = (one_of(dice, &parts.pieces), one_of(dice, &parts.pieces)) else {
+            let (Some(place), Some(other)) = (one_of(dice, &parts.pieces), one_of(dice, &parts.pieces))
+            else {
                 return;
             };
             (place, text[other].to_vec())
