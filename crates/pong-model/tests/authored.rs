@@ -31,7 +31,7 @@ fn field<'n>(node: &'n Node, name: &str) -> &'n Node {
 }
 
 fn rules(primitive: &str) -> Vec<(u32, &'static str)> {
-    let errors = authored::parse(&model(primitive), "m.ron").unwrap_err();
+    let errors = authored::parse(&model(primitive), "m.ron").expect_err("it is refused");
     errors.0.iter().map(|error| (error.line, error.rule)).collect()
 }
 
