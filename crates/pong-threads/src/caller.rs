@@ -135,6 +135,12 @@ impl Caller {
         self.handed_out - self.shared.board.finished_by_all()
     }
 
+    /// Workers that are parked or about to be.
+    #[cfg(test)]
+    pub fn asleep(&self) -> usize {
+        self.shared.board.asleep() as usize
+    }
+
     pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         let lane_work = |done: Done| LaneWork { blocks: done.blocks, busy_ns: done.busy_ns };
         let of_worker = move |lane| match self.shared_out {

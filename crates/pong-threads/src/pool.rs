@@ -252,4 +252,63 @@ mod tests {
         assert_eq!(error.lane, 2);
         assert!(error.to_string().contains("worker 2 was not run within 10 s"), "{error}");
     }
+
+    struct Idle;
+
+    impl Job for Idle {
+        fn run(&self, _block: u32, _lane: usize) {}
+    }
+
+    const HOUR: Duration = Duration::from_secs(3600);
+
+    fn pool(spin: Duration) -> Pool {
+        let settings =
+            Settings { workers: 3, oversubscribe: true, spin, worker_timeout: HOUR, ..Settings::default() };
+        Pool::start(Arc::new(Idle), &settings).unwrap()
+    }
+
+    /// Waits as long as any machine may need, and far less than [`HOUR`].
+    fn wait_until_asleep(pool: &Pool, workers: usize) {
+        let started = Instant::now();
+        while pool.caller.asleep() != workers {
+            assert!(started.elapsed() < HOUR / 60, "{} of {workers} sleep", pool.caller.asleep());
+            thread::sleep(Duration::from_micros(100));
+        }
+    }
+
+    #[test]
+    fn workers_park_when_their_spin_time_is_over() {
+        let mut pool = pool(Duration::from_micros(50));
+        for _ in 0..20 {
+            wait_until_asleep(&pool, 3);
+            assert_eq!(pool.run(100), Outcome::Complete);
+        }
+    }
+
+    #[test]
+    fn quiesced_workers_park_before_their_spin_time_is_over() {
+        let mut pool = pool(HOUR);
+        for _ in 0..20 {
+            assert_eq!(pool.run(100), Outcome::Complete);
+            pool.quiesce();
+            wait_until_asleep(&pool, 3);
+        }
+    }
+
+    /// The workers have no spin time of their own, so it is by the prewake alone that they are awake.
+    #[test]
+    fn prewoken_workers_stay_awake_until_the_next_phase_or_the_deadline() {
+        let mut pool = pool(Duration::ZERO);
+        for _ in 0..5 {
+            wait_until_asleep(&pool, 3);
+            pool.prewake(HOUR);
+            wait_until_asleep(&pool, 0);
+            thread::sleep(Duration::from_millis(2));
+            assert_eq!(pool.caller.asleep(), 0);
+            assert_eq!(pool.run(100), Outcome::Complete);
+            wait_until_asleep(&pool, 3);
+            pool.prewake(Duration::from_millis(1));
+            wait_until_asleep(&pool, 3);
+        }
+    }
 }

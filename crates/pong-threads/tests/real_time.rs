@@ -1,5 +1,4 @@
-//! What a host in real time relies on: no allocation in a phase, an idle pool that costs next to nothing, a start
-//! under SCHED_FIFO that does not hang.
+//! What a host in real time relies on: no allocation in a phase, a start under SCHED_FIFO that does not hang.
 #![cfg(target_os = "linux")]
 
 mod common;
@@ -7,7 +6,7 @@ mod common;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::SeqCst};
 use std::sync::mpsc::channel;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use common::{Count, FOR_EVER, patient, start};
 use pong_threads::{Grant, Outcome, Settings};
@@ -36,9 +35,6 @@ static ALLOCATOR: Counting = Counting;
 
 fn main() {
     phases_do_not_allocate();
-    an_idle_pool_costs_little();
-    a_quiesced_pool_costs_less_than_one_that_spins();
-    prewake_keeps_workers_awake_until_the_next_phase();
     a_start_under_fifo_does_not_hang();
 }
 
@@ -59,85 +55,6 @@ fn phases_do_not_allocate() {
     COUNTING.store(false, SeqCst);
     assert_eq!(CALLS.load(SeqCst), 0);
     println!("no allocation in 3000 phases; workers ran {blocks_of_workers} of 300000 blocks");
-}
-
-/// Processor time of this process, all threads.
-fn cpu_time() -> Duration {
-    // SAFETY: an all-zero rusage is valid, and the call fills it.
-    let usage = unsafe {
-        let mut usage: libc::rusage = std::mem::zeroed();
-        libc::getrusage(libc::RUSAGE_SELF, &mut usage);
-        usage
-    };
-    let time = |t: libc::timeval| Duration::new(t.tv_sec as u64, t.tv_usec as u32 * 1000);
-    time(usage.ru_utime) + time(usage.ru_stime)
-}
-
-/// Processor time over time while `frame` is called at 100 Hz.
-fn load_at_100_hz(frames: u32, mut frame: impl FnMut()) -> f64 {
-    let (started, cpu_before) = (Instant::now(), cpu_time());
-    for number in 1..=frames {
-        frame();
-        std::thread::sleep(
-            (started + Duration::from_millis(10) * number).saturating_duration_since(Instant::now()),
-        );
-    }
-    (cpu_time() - cpu_before).as_secs_f64() / started.elapsed().as_secs_f64()
-}
-
-fn an_idle_pool_costs_little() {
-    let count = Count::new(16);
-    let mut pool = start(&count, &Settings { pin: true, ..Settings::default() });
-    let load = load_at_100_hz(200, || {
-        let _ = pool.run(16);
-    });
-    println!(
-        "frames of 16 empty blocks at 100 Hz: {:.2} % of a core, {} worker",
-        load * 100.0,
-        pool.workers()
-    );
-    assert!(load < 0.05, "an idle pool takes {load} of a core");
-}
-
-fn a_quiesced_pool_costs_less_than_one_that_spins() {
-    let long = Settings { spin: Duration::from_millis(5), ..Settings::default() };
-    let count = Count::new(2);
-    let mut pool = start(&count, &long);
-    let spinning = load_at_100_hz(50, || {
-        let _ = pool.run(2);
-    });
-    let quiesced = load_at_100_hz(50, || {
-        let _ = pool.run(2);
-        pool.quiesce();
-    });
-    println!(
-        "5 ms of spin at 100 Hz: {:.1} % of a core; quiesced {:.1} %",
-        spinning * 100.0,
-        quiesced * 100.0
-    );
-    assert!(pool.workers() == 0 || quiesced < spinning);
-}
-
-/// The worker has no spin time of its own, so what it takes is by the prewake.
-fn prewake_keeps_workers_awake_until_the_next_phase() {
-    let count = Count::new(2);
-    let mut pool = start(&count, &Settings { spin: Duration::ZERO, ..patient(1) });
-    let cpu_over_100_ms = || {
-        std::thread::sleep(Duration::from_millis(5));
-        let before = cpu_time();
-        std::thread::sleep(Duration::from_millis(100));
-        cpu_time() - before
-    };
-    pool.prewake(Duration::from_secs(10));
-    let awake = cpu_over_100_ms();
-    assert_eq!(pool.run(2), Outcome::Complete);
-    let after = cpu_over_100_ms();
-    pool.prewake(Duration::from_millis(1));
-    let past = cpu_over_100_ms();
-    println!(
-        "processor time in 100 ms: prewoken {awake:?}, after the phase {after:?}, after the deadline {past:?}"
-    );
-    assert!(awake > 3 * after && awake > 3 * past);
 }
 
 /// The caller has the highest claim to its core, and the worker begins there.
