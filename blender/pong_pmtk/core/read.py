@@ -12,7 +12,7 @@ from pathlib import Path
 
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, Field, is_default
+from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, Field, is_default, tells_friction
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,7 @@ def _surface(data: dict) -> dict:
     surface = {"stiffness": data["stiffness"]}
     if data.get("normal") is not None:
         surface["normal"] = _law(data["normal"], NORMAL_LAWS)
-    # A rigid surface that says it has no friction is another than one that leaves it to what it meets.
-    if data.get("friction") is not None or ("friction" in data and data["stiffness"] == float("inf")):
+    if tells_friction(data):
         surface["friction"] = _law(data["friction"], FRICTION_LAWS)
     return surface
 

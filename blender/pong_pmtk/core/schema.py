@@ -84,6 +84,14 @@ FRICTION_LAWS: dict[str, tuple[Field, ...]] = {
 RESPONSES = ("Normal", "Axial")
 
 
+def tells_friction(surface: dict) -> bool:
+    """Whether a surface says what its friction is. A rigid one that says it has none is another than one that leaves it to
+    what it meets; of any other surface, to have none and to say nothing are the same."""
+    if surface.get("friction") is not None:
+        return True
+    return "friction" in surface and surface["stiffness"] == float("inf")
+
+
 def is_default(value, default) -> bool:
     """Whether a value says what the field says without it."""
     if default is None or default is REQUIRED:

@@ -15,7 +15,7 @@ import numpy as np
 from .canonical import canonical
 from .engine import wheel
 from .model import Group, Model, Primitive, Tagged
-from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES
+from .schema import FRICTION_LAWS, NORMAL_LAWS, PRIMITIVES, tells_friction
 
 
 def write_text(model: Model) -> str:
@@ -65,7 +65,7 @@ def _surface(fields: dict) -> dict:
     data = {"stiffness": float(fields["stiffness"])}
     if fields.get("normal") is not None:
         data["normal"] = _law(fields["normal"], NORMAL_LAWS)
-    if fields.get("friction") is not None or ("friction" in fields and fields["stiffness"] == float("inf")):
+    if tells_friction(fields):
         data["friction"] = _law(fields["friction"], FRICTION_LAWS)
     return data
 

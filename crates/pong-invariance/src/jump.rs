@@ -47,43 +47,29 @@ pub fn is_there(
     // So far that what changes smoothly stays well below the difference: depths change by the step.
     let smooth = 0.02 * difference / base.largest(frame).max(difference) * depth / size;
     let step = smooth.clamp(SHORTEST_STEP, LONGEST_STEP).max(100.0 * twin.rounding / size);
-    let mut around = Around { answers: [first, *read], difference, allowance, settled: Vec::new(), tried: 0 };
-    for _ in 0..ROUNDS {
-        for _ in 0..PLACES {
+    let mut around = Around { answers: [first, *read], difference, allowance, settled: Vec::new() };
+    let decided = around.decide(
+        |_| false,
+        |around| {
             let frames = beside(&base.scene.frames[..=frame], step, size, random.chance(0.5), random);
-            if around.look(&mut base.stage, frames, size, random).is_none() {
-                return false;
-            }
-        }
-        match around.verdict() {
-            Seen::Nothing => return false,
-            Seen::Both => return true,
-            Seen::Some => {}
-        }
+            around.look(&mut base.stage, frames, size, random)
+        },
+    );
+    if let Some(is_there) = decided {
+        return is_there;
     }
     // Thin triangles turn by more than their corners move.
     let longest = (step * thinnest(&base.scene)).max(SHORTEST_STEP);
-    around.settled.clear();
-    around.tried = 0;
-    for _ in 0..ROUNDS {
-        for _ in 0..PLACES {
+    let decided = around.decide(
+        |around| !around.is_jump(),
+        |around| {
             let scene = reshaped(&base.scene, (SHORTEST_STEP, longest), random);
             let step = random.log_between(SHORTEST_STEP, longest);
             let frames = beside(&scene.frames[..=frame], step, size, random.chance(0.5), random);
-            let Ok(mut stage) = Stage::set_up(&scene, 0) else { return false };
-            if around.look(&mut stage, frames, size, random).is_none() {
-                return false;
-            }
-        }
-        match around.verdict() {
-            Seen::Nothing => return false,
-            Seen::Both => return true,
-            // Nothing jumps here at all.
-            Seen::Some if !around.is_jump() => return false,
-            Seen::Some => {}
-        }
-    }
-    false
+            around.look(&mut Stage::set_up(&scene, 0).ok()?, frames, size, random)
+        },
+    );
+    decided.unwrap_or(false)
 }
 
 /// Answers beside a place that rounding does not change.
@@ -94,7 +80,6 @@ struct Around<'a> {
     difference: f64,
     allowance: &'a Allowance,
     settled: Vec<[Wrench; 2]>,
-    tried: usize,
 }
 
 /// What is seen among the answers around.
@@ -108,6 +93,30 @@ enum Seen {
 }
 
 impl Around<'_> {
+    /// Looks around, round after round, until that decides whether a jump is there; `None` if it never does. `look` answers
+    /// `None` for what cannot be played, `gives_up` whether further rounds are of no use.
+    fn decide(
+        &mut self,
+        gives_up: impl Fn(&Self) -> bool,
+        mut look: impl FnMut(&mut Self) -> Option<()>,
+    ) -> Option<bool> {
+        self.settled.clear();
+        for round in 1..=ROUNDS {
+            for _ in 0..PLACES {
+                if look(self).is_none() {
+                    return Some(false);
+                }
+            }
+            match self.verdict(round * PLACES) {
+                Seen::Nothing => return Some(false),
+                Seen::Both => return Some(true),
+                Seen::Some if gives_up(self) => return Some(false),
+                Seen::Some => {}
+            }
+        }
+        None
+    }
+
     /// The last answer of a history, kept if two further roundings of its states do not change it. `None` if it cannot be played.
     fn look(
         &mut self,
@@ -125,7 +134,6 @@ impl Around<'_> {
             is_settled &=
                 distance(&there, &again, lever) < (0.05 * self.difference).max(2.0 * self.allowance.force);
         }
-        self.tried += 1;
         if is_settled {
             self.settled.push(there);
         }
@@ -142,8 +150,8 @@ impl Around<'_> {
         self.spread() > 0.5 * self.difference
     }
 
-    fn verdict(&self) -> Seen {
-        if self.settled.len() < self.tried / 4 {
+    fn verdict(&self, tried: usize) -> Seen {
+        if self.settled.len() < tried / 4 {
             return Seen::Nothing;
         }
         let lever = self.allowance.lever;

@@ -40,9 +40,6 @@ const FOOT_SLACK: f64 = 1e-12;
 const CONE_SLACK: f64 = 1e-9;
 /// Two depths within this share count as equal.
 const DEPTH_SLACK: f64 = 1e-9;
-/// Two faces count as meeting concavely, and not flat, only if the sine of the angle between them exceeds this: on a seam
-/// of a flat plate one face holds the foot, and the other is spare.
-const CONCAVE_SINE_MIN: f64 = 1e-9;
 /// By how large a share the depth of a second minimum may lie below what it is at least; far beyond rounding.
 const SECOND_SLACK: f64 = 1e-6;
 
@@ -212,7 +209,7 @@ impl Tester<'_> {
     fn holds_in_a_crease(&self, foot: &Vec3) -> bool {
         (0..3).filter(|&k| self.edges.is_beyond(k, foot)).all(|k| {
             let is_concave = || match self.edges.class(k) {
-                EdgeClass::Silent { outward, .. } => self.view.normal.dot(&outward) < -CONCAVE_SINE_MIN,
+                EdgeClass::Silent { outward, .. } => self.view.meets_concavely(&outward),
                 EdgeClass::Free | EdgeClass::Convex { .. } => false,
             };
             self.edges.beyond(k, foot) <= self.foot_slack && is_concave()
@@ -259,7 +256,7 @@ impl Tester<'_> {
             for k in (0..3).filter(|&k| edges.beyond(k, foot) > self.foot_slack) {
                 holds = false;
                 let EdgeClass::Silent { neighbor, outward } = edges.class(k) else { return false };
-                if view.normal.dot(&outward) < -CONCAVE_SINE_MIN {
+                if view.meets_concavely(&outward) {
                     if !self.is_lost_to(neighbor, &outward, &view.edge_ends(k)[0]) {
                         return false;
                     }

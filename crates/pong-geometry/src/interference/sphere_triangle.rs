@@ -16,8 +16,6 @@ use crate::primitive::{Sphere, TriangleSet};
 /// How far beyond an edge a centre behind the face may lie, as a share of the coordinates, and still be emitted as spare:
 /// some thousand roundings.
 const FOOT_SLACK: f64 = 1e-12;
-/// Two faces count as flat, and not as meeting concavely, up to this sine of the angle between them.
-const FLAT_SINE_MAX: f64 = 1e-9;
 
 /// Tests a sphere against one triangle and emits a contact for each of its features that pushes.
 ///
@@ -87,6 +85,11 @@ fn emit_features(
     }
 }
 
+/// By how much rounding may misplace a centre against the triangle, m.
+fn foot_slack(center: &Vec3, edges: &TriangleEdges) -> f64 {
+    FOOT_SLACK * ((center - edges.view.corners[0]).amax() + center.amax())
+}
+
 /// What of a triangle a centre may lie on, whose faces meet convexly there.
 enum Rim {
     Edge(usize),
@@ -97,7 +100,7 @@ enum Rim {
 /// centre in its plane, and the edge or the vertex alone pushes.
 fn on_convex_rim(sphere: &Sphere, edges: &TriangleEdges, height: f64) -> Option<Rim> {
     let (center, corners) = (&sphere.center, &edges.view.corners);
-    let slack = FOOT_SLACK * ((center - corners[0]).amax() + center.amax());
+    let slack = foot_slack(center, edges);
     if height.abs() > slack {
         return None;
     }
@@ -130,7 +133,7 @@ fn is_convex_at(edges: &TriangleEdges, corner: usize) -> bool {
                 true
             }
             EdgeClass::Free => true,
-            EdgeClass::Silent { outward, .. } => view.normal.dot(&outward) >= -FLAT_SINE_MAX,
+            EdgeClass::Silent { outward, .. } => !view.meets_concavely(&outward),
         })
     });
     all.is_some() && has_convex
@@ -173,8 +176,7 @@ fn emit_on_rim(sphere: &Sphere, mean: &Vec3, feature: Feature, emit: &mut dyn Fn
 /// Whether rounding alone puts a centre behind a triangle beyond some of its edges, all of them silent: behind a vertex of a
 /// flat surface each triangle may say that another has the centre. In front the vertex pushes there.
 fn hardly_beyond(sphere: &Sphere, edges: &TriangleEdges, beyond: [bool; 3]) -> bool {
-    let arm = sphere.center - edges.view.corners[0];
-    let slack = FOOT_SLACK * (arm.amax() + sphere.center.amax());
+    let slack = foot_slack(&sphere.center, edges);
     let is_silent = |k: usize| matches!(edges.class(k), EdgeClass::Silent { .. });
     (0..3).filter(|&k| beyond[k]).all(|k| edges.beyond(k, &sphere.center) <= slack && is_silent(k))
 }

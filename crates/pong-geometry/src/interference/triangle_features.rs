@@ -81,7 +81,17 @@ pub enum EdgeClass {
     },
 }
 
+/// Two faces count as meeting concavely, and not flat, only if the sine of the angle between them exceeds this: on a seam
+/// of a flat plate one face holds the foot, and the other is spare.
+const CONCAVE_SINE_MIN: f64 = 1e-9;
+
 impl TriangleView {
+    /// Whether the face beyond a silent edge, whose direction out of that face is `outward`, meets this one concavely.
+    #[inline]
+    pub fn meets_concavely(&self, outward: &Vec3) -> bool {
+        self.normal.dot(outward) < -CONCAVE_SINE_MIN
+    }
+
     /// The view of one triangle of a set.
     #[inline]
     pub fn new(set: &TriangleSet, index: u32) -> Self {

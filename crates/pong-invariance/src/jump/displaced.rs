@@ -27,9 +27,9 @@ pub fn beside(
 }
 
 /// The scene with every length of its shapes displaced by up to `longest` sizes of it, and every direction turned as little;
-/// solids stay as they are.
-/// Corners that are equal to the bit are displaced alike, as they hold together what shares them. Some are displaced by much less than others, down to `shortest`: of
-/// two surfaces that share a place, one then moves by itself.
+/// solids stay as they are. Corners that are equal to the bit are displaced alike, as they hold together what shares them.
+/// Some are displaced by much less than others, down to `shortest`: of two surfaces that share a place, one then moves by
+/// itself.
 pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Random) -> Scene {
     let mut reshaped = scene.clone();
     let step = |random: &mut Random| random.log_between(shortest, longest);

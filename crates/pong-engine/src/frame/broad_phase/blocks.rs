@@ -16,8 +16,8 @@ pub(crate) const ROUND: usize = 4096;
 /// What a block may cost before it is cut, ns: long against claiming one, short against a frame.
 const BLOCK_NS: u32 = 4000;
 
-/// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is full and at the end. Every call
-/// is told what the round may cost, ns.
+/// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is
+/// full and at the end. Every call is told what the round may cost, ns.
 pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,

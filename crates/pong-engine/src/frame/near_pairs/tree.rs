@@ -28,6 +28,15 @@ pub(super) struct BoundsTree {
 /// What is told of two boxes that overlap.
 type Found<'f> = dyn FnMut(usize, usize) + 'f;
 
+/// Tells which of some boxes overlap one.
+fn tell<'o>(one: u32, others: impl IntoIterator<Item = &'o u32>, boxes: &[Bounds], found: &mut Found<'_>) {
+    for &other in others {
+        if boxes[one as usize].overlap(&boxes[other as usize]) {
+            found(one as usize, other as usize);
+        }
+    }
+}
+
 impl BoundsTree {
     /// Memory of a box, bytes.
     pub const BYTES_EACH: usize = 2 * size_of::<u32>() + size_of::<Node>();
@@ -52,11 +61,7 @@ impl BoundsTree {
             list.push(number as u32);
         }
         for (place, &one) in self.unbounded.iter().enumerate() {
-            for &other in self.order.iter().chain(&self.unbounded[place + 1..]) {
-                if boxes[one as usize].overlap(&boxes[other as usize]) {
-                    found(one as usize, other as usize);
-                }
-            }
+            tell(one, self.order.iter().chain(&self.unbounded[place + 1..]), boxes, found);
         }
         if !self.order.is_empty() {
             self.build(0, self.order.len(), boxes);
@@ -106,11 +111,7 @@ impl BoundsTree {
         }
         let own = self.places(node);
         for (place, &one) in own.iter().enumerate() {
-            for &other in &own[place + 1..] {
-                if boxes[one as usize].overlap(&boxes[other as usize]) {
-                    found(one as usize, other as usize);
-                }
-            }
+            tell(one, &own[place + 1..], boxes, found);
         }
     }
 
@@ -121,13 +122,9 @@ impl BoundsTree {
             return;
         }
         if node_a.second == 0 && node_b.second == 0 {
-            for &one in self.places(node_a).iter().filter(|&&one| boxes[one as usize].overlap(&node_b.bounds))
-            {
-                for &other in self.places(node_b) {
-                    if boxes[one as usize].overlap(&boxes[other as usize]) {
-                        found(one as usize, other as usize);
-                    }
-                }
+            let reaches_b = |one: &&u32| boxes[**one as usize].overlap(&node_b.bounds);
+            for &one in self.places(node_a).iter().filter(reaches_b) {
+                tell(one, self.places(node_b), boxes, found);
             }
             return;
         }
