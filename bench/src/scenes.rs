@@ -5,9 +5,11 @@ use crate::cloud;
 use crate::docking;
 use crate::rig::Rig;
 use crate::ring::{self, Ring, Tip};
+use crate::ron;
 use crate::terrain::{self, Source, Terrain, WHEELS, Wheel};
 use pong_engine::{EngineError, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
+use pong_geometry::{Pose, Twist, Vec3};
 use pong_model::Model;
 use std::error::Error;
 use std::sync::Arc;
@@ -15,7 +17,7 @@ use std::sync::Arc;
 /// Frames of a pass over a fixed scene.
 pub const FRAMES: usize = 64;
 /// Names of the fixed scenes.
-pub const FIXED: [&str; 3] = ["docking", "ring", "wheels"];
+pub const FIXED: [&str; 4] = ["docking", "ring", "wheels", "contact"];
 
 /// States of all movable groups, frame by frame.
 pub type Frames = Vec<Vec<State>>;
@@ -31,7 +33,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// One of [`FIXED`]: the docking model, 48 wedges against 1,000 spheres, six spheres on 10,000 triangles.
+    /// One of [`FIXED`]: the docking model, 48 wedges against 1,000 spheres, six spheres on 10,000 triangles, one sphere on a
+    /// plane.
     ///
     /// # Errors
     /// A name that is none of them, or what a model breaks.
@@ -40,6 +43,7 @@ impl Scene {
             "docking" => Self::docking(),
             "ring" => Self::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere),
             "wheels" => Self::wheels(&Terrain::SIZES[1], Wheel::BOTH[0]),
+            "contact" => Self::spheres_on_plane(1, 0.0),
             other => Err(format!("{other}: use one of {}", FIXED.join(", ")).into()),
         }
     }
@@ -85,6 +89,21 @@ impl Scene {
     /// What a model breaks.
     pub fn two(a: &str, b: &str, states: [State; 2]) -> Result<Self, Box<dyn Error>> {
         Ok(Self { models: vec![parse(a)?, parse(b)?], pairs: vec![(0, 1)], states: vec![states.to_vec()] })
+    }
+
+    /// Spheres of one movable group over a plane of another: 4 mm deep, or so much higher, m.
+    ///
+    /// # Errors
+    /// If the engine's loader refuses the models, which would be a mistake here.
+    pub fn spheres_on_plane(count: usize, higher: f64) -> Result<Self, Box<dyn Error>> {
+        let sphere = |i: usize| {
+            let center = ron::vector(&Vec3::new((i % 8) as f64, (i / 8) as f64, 0.0));
+            format!("Sphere(name: \"s{i}\", center: {center}, radius: 0.25),\n")
+        };
+        let spheres = ron::model("spheres", &(0..count).map(sphere).collect::<String>());
+        let plane = ron::model("floor", "Plane(name: \"floor\", normal: (0, 0, 1), offset: 0)");
+        let placed = Pose { position: Vec3::z() * (0.246 + higher), ..Pose::identity() };
+        Self::two(&spheres, &plane, [State::from_motion(&placed, &Twist::zero()), State::identity()])
     }
 
     /// W2.

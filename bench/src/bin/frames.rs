@@ -1,7 +1,8 @@
-//! Frames of one fixed scene, for a counter of instructions: `frames SCENE [FRAMES]`.
+//! Frames of one fixed scene, for a counter of instructions: `frames SCENE [FRAMES] [cold]`.
 //!
 //! All that happens in the function `pong_bench_frames` is frames: `ci/instructions` counts in there alone. The
-//! level of instructions is fixed, so that a counter that knows fewer than the machine counts the same.
+//! level of instructions is fixed, so that a counter that knows fewer than the machine counts the same. With `cold`, more
+//! memory than the counter's caches hold is read before each frame.
 
 use pong_bench::rig::Rig;
 use pong_bench::scenes::{self, FRAMES, Frames, Scene};
@@ -12,14 +13,23 @@ use pong_geometry::simd::{Level, set_level};
 use std::error::Error;
 use std::sync::Arc;
 
-const SCENES: &str = "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels";
+const SCENES: &str = "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels, contact";
 /// Objects that meet nobody, in a crowded scene.
 const BYSTANDERS: usize = 1000;
+/// What is read before a cold frame, bytes: twice the largest cache that `ci/instructions` simulates.
+const OTHER_WORK: usize = 16 << 20;
+/// A cache line, bytes.
+const LINE: usize = 64;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
-    let name = arguments.next().ok_or(format!("frames SCENE [FRAMES], with SCENE one of {SCENES}"))?;
+    let name = arguments.next().ok_or(format!("frames SCENE [FRAMES] [cold], with SCENE one of {SCENES}"))?;
     let frames = arguments.next().map_or(Ok(FRAMES), |text| text.parse())?;
+    let cold = match arguments.next().as_deref() {
+        None => false,
+        Some("cold") => true,
+        Some(other) => return Err(format!("{other}: the third word can be cold").into()),
+    };
     let level = set_level(Level::Avx2);
     let (mut rig, states) = scene(&name)?;
     // Whatever grows has grown after one pass.
@@ -27,7 +37,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     if contacts == 0 {
         return Err(format!("{name}: nothing touches").into());
     }
-    pong_bench_frames(&mut rig, &states, frames);
+    if cold {
+        let other_work = vec![1_u8; OTHER_WORK];
+        for states in states.iter().cycle().take(frames) {
+            let read: u64 = other_work.iter().step_by(LINE).map(|&byte| u64::from(byte)).sum();
+            std::hint::black_box(read);
+            pong_bench_frames(&mut rig, std::slice::from_ref(states), 1);
+        }
+    } else {
+        pong_bench_frames(&mut rig, &states, frames);
+    }
     let per_frame = f64::from(contacts) / states.len() as f64;
     println!("{name}: {frames} frames at level {}, {per_frame:.2} contacts per frame", level.name());
     Ok(())

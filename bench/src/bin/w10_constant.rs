@@ -12,7 +12,6 @@ use pong_bench::scenes::Scene;
 use pong_bench::table::{Table, min_and_median, ratio_at_most};
 use pong_bench::timing::Clock;
 use pong_engine::{State, WorldBuilder};
-use pong_geometry::{Pose, Twist, Vec3};
 use std::error::Error;
 use std::hint::black_box;
 
@@ -32,9 +31,9 @@ const HULL: &str = "512 points in one convex body of 12 faces";
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(30)?;
     let scenes = [
-        (EMPTY, spheres_on_plane(1, 1.0)?, 0),
-        (ONE, spheres_on_plane(1, 0.0)?, 1),
-        (FULL, spheres_on_plane(MANY, 0.0)?, MANY),
+        (EMPTY, Scene::spheres_on_plane(1, 1.0)?, 0),
+        (ONE, Scene::spheres_on_plane(1, 0.0)?, 1),
+        (FULL, Scene::spheres_on_plane(MANY, 0.0)?, MANY),
         (HULL, points_in_hull()?, POINTS),
     ];
     let mut race = Race::new();
@@ -61,18 +60,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("Whole frames, shortest / middle of {} passes of {FRAMES} frames\n", options.rounds);
     println!("{table}");
     Ok(())
-}
-
-/// Spheres of one movable group over a plane of another: 4 mm deep, or so much higher, m.
-fn spheres_on_plane(count: usize, higher: f64) -> Result<Scene, Box<dyn Error>> {
-    let sphere = |i: usize| {
-        let center = ron::vector(&Vec3::new((i % 8) as f64, (i / 8) as f64, 0.0));
-        format!("Sphere(name: \"s{i}\", center: {center}, radius: 0.25),\n")
-    };
-    let spheres = ron::model("spheres", &(0..count).map(sphere).collect::<String>());
-    let plane = ron::model("floor", "Plane(name: \"floor\", normal: (0, 0, 1), offset: 0)");
-    let placed = Pose { position: Vec3::z() * (0.246 + higher), ..Pose::identity() };
-    Scene::two(&spheres, &plane, [State::from_motion(&placed, &Twist::zero()), State::identity()])
 }
 
 fn points_in_hull() -> Result<Scene, Box<dyn Error>> {

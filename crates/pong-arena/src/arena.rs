@@ -54,9 +54,9 @@ impl Arena {
     /// # Errors
     /// [`Full`] if the room is not there.
     pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
+        // What is booked is there: the block takes pieces of its grain one below the other.
         self.claim::<T>(capacity)?;
-        let mut items = bumpalo::collections::Vec::new_in(&self.bump);
-        items.try_reserve_exact(capacity).map_err(|_| self.full(capacity * size_of::<T>()))?;
+        let items = bumpalo::collections::Vec::with_capacity_in(capacity, &self.bump);
         Ok(List::new(&self.counts, items, capacity))
     }
 

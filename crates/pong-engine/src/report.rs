@@ -87,76 +87,116 @@ impl Tally {
     }
 }
 
+/// Tallies of the pairs of `KINDS` kinds. Most frames use a few of them, so those in use are marked: to add two tables, or to
+/// clear one, then takes as long as what is in them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct TallyTable<const KINDS: usize> {
+    /// A bit per tally that is not zero, by number of A's kind and of B's.
+    used: u128,
+    tallies: [[Tally; KINDS]; KINDS],
+}
+
+impl<const KINDS: usize> Default for TallyTable<KINDS> {
+    fn default() -> Self {
+        const { assert!(KINDS * KINDS <= u128::BITS as usize) };
+        Self { used: 0, tallies: [[Tally::default(); KINDS]; KINDS] }
+    }
+}
+
+impl<const KINDS: usize> TallyTable<KINDS> {
+    #[inline]
+    fn note(&mut self, a: usize, b: usize, more: Tally) {
+        if more != Tally::default() {
+            self.used |= 1 << (a * KINDS + b);
+            self.tallies[a][b].add(more);
+        }
+    }
+
+    /// The pairs that are in use, in order of A's kind, then B's.
+    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<KINDS> {
+        let mut left = self.used;
+        std::iter::from_fn(move || {
+            let place = (left != 0).then(|| left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some((place / KINDS, place % KINDS))
+        })
+    }
+
+    /// The tallies of pairs that were tested.
+    fn tested(&self) -> impl Iterator<Item = (usize, usize, Tally)> + '_ {
+        self.pairs().map(|(a, b)| (a, b, self.tallies[a][b])).filter(|(_, _, tally)| tally.tested > 0)
+    }
+
+    fn add(&mut self, other: &Self) {
+        other.pairs().for_each(|(a, b)| self.note(a, b, other.tallies[a][b]));
+    }
+
+    fn clear(&mut self) {
+        self.pairs().for_each(|(a, b)| self.tallies[a][b] = Tally::default());
+        self.used = 0;
+    }
+}
+
 /// Kinds of primitives.
 const KINDS: usize = PrimitiveKind::ALL.len();
 /// Kinds of bounding volumes: box, ball, turned box, a user's own, none.
 const VOLUME_KINDS: usize = 5;
 
 /// Counts of one frame: the same numbers for any number of workers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameCounts {
     /// Pairs of leaves whose contents were tested, each direction of A and B for itself.
     pub leaf_pairs: u64,
     /// Comparisons of a box with the eight boxes of a node below a leaf.
     pub boxes_tested: u64,
-    volumes: [[Tally; VOLUME_KINDS]; VOLUME_KINDS],
-    testers: [[Tally; KINDS]; KINDS],
-}
-
-impl Default for FrameCounts {
-    fn default() -> Self {
-        Self {
-            leaf_pairs: 0,
-            boxes_tested: 0,
-            volumes: [[Tally::default(); VOLUME_KINDS]; VOLUME_KINDS],
-            testers: [[Tally::default(); KINDS]; KINDS],
-        }
-    }
+    volumes: TallyTable<VOLUME_KINDS>,
+    testers: TallyTable<KINDS>,
 }
 
 impl FrameCounts {
     /// Tests of authored bounding volumes: names of the two kinds, A's first, and their tally, if there were any.
     pub fn volumes(&self) -> impl Iterator<Item = (&'static str, &'static str, Tally)> + '_ {
         const NAMES: [&str; VOLUME_KINDS] = ["Aabb", "Sphere", "Obb", "Custom", "Unbounded"];
-        let row = move |a: usize| (0..VOLUME_KINDS).map(move |b| (NAMES[a], NAMES[b], self.volumes[a][b]));
-        (0..VOLUME_KINDS).flat_map(row).filter(|(_, _, tally)| tally.tested > 0)
+        self.volumes.tested().map(|(a, b, tally)| (NAMES[a], NAMES[b], tally))
     }
 
     /// Contact tests: the two kinds, A's first, and their tally, if there were any.
     pub fn testers(&self) -> impl Iterator<Item = (PrimitiveKind, PrimitiveKind, Tally)> + '_ {
         let kinds = PrimitiveKind::ALL;
-        let row = move |a: PrimitiveKind| {
-            kinds.into_iter().map(move |b| (a, b, self.testers[a as usize][b as usize]))
-        };
-        kinds.into_iter().flat_map(row).filter(|(_, _, tally)| tally.tested > 0)
+        self.testers.tested().map(move |(a, b, tally)| (kinds[a], kinds[b], tally))
     }
 
     /// Pairs of authored bounding volumes tested.
     pub fn volumes_tested(&self) -> u64 {
-        self.volumes.iter().flatten().map(|tally| u64::from(tally.tested)).sum()
+        self.volumes.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
     /// Pairs of primitives tested.
     pub fn primitives_tested(&self) -> u64 {
-        self.testers.iter().flatten().map(|tally| u64::from(tally.tested)).sum()
+        self.testers.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
     pub(crate) fn note_volumes(&mut self, a: &Volume, b: &Volume, meets: bool) {
-        self.volumes[place(a)][place(b)].add(Tally { tested: 1, met: u32::from(meets) });
+        self.volumes.note(place(a), place(b), Tally { tested: 1, met: u32::from(meets) });
     }
 
     #[inline]
     pub(crate) fn note_testers(&mut self, a: PrimitiveKind, b: PrimitiveKind, tested: u32, found: u32) {
-        self.testers[a as usize][b as usize].add(Tally { tested, met: found });
+        self.testers.note(a as usize, b as usize, Tally { tested, met: found });
     }
 
     pub(crate) fn add(&mut self, other: &Self) {
         self.leaf_pairs += other.leaf_pairs;
         self.boxes_tested += other.boxes_tested;
-        let pairs = self.volumes.iter_mut().flatten().zip(other.volumes.iter().flatten());
-        pairs.for_each(|(own, more)| own.add(*more));
-        let pairs = self.testers.iter_mut().flatten().zip(other.testers.iter().flatten());
-        pairs.for_each(|(own, more)| own.add(*more));
+        self.volumes.add(&other.volumes);
+        self.testers.add(&other.testers);
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.leaf_pairs = 0;
+        self.boxes_tested = 0;
+        self.volumes.clear();
+        self.testers.clear();
     }
 }
 

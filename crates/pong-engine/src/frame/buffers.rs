@@ -75,7 +75,7 @@ impl EvaluationBuffers {
             self.wrenches[body] = Wrench::zero();
         }
         self.report = FrameReport::default();
-        self.counts = FrameCounts::default();
+        self.counts.clear();
         self.times = StageTimes::default();
     }
 

@@ -169,7 +169,7 @@ impl Scene {
     pub fn primitive_path(&self, interface: InterfaceId, primitive: u32) -> Result<&str, EngineError> {
         let body = self.body(self.body_index(interface)?);
         let info = body.primitives.get(primitive as usize);
-        Ok(&info.ok_or(EngineError::UnknownId { what: "primitive" })?.path)
+        Ok(&info.ok_or_else(|| unknown("primitive"))?.path)
     }
 
     /// Pose at which the model's author placed a movable group, m, in the frame of the root group; the identity for the root.
@@ -183,21 +183,27 @@ impl Scene {
 
     pub(crate) fn model_index(&self, id: ModelId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.models.len());
-        index.ok_or(EngineError::UnknownId { what: "model" })
+        index.ok_or_else(|| unknown("model"))
     }
 
     pub(crate) fn object_index(&self, id: ObjectId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.objects.len());
-        index.ok_or(EngineError::UnknownId { what: "object" })
+        index.ok_or_else(|| unknown("object"))
     }
 
     pub(crate) fn pair_index(&self, id: PairId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.pairs.len());
-        index.ok_or(EngineError::UnknownId { what: "pair" })
+        index.ok_or_else(|| unknown("pair"))
     }
 
     pub(crate) fn body_index(&self, id: InterfaceId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.bodies.len());
-        index.ok_or(EngineError::UnknownId { what: "interface" })
+        index.ok_or_else(|| unknown("interface"))
     }
+}
+
+/// Apart and made only when it is needed: an error that is there and not used costs every look-up of a frame its end.
+#[cold]
+fn unknown(what: &'static str) -> EngineError {
+    EngineError::UnknownId { what }
 }

@@ -20,13 +20,15 @@ impl States {
     pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
         for (interface, state) in states {
             let body = scene.body_index(*interface)?;
-            check_state(state)
-                .map_err(|cause| EngineError::BadState { interface: scene.body_name(body), cause })?;
+            if !state.is_acceptable() {
+                let cause = why_refused(state);
+                return Err(EngineError::BadState { interface: scene.body_name(body), cause });
+            }
         }
         let mut changed = false;
         for (interface, state) in states {
             let known = &mut self.bodies[scene.body_index(*interface)?];
-            if known.as_ref() != Some(state) {
+            if !known.as_ref().is_some_and(|known| known.has_bits_of(state)) {
                 *known = Some(*state);
                 changed = true;
             }
@@ -86,14 +88,38 @@ impl State {
         Pose::new(Vec3::from(self.position), self.orientation)
     }
 
+    /// Whether a frame can compute with it: [`why_refused`] tells why not.
+    fn is_acceptable(&self) -> bool {
+        // Not short of any number: to look at all is quicker than to ask after each.
+        let small =
+            |values: &[f64]| values.iter().fold(true, |all, value| all & (value.abs() <= Self::LARGEST));
+        let vectors = small(&self.position) & small(&self.linear_velocity) & small(&self.angular_velocity);
+        vectors & small(&self.orientation) && self.norm_error() <= NORM_ERROR_MAX
+    }
+
+    /// Whether every number is the same to the bit. As [`is_acceptable`](Self::is_acceptable), not short of any number.
+    fn has_bits_of(&self, other: &Self) -> bool {
+        let differ = |own: &[f64], others: &[f64]| {
+            own.iter().zip(others).fold(0, |bits, (own, other)| bits | (own.to_bits() ^ other.to_bits()))
+        };
+        let pose = differ(&self.position, &other.position) | differ(&self.orientation, &other.orientation);
+        let linear = differ(&self.linear_velocity, &other.linear_velocity);
+        pose | linear | differ(&self.angular_velocity, &other.angular_velocity) == 0
+    }
+
+    /// How far the quaternion's norm is from 1.
+    fn norm_error(&self) -> f64 {
+        (self.orientation.iter().map(|x| x * x).sum::<f64>().sqrt() - 1.0).abs()
+    }
+
     /// The velocities.
     pub fn twist(&self) -> Twist {
         Twist { linear: Vec3::from(self.linear_velocity), angular: Vec3::from(self.angular_velocity) }
     }
 }
 
-/// What is wrong with a state, if anything.
-fn check_state(state: &State) -> Result<(), String> {
+/// What is wrong with a state that is not acceptable.
+fn why_refused(state: &State) -> String {
     let named: [(&str, &[f64]); 4] = [
         ("position", &state.position),
         ("orientation", &state.orientation),
@@ -102,18 +128,15 @@ fn check_state(state: &State) -> Result<(), String> {
     ];
     for (name, values) in named {
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-            return Err(format!("{name} holds {value}; give finite numbers"));
+            return format!("{name} holds {value}; give finite numbers");
         }
         if let Some(value) = values.iter().find(|value| value.abs() > State::LARGEST) {
-            return Err(format!(
+            return format!(
                 "{name} holds {value:e}, beyond what a frame can square; give at most {:e}",
                 State::LARGEST
-            ));
+            );
         }
     }
     let norm = state.orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
-    if (norm - 1.0).abs() > NORM_ERROR_MAX {
-        return Err(format!("the quaternion has norm {norm}; give a unit quaternion (w, x, y, z)"));
-    }
-    Ok(())
+    format!("the quaternion has norm {norm}; give a unit quaternion (w, x, y, z)")
 }

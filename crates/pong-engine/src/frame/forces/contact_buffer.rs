@@ -84,7 +84,7 @@ impl ContactBuffer {
         self.contacts.clear();
         self.law_state.clear();
         self.demand = CapacityDemand::default();
-        self.counts = FrameCounts::default();
+        self.counts.clear();
         self.times = WorkTimes::default();
     }
 
