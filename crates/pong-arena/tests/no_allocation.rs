@@ -1,10 +1,10 @@
 //! After it is made, nothing in this crate asks the system for memory or gives any back.
 
 use pong_arena::{Arena, Table};
-use pong_testkit::heap::{Counting, calls_during};
+use pong_testkit::heap::{COUNTING, Telling, calls_during};
 
 #[global_allocator]
-static HEAP: Counting = Counting;
+static HEAP: Telling = COUNTING;
 
 #[test]
 fn the_counter_counts() {

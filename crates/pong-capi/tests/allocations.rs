@@ -15,12 +15,12 @@ use pong::states::{pong_default_state, pong_set_states};
 use pong::status::pong_status;
 use pong::world::{pong_create_world, pong_destroy_world, pong_world};
 use pong::wrenches::{PONG_REFERENCE_FRAME_COMMON, pong_get_wrenches, pong_wrench};
-use pong_testkit::heap::{Counting, calls};
+use pong_testkit::heap::{COUNTING, Telling, calls};
 use std::mem::MaybeUninit;
 use std::ptr::null_mut;
 
 #[global_allocator]
-static ALLOCATOR: Counting = Counting;
+static ALLOCATOR: Telling = COUNTING;
 
 const BALL: &str = "(format: \"pong-model\", version: 1, name: \"ball\", surfaces: {\"s\": (stiffness: 1e4, friction: \
     Bristle(mu: 0.5))}, root: (name: \"ball\", surface: \"s\", primitives: [Sphere(name: \"b\", center: (0, 0, 0), \

@@ -3,36 +3,18 @@
 //! search of all triangles tells.
 
 mod common;
+#[path = "common/mesh.rs"]
+mod mesh;
 
 use common::*;
+use mesh::{Mesh, SERIES, steel};
 use pong_engine::State;
 use pong_geometry::interference::Feature;
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 use std::collections::HashMap;
 
-const STIFFNESS: f64 = 1e5;
-/// Both surfaces are equally stiff.
-const SERIES: f64 = 0.5 * STIFFNESS;
-
-fn steel() -> String {
-    surface(STIFFNESS, "normal: Linear(damping: 0.0)")
-}
-
-/// A mesh and what its author says of it.
-#[derive(Clone)]
-struct Mesh {
-    vertices: Vec<Vec3>,
-    triangles: Vec<[usize; 3]>,
-    two_sided: bool,
-    thickness: Option<f64>,
-}
-
 impl Mesh {
-    fn new(vertices: Vec<Vec3>, triangles: Vec<[usize; 3]>) -> Self {
-        Self { vertices, triangles, two_sided: false, thickness: None }
-    }
-
     /// A box, each side cut into `cells`² squares and each of them into two triangles.
     fn cuboid(half: Vec3, cells: usize) -> Self {
         let mut mesh = Self::new(Vec::new(), Vec::new());
@@ -79,16 +61,13 @@ impl Mesh {
         Self::new([row(-2.0), row(2.0)].concat(), (0..5).flat_map(strip).collect())
     }
 
-    fn turned(&self, turn: &Quat, shift: &Vec3, single: bool) -> Self {
-        let round = |x: f64| if single { f64::from(x as f32) } else { x };
-        let vertices = self.vertices.iter().map(|v| (turn * v + shift).map(round)).collect();
-        Self { vertices, ..self.clone() }
-    }
-
-    fn text(&self) -> String {
-        let thickness = self.thickness.map_or(String::new(), |t| format!("thickness: {t:?},"));
-        let more = format!("two_sided: {}, {thickness}", self.two_sided);
-        model("mesh", &steel(), &triangle_mesh("m", &self.vertices, &self.triangles, &more))
+    /// In other axes; in single precision on request.
+    fn elsewhere(&self, turn: &Quat, shift: &Vec3, single: bool) -> Self {
+        let mut mesh = self.turned(turn, shift);
+        if single {
+            mesh.vertices.iter_mut().for_each(|v| *v = v.map(|x| f64::from(x as f32)));
+        }
+        mesh
     }
 
     fn corners(&self, triangle: usize) -> [Vec3; 3] {
@@ -229,7 +208,7 @@ fn check(name: &str, mesh: &Mesh, poses: usize, convex: bool, random: &mut Rando
         [(false, Vec3::repeat(1.0)), (true, Vec3::repeat(0.5)), (true, Vec3::new(0.4, 1.0, 0.7))]
     {
         // In single precision flat faces are folded, and a ball on two of them is pushed by both.
-        let mesh = mesh.turned(&turn, &shift, single);
+        let mesh = mesh.elsewhere(&turn, &shift, single);
         let tally = set_down(&mesh, semi_axes, poses, convex && !single, random);
         println!("{name}, {} triangles, semi-axes {semi_axes:?}: {tally:?}", mesh.triangles.len());
         assert!(tally.in_front > poses / 10, "{name}: {tally:?}");

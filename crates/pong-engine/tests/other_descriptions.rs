@@ -2,37 +2,24 @@
 //! and moved. The answer is the same, and where it can be told beforehand it is that (docs/theory.md, 2.2).
 
 mod common;
+#[path = "common/mesh.rs"]
+mod mesh;
 
 use common::*;
+use mesh::{Mesh, SERIES, steel};
 use pong_geometry::{Quat, Vec3};
 use pong_testkit::Random;
 
-const STIFFNESS: f64 = 1e5;
-/// Both surfaces are equally stiff, N/m.
-const SERIES: f64 = 0.5 * STIFFNESS;
 /// Of a force, as a share of stiffness times a metre.
 const ROUNDING: f64 = 1e-9;
 const POSES: usize = 60;
 
-fn steel() -> String {
-    surface(STIFFNESS, "normal: Linear(damping: 0.0)")
-}
-
 /// A mesh of some triangles.
-#[derive(Clone)]
-struct Mesh {
-    vertices: Vec<Vec3>,
-    triangles: Vec<[usize; 3]>,
-    two_sided: bool,
-    thickness: Option<f64>,
+fn mesh(vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> Mesh {
+    Mesh::new(vertices.iter().map(|v| Vec3::from(*v)).collect(), triangles.to_vec())
 }
 
 impl Mesh {
-    fn new(vertices: &[[f64; 3]], triangles: &[[usize; 3]]) -> Self {
-        let vertices = vertices.iter().map(|v| Vec3::from(*v)).collect();
-        Self { vertices, triangles: triangles.to_vec(), two_sided: false, thickness: None }
-    }
-
     fn thick(self, thickness: f64) -> Self {
         Self { thickness: Some(thickness), ..self }
     }
@@ -70,17 +57,6 @@ impl Mesh {
             mesh.triangles.swap(last, (random.unit() * (last + 1) as f64) as usize);
         }
         mesh
-    }
-
-    /// In other axes.
-    fn turned(&self, turn: &Quat, shift: &Vec3) -> Self {
-        Self { vertices: self.vertices.iter().map(|v| turn * v + shift).collect(), ..self.clone() }
-    }
-
-    fn text(&self) -> String {
-        let thickness = self.thickness.map_or(String::new(), |t| format!("thickness: {t:?},"));
-        let more = format!("two_sided: {}, {thickness}", self.two_sided);
-        model("mesh", &steel(), &triangle_mesh("m", &self.vertices, &self.triangles, &more))
     }
 }
 
@@ -124,10 +100,7 @@ fn must_agree(a: &str, meshes: &[Mesh], places: &[Vec3], expected: Option<Vec3>)
 }
 
 fn square() -> Mesh {
-    Mesh::new(
-        &[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]],
-        &[[0, 1, 2], [0, 2, 3]],
-    )
+    mesh(&[[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]], &[[0, 1, 2], [0, 2, 3]])
 }
 
 /// Exactly below a vertex in the middle of a flat plate each triangle may find that another has the centre.
@@ -161,7 +134,7 @@ fn the_wedge_behind_a_fold_ends_with_the_fold() {
         (0..25).map(|i| [columns[i % 5], rows[i / 5], heights[i / 5][i % 5]]).collect();
     let cells = (0..16).map(|cell| 5 * (cell / 4) + cell % 4);
     let triangles: Vec<[usize; 3]> = cells.flat_map(|i| [[i, i + 1, i + 6], [i, i + 6, i + 5]]).collect();
-    let sheet = Mesh::new(&vertices, &triangles).thick(0.4);
+    let sheet = mesh(&vertices, &triangles).thick(0.4);
     let middle =
         |mesh: &Mesh, t: usize| mesh.triangles[t].iter().map(|i| mesh.vertices[*i]).sum::<Vec3>() / 3.0;
     let edge = |a: usize, b: usize, t: f64| sheet.vertices[a] * (1.0 - t) + sheet.vertices[b] * t;
@@ -219,7 +192,7 @@ fn the_order_of_the_triangles_does_not_choose_among_the_faces_behind_which_a_bal
         [11, 15, 14],
         [16, 17, 15],
     ];
-    let sheet = Mesh::new(&vertices, &triangles);
+    let sheet = mesh(&vertices, &triangles);
     let mut random = Random(23);
     for _ in 0..150 {
         let place = Vec3::new(-0.4, 0.6, 0.6) + random.vector(0.5);
@@ -247,7 +220,7 @@ fn a_ball_that_comes_into_the_plane_of_a_two_sided_plate_from_its_back_is_pushed
 #[test]
 fn a_deep_ellipsoid_beside_a_rim_does_not_depend_on_how_the_plate_is_cut() {
     let vertices = [[-1.0, -1.0, 2.8], [0.0, -1.0, 0.0], [-1.0, -0.33, 2.8]];
-    let plate = Mesh::new(&vertices, &[[0, 1, 2]]).thick(1.5767512166579494);
+    let plate = mesh(&vertices, &[[0, 1, 2]]).thick(1.5767512166579494);
     let middle = plate.vertices.iter().sum::<Vec3>() / 3.0;
     let cut = plate.clone().split(middle).split(Vec3::new(-0.5, -1.0, 1.4));
     let places = [Vec3::new(-0.7, -0.78, 1.8), Vec3::new(-0.7, -0.8, 2.0)];
@@ -262,7 +235,7 @@ fn a_deep_ellipsoid_beside_a_rim_does_not_depend_on_how_the_plate_is_cut() {
 fn over_the_corner_of_a_plate_the_less_deep_minimum_pushes() {
     let size = 0.0566794834218851;
     let vertices = [[-size, -size, -2.0 * size], [size, -size, -2.0 * size], [size, -size, 2.0 * size]];
-    let plate = Mesh::new(&vertices, &[[0, 1, 2]]).thick(0.118);
+    let plate = mesh(&vertices, &[[0, 1, 2]]).thick(0.118);
     let place = Vec3::new(-size, -0.07793428970509202, -2.0 * size);
     let mut random = Random(11);
     for _ in 0..5 * POSES {
@@ -280,7 +253,7 @@ fn over_the_corner_of_a_plate_the_less_deep_minimum_pushes() {
 #[test]
 fn a_rod_exactly_above_a_ridge_is_pushed_by_one_of_two_equal_faces() {
     let vertices = [[0.0, -1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, -1.0], [-1.0, 0.0, -1.0]];
-    let roof = Mesh::new(&vertices, &[[0, 2, 1], [0, 1, 3]]);
+    let roof = mesh(&vertices, &[[0, 2, 1], [0, 1, 3]]);
     let depth = (0.5_f64 * (0.1 * 0.1 + 0.4 * 0.4)).sqrt() - 0.1 * 0.5_f64.sqrt();
     let mut random = Random(19);
     for _ in 0..POSES {
@@ -300,7 +273,7 @@ fn on_the_seam_of_slivers_one_of_two_equal_faces_pushes() {
     let (long, step) = (0.55, 1.3e-5);
     let vertices =
         [[0.0, 0.0, 0.0], [0.0, step, 0.0], [-long, 0.0, 0.0], [-long, step, 0.0], [0.0, 2.0 * step, 0.0]];
-    let mesh = Mesh::new(&vertices, &[[0, 1, 2], [2, 1, 3], [1, 4, 3]]).thick(0.064);
+    let mesh = mesh(&vertices, &[[0, 1, 2], [2, 1, 3], [1, 4, 3]]).thick(0.064);
     let up = Vec3::z() * (SERIES * (0.17 + 0.03));
     let foot = (mesh.vertices[1] + mesh.vertices[2]) * 0.5;
     must_agree(&ellipsoid([0.23, 0.18, 0.17]), &[mesh], &[foot - Vec3::z() * 0.03], Some(up));
@@ -318,7 +291,7 @@ fn what_an_edge_yields_to_does_not_depend_on_the_triangle_that_owns_it() {
         [-77.0, -29.0, -260.0],
         [35.0, -75.0, -230.0],
     ];
-    let bowl = Mesh::new(&vertices, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]]).thick(17.0);
+    let bowl = mesh(&vertices, &[[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 1]]).thick(17.0);
     let turn = Quat::new_normalize(pong_quaternion(0.6319, 0.3076, -0.5861, -0.4032));
     let text = format!(
         "Ellipsoid(name: \"e\", center: (0,0,0), semi_axes: (6.0,7.0,3.0), orientation: ({:?},{:?},{:?},{:?}))",
@@ -350,7 +323,7 @@ fn no_place_pushes_both_ways() {
         [-0.04161207894864427, 0.991482476630482, 1.033993023635701],
         [1.1794974091310466, -1.4716901150192263, 1.755386397325284],
     ];
-    let mesh = Mesh::new(&vertices, &[[0, 1, 2], [1, 3, 2]]);
+    let mesh = mesh(&vertices, &[[0, 1, 2], [1, 3, 2]]);
     let [p, q, r] = [0, 1, 2].map(|index| mesh.vertices[index]);
     let normal = (q - p).cross(&(r - p)).normalize();
     let place = r - normal * 0.042;
@@ -367,8 +340,8 @@ fn no_place_pushes_both_ways() {
 #[test]
 fn a_commit_does_not_change_which_wall_of_a_deep_valley_stands_in() {
     let vertices = [[0.0, 0.0, 0.0], [1.0, 0.0, 1.0], [0.62, 0.78, 1.0], [-0.22, 0.97, 1.0]];
-    let bowl = Mesh::new(&vertices, &[[0, 1, 2], [0, 2, 3]]).thick(1.599514126543054);
-    let thick = Mesh::new(&[[0.0, 0.0, 0.0], [0.37, 0.93, -2.4], [-1.0, 0.0029, -2.8]], &[[0, 1, 2]]);
+    let bowl = mesh(&vertices, &[[0, 1, 2], [0, 2, 3]]).thick(1.599514126543054);
+    let thick = mesh(&[[0.0, 0.0, 0.0], [0.37, 0.93, -2.4], [-1.0, 0.0029, -2.8]], &[[0, 1, 2]]);
     let thick = thick.two_sided().thick(0.5945102031637671);
     let mut random = Random(17);
     let mut check = |a: &str, mesh: &Mesh, places: &[Vec3], turn: Quat| {

@@ -7,8 +7,7 @@ use pong_record::{
     Log, LogError, Obstacle, RecordOptions, Recorder, ReplayOptions, ReplayReport, WhenFull, replay,
 };
 use std::path::Path;
-use std::time::Duration;
-use support::{folder, scene};
+use support::{HeldDisk, folder, scene};
 
 fn replayed(place: &Path, options: &ReplayOptions) -> ReplayReport {
     replay(&mut Log::open(place).unwrap(), options, &mut |_| {}).unwrap()
@@ -200,19 +199,15 @@ fn commits_that_are_in_no_frame_are_told() {
 fn frames_that_were_lost_are_told() {
     let folder = folder("replay_lost");
     let mut scene = scene(&folder);
-    let options = RecordOptions {
-        when_full: WhenFull::Lose,
-        buffer_bytes: Some(0),
-        on_thread_start: Some(|| std::thread::sleep(Duration::from_millis(300))),
-        ..RecordOptions::default()
-    };
+    let disk = HeldDisk::hold();
+    let options = RecordOptions { when_full: WhenFull::Lose, ..disk.options() };
     let place = folder.join("log");
     let mut recorder = Recorder::start(&scene.world, &place, &scene.sources, &options).unwrap();
     for n in 0..200 {
         scene.step(&mut recorder, n);
         recorder.record(&scene.world, f64::from(n), 0, None).unwrap();
     }
-    std::thread::sleep(Duration::from_millis(500));
+    disk.release(&recorder);
     scene.step(&mut recorder, 200);
     recorder.record(&scene.world, 200.0, 0, None).unwrap();
     let lost = recorder.finish().unwrap().lost;

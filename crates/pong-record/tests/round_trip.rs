@@ -5,7 +5,7 @@ mod support;
 use pong_engine::{Contact, EngineError};
 use pong_record::{ContactRow, FrameRow, Log, LogError, RecordOptions, Recorder, WhenFull};
 use std::time::Duration;
-use support::{folder, scene};
+use support::{HeldDisk, folder, scene};
 
 fn bits<const N: usize>(row: [f64; N]) -> [u64; N] {
     row.map(f64::to_bits)
@@ -138,24 +138,19 @@ fn a_frame_that_does_not_belong_to_the_states_is_refused() {
     assert_eq!(recorder.finish().unwrap().frames, 1);
 }
 
-/// A thread that is kept from starting stands for a disk that is too slow.
 #[test]
 fn frames_for_which_there_is_no_room_are_lost_whole_and_counted() {
     let folder = folder("lost");
     let mut scene = scene(&folder);
-    let options = RecordOptions {
-        when_full: WhenFull::Lose,
-        buffer_bytes: Some(0),
-        on_thread_start: Some(|| std::thread::sleep(Duration::from_millis(300))),
-        ..RecordOptions::default()
-    };
+    let disk = HeldDisk::hold();
+    let options = RecordOptions { when_full: WhenFull::Lose, ..disk.options() };
     let mut recorder = Recorder::start(&scene.world, &folder.join("log"), &scene.sources, &options).unwrap();
     let size = recorder.status().buffer_size;
     for n in 0..200 {
         scene.step(&mut recorder, n);
         recorder.record(&scene.world, f64::from(n), 0, None).unwrap();
     }
-    std::thread::sleep(Duration::from_millis(500));
+    disk.release(&recorder);
     for n in 200..210 {
         scene.step(&mut recorder, n);
         recorder.record(&scene.world, f64::from(n), 0, None).unwrap();
@@ -189,24 +184,12 @@ fn a_host_that_waits_loses_nothing() {
     assert_eq!((log.run().lost, log.frame_count()), (0, 3000));
 }
 
-/// A thread that is kept from starting stands for a disk that does not answer.
 #[test]
 fn files_that_take_nothing_are_given_up() {
-    use std::sync::atomic::{AtomicBool, Ordering};
-    static HELD: AtomicBool = AtomicBool::new(true);
     let folder = folder("stalled");
     let mut scene = scene(&folder);
-    let hold: fn() = || {
-        while HELD.load(Ordering::Acquire) {
-            std::thread::sleep(Duration::from_millis(1));
-        }
-    };
-    let options = RecordOptions {
-        buffer_bytes: Some(0),
-        longest_wait: Duration::from_millis(20),
-        on_thread_start: Some(hold),
-        ..RecordOptions::default()
-    };
+    let disk = HeldDisk::hold();
+    let options = RecordOptions { longest_wait: Duration::from_millis(20), ..disk.options() };
     for frames in [3000, 1] {
         let place = folder.join(format!("log_{frames}"));
         let mut recorder = Recorder::start(&scene.world, &place, &scene.sources, &options).unwrap();
@@ -219,7 +202,6 @@ fn files_that_take_nothing_are_given_up() {
         let error = recorder.finish().unwrap_err().to_string();
         assert!(error.contains("took nothing for 0.02 s; the log ends after 0 frames"), "{error}");
     }
-    HELD.store(false, Ordering::Release);
 }
 
 #[test]

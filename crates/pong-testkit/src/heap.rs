@@ -2,7 +2,7 @@
 //!
 //! ```
 //! #[global_allocator]
-//! static HEAP: pong_testkit::heap::Counting = pong_testkit::heap::Counting;
+//! static HEAP: pong_testkit::heap::Telling = pong_testkit::heap::COUNTING;
 //!
 //! assert_eq!(pong_testkit::heap::calls_during(|| drop(std::hint::black_box(Box::new(1)))), 2);
 //! ```
@@ -11,8 +11,11 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
-/// The system's allocator; counts the calls of each thread.
-pub struct Counting;
+/// The system's allocator; tells of every call before it hands it on. What it tells must not allocate.
+pub struct Telling(pub fn());
+
+/// Counts the calls of each thread.
+pub const COUNTING: Telling = Telling(count);
 
 thread_local! {
     static CALLS: Cell<usize> = const { Cell::new(0) };
@@ -36,15 +39,15 @@ fn count() {
 }
 
 // SAFETY: every call is handed on to `System` as it came.
-unsafe impl GlobalAlloc for Counting {
+unsafe impl GlobalAlloc for Telling {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
+        (self.0)();
         // SAFETY: the caller keeps the contract of `alloc`.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
+        (self.0)();
         // SAFETY: the caller keeps the contract of `dealloc`.
         unsafe { System.dealloc(pointer, layout) }
     }

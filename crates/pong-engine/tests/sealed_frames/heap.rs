@@ -3,12 +3,10 @@
 //! Counted are the thread that runs the frames and the world's own workers; those are recognised by the registered law
 //! that they evaluate.
 
-use std::alloc::{GlobalAlloc, Layout, System};
+use pong_testkit::heap::Telling;
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-
-struct Counting;
 
 thread_local! {
     static COUNTED: Cell<bool> = const { Cell::new(false) };
@@ -49,23 +47,8 @@ fn count() {
     }
 }
 
-// SAFETY: every call is handed on to `System` as it came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        // SAFETY: the caller keeps the contract of `alloc`.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
-        // SAFETY: the caller keeps the contract of `dealloc`.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
 #[global_allocator]
-static HEAP: Counting = Counting;
+static HEAP: Telling = Telling(count);
 
 /// Counts what the calling thread, and every thread that evaluates one of the laws below, asks of the allocator.
 /// Answers the calls of the host during which there was any, each with how often.

@@ -6,7 +6,9 @@ use pong_engine::{Config, InterfaceId, ObjectId, PairId, State, World, WorldBuil
 use pong_geometry::extension::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
 
 const CART: &str = r#"(format: "pong-model", version: 1, name: "cart", surfaces: {
     "rubber": (stiffness: 1e4, normal: Linear(damping: 12.3), friction: Bristle(mu: 0.5, damping: 7.0))},
@@ -89,5 +91,50 @@ impl Scene {
         }
         recorder.finish().unwrap();
         log
+    }
+}
+
+/// A disk that takes nothing before it is released: the thread that writes is kept from starting.
+pub struct HeldDisk {
+    /// Tests that hold the disk take turns.
+    _turn: MutexGuard<'static, ()>,
+}
+
+static TURN: Mutex<()> = Mutex::new(());
+static IS_HELD: AtomicBool = AtomicBool::new(false);
+/// Longer than any machine needs.
+const LONGEST_WAIT: Duration = Duration::from_secs(60);
+
+impl HeldDisk {
+    pub fn hold() -> Self {
+        let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
+        IS_HELD.store(true, Ordering::Release);
+        Self { _turn: turn }
+    }
+
+    /// Of a log on this disk, with the least room for what waits for it.
+    pub fn options(&self) -> RecordOptions {
+        let wait: fn() = || {
+            while IS_HELD.load(Ordering::Acquire) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+        };
+        RecordOptions { buffer_bytes: Some(0), on_thread_start: Some(wait), ..RecordOptions::default() }
+    }
+
+    /// Lets the disk take what waits for it, and waits until it has.
+    pub fn release(self, recorder: &Recorder) {
+        drop(self);
+        let begun = Instant::now();
+        while recorder.status().flushed + recorder.status().lost < recorder.status().frames {
+            assert!(begun.elapsed() < LONGEST_WAIT, "{:?}", recorder.status());
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    }
+}
+
+impl Drop for HeldDisk {
+    fn drop(&mut self) {
+        IS_HELD.store(false, Ordering::Release);
     }
 }
