@@ -93,6 +93,9 @@ void list_and_restore(pong::World& world) {
     world.step();
     const auto saved = world.save_contact_state();
     const std::vector<pong::Contact> contacts = world.contacts();
+    const auto stiffness = world.contact_stiffness();
+    require(stiffness.size() == 1 && std::fabs(stiffness[0].first * contacts[0].depth / contacts[0].normal_force - 1) < 1e-9,
+            "stiffness times depth is the force of a contact that does not move");
     require(contacts.size() == 1 && std::fabs(contacts[0].depth - 0.002) < 1e-12, "one contact, 2 mm deep");
     require(std::string(world.primitive_path(contacts[0].a.interface, contacts[0].a.primitive)) == "ball/shell",
             "the contact names the sphere");

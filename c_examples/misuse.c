@@ -249,6 +249,7 @@ static void bad_results(scene *s)
     pong_contact contact;
     pong_tally tally;
     pong_pair_energy_account pair_account;
+    double number = 0.0;
     pong_worker worker;
     const char *text;
     pong_interface_id wild = { 12345 };
@@ -269,6 +270,10 @@ static void bad_results(scene *s)
     REFUSED(pong_get_contacts(s->world, &contact, 1, NULL), NULL_ARGUMENT, "`count`");
     REFUSED(pong_get_contacts(s->world, NULL, 1, &count), NULL_ARGUMENT, "`contacts`");
     OK(pong_get_contacts(s->world, &contact, 1, &count));
+    REFUSED(pong_get_contact_stiffness(s->world, &number, NULL, 1, &count), NULL_ARGUMENT, "`damping`");
+    REFUSED(pong_get_contact_stiffness(s->world, NULL, &number, 1, &count), NULL_ARGUMENT, "`stiffness`");
+    REFUSED(pong_get_contact_stiffness(s->world, &number, &number, 1, &count), BAD_VALUE, "`damping`");
+    REFUSED(pong_get_contact_stiffness(s->world, NULL, NULL, 0, NULL), NULL_ARGUMENT, "`count`");
     REFUSED(pong_get_report(s->world, NULL), NULL_ARGUMENT, "`report`");
     REFUSED(pong_tally_count(s->world, NULL), NULL_ARGUMENT, "`count`");
     REFUSED(pong_get_tally(s->world, 0, NULL), NULL_ARGUMENT, "`tally`");

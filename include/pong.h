@@ -1014,6 +1014,16 @@ pong_status pong_get_contacts(const struct pong_world *world,
                               size_t capacity,
                               size_t *count);
 
+/// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
+/// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
+/// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
+/// host's. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+pong_status pong_get_contact_stiffness(const struct pong_world *world,
+                                       double *stiffness,
+                                       double *damping,
+                                       size_t capacity,
+                                       size_t *count);
+
 /// Counts, times, memory and flags of the last frame; all zero before the first.
 pong_status pong_get_report(const struct pong_world *world, struct pong_report *report);
 

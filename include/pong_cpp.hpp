@@ -220,6 +220,18 @@ public:
             return pong_get_contacts(get(), out, capacity, count);
         });
     }
+    /// Stiffness (N/m) and damping (N s/m) of the contacts of the last frame along their normals, in the order of contacts().
+    std::vector<std::pair<double, double>> contact_stiffness() const {
+        std::vector<double> stiffness(result<std::size_t>([&](std::size_t* out) { return pong_contact_count(get(), out); }));
+        std::vector<double> damping(stiffness.size());
+        std::size_t count = 0;
+        check(pong_get_contact_stiffness(get(), stiffness.data(), damping.data(), stiffness.size(), &count));
+        std::vector<std::pair<double, double>> all(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            all[i] = {stiffness[i], damping[i]};
+        }
+        return all;
+    }
     Report report() const {
         return result<Report>([&](Report* out) { return pong_get_report(get(), out); });
     }

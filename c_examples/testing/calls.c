@@ -66,6 +66,7 @@ static void contacts(scene *s)
     pong_contact contact;
     pong_wrench wrench = slide_to(s, 0.0);
     pong_state state;
+    double stiffness, damping;
     size_t count = 0;
     int i;
     OK(pong_contact_count(s->world, &count));
@@ -74,6 +75,8 @@ static void contacts(scene *s)
     TEST(contact.a.interface.bits == s->interfaces[0].bits && contact.b.object.bits == s->ground.bits);
     TEST(fabs(contact.depth - 1e-3) < 1e-15 && contact.normal[2] == 1.0 && contact.weight == 1.0);
     TEST(contact.feature_kind == PONG_FEATURE_FACE && contact.feature_index == 0 && contact.sticks == 1);
+    OK(pong_get_contact_stiffness(s->world, &stiffness, &damping, 1, &count));
+    TEST(count == 1 && fabs(stiffness * contact.depth - contact.normal_force) < 1e-9 && damping >= 0.0);
     for (i = 0; i < 3; i += 1) {
         TEST(contact.force[i] == wrench.force[i]);
     }

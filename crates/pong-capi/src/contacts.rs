@@ -110,6 +110,40 @@ pub unsafe extern "C" fn pong_get_contacts(
     }
 }
 
+/// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
+/// (`damping`, N s/m), with the weight of the contact, in the order of pong_get_contacts(): the first `capacity` of both are
+/// written, `count` gets their number. Zero where the force is cut off at zero; not a number (NaN) of a normal law of the
+/// host's. PONG_STATUS_BUFFER_TOO_SMALL if not all fit. With capacity 0 both arrays may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pong_get_contact_stiffness(
+    world: *const pong_world,
+    stiffness: *mut f64,
+    damping: *mut f64,
+    capacity: usize,
+    count: *mut usize,
+) -> pong_status {
+    // SAFETY: see "Safety of all entries" in lib.rs.
+    unsafe {
+        with_world(world, |inner| {
+            apart(("stiffness", stiffness, capacity), ("damping", damping, capacity))?;
+            apart(("stiffness", stiffness, capacity), ("count", count, 1))?;
+            apart(("damping", damping, capacity), ("count", count, 1))?;
+            let mut stiffness = OutArray::new(stiffness, capacity, "stiffness")?;
+            let mut damping = OutArray::new(damping, capacity, "damping")?;
+            let count = Out::new(count, "count")?;
+            inner.law_faults.check()?;
+            let listed = inner.phase.sealed().into_iter().flat_map(World::normal_tangents).enumerate();
+            for (index, tangent) in listed.take(capacity) {
+                stiffness.set(index, tangent.map_or(f64::NAN, |tangent| tangent.stiffness));
+                damping.set(index, tangent.map_or(f64::NAN, |tangent| tangent.damping));
+            }
+            let total = inner.phase.report().contacts as usize;
+            count.set(total);
+            too_small("stiffness and damping", capacity, total)
+        })
+    }
+}
+
 const KIND_SHIFT: u32 = 30;
 
 impl From<&Contact> for pong_contact {

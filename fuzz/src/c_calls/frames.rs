@@ -2,7 +2,7 @@
 
 use super::session::{Session, Sure};
 use crate::count;
-use pong::contacts::{pong_contact, pong_contact_count, pong_get_contacts};
+use pong::contacts::{pong_contact, pong_contact_count, pong_get_contact_stiffness, pong_get_contacts};
 use pong::frames::{pong_commit, pong_commit_pairs, pong_evaluate, pong_step};
 use pong::ids::{pong_interface_id, pong_pair_id};
 use pong::report::{pong_get_ledger, pong_get_report, pong_ledger, pong_report};
@@ -244,6 +244,19 @@ impl Session<'_> {
             finite(vectors.iter().flatten().chain(&numbers), "contact");
             assert!((0.0..=1.0).contains(&contact.weight) && contact.normal_force >= 0.0, "{contact:?}");
             assert!(contact.feature_kind <= 2 && contact.end <= 1, "{contact:?}");
+        }
+        let mut slopes = [vec![0.0; contacts.len()], vec![0.0; contacts.len()]];
+        let [stiffness, damping] = &mut slopes;
+        let mut listed = 0;
+        let sure = known.unless(own_laws);
+        if self.call("contact stiffness", sure, || unsafe {
+            let (stiffness, damping) = (stiffness.as_mut_ptr(), damping.as_mut_ptr());
+            pong_get_contact_stiffness(world, stiffness, damping, contacts.len(), &mut listed)
+        }) {
+            assert_eq!(listed, contacts.len());
+            if !own_laws {
+                finite(slopes.iter().flatten(), "contact stiffness");
+            }
         }
     }
 
