@@ -56,21 +56,28 @@ fn co_simulation_is_the_executive_of_the_scene_to_the_bit() {
 
 #[test]
 fn a_step_that_is_no_multiple_ends_where_it_should() {
-    let (_, unit) = unit("odd_steps", &Options::default());
+    let (scene, unit) = unit("odd_steps", &Options::default());
     let mut odd = Importer::new(&unit, false).unwrap();
-    let mut even = Importer::new(&unit, false).unwrap();
-    assert_eq!((odd.begin(0.0), even.begin(0.0)), (OK, OK));
+    assert_eq!(odd.begin(0.0), OK);
+    // The same by hand: two steps of 1e-4 s and what is left to the communication point, as times are rounded.
+    let mut executive = simulation(&scene);
+    let ball = executive.bodies().next().unwrap().0;
+    let mut touched = false;
     for i in 0..100 {
-        assert_eq!(odd.do_step(f64::from(i) * 2.5e-4, 2.5e-4), OK, "{}", odd.last());
+        let from = f64::from(i) * 2.5e-4;
+        assert_eq!(odd.do_step(from, 2.5e-4), OK, "{}", odd.last());
+        (0..2).for_each(|_| executive.step().unwrap());
+        executive.set_step(from + 2.5e-4 - executive.time()).unwrap();
+        executive.step().unwrap();
+        executive.set_step(1e-4).unwrap();
+        assert_eq!(
+            odd.get_vector(&format!("{BALL}.position")),
+            <[f64; 3]>::from(executive.pose(ball).position)
+        );
+        touched |= executive.world().contact_count() > 0;
     }
-    assert_eq!(even.do_step(0.0, 100.0 * 2.5e-4), OK);
+    assert!(touched, "the ball never reached the ground");
     assert!((odd.get("time") - 0.025).abs() < 1e-15);
-    for i in 1..=3 {
-        let name = format!("{BALL}.position[{i}]");
-        let apart = (odd.get(&name) - even.get(&name)).abs();
-        // Other steps have other errors where contact begins; a step more or less would be 1e-5 m and more.
-        assert!(apart < 1e-6, "{name}: {apart} m");
-    }
     assert_eq!(odd.do_step(0.5, 1e-4), ERROR);
     assert!(odd.last().contains("begins at 0.5 s, and the instance is at 0.025"), "{}", odd.last());
     assert_eq!(odd.do_step(0.025, f64::NAN), ERROR);

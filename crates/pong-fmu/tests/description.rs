@@ -74,6 +74,11 @@ fn the_descriptions_name_every_variable_alike() {
         {
             assert!(names.iter().any(|other| other == name), "{name}");
         }
+        // Every rate names its state, which FMI 2.0 counts from 1.
+        let first = usize::from(fmi == Fmi::V2);
+        let states = elements.iter().filter_map(|(_, a)| value(a, "derivative")?.parse::<usize>().ok());
+        let rates: Vec<_> = states.map(|state| format!("der({})", names[state - first])).collect();
+        assert_eq!(rates, names.iter().filter(|name| name.starts_with("der(")).cloned().collect::<Vec<_>>());
         let unknowns = elements.iter().filter(|(path, _)| path.contains("ModelStructure/")).count();
         let lists_of_2 = if fmi == Fmi::V2 { 3 } else { 0 };
         assert_eq!(unknowns, lists_of_2 + 62 + 13 + (62 + 26));

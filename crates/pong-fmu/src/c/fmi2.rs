@@ -3,9 +3,10 @@
 #![allow(non_snake_case, reason = "the standard names them")]
 #![allow(clippy::too_many_arguments, reason = "the standard counts them")]
 
-use super::component::{call, call_with_logger, free, instantiate, state};
+use super::both::{absent, none};
+use super::component::{call, call_with_logger, free, instantiate};
 use super::logger::{DISCARD, ERROR, Fmi2Log, Logger, OK, Sink, Status, c_text};
-use super::pointers::{place, slice, slice_mut, text};
+use super::pointers::{place, read, slice, text};
 use crate::instance::{Instance, Kind};
 use crate::load::folder_of_uri;
 use crate::refusal::Refusal;
@@ -98,26 +99,11 @@ calls! {
     fn fmi2SetupExperiment(_has_tolerance: c_int, _tolerance: f64, start: f64, _has_stop: c_int, _stop: f64)
         |instance| instance.set_start(start);
     fn fmi2EnterInitializationMode() |instance| instance.enter_initialization();
-    fn fmi2ExitInitializationMode() |instance| instance.exit_initialization();
-    fn fmi2Terminate() |instance| instance.terminate();
-    fn fmi2Reset() |instance| instance.reset();
 
-    fn fmi2GetReal(references: *const u32, count: usize, values: *mut f64) |instance| {
-        let references = slice(references, count, "value references")?;
-        let values = slice_mut(values, count, "values")?;
-        references.iter().zip(values).try_for_each(|(reference, value)| {
-            *value = instance.number(*reference)?;
-            Ok(())
-        })
-    };
-    fn fmi2GetBoolean(references: *const u32, count: usize, values: *mut c_int) |instance| {
-        let references = slice(references, count, "value references")?;
-        let values = slice_mut(values, count, "values")?;
-        references.iter().zip(values).try_for_each(|(reference, value)| {
-            *value = c_int::from(instance.flag(*reference)?);
-            Ok(())
-        })
-    };
+    fn fmi2GetReal(references: *const u32, count: usize, values: *mut f64)
+        |instance| read(references, count, values, |reference| instance.number(reference));
+    fn fmi2GetBoolean(references: *const u32, count: usize, values: *mut c_int)
+        |instance| read(references, count, values, |reference| Ok(instance.flag(reference)?.into()));
     fn fmi2SetReal(references: *const u32, count: usize, values: *const f64) |instance| {
         let references = slice(references, count, "value references")?;
         instance.set_numbers(references, slice(values, count, "values")?)
@@ -131,24 +117,11 @@ calls! {
     fn fmi2SetString(_references: *const u32, count: usize, _values: *const *const c_char)
         |_instance| none(count, "String");
 
-    fn fmi2GetFMUstate(saved: *mut *mut c_void) |instance| state::get(instance, saved);
-    fn fmi2SetFMUstate(saved: *mut c_void) |instance| instance.restore(state::bytes(saved)?);
-    fn fmi2FreeFMUstate(saved: *mut *mut c_void) |_instance| state::free(saved);
-    fn fmi2SerializedFMUstateSize(saved: *mut c_void, size: *mut usize) |_instance| {
-        *place(size, "size")? = state::bytes(saved)?.len();
-        Ok(())
-    };
-    fn fmi2SerializeFMUstate(saved: *mut c_void, bytes: *mut u8, size: usize)
-        |_instance| state::serialize(saved, bytes, size);
-    fn fmi2DeSerializeFMUstate(bytes: *const u8, size: usize, saved: *mut *mut c_void)
-        |instance| state::deserialize(instance, bytes, size, saved);
     fn fmi2GetDirectionalDerivative(
         _unknowns: *const u32, _unknown_count: usize, _knowns: *const u32, _known_count: usize, _seed: *const f64,
         _sensitivity: *mut f64
-    ) |_instance| absent("fmi2GetDirectionalDerivative", "differentiate by differences");
+    ) |_instance| absent(FUNCTION, "differentiate by differences");
 
-    fn fmi2EnterEventMode() |instance| instance.enter_event_mode();
-    fn fmi2EnterContinuousTimeMode() |instance| instance.enter_continuous_mode();
     fn fmi2NewDiscreteStates(info: *mut EventInfo) |instance| {
         let info = place(info, "event info")?;
         let outcome = instance.update_discrete_states()?;
@@ -167,49 +140,15 @@ calls! {
         (*event, *terminate) = (c_int::from(instance.completed_step()?), 0);
         Ok(())
     };
-    fn fmi2SetTime(time: f64) |instance| instance.set_time(time);
-    fn fmi2SetContinuousStates(states: *const f64, count: usize)
-        |instance| instance.set_states(slice(states, count, "states")?);
-    fn fmi2GetContinuousStates(states: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi2GetContinuousStates", count)?;
-        slice_mut(states, count, "states")?.copy_from_slice(instance.states()?);
-        Ok(())
-    };
-    fn fmi2GetDerivatives(rates: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi2GetDerivatives", count)?;
-        slice_mut(rates, count, "derivatives")?.copy_from_slice(instance.rates()?);
-        Ok(())
-    };
-    fn fmi2GetNominalsOfContinuousStates(nominals: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi2GetNominalsOfContinuousStates", count)?;
-        slice_mut(nominals, count, "nominal values")?.copy_from_slice(&instance.unit.variables.nominals);
-        Ok(())
-    };
-    fn fmi2GetEventIndicators(_indicators: *mut f64, count: usize) |_instance| none(count, "event indicator");
 
     fn fmi2DoStep(from: f64, length: f64, _never_back: c_int) |instance| instance.do_step(from, length);
-    fn fmi2CancelStep() |_instance| absent("fmi2CancelStep", "steps end before they return");
+    fn fmi2CancelStep() |_instance| absent(FUNCTION, "steps end before they return");
     fn fmi2SetRealInputDerivatives(
         _references: *const u32, count: usize, _orders: *const c_int, _values: *const f64
     ) |_instance| none(count, "derivative of an input");
     fn fmi2GetRealOutputDerivatives(
         _references: *const u32, count: usize, _orders: *const c_int, _values: *mut f64
     ) |_instance| none(count, "derivative of an output");
-}
-
-/// For kinds of variables of which there are none: asked for none of them, all is well.
-fn none(count: usize, what: &str) -> Result<(), Refusal> {
-    if count == 0 {
-        return Ok(());
-    }
-    Err(Refusal::error(format!("{what}: the unit has none; take the variables of modelDescription.xml")))
-}
-
-/// For functions that the description says are not there.
-fn absent(function: &str, cure: &str) -> Result<(), Refusal> {
-    Err(Refusal::error(format!(
-        "{function}: the unit does not have it, as modelDescription.xml says; {cure}"
-    )))
 }
 
 /// Steps end before they return: only the time that was reached can be asked for.

@@ -3,9 +3,10 @@
 #![allow(non_snake_case, reason = "the standard names them")]
 #![allow(clippy::too_many_arguments, reason = "the standard counts them")]
 
-use super::component::{call, call_with_logger, free, instantiate, state};
+use super::both::{absent, none};
+use super::component::{call, call_with_logger, free, instantiate};
 use super::logger::{ERROR, Fmi3Log, Logger, Sink, Status};
-use super::pointers::{place, slice, slice_mut, text};
+use super::pointers::{place, read, slice, text};
 use crate::instance::{Instance, Kind};
 use crate::refusal::Refusal;
 use std::ffi::{c_char, c_int, c_void};
@@ -13,6 +14,9 @@ use std::path::PathBuf;
 
 /// `fmi3Boolean`, a `bool` of C: as a byte, because not every byte is a `bool` of Rust.
 type Boolean = u8;
+
+/// The cure where a function is absent.
+const DO_WITHOUT: &str = "do without it";
 
 #[unsafe(no_mangle)]
 extern "C" fn fmi3GetVersion() -> *const c_char {
@@ -128,46 +132,20 @@ calls! {
     fn fmi3EnterInitializationMode(
         _has_tolerance: Boolean, _tolerance: f64, start: f64, _has_stop: Boolean, _stop: f64
     ) |instance| instance.set_start(start).and_then(|()| instance.enter_initialization());
-    fn fmi3ExitInitializationMode() |instance| instance.exit_initialization();
-    fn fmi3EnterEventMode() |instance| instance.enter_event_mode();
-    fn fmi3Terminate() |instance| instance.terminate();
-    fn fmi3Reset() |instance| instance.reset();
 
     fn fmi3GetFloat64(references: *const u32, count: usize, values: *mut f64, value_count: usize) |instance| {
         same_count(count, value_count)?;
-        let references = slice(references, count, "value references")?;
-        let values = slice_mut(values, count, "values")?;
-        references.iter().zip(values).try_for_each(|(reference, value)| {
-            *value = instance.number(*reference)?;
-            Ok(())
-        })
+        read(references, count, values, |reference| instance.number(reference))
     };
     fn fmi3GetBoolean(references: *const u32, count: usize, values: *mut Boolean, value_count: usize) |instance| {
         same_count(count, value_count)?;
-        let references = slice(references, count, "value references")?;
-        let values = slice_mut(values, count, "values")?;
-        references.iter().zip(values).try_for_each(|(reference, value)| {
-            *value = Boolean::from(instance.flag(*reference)?);
-            Ok(())
-        })
+        read(references, count, values, |reference| Ok(instance.flag(reference)?.into()))
     };
     fn fmi3SetFloat64(references: *const u32, count: usize, values: *const f64, value_count: usize) |instance| {
         same_count(count, value_count)?;
         let references = slice(references, count, "value references")?;
         instance.set_numbers(references, slice(values, count, "values")?)
     };
-
-    fn fmi3GetFMUState(saved: *mut *mut c_void) |instance| state::get(instance, saved);
-    fn fmi3SetFMUState(saved: *mut c_void) |instance| instance.restore(state::bytes(saved)?);
-    fn fmi3FreeFMUState(saved: *mut *mut c_void) |_instance| state::free(saved);
-    fn fmi3SerializedFMUStateSize(saved: *mut c_void, size: *mut usize) |_instance| {
-        *place(size, "size")? = state::bytes(saved)?.len();
-        Ok(())
-    };
-    fn fmi3SerializeFMUState(saved: *mut c_void, bytes: *mut u8, size: usize)
-        |_instance| state::serialize(saved, bytes, size);
-    fn fmi3DeserializeFMUState(bytes: *const u8, size: usize, saved: *mut *mut c_void)
-        |instance| state::deserialize(instance, bytes, size, saved);
 
     fn fmi3EvaluateDiscreteStates() |_instance| Ok(());
     fn fmi3UpdateDiscreteStates(
@@ -187,30 +165,11 @@ calls! {
         (*values_changed, *next_time) = (Boolean::from(outcome.states_changed), 0.0);
         Ok(())
     };
-    fn fmi3EnterContinuousTimeMode() |instance| instance.enter_continuous_mode();
     fn fmi3CompletedIntegratorStep(
         _never_back: Boolean, enter_event_mode: *mut Boolean, terminate: *mut Boolean
     ) |instance| {
         let (event, terminate) = (place(enter_event_mode, "enterEventMode")?, place(terminate, "terminateSimulation")?);
         (*event, *terminate) = (Boolean::from(instance.completed_step()?), 0);
-        Ok(())
-    };
-    fn fmi3SetTime(time: f64) |instance| instance.set_time(time);
-    fn fmi3SetContinuousStates(states: *const f64, count: usize)
-        |instance| instance.set_states(slice(states, count, "states")?);
-    fn fmi3GetContinuousStates(states: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi3GetContinuousStates", count)?;
-        slice_mut(states, count, "states")?.copy_from_slice(instance.states()?);
-        Ok(())
-    };
-    fn fmi3GetContinuousStateDerivatives(rates: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi3GetContinuousStateDerivatives", count)?;
-        slice_mut(rates, count, "derivatives")?.copy_from_slice(instance.rates()?);
-        Ok(())
-    };
-    fn fmi3GetNominalsOfContinuousStates(nominals: *mut f64, count: usize) |instance| {
-        instance.check_count("fmi3GetNominalsOfContinuousStates", count)?;
-        slice_mut(nominals, count, "nominal values")?.copy_from_slice(&instance.unit.variables.nominals);
         Ok(())
     };
     fn fmi3GetNumberOfContinuousStates(count: *mut usize) |instance| {
@@ -221,7 +180,6 @@ calls! {
         *place(count, "nEventIndicators")? = 0;
         Ok(())
     };
-    fn fmi3GetEventIndicators(_indicators: *mut f64, count: usize) |_instance| none(count, "event indicator");
 
     fn fmi3DoStep(
         from: f64, length: f64, _never_back: Boolean, event_needed: *mut Boolean, terminate: *mut Boolean,
@@ -238,23 +196,23 @@ calls! {
     };
 
     fn fmi3GetNumberOfVariableDependencies(_variable: u32, _count: *mut usize)
-        |_instance| absent("fmi3GetNumberOfVariableDependencies");
+        |_instance| absent(FUNCTION, DO_WITHOUT);
     fn fmi3GetVariableDependencies(
         _dependent: u32, _elements: *mut usize, _independents: *mut u32, _of_independents: *mut usize,
         _kinds: *mut c_int, _count: usize
-    ) |_instance| absent("fmi3GetVariableDependencies");
+    ) |_instance| absent(FUNCTION, DO_WITHOUT);
     fn fmi3GetDirectionalDerivative(
         _unknowns: *const u32, _unknown_count: usize, _knowns: *const u32, _known_count: usize, _seed: *const f64,
         _seed_count: usize, _sensitivity: *mut f64, _sensitivity_count: usize
-    ) |_instance| absent("fmi3GetDirectionalDerivative");
+    ) |_instance| absent(FUNCTION, DO_WITHOUT);
     fn fmi3GetAdjointDerivative(
         _unknowns: *const u32, _unknown_count: usize, _knowns: *const u32, _known_count: usize, _seed: *const f64,
         _seed_count: usize, _sensitivity: *mut f64, _sensitivity_count: usize
-    ) |_instance| absent("fmi3GetAdjointDerivative");
-    fn fmi3EnterConfigurationMode() |_instance| absent("fmi3EnterConfigurationMode");
-    fn fmi3ExitConfigurationMode() |_instance| absent("fmi3ExitConfigurationMode");
-    fn fmi3EnterStepMode() |_instance| absent("fmi3EnterStepMode");
-    fn fmi3ActivateModelPartition(_clock: u32, _time: f64) |_instance| absent("fmi3ActivateModelPartition");
+    ) |_instance| absent(FUNCTION, DO_WITHOUT);
+    fn fmi3EnterConfigurationMode() |_instance| absent(FUNCTION, DO_WITHOUT);
+    fn fmi3ExitConfigurationMode() |_instance| absent(FUNCTION, DO_WITHOUT);
+    fn fmi3EnterStepMode() |_instance| absent(FUNCTION, DO_WITHOUT);
+    fn fmi3ActivateModelPartition(_clock: u32, _time: f64) |_instance| absent(FUNCTION, DO_WITHOUT);
     fn fmi3GetOutputDerivatives(
         _references: *const u32, count: usize, _orders: *const i32, _values: *mut f64, _value_count: usize
     ) |_instance| none(count, "derivative of an output");
@@ -320,20 +278,5 @@ fn same_count(references: usize, values: usize) -> Result<(), Refusal> {
     }
     Err(Refusal::error(format!(
         "{references} value references and {values} values; all variables are scalars: give as many of both"
-    )))
-}
-
-/// For kinds of variables of which there are none: asked for none of them, all is well.
-fn none(count: usize, what: &str) -> Result<(), Refusal> {
-    if count == 0 {
-        return Ok(());
-    }
-    Err(Refusal::error(format!("{what}: the unit has none; take the variables of modelDescription.xml")))
-}
-
-/// For functions that the description says are not there.
-fn absent(function: &str) -> Result<(), Refusal> {
-    Err(Refusal::error(format!(
-        "{function}: the unit does not have it, as modelDescription.xml says; do without it"
     )))
 }

@@ -6,17 +6,26 @@
 //! library gave out and that was not freed; text ends with a zero byte; an array has as many elements as the importer says; an
 //! instance is called from one thread at a time. Everything else is checked.
 
-/// Functions that call an instance.
+/// Functions that call an instance, each under one name or more. In a body `FUNCTION` is the name.
 macro_rules! calls {
-    ($(fn $name:ident($($argument:ident: $type:ty),*) |$instance:ident| $body:expr;)*) => {$(
+    ($(fn $($name:ident),+ ($($arguments:tt)*) |$instance:ident| $body:expr;)*) => {$(
+        calls!(@named [$($name)+] ($($arguments)*) |$instance| $body);
+    )*};
+    (@named [$($name:ident)+] $arguments:tt |$instance:ident| $body:expr) => {$(
+        calls!(@one $name $arguments |$instance| $body);
+    )+};
+    (@one $name:ident ($($argument:ident: $type:ty),*) |$instance:ident| $body:expr) => {
         #[unsafe(no_mangle)]
         unsafe extern "C" fn $name(component: *mut c_void $(, $argument: $type)*) -> Status {
+            #[allow(dead_code, reason = "not every body tells its name")]
+            const FUNCTION: &str = stringify!($name);
             // SAFETY: by the contract of this module.
             unsafe { call(component, |$instance: &mut Instance| $body) }
         }
-    )*};
+    };
 }
 
+mod both;
 mod component;
 mod fmi2;
 mod fmi3;

@@ -34,6 +34,26 @@ pub(super) unsafe fn slice_mut<'a, T>(
     }
 }
 
+/// Writes the value of each reference.
+///
+/// # Safety
+/// As all functions of this module (`c/mod.rs`).
+pub(super) unsafe fn read<T>(
+    references: *const u32,
+    count: usize,
+    values: *mut T,
+    mut value: impl FnMut(u32) -> Result<T, Refusal>,
+) -> Result<(), Refusal> {
+    // SAFETY: by the contract of this function.
+    let references = unsafe { slice(references, count, "value references")? };
+    // SAFETY: by the contract of this function.
+    let values = unsafe { slice_mut(values, count, "values")? };
+    references.iter().zip(values).try_for_each(|(reference, place)| {
+        *place = value(*reference)?;
+        Ok(())
+    })
+}
+
 /// # Safety
 /// As all functions of this module (`c/mod.rs`).
 pub(super) unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut T, Refusal> {

@@ -2,7 +2,7 @@
 
 use super::xml::Xml;
 use crate::unit::Unit;
-use crate::variables::{Causality, Slot, Variables};
+use crate::variables::{Causality, Slot, Variable, Variables};
 
 pub(super) const TOOL: &str = concat!("Pong ", env!("CARGO_PKG_VERSION"));
 /// Relative tolerance that is proposed for solvers with step control: contact depths are small against places.
@@ -64,6 +64,42 @@ pub(super) fn write_experiment(xml: &mut Xml, unit: &Unit) {
     xml.empty("DefaultExperiment", if unit.duration > 0.0 { &attributes } else { &attributes[2..] });
 }
 
+/// Writes the variables. `write` gets the attributes that both versions have at a variable, those that FMI 2.0 has at its type
+/// instead, and what is called a derivative: `state_of_rate` says which, of the place of a rate.
+pub(super) fn write_variables(
+    xml: &mut Xml,
+    unit: &Unit,
+    state_of_rate: fn(usize) -> usize,
+    write: fn(&mut Xml, &Variable, Attributes<'_>, Attributes<'_>),
+) {
+    xml.open("ModelVariables", &[]);
+    for (place, variable) in unit.variables.list.iter().enumerate() {
+        let number = |value: Option<f64>| value.map(|value| format!("{value:?}"));
+        let (start, nominal) = (number(variable.start), number(variable.nominal));
+        let (reference, state) = (place.to_string(), state_of_rate(place).to_string());
+        let (varies, initial) = variability(variable.causality, variable.is_flag());
+        let mut general = vec![
+            ("name", variable.name.as_str()),
+            ("valueReference", &reference),
+            ("description", &variable.description),
+            ("causality", causality_name(variable.causality)),
+            ("variability", varies),
+        ];
+        general.extend(initial.map(|initial| ("initial", initial)));
+        let mut typed = Vec::new();
+        typed.extend((!variable.unit.is_empty()).then_some(("unit", variable.unit)));
+        typed.extend(nominal.as_deref().map(|nominal| ("nominal", nominal)));
+        typed.extend(start.as_deref().map(|start| ("start", start)));
+        typed.extend(matches!(variable.slot, Slot::Rate(_)).then_some(("derivative", state.as_str())));
+        typed.extend(is_reinitialized(&variable.name, variable.slot).then_some(("reinit", "true")));
+        write(xml, variable, &general, &typed);
+    }
+    xml.close("ModelVariables");
+}
+
+/// Attributes of an element: names and values.
+type Attributes<'a> = &'a [(&'a str, &'a str)];
+
 /// Value of `causality`.
 pub(super) fn causality_name(causality: Causality) -> &'static str {
     match causality {
@@ -76,7 +112,7 @@ pub(super) fn causality_name(causality: Causality) -> &'static str {
 }
 
 /// Values of `variability` and, where it must be given, `initial`.
-pub(super) fn variability(causality: Causality, is_flag: bool) -> (&'static str, Option<&'static str>) {
+fn variability(causality: Causality, is_flag: bool) -> (&'static str, Option<&'static str>) {
     match causality {
         Causality::Independent | Causality::Input => ("continuous", None),
         Causality::Parameter => ("fixed", Some("exact")),
@@ -107,6 +143,6 @@ impl Structure {
 }
 
 /// Whether an event may set a state anew: quaternions are normalised.
-pub(super) fn is_reinitialized(name: &str, slot: Slot) -> bool {
+fn is_reinitialized(name: &str, slot: Slot) -> bool {
     matches!(slot, Slot::State(_)) && name.contains(".state.orientation[")
 }

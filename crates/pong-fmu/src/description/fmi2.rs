@@ -1,12 +1,8 @@
 //! `modelDescription.xml` of FMI 2.0.
 
-use super::common::{
-    Structure, TOOL, causality_name, is_reinitialized, variability, write_categories, write_experiment,
-    write_units,
-};
+use super::common::{Structure, TOOL, write_categories, write_experiment, write_units, write_variables};
 use super::xml::Xml;
 use crate::unit::Unit;
-use crate::variables::{Slot, Variable};
 
 pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     let mut xml = Xml::new();
@@ -40,11 +36,17 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     write_units(&mut xml);
     write_categories(&mut xml);
     write_experiment(&mut xml, unit);
-    xml.open("ModelVariables", &[]);
-    for (place, variable) in unit.variables.list.iter().enumerate() {
-        write_variable(&mut xml, place, variable);
-    }
-    xml.close("ModelVariables");
+    // Variables are counted from 1; a rate stands behind its state.
+    write_variables(
+        &mut xml,
+        unit,
+        |rate| rate,
+        |xml, variable, general, typed| {
+            xml.open("ScalarVariable", general);
+            xml.empty(if variable.is_flag() { "Boolean" } else { "Real" }, typed);
+            xml.close("ScalarVariable");
+        },
+    );
     let structure = Structure::new(&unit.variables);
     xml.open("ModelStructure", &[]);
     let lists = [
@@ -62,35 +64,4 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     xml.close("ModelStructure");
     xml.close("fmiModelDescription");
     xml.text
-}
-
-/// Variables are counted from 1; a derivative stands behind its state.
-fn write_variable(xml: &mut Xml, place: usize, variable: &Variable) {
-    let reference = place.to_string();
-    let (varies, initial) = variability(variable.causality, variable.is_flag());
-    let mut attributes = vec![
-        ("name", variable.name.as_str()),
-        ("valueReference", &reference),
-        ("description", &variable.description),
-        ("causality", causality_name(variable.causality)),
-        ("variability", varies),
-    ];
-    attributes.extend(initial.map(|initial| ("initial", initial)));
-    xml.open("ScalarVariable", &attributes);
-    let start = variable.start.map(|start| format!("{start:?}"));
-    let nominal = variable.nominal.map(|nominal| format!("{nominal:?}"));
-    let mut typed: Vec<(&str, &str)> = Vec::new();
-    if !variable.unit.is_empty() {
-        typed.push(("unit", variable.unit));
-    }
-    typed.extend(nominal.as_deref().map(|nominal| ("nominal", nominal)));
-    typed.extend(start.as_deref().map(|start| ("start", start)));
-    if matches!(variable.slot, Slot::Rate(_)) {
-        typed.push(("derivative", &reference));
-    }
-    if is_reinitialized(&variable.name, variable.slot) {
-        typed.push(("reinit", "true"));
-    }
-    xml.empty(if variable.is_flag() { "Boolean" } else { "Real" }, &typed);
-    xml.close("ScalarVariable");
 }

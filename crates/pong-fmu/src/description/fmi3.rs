@@ -1,12 +1,8 @@
 //! `modelDescription.xml` of FMI 3.0.
 
-use super::common::{
-    Structure, TOOL, causality_name, is_reinitialized, variability, write_categories, write_experiment,
-    write_units,
-};
+use super::common::{Structure, TOOL, write_categories, write_experiment, write_units, write_variables};
 use super::xml::Xml;
 use crate::unit::Unit;
-use crate::variables::{Slot, Variable};
 
 pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     let mut xml = Xml::new();
@@ -38,11 +34,15 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     write_units(&mut xml);
     write_categories(&mut xml);
     write_experiment(&mut xml, unit);
-    xml.open("ModelVariables", &[]);
-    for (place, variable) in unit.variables.list.iter().enumerate() {
-        write_variable(&mut xml, place, variable);
-    }
-    xml.close("ModelVariables");
+    // A rate stands behind its state.
+    write_variables(
+        &mut xml,
+        unit,
+        |rate| rate.saturating_sub(1),
+        |xml, variable, general, typed| {
+            xml.empty(if variable.is_flag() { "Boolean" } else { "Float64" }, &[general, typed].concat());
+        },
+    );
     let structure = Structure::new(&unit.variables);
     xml.open("ModelStructure", &[]);
     let lists = [
@@ -58,33 +58,4 @@ pub(super) fn describe(unit: &Unit, identifier: &str, token: &str) -> String {
     xml.close("ModelStructure");
     xml.close("fmiModelDescription");
     xml.text
-}
-
-/// A derivative stands behind its state.
-fn write_variable(xml: &mut Xml, place: usize, variable: &Variable) {
-    let reference = place.to_string();
-    let (varies, initial) = variability(variable.causality, variable.is_flag());
-    let mut attributes = vec![
-        ("name", variable.name.as_str()),
-        ("valueReference", &reference),
-        ("description", &variable.description),
-        ("causality", causality_name(variable.causality)),
-        ("variability", varies),
-    ];
-    attributes.extend(initial.map(|initial| ("initial", initial)));
-    let start = variable.start.map(|start| format!("{start:?}"));
-    let nominal = variable.nominal.map(|nominal| format!("{nominal:?}"));
-    let state = (place.max(1) - 1).to_string();
-    if !variable.unit.is_empty() {
-        attributes.push(("unit", variable.unit));
-    }
-    attributes.extend(nominal.as_deref().map(|nominal| ("nominal", nominal)));
-    attributes.extend(start.as_deref().map(|start| ("start", start)));
-    if matches!(variable.slot, Slot::Rate(_)) {
-        attributes.push(("derivative", &state));
-    }
-    if is_reinitialized(&variable.name, variable.slot) {
-        attributes.push(("reinit", "true"));
-    }
-    xml.empty(if variable.is_flag() { "Boolean" } else { "Float64" }, &attributes);
 }
