@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A finished model before the engine's loader: what it refuses is told at the object it comes from."""
+"""A finished model before the engine's loader: what it refuses or warns of is told at the object it comes from."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from .snapshot import SnapshotObject
 from .write import write_files, write_text
 
 ELEMENT = re.compile(r"/(triangles|faces|vertices)\[(\d+)\]$")
+WARNING = re.compile(r"^[^:]*:\d+: (.*)$", re.DOTALL)  # file and line of the text, which nobody has seen
+# The triangles of a body were judged before, and every finding has a rule (triangle_check.py).
+OF_TRIANGLES = ("it counts as free", "their common edge counts as free", "T-junction: ", "do not fit together")
 
 
 def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str, bytes], origins: dict[int, Origin]):
@@ -29,17 +32,35 @@ def check_loads(scene: Scene, top: SnapshotObject, model: Model, files: dict[str
     found = _judged(dataclasses.replace(model, root=known), files)
     paths = dict(_paths(known, known.name, origins))
     for error in found.errors:
-        path = error["path"]
-        element = ELEMENT.search(path)
-        origin = paths.get(path[: element.start()] if element else path)
-        where = (origin.object, origin.path) if origin else (top.name, path)
-        faces = []
-        if element and origin and element.group(1) != "vertices":
-            face = int(element.group(2))
-            faces = [face if origin.faces is None else origin.faces[face]]
-        evaluated = bool(origin and origin.evaluated)
-        scene.findings.error(error["rule"], where, error["cause"], error["cure"], faces=faces, evaluated=evaluated)
+        where, more = _place(error["path"], paths, top)
+        scene.findings.error(error["rule"], where, error["cause"], error["cure"], **more)
+    for warning in found.warnings:
+        path, what = _parted(WARNING.sub(r"\1", warning), paths)
+        if not any(words in what for words in OF_TRIANGLES):
+            cause, _, cure = what.partition("; ")
+            where, more = _place(path, paths, top)
+            scene.findings.warn("loader-warning", where, cause, cure or "change it, or leave it: the model loads", **more)
     return found.model
+
+
+def _parted(warning: str, paths: dict[str, Origin | None]) -> tuple[str, str]:
+    """Path and words of a warning. A name may have a colon in it: the path begins with the longest that fits."""
+    known = max((path for path in paths if warning.startswith(path)), key=len, default="")
+    element, _, what = warning[len(known) :].partition(": ")
+    return known + element, what
+
+
+def _place(path: str, paths: dict[str, Origin | None], top: SnapshotObject):
+    """What a path of the model comes from: object and path in the scene, and the fields of a finding that tell more."""
+    element = ELEMENT.search(path)
+    origin = paths.get(path[: element.start()] if element else path)
+    if origin is None:
+        return (top.name, path), {}
+    faces = []
+    if element and element.group(1) != "vertices":
+        face = int(element.group(2))
+        faces = [face if origin.faces is None else origin.faces[face]]
+    return (origin.object, origin.path), {"faces": faces, "evaluated": bool(origin.evaluated)}
 
 
 def _judged(model: Model, files: dict[str, bytes]):
@@ -63,7 +84,8 @@ def _known(group: Group) -> Group | None:
 
 
 def _paths(group: Group, path: str, origins: dict[int, Origin]):
-    """Every primitive's path in the model, with its origin."""
+    """Every path in the model, with the origin of a primitive."""
+    yield path, None
     for primitive in group.primitives:
         yield f"{path}/{primitive.name}", origins[id(primitive)]
     for below in group.groups:

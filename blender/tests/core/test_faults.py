@@ -5,8 +5,9 @@ import pathlib
 import re
 import unittest
 
-from support import ROOT, build, rules
-from faulty_scenes import FAULTY, good
+from support import ROOT, build, rules, scene
+from faulty_scenes import FAULTY, good, one
+from core.author import box, changed, mesh
 from core.finding import FIXES
 
 RULES = ROOT / "docs" / "modelling_rules.md"
@@ -43,6 +44,34 @@ class FaultyScenes(unittest.TestCase):
                     self.assertIn(finding.object, names | {""})
                     self.assertTrue(finding.path or rule in ("no-root", "several-roots", "unit-scale"))
                     self.assertIn(finding.fix, {"", *FIXES})
+
+
+class LoaderWarnings(unittest.TestCase):
+    """What the loader warns of without a rule is told at the object; what has a rule is not told twice."""
+
+    def told(self, snapshot):
+        return [(f.rule, f.severity, f.object, list(f.faces)) for f in build(snapshot).findings]
+
+    def test_a_wall_without_a_twin_is_told_at_its_face(self):
+        walled = scene()
+        walled.mesh("a: thing", "Polyhedron", box((1, 1, 1)), inactive_faces=[4])
+        made = build(walled.snapshot())
+        self.assertIsNotNone(made.model)
+        (finding,) = made.findings
+        self.assertEqual((finding.rule, finding.severity), ("loader-warning", "warning"))
+        self.assertEqual((finding.object, finding.faces), ("a: thing", [4]))
+        self.assertIn("no twin", finding.cause)
+        self.assertTrue(finding.cure)
+
+    def test_a_leaf_size_without_effect_is_told_at_its_group(self):
+        grouped = good()
+        changed(grouped.objects[0], leaf_size=4)
+        self.assertEqual(self.told(grouped.snapshot()), [("loader-warning", "warning", "model", [])])
+
+    def test_triangles_are_told_once(self):
+        vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1]]
+        fan = mesh(vertices, [[0, 1, 2], [1, 0, 3], [0, 1, 4]])
+        self.assertEqual([rule for rule, *_ in self.told(one("TriangleMesh", fan).snapshot())], ["crowded-edge"])
 
 
 class Rules(unittest.TestCase):
