@@ -5,6 +5,7 @@ use crate::{count, files};
 use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_record::{Log, ModelSource, RecordOptions, Recorder, ReplayOptions};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
@@ -61,7 +62,7 @@ fn read(folder: &Path) {
     let _ = log.frame_rows(u64::MAX, u64::MAX);
     assert!(log.frame(log.frame_count()).is_err(), "a frame beyond the last");
     if log.frame_count() <= LOOK_AT {
-        let _ = pong_record::replay(&mut log, &ReplayOptions::default(), &mut |_| ());
+        let _ = pong_record::replay(&mut log, &ReplayOptions::default(), &mut |_| ControlFlow::Continue(()));
     }
 }
 

@@ -52,7 +52,10 @@ fn the_log_of_a_c_host_can_be_replayed() {
         .env("LD_LIBRARY_PATH", out.join("shared"))
         .arg(&folder));
     let mut log = pong_record::Log::open(&folder.join("frames")).unwrap();
-    let report = pong_record::replay(&mut log, &pong_record::ReplayOptions::default(), &mut |_| {}).unwrap();
+    let report = pong_record::replay(&mut log, &pong_record::ReplayOptions::default(), &mut |_| {
+        std::ops::ControlFlow::Continue(())
+    })
+    .unwrap();
     assert!(report.agrees() && report.compared == 3000 && report.contacts > 700, "{report:?}");
     let kinds =
         |kind| log.events().iter().filter(|event| std::mem::discriminant(&event.event) == kind).count();

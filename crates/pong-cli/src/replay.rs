@@ -6,6 +6,7 @@ use crate::text::count;
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
 use pong_record::{Log, LogError, ReplayOptions, ReplayReport, replay};
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::time::Duration;
@@ -78,6 +79,7 @@ fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
         if done % 256 == 0 {
             bar.set_position(done);
         }
+        ControlFlow::Continue(())
     });
     bar.finish_and_clear();
     report

@@ -5,6 +5,7 @@ use crate::terminal::{print, show, tell, tell_lines};
 use indicatif::{ProgressBar, ProgressStyle};
 use pong_study::StudyError;
 use pong_study::tree_tuning::{Output, Progress, Settings, Tuned, report, tune};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Duration;
@@ -74,11 +75,12 @@ fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
         extensions: arguments.allowed.extensions(),
     };
     let bar = progress_bar(arguments.quiet);
-    let mut watch = |progress: &Progress| match progress {
-        Progress::Running { doing, done, of } => {
-            show(&bar, &format!("{doing}: frame {done} of {of}"));
+    let mut watch = |progress: &Progress| {
+        match progress {
+            Progress::Running { doing, done, of } => show(&bar, &format!("{doing}: frame {done} of {of}")),
+            Progress::Searching(doing) => show(&bar, doing),
         }
-        Progress::Searching(doing) => show(&bar, doing),
+        ControlFlow::Continue(())
     };
     let tuned = tune(&runs, &settings, &mut watch);
     bar.finish_and_clear();

@@ -6,11 +6,12 @@ use pong_engine::Laws;
 use pong_record::{
     Log, LogError, Obstacle, RecordOptions, Recorder, ReplayOptions, ReplayReport, WhenFull, replay,
 };
+use std::ops::ControlFlow;
 use std::path::Path;
 use support::{HeldDisk, folder, scene};
 
 fn replayed(place: &Path, options: &ReplayOptions) -> ReplayReport {
-    replay(&mut Log::open(place).unwrap(), options, &mut |_| {}).unwrap()
+    replay(&mut Log::open(place).unwrap(), options, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
 fn exactly(place: &Path) -> ReplayReport {
@@ -34,6 +35,23 @@ fn every_frame_comes_again() {
     assert!(report.agrees() && report.compared == 300 && report.contacts > 300, "{report:?}");
     let two = pong_engine::WorkerSettings { workers: 2, oversubscribe: true, ..Default::default() };
     assert!(replayed(&place, &ReplayOptions { workers: Some(two), ..Default::default() }).agrees());
+}
+
+/// Told to end after some frames, it does so, and does not say that the log agrees.
+#[test]
+fn a_replay_can_be_ended() {
+    let folder = folder("ended");
+    let place = scene(&folder).record(&folder, 10, &RecordOptions::default());
+    let mut log = Log::open(&place).unwrap();
+    let report = replay(&mut log, &ReplayOptions::default(), &mut |done| match done {
+        3 => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    });
+    let report = report.unwrap();
+    assert!(
+        report.frames == 10 && report.compared == 3 && report.differences.is_empty() && !report.agrees(),
+        "{report:?}"
+    );
 }
 
 #[test]
@@ -260,7 +278,12 @@ fn a_law_of_the_hosts_is_asked_for_by_name() {
         recorder.record(&world, f64::from(n), 0, None).unwrap();
     }
     recorder.finish().unwrap();
-    let refused = replay(&mut Log::open(&place).unwrap(), &ReplayOptions::default(), &mut |_| {});
+    let refused =
+        replay(
+            &mut Log::open(&place).unwrap(),
+            &ReplayOptions::default(),
+            &mut |_| ControlFlow::Continue(()),
+        );
     let Err(LogError::Refused { cause, .. }) = refused else { panic!("{refused:?}") };
     assert!(cause.contains("`foam`"), "{cause}");
     let report = replayed(&place, &ReplayOptions { laws: laws(), ..ReplayOptions::default() });

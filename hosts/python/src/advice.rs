@@ -4,7 +4,7 @@ use crate::builder::coupling;
 use crate::errors::of_engine;
 use pong_advise::{Accuracy, ContactWish};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 /// The values of a pair of surfaces that give a wanted depth and rebound, by name.
 #[pyfunction]
@@ -36,7 +36,6 @@ pub(crate) fn advise_contact<'py>(
         accuracy: Accuracy { depth: depth_accuracy, rebound: rebound_accuracy },
     };
     let advice = pong_advise::advise_contact(&wish).map_err(|error| of_engine(py, &error))?;
-    let told = PyDict::new(py);
     let values = [
         ("stiffness", advice.stiffness),
         ("damping", advice.damping),
@@ -51,8 +50,5 @@ pub(crate) fn advise_contact<'py>(
         ("stable_step", advice.stable_step),
         ("least_depth", advice.least_depth),
     ];
-    for (name, value) in values {
-        told.set_item(name, value)?;
-    }
-    Ok(told)
+    values.into_py_dict(py)
 }

@@ -24,12 +24,16 @@ pub(crate) fn rows<'a>(
     rows: usize,
     columns: usize,
 ) -> PyResult<ArrayView2<'a, f64>> {
-    let shape = array.shape();
-    if shape != [rows, columns] {
-        let cause = format!("the array has shape ({}, {})", shape[0], shape[1]);
-        return Err(bad_value(thing, cause, &format!("give one of shape ({rows}, {columns})")));
-    }
+    check_shape(thing, array.shape(), [rows, columns])?;
     Ok(array.as_array())
+}
+
+fn check_shape(thing: &str, shape: &[usize], [rows, columns]: [usize; 2]) -> PyResult<()> {
+    if shape == [rows, columns] {
+        return Ok(());
+    }
+    let cause = format!("the array has shape ({}, {})", shape[0], shape[1]);
+    Err(bad_value(thing, cause, &format!("give one of shape ({rows}, {columns})")))
 }
 
 /// States given as rows of 13 numbers, appended to `out`.
@@ -78,11 +82,9 @@ pub(crate) fn fill<'py, const N: usize>(
     row: impl Fn(usize) -> PyResult<[f64; N]>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let array = match out {
-        Some(array) if array.shape() == [count, N] => array,
         Some(array) => {
-            let shape = array.shape();
-            let cause = format!("the array has shape ({}, {})", shape[0], shape[1]);
-            return Err(bad_value("out", cause, &format!("give one of shape ({count}, {N})")));
+            check_shape("out", array.shape(), [count, N])?;
+            array
         }
         None => PyArray2::zeros(py, [count, N], false),
     };

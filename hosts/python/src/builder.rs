@@ -1,6 +1,6 @@
 //! Set-up of a world.
 
-use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{Model, extensions};
 use crate::world::World;
@@ -157,11 +157,7 @@ impl WorldBuilder {
 
 impl WorldBuilder {
     fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Option<Setup>>> {
-        self.setup.try_lock().map_err(|_| {
-            PhaseError::new_err(
-                "world builder: another thread is in a call of it; set a world up in one thread",
-            )
-        })
+        lock("world builder", &self.setup, "set a world up in one thread")
     }
 
     fn with<T>(&self, call: impl FnOnce(&mut Setup) -> PyResult<T>) -> PyResult<T> {

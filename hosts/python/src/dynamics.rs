@@ -4,7 +4,7 @@ use crate::errors::{bad_value, of_executive};
 use pong_executive::{BodyId, MassProperties, Simulation, Spring};
 use pong_geometry::{Mat3, Vec3};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 const MASS: [&str; 3] = ["mass", "inertia", "mass_center"];
 const SPRING: [&str; 3] = ["stiffness", "damping", "preload"];
@@ -56,11 +56,7 @@ pub(crate) fn spring<'py>(
     number: usize,
 ) -> PyResult<Bound<'py, PyDict>> {
     let known = spring_of(simulation, number)?;
-    let told = PyDict::new(py);
-    for (name, values) in SPRING.into_iter().zip([known.stiffness, known.damping, known.preload]) {
-        told.set_item(name, values)?;
-    }
-    Ok(told)
+    SPRING.into_iter().zip([known.stiffness, known.damping, known.preload]).into_py_dict(py)
 }
 
 fn spring_of(simulation: &Simulation, number: usize) -> PyResult<Spring> {

@@ -9,6 +9,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyException;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use std::sync::{Mutex, MutexGuard, TryLockError};
 
 create_exception!(pong, PongError, PyException, "Base of all errors of Pong.");
 create_exception!(pong, ModelError, PongError, "A model file is at fault. `errors` lists every fault.");
@@ -30,6 +31,7 @@ create_exception!(pong, ResourceError, EngineError, "The system has no memory or
 create_exception!(pong, ContactStateError, EngineError, "A saved contact state that does not fit the world.");
 create_exception!(pong, RunError, PongError, "A run of a scene that cannot go on.");
 create_exception!(pong, LogError, PongError, "A response log that cannot be read or written.");
+create_exception!(pong, StudyError, PongError, "A study of a run that cannot be made.");
 
 /// Puts the exceptions into the module.
 pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -48,7 +50,8 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("ResourceError", py.get_type::<ResourceError>())?;
     module.add("ContactStateError", py.get_type::<ContactStateError>())?;
     module.add("RunError", py.get_type::<RunError>())?;
-    module.add("LogError", py.get_type::<LogError>())
+    module.add("LogError", py.get_type::<LogError>())?;
+    module.add("StudyError", py.get_type::<StudyError>())
 }
 
 /// The exception of an error of the engine.
@@ -128,4 +131,26 @@ pub(crate) fn of_scene(py: Python<'_>, errors: &SceneErrors) -> PyErr {
 /// An argument that cannot be used, in the form of all messages.
 pub(crate) fn bad_value(thing: &str, cause: impl std::fmt::Display, cure: &str) -> PyErr {
     BadValueError::new_err(format!("{thing}: {cause}; {cure}"))
+}
+
+/// What a lock guards, for the call of one thread; `cure` is for another that calls meanwhile.
+pub(crate) fn lock<'a, T>(thing: &str, guarded: &'a Mutex<T>, cure: &str) -> PyResult<MutexGuard<'a, T>> {
+    match guarded.try_lock() {
+        Ok(inner) => Ok(inner),
+        // A call that panicked leaves what it was made of usable.
+        Err(TryLockError::Poisoned(inner)) => Ok(inner.into_inner()),
+        Err(TryLockError::WouldBlock) => {
+            Err(PhaseError::new_err(format!("{thing}: another thread is in a call of it; {cure}")))
+        }
+    }
+}
+
+/// Refuses a number that is not in a range.
+pub(crate) fn in_range<T: PartialOrd + std::fmt::Display>(
+    argument: &str,
+    value: T,
+    range: std::ops::Range<T>,
+    cure: &str,
+) -> PyResult<()> {
+    if range.contains(&value) { Ok(()) } else { Err(bad_value(argument, format!("it is {value}"), cure)) }
 }

@@ -11,6 +11,7 @@
 //! | `builder.rs`, `world.rs`, `recording.rs` | set-up, frames, logs of frames |
 //! | `scene.rs`, `simulation.rs`, `run.rs` | scenes in the built-in executive |
 //! | `log.rs` | what of a log is checked before NumPy maps its tables |
+//! | `replay.rs`, `trade.rs`, `tune.rs` | runs made again: a log compared, speed against accuracy, bounds and leaves |
 //! | `advice.rs`, `verify.rs` | stiffness and damping for a wanted bounce; cases with known answers |
 
 mod advice;
@@ -24,10 +25,13 @@ mod ids;
 mod log;
 mod model;
 mod recording;
+mod replay;
 mod run;
 mod scene;
 mod shapes;
 mod simulation;
+mod trade;
+mod tune;
 mod verify;
 mod world;
 
@@ -57,10 +61,17 @@ fn _pong(module: &Bound<'_, PyModule>) -> PyResult<()> {
     add_class::<scene::Scene>(module)?;
     add_class::<simulation::Simulation>(module)?;
     add_class::<run::Run>(module)?;
+    add_class::<replay::Replay>(module)?;
+    add_class::<trade::Trade>(module)?;
+    add_class::<trade::Level>(module)?;
+    add_class::<tune::Tuned>(module)?;
     add_class::<verify::Case>(module)?;
     add_class::<verify::Row>(module)?;
     module.add_function(wrap_pyfunction!(verify::verify, module)?)?;
     module.add_function(wrap_pyfunction!(advice::advise_contact, module)?)?;
+    module.add_function(wrap_pyfunction!(replay::replay, module)?)?;
+    module.add_function(wrap_pyfunction!(trade::trade, module)?)?;
+    module.add_function(wrap_pyfunction!(tune::tune, module)?)?;
     module.add_function(wrap_pyfunction!(log::check_log, module)?)?;
     module.add_function(wrap_pyfunction!(authored::read_authored, module)?)?;
     module.add_function(wrap_pyfunction!(authored::parse_authored, module)?)?;

@@ -3,7 +3,7 @@
 use crate::arrays::{self, Rows, STATE};
 use crate::contacts;
 use crate::dynamics;
-use crate::errors::{PhaseError, bad_value, of_engine, of_executive};
+use crate::errors::{bad_value, lock, of_engine, of_executive};
 use crate::model::{surface_from, surface_values};
 use crate::run::{Run, RunLog, Stop, Wanted};
 use crate::world::FrameReport;
@@ -12,9 +12,9 @@ use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Energy};
 use pong_geometry::{Pose, Twist, Vec3};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard};
 
 /// A scene that runs: its bodies, integrator and world.
 ///
@@ -33,13 +33,7 @@ impl Simulation {
     }
 
     fn lock(&self) -> PyResult<MutexGuard<'_, Box<BuiltScene>>> {
-        match self.built.try_lock() {
-            Ok(built) => Ok(built),
-            Err(TryLockError::Poisoned(built)) => Ok(built.into_inner()),
-            Err(TryLockError::WouldBlock) => Err(PhaseError::new_err(
-                "simulation: another thread is in a call of it; give each thread a simulation of its own",
-            )),
-        }
+        lock("simulation", &self.built, "give each thread a simulation of its own")
     }
 
     fn body(&self, name: &str) -> PyResult<BodyId> {
@@ -146,6 +140,11 @@ impl Simulation {
     /// Contacts of the present instant: a structured array of `pong.CONTACT_DTYPE`.
     fn contacts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         contacts::array(py, self.lock()?.simulation.world())
+    }
+
+    /// Stiffness (N/m) and damping (N·s/m) of each contact along its normal, in the order of `contacts`.
+    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        contacts::stiffness(py, self.lock()?.simulation.world())
     }
 
     /// The last frame in short.
@@ -314,7 +313,6 @@ fn model_id(world: &pong_engine::World, name: &str) -> PyResult<pong_engine::Mod
 
 /// Energies by name.
 pub(crate) fn energies<'py>(py: Python<'py>, energy: &Energy) -> PyResult<Bound<'py, PyDict>> {
-    let told = PyDict::new(py);
     let terms = [
         ("kinetic", energy.kinetic),
         ("potential", energy.potential),
@@ -325,8 +323,5 @@ pub(crate) fn energies<'py>(py: Python<'py>, energy: &Energy) -> PyResult<Bound<
         ("work_in", energy.work_in),
         ("balance", energy.balance()),
     ];
-    for (name, value) in terms {
-        told.set_item(name, value)?;
-    }
-    Ok(told)
+    terms.into_py_dict(py)
 }

@@ -2,7 +2,7 @@
 
 use crate::arrays::{self, Rows, STATE, WRENCH};
 use crate::contacts;
-use crate::errors::{PhaseError, bad_value, of_engine};
+use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
 use crate::recording::{LogOptions, Recording};
@@ -10,9 +10,9 @@ use numpy::PyArray2;
 use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
 use pong_record::ModelSource;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, TryLockError};
+use std::sync::{Mutex, MutexGuard};
 
 /// A sealed world: states go in, wrenches come out.
 ///
@@ -86,14 +86,7 @@ impl World {
     }
 
     fn lock(&self) -> PyResult<MutexGuard<'_, Box<Inner>>> {
-        match self.inner.try_lock() {
-            Ok(inner) => Ok(inner),
-            // A law that panicked leaves the world usable.
-            Err(TryLockError::Poisoned(inner)) => Ok(inner.into_inner()),
-            Err(TryLockError::WouldBlock) => Err(PhaseError::new_err(
-                "world: another thread is in a call of it; give each thread a world of its own, or wait for the other call",
-            )),
-        }
+        lock("world", &self.inner, "give each thread a world of its own, or wait for the other call")
     }
 
     /// The Interfaces that a call means: all, in their order, unless it names some.
@@ -332,6 +325,12 @@ impl World {
         contacts::array(py, &self.lock()?.world)
     }
 
+    /// How the normal force of each contact changes with its depth (N/m) and with the rate of that (N·s/m): a row for each, in
+    /// the order of `contacts`; not a number for a normal law of the host's.
+    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        contacts::stiffness(py, &self.lock()?.world)
+    }
+
     /// The last frame in short.
     fn report(&self) -> PyResult<FrameReport> {
         Ok(self.lock()?.world.report().into())
@@ -430,11 +429,7 @@ impl World {
     /// Energies of all contacts at the last commit, J. Zero unless the world keeps the ledger.
     fn ledger<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let ledger = self.lock()?.world.ledger();
-        let told = PyDict::new(py);
-        told.set_item("stored", ledger.stored)?;
-        told.set_item("work", ledger.work)?;
-        told.set_item("dissipated", ledger.dissipated)?;
-        Ok(told)
+        [("stored", ledger.stored), ("work", ledger.work), ("dissipated", ledger.dissipated)].into_py_dict(py)
     }
 
     /// Begins a response log in a folder.

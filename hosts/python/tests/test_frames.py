@@ -229,3 +229,14 @@ def test_the_builder_can_be_mended_after_a_refused_seal():
     # Nothing was lost: the Objects are there, and more can be added.
     made.create_object(model, "three")
     assert builder().seal().contact_capacity >= 256
+
+
+def test_stiffness_and_damping_of_contacts():
+    """The floor is rigid: the ball's own values, 2e4 N/m and 30 N·s/m."""
+    made = world()
+    made.set_states(touching(1e-3, velocity=(0.0, 0.0, -0.1)))
+    made.step()
+    np.testing.assert_allclose(made.contact_stiffness(), [[STIFFNESS, DAMPING]], rtol=1e-12)
+    made.set_states(touching(-1e-3))
+    made.step()
+    assert made.contact_stiffness().shape == (0, 2)

@@ -15,15 +15,17 @@ pub use rerun::{RerunFrame, RerunOptions, rerun, world_of_log};
 use crate::error::LogError;
 use crate::read::{Frame, Log};
 use replayed_world::Replay;
+use std::ops::ControlFlow;
 
-/// Replays a log, and stops at the first frame that differs. `progress` is called with the number of frames done.
+/// Replays a log, and stops at the first frame that differs. `progress` is called with the number of frames done, and may
+/// tell it to end there.
 ///
 /// # Errors
 /// A log that cannot be read, or whose world cannot be built again: a model that was changed, a law of the host's.
 pub fn replay(
     log: &mut Log,
     options: &ReplayOptions,
-    progress: &mut dyn FnMut(u64),
+    progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<ReplayReport, LogError> {
     let mut replay = Replay::new(log, options)?;
     let mut report = ReplayReport { frames: log.frame_count(), ..ReplayReport::default() };
@@ -43,7 +45,9 @@ pub fn replay(
             break;
         }
         replay.accept(&frame.row)?;
-        progress(index + 1);
+        if progress(index + 1).is_break() {
+            break;
+        }
     }
     Ok(report)
 }

@@ -64,12 +64,12 @@ pub fn world_of_log(log: &Log, options: RerunOptions<'_>) -> Result<World, LogEr
 /// # Errors
 /// A log that cannot be read, or whose world cannot be built; a contact state that was restored in the log and does not fit
 /// what differs; what the callback returns.
-pub fn rerun(
+pub fn rerun<E: From<LogError>>(
     log: &mut Log,
     options: RerunOptions<'_>,
     frames: u64,
-    each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), LogError>,
-) -> Result<(), LogError> {
+    each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), E>,
+) -> Result<(), E> {
     let every = options.every.max(1);
     let other = rebuild::Models { rewrite: options.rewrite, instead: options.instead };
     let replay = replay_options(options);

@@ -28,8 +28,8 @@ enum Source {
     Log(PathBuf),
 }
 
-/// Told of the frames done.
-pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64);
+/// Told of the frames done; its error ends the run.
+pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<(), StudyError>;
 
 impl Run {
     /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
@@ -162,7 +162,7 @@ impl Run {
                 if frame == 0 { built.simulation.commit_initial_states() } else { built.simulation.step() };
             moved.map_err(|error| StudyError::new(&self.name, error))?;
             gatherer.after(built.simulation.world(), &bodies, Commit::All).map_err(refused)?;
-            tick(frame + 1);
+            tick(frame + 1)?;
         }
         Ok(gatherer.finish())
     }
@@ -182,14 +182,12 @@ impl Run {
         gatherer.before(&fresh).map_err(|error| self.refused(&error))?;
         drop(fresh);
         let events = log.events().to_vec();
-        let ran = rerun(&mut log, options(), self.frames, &mut |frame| {
+        rerun(&mut log, options(), self.frames, &mut |frame| -> Result<(), StudyError> {
             let commit = commit(&frame.logged.row, &events);
-            gatherer.after(frame.world, frame.bodies, commit)?;
-            gatherer.before(frame.world)?;
-            tick(frame.index + 1);
-            Ok(())
-        });
-        ran?;
+            let gathered = gatherer.after(frame.world, frame.bodies, commit);
+            gathered.and_then(|()| gatherer.before(frame.world)).map_err(|error| self.refused(&error))?;
+            tick(frame.index + 1)
+        })?;
         Ok(gatherer.finish())
     }
 }

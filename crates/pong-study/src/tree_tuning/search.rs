@@ -41,13 +41,13 @@ const CYCLES: usize = 2;
 /// Times that one reach of moves is tried again after it gained something.
 const REPEATS: usize = 4;
 
-/// Searches from a proposal; `tell` hears what is tried.
+/// Searches from a proposal; `tell` hears what is tried, and its error ends the search.
 pub(crate) fn search(
     judge: &mut dyn Judge,
     shapes: &[&Shape],
     start: Proposal,
     rounds: u32,
-    tell: &mut dyn FnMut(&str),
+    tell: &mut dyn FnMut(&str) -> Result<(), StudyError>,
 ) -> Result<Found, StudyError> {
     let found = Found { best: start, refused: Vec::new(), compared: 0, timed: 0 };
     let mut search = Search { judge, shapes, rounds, tell, found };
@@ -67,7 +67,7 @@ struct Search<'a> {
     judge: &'a mut dyn Judge,
     shapes: &'a [&'a Shape],
     rounds: u32,
-    tell: &'a mut dyn FnMut(&str),
+    tell: &'a mut dyn FnMut(&str) -> Result<(), StudyError>,
     found: Found,
 }
 
@@ -81,7 +81,7 @@ impl Search<'_> {
                     Reach::Group => "group by group",
                 };
                 let name = &self.shapes[model].name;
-                (self.tell)(&format!("{name}, {words}, pass {}.{}", cycle + 1, repeat + 1));
+                (self.tell)(&format!("{name}, {words}, pass {}.{}", cycle + 1, repeat + 1))?;
                 if !self.step(model, reach)? {
                     break;
                 }

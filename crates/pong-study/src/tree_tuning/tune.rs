@@ -10,6 +10,7 @@ use crate::tree_tuning::subject::{Shape, Subject};
 use crate::tree_tuning::words;
 use crate::tree_tuning::write::{Output, headed};
 use pong_geometry::extension::Extensions;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// How models are tuned.
@@ -55,8 +56,16 @@ pub enum Progress {
     Searching(String),
 }
 
-/// Called now and then.
-type Watch<'a> = &'a mut dyn FnMut(&Progress);
+/// Called now and then; a tuning that is told to break ends there, and writes nothing.
+type Watch<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
+
+/// Tells how far the tuning is; an error if it is to stop.
+fn tell(watch: Watch<'_>, progress: &Progress) -> Result<(), StudyError> {
+    match watch(progress) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(StudyError::new("tuning", "stopped; run it again")),
+    }
+}
 
 /// What came of a tuning.
 #[derive(Clone, Debug)]
@@ -108,7 +117,7 @@ pub struct ModelTuned {
 /// Tunes the models of some runs, each a scene file or the folder of a log, for all of them together.
 ///
 /// # Errors
-/// A run or a model at fault, a place that is taken or cannot be written.
+/// A run or a model at fault, a place that is taken or cannot be written, a tuning that was told to stop.
 pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tuned, StudyError> {
     check(settings)?;
     let mut subjects = Vec::new();
@@ -139,12 +148,17 @@ fn check(settings: &Settings) -> Result<(), StudyError> {
 }
 
 /// Tells the frames of a run that are done, now and then.
-fn ticker<'w>(watch: &'w mut dyn FnMut(&Progress), doing: &str, run: &Run) -> impl FnMut(u64) + use<'w> {
+fn ticker<'w>(
+    watch: Watch<'w>,
+    doing: &str,
+    run: &Run,
+) -> impl FnMut(u64) -> Result<(), StudyError> + use<'w> {
     let (doing, of) = (format!("{doing} {}", run.name), run.frames);
     move |done| {
-        if done.is_multiple_of(256) || done == of {
-            watch(&Progress::Running { doing: doing.clone(), done, of });
+        if !done.is_multiple_of(256) && done != of {
+            return Ok(());
         }
+        tell(watch, &Progress::Running { doing: doing.clone(), done, of })
     }
 }
 
@@ -164,8 +178,8 @@ impl Job<'_> {
         self.check_player(&authored)?;
         let shapes: Vec<&Shape> = self.subjects.iter().map(|subject| &subject.shape).collect();
         let mut bench = self.bench(STRIDE);
-        let mut tell = |words: &str| watch(&Progress::Searching(words.to_owned()));
-        let mut found = search(&mut bench, &shapes, authored.clone(), self.settings.rounds, &mut tell)?;
+        let mut hears = |words: &str| tell(watch, &Progress::Searching(words.to_owned()));
+        let mut found = search(&mut bench, &shapes, authored.clone(), self.settings.rounds, &mut hears)?;
         if found.best != authored
             && let Some(why) = self.whole_runs(&mut bench, &found.best, watch)?
         {
@@ -173,7 +187,7 @@ impl Job<'_> {
             found.refused.extend(differing.map(|model| (model, found.best[model].clone(), why.clone())));
             found.best.clone_from(&authored);
         }
-        watch(&Progress::Searching("before and after".to_owned()));
+        tell(watch, &Progress::Searching("before and after".to_owned()))?;
         let mut tuned = self.timed(&authored, &found)?;
         tuned.taken = found.best != authored && tuned.gain > LEAST_GAIN.max(OVER_NOISE * tuned.noise);
         if tuned.taken {

@@ -6,6 +6,7 @@ use crate::tree_tuning::words;
 use crate::tree_tuning::write::{Output, headed};
 use crate::tree_tuning::{Settings, tune};
 use pong_geometry::extension::Extensions;
+use std::ops::ControlFlow::{Break, Continue};
 use std::path::PathBuf;
 
 fn best_of(ready: &Ready) -> (Vec<String>, crate::tree_tuning::search::Proposal) {
@@ -60,9 +61,15 @@ fn files_that_are_there_are_refused_before_anything_is_run() {
     let folder = Folder::new("there");
     let scene = ball_on_sheet(&folder);
     let there = folder.write("sheet_tuned.ron", "mine");
-    let run = |output: Output| tune(&[&scene], &Settings { output, ..Settings::default() }, &mut |_| {});
+    let run =
+        |output: Output| tune(&[&scene], &Settings { output, ..Settings::default() }, &mut |_| Continue(()));
     let mut ran = false;
-    let refused = tune(&[&scene], &Settings::default(), &mut |_| ran = true).unwrap_err().to_string();
+    let refused = tune(&[&scene], &Settings::default(), &mut |_| {
+        ran = true;
+        Continue(())
+    })
+    .unwrap_err()
+    .to_string();
     assert!(!ran && refused.contains("sheet_tuned.ron") && refused.contains("--force"), "{refused}");
     assert_eq!(std::fs::read_to_string(&there).unwrap(), "mine");
     assert!(run(Output { folder: Some(folder.0.join("elsewhere")), force: false }).is_ok());
@@ -110,7 +117,8 @@ fn meshes_go_along_into_another_folder() {
 fn what_cannot_be_tuned_is_refused_with_a_cure() {
     let folder = Folder::new("refused");
     let scene = ball_on_sheet(&folder);
-    let refused = |settings: Settings| tune(&[&scene], &settings, &mut |_| {}).unwrap_err().to_string();
+    let refused =
+        |settings: Settings| tune(&[&scene], &settings, &mut |_| Continue(())).unwrap_err().to_string();
     for duration_s in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let told = refused(Settings { duration_s: Some(duration_s), ..Settings::default() });
         assert!(told.contains("--duration") && told.contains("above zero"), "{told}");
@@ -118,8 +126,30 @@ fn what_cannot_be_tuned_is_refused_with_a_cure() {
     assert!(refused(Settings { rounds: 0, ..Settings::default() }).contains("at least 1 round"));
     let missing = PathBuf::from("nowhere.ron");
     assert!(
-        tune(&[&missing], &Settings::default(), &mut |_| {}).unwrap_err().to_string().contains("nowhere.ron")
+        tune(&[&missing], &Settings::default(), &mut |_| Continue(()))
+            .unwrap_err()
+            .to_string()
+            .contains("nowhere.ron")
     );
+}
+
+/// Whenever it is told to stop, it says so, asks no more and leaves the folder as it was.
+#[test]
+fn a_tuning_that_is_told_to_stop_writes_nothing() {
+    let folder = Folder::new("stopped");
+    let scene = ball_on_sheet(&folder);
+    let settings = Settings { rounds: 2, frames: 64, ..Settings::default() };
+    for last in 1..=4 {
+        let mut calls = 0;
+        let stopped = tune(&[&scene], &settings, &mut |_| {
+            calls += 1;
+            if calls == last { Break(()) } else { Continue(()) }
+        });
+        let told = stopped.map_or_else(|stopped| stopped.to_string(), |_| "went on".to_owned());
+        assert_eq!(told, "tuning: stopped; run it again");
+        assert_eq!(calls, last);
+        assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 3);
+    }
 }
 
 /// The same models in two runs are tuned once, and both runs are told of.
@@ -129,7 +159,7 @@ fn runs_share_the_models_that_they_share() {
     let scene = ball_on_sheet(&folder);
     let other = folder.write("other.ron", &std::fs::read_to_string(&scene).unwrap().replace("0.0999", "0.3"));
     let settings = Settings { rounds: 2, frames: 64, ..Settings::default() };
-    let tuned = tune(&[&scene, &other], &settings, &mut |_| {}).unwrap();
+    let tuned = tune(&[&scene, &other], &settings, &mut |_| Continue(())).unwrap();
     assert_eq!((tuned.runs.len(), tuned.models.len()), (2, 2));
     assert!(
         tuned.runs.iter().all(|run| run.frames == 101 && run.times_ns.iter().all(|times| times.len() == 64))

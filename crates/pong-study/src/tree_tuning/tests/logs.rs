@@ -1,6 +1,7 @@
 //! Logs whose host did more than to hand in states.
 
 use super::{BALL, Folder, Ready, SHEET, model};
+use crate::StudyError;
 use pong_engine::{Config, State, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_record::{ModelSource, RecordOptions, Recorder};
@@ -89,7 +90,10 @@ fn a_log_with_events_is_played_as_it_was() {
         ready.counts(&found.best).volumes_tested()[0],
         ready.counts(&found.best).frames - switched_off(&ready)
     );
-    assert_eq!(ready.runs[0].differs(&made, &ready.motions[0], &mut |_| {}).unwrap(), None);
+    assert_eq!(ready.runs[0].differs(&made, &ready.motions[0], &mut |_| Ok(())).unwrap(), None);
+    let stop = StudyError("stop".to_owned());
+    let stopped = ready.runs[0].differs(&made, &ready.motions[0], &mut |_| Err(stop.clone()));
+    assert_eq!(stopped, Err(stop));
 }
 
 /// Frames that are kept and in which the pair is switched off.

@@ -89,7 +89,7 @@ impl Ready {
         let mut subjects = Vec::new();
         let run = Run::load(path, None, &Extensions::new(), &mut subjects)
             .unwrap_or_else(|error| panic!("{error}"));
-        let motions = run.gather(1000, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
+        let motions = run.gather(1000, &mut |_| Ok(())).unwrap_or_else(|error| panic!("{error}"));
         Self { runs: [run], subjects, motions: [motions] }
     }
 
@@ -110,7 +110,7 @@ impl Ready {
     fn search(&self) -> crate::tree_tuning::search::Found {
         let shapes: Vec<_> = self.subjects.iter().map(|subject| &subject.shape).collect();
         let mut judge = Priced { bench: self.bench(), timings: 0 };
-        crate::tree_tuning::search::search(&mut judge, &shapes, self.authored(), 1, &mut |_| {}).unwrap()
+        crate::tree_tuning::search::search(&mut judge, &shapes, self.authored(), 1, &mut |_| Ok(())).unwrap()
     }
 }
 

@@ -35,12 +35,12 @@ fn one_bit_of_one_primitive_is_seen_in_the_sample_and_in_the_whole_run() {
     let (run, motions) = (&ready.runs[0], &ready.motions[0]);
     let same = run.player(&models(&ready)).unwrap().compare(motions, 1).unwrap();
     assert!(matches!(same, Compared::Same(counts) if counts.frames == 101));
-    assert_eq!(run.differs(&models(&ready), motions, &mut |_| {}).unwrap(), None);
+    assert_eq!(run.differs(&models(&ready), motions, &mut |_| Ok(())).unwrap(), None);
 
     let mut player = run.player(&by_one_bit(&ready)).unwrap();
     let Compared::Differs(what) = player.compare(motions, 1).unwrap() else { panic!("a bit was missed") };
     assert_eq!(what, "the wrenches of frame 0");
-    let what = run.differs(&by_one_bit(&ready), motions, &mut |_| {}).unwrap();
+    let what = run.differs(&by_one_bit(&ready), motions, &mut |_| Ok(())).unwrap();
     assert_eq!(what.as_deref(), Some("the wrenches of frame 0"));
 }
 
@@ -89,7 +89,7 @@ fn what_is_refused_is_never_taken_and_told() {
     let ready = Ready::new(&ball_on_sheet(&folder));
     let shapes: Vec<_> = ready.subjects.iter().map(|subject| &subject.shape).collect();
     let mut judge = Broken(Priced { bench: ready.bench(), timings: 0 });
-    let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
+    let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| Ok(())).unwrap();
     assert!(judge.0.timings > 0);
     assert!(found.refused.iter().all(|(model, _, why)| *model == 0 && why.contains("frame 3")));
     assert!(!found.refused.is_empty());
@@ -127,7 +127,7 @@ fn what_is_not_beyond_noise_is_not_taken() {
     let shapes: Vec<_> = ready.subjects.iter().map(|subject| &subject.shape).collect();
     for (noise, taken) in [(0.0, true), (0.24, true), (0.26, false), (1.0, false)] {
         let mut judge = Noisy(Priced { bench: ready.bench(), timings: 0 }, noise);
-        let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| {}).unwrap();
+        let found = search(&mut judge, &shapes, ready.authored(), 1, &mut |_| Ok(())).unwrap();
         assert_eq!(found.best != ready.authored(), taken, "{noise}");
         assert!(found.timed > 0);
     }

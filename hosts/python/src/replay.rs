@@ -1,0 +1,98 @@
+//! Logs through the engine again (docs/response_logs.md, Replay).
+
+use crate::builder::worker_settings;
+use crate::errors::{in_range, of_log};
+use crate::model::extensions;
+use pong_record::{Log, ReplayOptions};
+use pyo3::prelude::*;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// What a replay found.
+#[pyclass(frozen, module = "pong", get_all)]
+pub(crate) struct Replay {
+    /// Whether every frame of the log was compared and none differs.
+    agrees: bool,
+    /// Frames of the log.
+    frames: u64,
+    /// Frames that were compared, the one that differs included.
+    compared: u64,
+    /// Contacts of these frames.
+    contacts: u64,
+    /// What differs in the first frame that does, in words.
+    differences: Vec<String>,
+    /// Why the log cannot be replayed exactly from some frame on; `None` if it can.
+    obstacle: Option<String>,
+}
+
+#[pymethods]
+impl Replay {
+    fn __repr__(&self) -> String {
+        let found = if self.agrees { "agrees" } else { "DIFFERS" };
+        format!("<pong.Replay of {} of {} frames: {found}>", self.compared, self.frames)
+    }
+}
+
+/// Asks now and then whether the caller's program is to be interrupted, by Ctrl-C; keeps its exception.
+#[derive(Default)]
+pub(crate) struct Interrupt {
+    asked: Option<Instant>,
+    raised: Option<PyErr>,
+}
+
+impl Interrupt {
+    /// How often a long run asks: taking the GIL costs more than a frame.
+    const ASK_EVERY: Duration = Duration::from_millis(100);
+
+    /// Whether to go on.
+    pub fn flow(&mut self) -> ControlFlow<()> {
+        if self.asked.is_none_or(|asked| asked.elapsed() > Self::ASK_EVERY) {
+            self.raised = Python::attach(|py| py.check_signals()).err();
+            self.asked = Some(Instant::now());
+        }
+        if self.raised.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The exception of the interruption, if there was one; else what was found.
+    pub fn or<T>(self, found: PyResult<T>) -> PyResult<T> {
+        self.raised.map_or(found, Err)
+    }
+}
+
+/// Runs the recorded states of a log through the engine again and compares wrenches and contacts bit for bit.
+#[pyfunction]
+#[pyo3(signature = (log, *, tolerance = None, workers = 0, allow_files_below = Vec::new()))]
+pub(crate) fn replay(
+    py: Python<'_>,
+    log: PathBuf,
+    tolerance: Option<f64>,
+    workers: i64,
+    allow_files_below: Vec<PathBuf>,
+) -> PyResult<Replay> {
+    if let Some(tolerance) = tolerance {
+        in_range("tolerance", tolerance, 0.0..1.0, "give a number from 0 up to 1, such as 1e-9")?;
+    }
+    let options = ReplayOptions {
+        workers: worker_settings(workers)?,
+        tolerance,
+        extensions: extensions(allow_files_below),
+        ..ReplayOptions::default()
+    };
+    let mut interrupt = Interrupt::default();
+    let report = py.detach(|| {
+        let mut log = Log::open(&log)?;
+        pong_record::replay(&mut log, &options, &mut |_| interrupt.flow())
+    });
+    let report = interrupt.or(report.map_err(|error| of_log(py, &error)))?;
+    let obstacle = report.obstacle.as_ref();
+    Ok(Replay {
+        agrees: report.agrees(),
+        frames: report.frames,
+        compared: report.compared,
+        contacts: report.contacts,
+        differences: report.differences.iter().map(ToString::to_string).collect(),
+        obstacle: obstacle
+            .map(|obstacle| format!("not exact from frame {} on: {obstacle}", obstacle.frame())),
+    })
+}

@@ -1,0 +1,85 @@
+//! Bounding volumes and leaves that cost least, for the same bits (docs/tune.md).
+
+use crate::errors::{StudyError, in_range};
+use crate::model::extensions;
+use crate::replay::Interrupt;
+use pong_study::tree_tuning::{self, Output, Settings, report};
+use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What came of a tuning.
+#[pyclass(frozen, module = "pong", get_all)]
+pub(crate) struct Tuned {
+    /// The page that `pong tune` prints, in Markdown.
+    page: String,
+    /// The model files that were written, by the names of the models; empty if nothing is faster by more than noise.
+    written: BTreeMap<String, PathBuf>,
+    /// What is other in each model that was written, group by group.
+    changes: BTreeMap<String, Vec<String>>,
+    /// The fraction by which the time is shorter.
+    gain: f64,
+    /// The fraction by which the same thing timed twice differs.
+    noise: f64,
+    /// Proposals that were thrown away because they would have changed an answer, or could not be made.
+    refused: Vec<String>,
+}
+
+#[pymethods]
+impl Tuned {
+    fn __repr__(&self) -> String {
+        format!("<pong.Tuned: {} models written>", self.written.len())
+    }
+}
+
+/// One run, or several.
+#[derive(FromPyObject)]
+pub(crate) enum Runs {
+    One(PathBuf),
+    Several(Vec<PathBuf>),
+}
+
+/// Looks for bounding volumes and leaves with which the frames of runs take less time, and writes new model files.
+#[pyfunction]
+#[pyo3(signature = (
+    runs, *, output = None, force = false, duration = None, rounds = 5, frames = 4096, allow_files_below = Vec::new(),
+))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+pub(crate) fn tune(
+    py: Python<'_>,
+    runs: Runs,
+    output: Option<PathBuf>,
+    force: bool,
+    duration: Option<f64>,
+    rounds: u32,
+    frames: u64,
+    allow_files_below: Vec<PathBuf>,
+) -> PyResult<Tuned> {
+    in_range("rounds", rounds, 2..1001, "give a number from 2 to 1000")?;
+    in_range("frames", frames, 16..1_000_001, "give a number from 16 to 1,000,000")?;
+    let settings = Settings {
+        rounds,
+        frames,
+        duration_s: duration,
+        output: Output { folder: output, force },
+        extensions: extensions(allow_files_below),
+    };
+    let runs = match runs {
+        Runs::One(run) => vec![run],
+        Runs::Several(runs) => runs,
+    };
+    let runs: Vec<&Path> = runs.iter().map(PathBuf::as_path).collect();
+    let mut interrupt = Interrupt::default();
+    let tuned = py.detach(|| tree_tuning::tune(&runs, &settings, &mut |_| interrupt.flow()));
+    let tuned = interrupt.or(tuned.map_err(|error| StudyError::new_err(error.0)))?;
+    let written = tuned.models.iter().filter_map(|model| Some((model.name.clone(), model.written.clone()?)));
+    let changed = tuned.models.iter().filter(|model| model.written.is_some());
+    Ok(Tuned {
+        page: report::page(&tuned),
+        written: written.collect(),
+        changes: changed.map(|model| (model.name.clone(), model.changes.clone())).collect(),
+        gain: tuned.gain,
+        noise: tuned.noise,
+        refused: tuned.refused,
+    })
+}
