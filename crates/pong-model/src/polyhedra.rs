@@ -85,7 +85,10 @@ fn piece(hull: &Hull) -> PolyhedronParts {
         let first_rim = polyhedron.rims.len() as u32;
         for (place, &start) in face.outline.iter().enumerate() {
             let end = face.outline[(place + 1) % face.outline.len()];
-            let rim = rim(&mut polyhedron, &mut numbers, index as u32, face.normal, [start, end]);
+            let mut rim = rim(&mut polyhedron, &mut numbers, index as u32, face.normal, [start, end]);
+            if let Some(wall) = face.walls.get(place) {
+                rim.outward = outward(wall.map(|v| hull.vertices[v as usize]), &face.normal);
+            }
             polyhedron.rims.push(rim);
         }
         let rim_count = face.outline.len() as u32;
@@ -123,6 +126,11 @@ fn rim(
     polyhedron.edges[edge as usize].faces[1] = face;
     let across = unit(&direction.cross(&normal));
     RimEdge { start, edge, neighbor: face, anchor, outward: if forward { across } else { -across } }
+}
+
+/// Out of a face, across the line from one place to another along its outline.
+fn outward([start, end]: [Vec3; 2], normal: &Vec3) -> Vec3 {
+    unit(&unit(&(end - start)).cross(normal))
 }
 
 fn set_neighbors(polyhedron: &mut PolyhedronParts) {

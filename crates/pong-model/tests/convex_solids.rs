@@ -3,63 +3,19 @@
 
 mod common;
 
-use common::solids::{Random, Solid, cut_box, geodesic, prism, uv_sphere};
+use common::held::{TOLERANCE, brief, holds, load, thickness};
+use common::solids::{Solid, cut_box, geodesic, prism, uv_sphere};
 use pong_geometry::Vec3;
-use pong_geometry::extension::Extensions;
-use pong_geometry::primitive::Polyhedron;
-
-/// That of docs/model_format.md, in diameters.
-const TOLERANCE: f64 = 1e-6;
-
-/// What the loader makes of a solid, or what it says.
-fn load(solid: &Solid) -> Result<Polyhedron, String> {
-    let text = common::model_of(&solid.text("solid"));
-    let mut model = pong_model::parse(&text, "t.ron", None, &Extensions::new()).map_err(|e| e.to_string())?;
-    Ok(model.bodies[0].polyhedra.remove(0))
-}
-
-/// Loads a solid and holds it against what it was: no vertex is in front of a face by more than the tolerance, and none that
-/// was dropped lies deeper below the loaded surface than that.
-fn holds(solid: &Solid, what: &str) -> Polyhedron {
-    let loaded = load(solid).unwrap_or_else(|told| panic!("{what}: {told}\n{}", brief(solid)));
-    let diameter = loaded.diameter;
-    for vertex in &solid.vertices {
-        let height = loaded.faces.iter().map(|f| f.normal.dot(vertex) - f.offset).fold(f64::MIN, f64::max);
-        // Of a face's own vertices the loader sees to it that they are within twice the tolerance of each other.
-        assert!(
-            height.abs() <= 2.0 * TOLERANCE * diameter,
-            "{what}: {:e}\n{}",
-            height / diameter,
-            brief(solid)
-        );
-    }
-    for (index, face) in loaded.faces.iter().enumerate() {
-        assert!(face.rim_count >= 3 && (face.normal.norm() - 1.0).abs() < 1e-12, "{what}: face {index}");
-        for rim in loaded.rim(index) {
-            let off = face.normal.dot(&loaded.vertices[rim.start as usize].position) - face.offset;
-            assert!(off.abs() <= 2.0 * TOLERANCE * diameter, "{what}: face {index}: {:e}", off / diameter);
-        }
-    }
-    loaded
-}
-
-/// Small solids are shown, so that a failure can be followed by hand.
-fn brief(solid: &Solid) -> String {
-    if solid.vertices.len() <= 20 {
-        solid.text("solid")
-    } else {
-        format!("{} vertices", solid.vertices.len())
-    }
-}
+use pong_testkit::Random;
 
 /// A cloud of points that lie in convex position, or do not: the hull decides.
 fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
     let squash = Vec3::new(1.0, random.between(0.05, 1.0), random.between(0.01, 1.0));
     let point = |random: &mut Random| match kind {
         0 => random.direction(),
-        1 => random.direction() * random.share(),
+        1 => random.direction() * random.unit(),
         2 => random.direction().component_mul(&squash),
-        3 => Vec3::new(random.share(), random.share(), random.share()),
+        3 => Vec3::new(random.unit(), random.unit(), random.unit()),
         // Many places in few planes, moved by less than the tolerance.
         4 => {
             let side = random.direction();
@@ -72,7 +28,7 @@ fn cloud(random: &mut Random, kind: usize, count: usize) -> Vec<Vec3> {
         // A chamfer of about the tolerance along every edge of a box.
         _ => {
             let mut place = Vec3::new(1.0, 1.0, 1.0) - random.direction().abs() * random.between(0.0, 1e-5);
-            (0..3).for_each(|k| place[k] *= if random.share() < 0.5 { -1.0 } else { 1.0 });
+            (0..3).for_each(|k| place[k] *= if random.unit() < 0.5 { -1.0 } else { 1.0 });
             place
         }
     };
@@ -84,7 +40,7 @@ fn hulls_by_the_thousand_load() {
     let mut random = Random(0x9E37_79B9_7F4A_7C15);
     let mut tried = 0;
     for round in 0..4000 {
-        let (kind, count) = (round % 6, 4 + (random.share() * random.share() * 90.0) as usize);
+        let (kind, count) = (round % 6, 4 + (random.unit() * random.unit() * 90.0) as usize);
         let points = cloud(&mut random, kind, count);
         let Some(hull) = Solid::hull_of(&points, 2.0_f64.powi(-22)).filter(has_no_sliver) else { continue };
         tried += 1;
@@ -94,7 +50,7 @@ fn hulls_by_the_thousand_load() {
         }
         let size = 10.0_f64.powf(random.between(-4.0, 4.0));
         let to = random.direction() * (size * random.between(0.0, 2.0));
-        let posed = hull.posed(random.turn(), to, size);
+        let posed = hull.posed(random.rotation_matrix(), to, size);
         if has_no_sliver(&posed) && thickness(&posed) > 4.0 * TOLERANCE * posed.diameter() {
             holds(&posed, &format!("round {round}, turned"));
         }
@@ -112,21 +68,6 @@ fn has_no_sliver(solid: &Solid) -> bool {
     solid.faces.iter().all(|face| width(face) > 1.1e-9)
 }
 
-/// The least distance from a face's plane to the vertex farthest behind it, over the faces whose planes are sure.
-fn thickness(solid: &Solid) -> f64 {
-    let plane = |face: &Vec<u32>| {
-        let [a, b, c] = [0, 1, 2].map(|k| solid.vertices[face[k] as usize]);
-        let area = (b - a).cross(&(c - a));
-        (area.norm(), area.normalize(), a)
-    };
-    let behind = |(_, normal, on): (f64, Vec3, Vec3)| {
-        solid.vertices.iter().map(|v| normal.dot(&(on - v))).fold(0.0, f64::max)
-    };
-    let largest = solid.faces.iter().map(|f| plane(f).0).fold(0.0, f64::max);
-    let sure = solid.faces.iter().map(plane).filter(|(area, ..)| *area > 1e-3 * largest);
-    sure.map(behind).fold(f64::INFINITY, f64::min)
-}
-
 /// Places on a shallow cap: its faces meet at angles of about their heights' share of the tolerance.
 #[test]
 fn shallow_caps_load() {
@@ -135,15 +76,14 @@ fn shallow_caps_load() {
         let height = 10.0_f64.powf(random.between(-5.3, -2.0));
         let points: Vec<Vec3> = (0..60)
             .map(|_| {
-                let (radius, turn) =
-                    (0.7 * random.share().sqrt(), random.between(0.0, std::f64::consts::TAU));
+                let (radius, turn) = (0.7 * random.unit().sqrt(), random.between(0.0, std::f64::consts::TAU));
                 let z = height * (1.0 - (radius / 0.7).powi(2));
                 Vec3::new(radius * libm::cos(turn), radius * libm::sin(turn), z)
             })
             .collect();
         let Some(cap) = Solid::hull_of(&points, 2.0_f64.powi(-24)) else { continue };
         holds(&cap, &format!("cap {height:e} high, round {round}"));
-        let turned = cap.posed(random.turn(), Vec3::zeros(), 1.0);
+        let turned = cap.posed(random.rotation_matrix(), Vec3::zeros(), 1.0);
         holds(&turned, &format!("cap {height:e} high, round {round}, turned"));
     }
 }
@@ -155,7 +95,7 @@ fn solids_of_many_faces_load() {
         for height in [1e-3, 1.0, 300.0] {
             let prism = prism(sides, height);
             for solid in [prism.triangulated(), prism] {
-                let posed = solid.posed(random.turn(), random.direction() * 0.5, 0.7);
+                let posed = solid.posed(random.rotation_matrix(), random.direction() * 0.5, 0.7);
                 holds(&posed, &format!("prism of {sides} sides, {height} high"));
             }
         }
@@ -163,12 +103,12 @@ fn solids_of_many_faces_load() {
     for (circles, meridians) in [(8, 16), (32, 64), (100, 200)] {
         let ball = uv_sphere(circles, meridians);
         for solid in [ball.triangulated(), ball] {
-            let posed = solid.posed(random.turn(), Vec3::zeros(), 0.25);
+            let posed = solid.posed(random.rotation_matrix(), Vec3::zeros(), 0.25);
             holds(&posed, &format!("ball of {circles} circles and {meridians} meridians"));
         }
     }
     for cuts in [1, 4, 16] {
-        let posed = geodesic(cuts).posed(random.turn(), Vec3::zeros(), 1.0);
+        let posed = geodesic(cuts).posed(random.rotation_matrix(), Vec3::zeros(), 1.0);
         holds(&posed, &format!("geodesic ball, {cuts}"));
     }
 }
@@ -181,7 +121,7 @@ fn cut_boxes_are_boxes() {
         for round in 0..5 {
             let size = Vec3::new(1.0, random.between(0.05, 1.0), random.between(0.05, 1.0));
             let solid = cut_box(size, cuts).triangulated();
-            let posed = solid.posed(random.turn(), random.direction() * 0.3, 1.0);
+            let posed = solid.posed(random.rotation_matrix(), random.direction() * 0.3, 1.0);
             let loaded = holds(&posed, &format!("box cut {cuts} times, round {round}"));
             assert_eq!(loaded.faces.len(), 6, "box cut {cuts} times, round {round}");
         }
@@ -225,7 +165,7 @@ fn depths_are_those_of_the_unmerged_solid() {
             .collect();
         for _ in 0..40 {
             // A place inside: a mean of vertices.
-            let shares: Vec<f64> = hull.vertices.iter().map(|_| random.share().powi(4)).collect();
+            let shares: Vec<f64> = hull.vertices.iter().map(|_| random.unit().powi(4)).collect();
             let sum: f64 = shares.iter().sum();
             let place = hull.vertices.iter().zip(&shares).map(|(v, share)| v * (share / sum)).sum::<Vec3>();
             let before = planes.iter().map(|(n, on)| n.dot(&(on - place))).fold(f64::INFINITY, f64::min);

@@ -1,15 +1,12 @@
 //! What a polyhedron must be.
 
 use super::places::Places;
-use super::polygon::{area_vector, dent, edges, longest_edge, plane_of, width};
+use super::polygon::{self, area_vector, dent, plane_of};
 use super::problem::Problem;
 use super::solid::{HullFace, PLANE_TOLERANCE};
 use crate::limits::out_of_range;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
-
-/// A face narrower than this share of its longest edge is refused.
-const SLIVER: f64 = 1e-9;
 
 type Checked = Result<(), Vec<Problem>>;
 
@@ -55,36 +52,32 @@ fn corners(vertices: &[Vec3], face: &[u32]) -> Vec<Vec3> {
     face.iter().map(|&v| vertices[v as usize]).collect()
 }
 
-/// No edge without length, no face without width.
-pub(super) fn edges_and_widths(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
-    let mut problems = Vec::new();
-    for (index, face) in faces.iter().enumerate() {
-        let corners = corners(vertices, face);
-        if let Some((a, _)) = edges(face).find(|(a, b)| a == b) {
-            let cause = "two neighbouring vertices are the same place".to_owned();
-            let problem = Problem::new(Some(index), "zero-length-edge", cause, "merge the two");
-            problems.push(problem.at(&[vertices[a as usize]]));
-            continue;
-        }
-        let share =
-            if area_vector(&corners).amax() > 0.0 { width(&corners) / longest_edge(&corners) } else { 0.0 };
-        if share.is_nan() || share < SLIVER {
-            let cause = format!("a sliver: its width is {share:.1e} of its longest edge");
-            problems.push(Problem::new(Some(index), "sliver-face", cause, "remove it or move a vertex"));
-        }
-    }
-    verdict(problems)
+/// No edge without length.
+pub(super) fn edges(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
+    let without = |(index, face): (usize, &Vec<u32>)| {
+        let (a, _) = polygon::edges(face).find(|(a, b)| a == b)?;
+        let cause = "two neighbouring vertices are the same place".to_owned();
+        let problem = Problem::new(Some(index), "zero-length-edge", cause, "merge the two");
+        Some(problem.at(&[vertices[a as usize]]))
+    };
+    verdict(faces.iter().enumerate().filter_map(without).collect())
+}
+
+/// What is told of faces without width that cannot be joined to others.
+pub(super) fn sliver(face: usize, share: f64) -> Problem {
+    let cause = format!("a sliver: its width is {share:.1e} of its longest edge");
+    Problem::new(Some(face), "sliver-face", cause, "remove it or move a vertex")
 }
 
 /// Every edge is shared by exactly two faces that run along it in opposite directions.
 pub(super) fn closed_surface(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     let mut users: WordMap<(u32, u32), u32> = WordMap::default();
-    for (a, b) in faces.iter().flat_map(|face| edges(face)) {
+    for (a, b) in faces.iter().flat_map(|face| polygon::edges(face)) {
         *users.entry((a, b)).or_default() += 1;
     }
     let mut problems = Vec::new();
     for (index, face) in faces.iter().enumerate() {
-        let open = edges(face).find(|&(a, b)| users[&(a, b)] != 1 || users.get(&(b, a)) != Some(&1));
+        let open = polygon::edges(face).find(|&(a, b)| users[&(a, b)] != 1 || users.get(&(b, a)) != Some(&1));
         if let Some((a, b)) = open {
             let (a, b) = (vertices[a as usize], vertices[b as usize]);
             let cause = format!(
@@ -104,7 +97,7 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     let local = |v: u32| (vertices[v as usize] - first) / diameter;
     let mut six_volumes = 0.0;
     let mut largest_area: f64 = 0.0;
-    for face in faces {
+    for face in faces.iter().filter(|face| !face.is_empty()) {
         let origin = local(face[0]);
         let corners: Vec<Vec3> = face.iter().map(|&v| local(v)).collect();
         let area = area_vector(&corners);

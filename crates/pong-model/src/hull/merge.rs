@@ -9,14 +9,15 @@
 //! are convex as they are: the merging always ends in convex faces within the tolerance, as few as it finds.
 
 use super::places::Places;
-use super::polygon::{area_vector, edges, nearly_convex, plane_of, unit, width};
+use super::polygon::{area_vector, edges, hull_sides, plane_of, unit, width};
 use super::solid::{HullFace, PLANE_TOLERANCE};
+use super::support;
 use crate::weld::WordMap;
 use pong_geometry::Vec3;
 use std::collections::VecDeque;
 
 /// Below this width (in diameters) the normal of a face is noise and says nothing about its side.
-const SURE_WIDTH: f64 = 4e-6;
+pub(super) const SURE_WIDTH: f64 = 4e-6;
 /// By how much the tolerance of a region that is grown again is smaller.
 const FINER: f64 = 0.25;
 /// How often it is made smaller: the last one, 4e-9 of the diameter, is below what rounding to 32 bits leaves.
@@ -35,6 +36,12 @@ pub(super) struct Faces<'a> {
     order: Vec<u32>,
     /// That of the model format, m.
     tolerance: f64,
+}
+
+/// A merged face, and all vertices that its plane must hold: those of its outline and those that merging has dropped.
+pub(super) struct Merged {
+    pub(super) face: HullFace,
+    pub(super) held: Vec<u32>,
 }
 
 /// Which faces a region may still take.
@@ -56,8 +63,13 @@ impl<'a> Faces<'a> {
         for (index, face) in outlines.iter().enumerate() {
             along.extend(edges(face).map(|edge| (edge, index as u32)));
         }
-        let areas: Vec<Vec3> = outlines.iter().map(|face| area_vector(&corners(face))).collect();
-        let mut order: Vec<u32> = (0..outlines.len() as u32).collect();
+        // A face that has joined another has no outline.
+        let area =
+            |face: &Vec<u32>| if face.is_empty() { Vec3::zeros() } else { area_vector(&corners(face)) };
+        let sure = |face: &Vec<u32>| !face.is_empty() && width(&corners(face)) > SURE_WIDTH * diameter;
+        let areas: Vec<Vec3> = outlines.iter().map(area).collect();
+        let mut order: Vec<u32> =
+            (0..outlines.len() as u32).filter(|&face| !outlines[face as usize].is_empty()).collect();
         let size = |face: u32| areas[face as usize].norm();
         order.sort_by(|&a, &b| size(b).total_cmp(&size(a)).then(a.cmp(&b)));
         Self {
@@ -66,7 +78,7 @@ impl<'a> Faces<'a> {
             active,
             areas,
             order,
-            sure: outlines.iter().map(|face| width(&corners(face)) > SURE_WIDTH * diameter).collect(),
+            sure: outlines.iter().map(sure).collect(),
             along,
             tolerance: PLANE_TOLERANCE * diameter,
         }
@@ -74,11 +86,11 @@ impl<'a> Faces<'a> {
 
     /// The faces as they are merged if regions begin with the tolerance made smaller `level` times; with [`LEVELS`] nothing
     /// is merged.
-    pub(super) fn merged(&self, level: usize) -> Vec<HullFace> {
+    pub(super) fn merged(&self, level: usize) -> Vec<Merged> {
         let mut merged = Vec::new();
         let mut free = Free { set: vec![0; self.outlines.len()], sets: 0 };
         self.settle(self.order.clone(), level, &mut free, &mut merged);
-        merged.sort_by_key(|face| face.authored);
+        merged.sort_by_key(|merged| merged.face.authored);
         merged
     }
 
@@ -87,9 +99,9 @@ impl<'a> Faces<'a> {
     }
 
     /// Merges among these faces, the largest first.
-    fn settle(&self, order: Vec<u32>, level: usize, free: &mut Free, merged: &mut Vec<HullFace>) {
+    fn settle(&self, order: Vec<u32>, level: usize, free: &mut Free, merged: &mut Vec<Merged>) {
         if level >= LEVELS {
-            merged.extend(order.iter().map(|&f| self.face(self.outlines[f as usize].clone(), f)));
+            merged.extend(order.iter().map(|&face| self.alone(face)));
             return;
         }
         free.sets += 1;
@@ -152,15 +164,26 @@ impl<'a> Faces<'a> {
 
     /// A region as one face, if its outline is one convex loop and its vertices lie within the tolerance of the face's
     /// plane.
-    fn united(&self, region: &[u32]) -> Option<HullFace> {
+    fn united(&self, region: &[u32]) -> Option<Merged> {
         if let [face] = region {
-            return Some(self.face(self.outlines[*face as usize].clone(), *face));
+            return Some(self.alone(*face));
         }
         let face = self.face(self.outline(region)?, region[0]);
         let corners: Vec<Vec3> = face.outline.iter().map(|&v| self.vertices[v as usize]).collect();
         let off = |place: Vec3| (face.normal.dot(&place) - face.offset).abs();
         let near = region.iter().flat_map(|&f| self.places(f)).all(|place| off(place) <= self.tolerance);
-        (near && nearly_convex(&corners, &face.normal, self.tolerance)).then_some(face)
+        if !near || hull_sides(&corners, &face.normal, self.tolerance).is_none() {
+            return None;
+        }
+        let mut held: Vec<u32> = region.iter().flat_map(|&f| &self.outlines[f as usize]).copied().collect();
+        held.sort_unstable();
+        held.dedup();
+        Some(Merged { face, held })
+    }
+
+    fn alone(&self, face: u32) -> Merged {
+        let outline = &self.outlines[face as usize];
+        Merged { face: self.face(outline.clone(), face), held: outline.clone() }
     }
 
     /// The outline of a region, if it is one loop.
@@ -190,7 +213,15 @@ impl<'a> Faces<'a> {
     fn face(&self, outline: Vec<u32>, authored: u32) -> HullFace {
         let corners: Vec<Vec3> = outline.iter().map(|&v| self.vertices[v as usize]).collect();
         let (normal, offset) = plane_of(&corners);
-        HullFace { normal, offset, active: self.active[authored as usize], closed: false, outline, authored }
+        HullFace {
+            normal,
+            offset,
+            active: self.active[authored as usize],
+            closed: false,
+            outline,
+            walls: Vec::new(),
+            authored,
+        }
     }
 }
 
@@ -257,7 +288,8 @@ impl Slab {
 /// Drops the vertices at which only two faces meet, where that moves the edge between the two by no more than the
 /// tolerance: rounding gives the short edges of a subdivided straight one directions of their own, and lines along them
 /// would cut into the faces.
-pub(super) fn straighten(vertices: &[Vec3], faces: &mut [HullFace], tolerance: f64) {
+pub(super) fn straighten(vertices: &[Vec3], merged: &mut [Merged], tolerance: f64) {
+    let mut faces: Vec<&mut HullFace> = merged.iter_mut().map(|merged| &mut merged.face).collect();
     let mut users = vec![0_u32; vertices.len()];
     faces.iter().flat_map(|face| &face.outline).for_each(|&v| users[v as usize] += 1);
     let mut dropped = vec![false; vertices.len()];
@@ -300,47 +332,15 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
     }
 }
 
-/// How often the plane of a face is tilted until it supports the solid.
-const TILTS: usize = 8;
-
-/// Tilts the plane of a face that a vertex is in front of about the long direction of the face, until it supports the solid.
-///
-/// Across a narrow face rounding decides which way its normal points, and far away the plane would cut into the solid;
-/// a plane that touches the vertex in front is as good for the face itself. One that would leave the face's own vertices is
-/// not taken. Answers whether the plane supports the solid: that nothing else is in front of it.
-pub(super) fn support(vertices: &[Vec3], face: &mut HullFace, tree: &Places, tolerance: f64) -> bool {
-    let corners: Vec<Vec3> = face.outline.iter().map(|&v| vertices[v as usize]).collect();
-    let middle = super::polygon::mean(&corners);
-    let (mut normal, mut offset) = (face.normal, face.offset);
-    for _ in 0..TILTS {
-        let Some((_, vertex)) = tree.highest((&normal, offset), tolerance, |v| !face.outline.contains(&v))
-        else {
-            (face.normal, face.offset) = (normal, offset);
-            return true;
-        };
-        let Some(tilted) = tilted(&corners, &normal, &vertices[vertex as usize]) else { break };
-        (normal, offset) = (tilted, tilted.dot(&middle));
-        if corners.iter().any(|c| (normal.dot(c) - offset).abs() > tolerance) {
-            break;
-        }
+/// Gives a face that a vertex is in front of another plane, if one supports the solid and holds the face's vertices: across a
+/// narrow face rounding decides which way its normal points. Answers whether nothing is in front of it then.
+pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
+    let face = &mut merged.face;
+    if tree.highest((&face.normal, face.offset), tolerance, |v| !face.outline.contains(&v)).is_none() {
+        return true;
     }
-    false
-}
-
-/// The normal of the plane through the long direction of a face and a place in front of it.
-fn tilted(corners: &[Vec3], normal: &Vec3, place: &Vec3) -> Option<Vec3> {
-    let farthest = |from: &Vec3| {
-        let farther =
-            |a: &&Vec3, b: &&Vec3| (*a - from).norm_squared().total_cmp(&(*b - from).norm_squared());
-        corners.iter().max_by(farther).copied()
-    };
-    let end = farthest(&corners[0])?;
-    let start = farthest(&end)?;
-    let along = unit(&(end - start));
-    let across = (place - start) - along * along.dot(&(place - start));
-    if across.amax() == 0.0 {
-        return None;
-    }
-    let tilted = unit(&along.cross(&unit(&across)));
-    Some(if tilted.dot(normal) < 0.0 { -tilted } else { tilted })
+    let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();
+    let Some(plane) = support::plane(&held, (vertices, tree), face.normal, tolerance) else { return false };
+    (face.normal, face.offset) = plane;
+    true
 }

@@ -10,7 +10,9 @@ mod merge;
 mod places;
 mod polygon;
 mod problem;
+mod slivers;
 mod solid;
+mod support;
 #[cfg(test)]
 mod tests;
 
@@ -19,59 +21,165 @@ pub(crate) use problem::Problem;
 pub(crate) use solid::{Hull, HullFace, PLANE_TOLERANCE};
 
 use crate::weld::Welder;
+use merge::Merged;
 use places::Places;
 use pong_geometry::Vec3;
+use std::borrow::Cow;
 
 /// Checks a polyhedron and merges its coplanar neighbouring faces, or lists all that is wrong at the first
 /// stage that finds anything.
 pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     checks::authored(vertices, faces)?;
     let (vertices, faces, remarks) = welded(vertices, faces);
-    let tree = Places::new(&vertices);
-    let diameter = places::diameter(&vertices, &tree);
-    checks::edges_and_widths(&vertices, &faces)?;
-    checks::closed_surface(&vertices, &faces)?;
-    checks::volume(&vertices, &faces, diameter)?;
-    checks::planar(&vertices, &faces, diameter)?;
-    let faces = convex_faces((&vertices, &tree), &faces, active, diameter)?;
-    Ok(without_unused(Hull { vertices, faces, diameter, remarks }))
+    let as_written = checks::edges(&vertices, &faces).and_then(|()| of_surface(&vertices, &faces, active));
+    let hull = as_written.or_else(|problems| match slivers::collapsed(&faces) {
+        // Where rounding has brought vertices together, the solid may be good without what lay between them.
+        Some(faces) => of_surface(&vertices, &faces, active).map_err(|_| problems),
+        None => Err(problems),
+    })?;
+    Ok(Hull { remarks: [remarks, hull.remarks].concat(), ..hull })
 }
 
-/// The faces of a closed surface, merged as far as the solid stays convex; or what keeps it from being so.
-fn convex_faces(
-    (vertices, tree): (&[Vec3], &Places),
-    faces: &[Vec<u32>],
-    active: &[bool],
+/// A solid whose edges all have a length; faces without an outline are none.
+fn of_surface(vertices: &[Vec3], faces: &[Vec<u32>], active: &[bool]) -> Result<Hull, Vec<Problem>> {
+    let tree = Places::new(vertices);
+    let diameter = places::diameter(vertices, &tree);
+    checks::closed_surface(vertices, faces)?;
+    let mut faces = Cow::Borrowed(faces);
+    join_slivers(vertices, &mut faces)?;
+    checks::volume(vertices, &faces, diameter)?;
+    checks::planar(vertices, &faces, diameter)?;
+    let solid = Solid { vertices, tree: &tree, diameter, active };
+    let convex = solid.convex_faces(&faces).or_else(|problems| {
+        if solid.join_turned_over(&mut faces) {
+            solid.convex_faces(&faces).map_err(|_| problems)
+        } else {
+            Err(problems)
+        }
+    })?;
+    let joined = faces.iter().filter(|face| face.is_empty()).count();
+    let remark = || format!("{joined} faces that rounding has left without width belong to their neighbours");
+    let remarks = (joined > 0).then(remark).into_iter().collect();
+    Ok(without_unused(Hull { vertices: vertices.to_vec(), faces: convex, diameter, remarks }))
+}
+
+/// Joins faces without width to their neighbours, if that leaves enough for a solid.
+fn join_slivers(vertices: &[Vec3], faces: &mut Cow<'_, [Vec<u32>]>) -> Result<(), Vec<Problem>> {
+    let slivers = slivers::without_width(vertices, faces);
+    if slivers.is_empty() {
+        return Ok(());
+    }
+    let numbers: Vec<usize> = slivers.iter().map(|(face, _)| *face).collect();
+    let present = faces.iter().filter(|face| !face.is_empty()).count();
+    let left =
+        if present < numbers.len() + 4 { numbers } else { slivers::join(vertices, faces.to_mut(), &numbers) };
+    let refused = slivers.iter().filter(|(face, _)| left.binary_search(face).is_ok());
+    let problems: Vec<Problem> = refused.map(|(face, share)| checks::sliver(*face, *share)).collect();
+    if problems.is_empty() { Ok(()) } else { Err(problems) }
+}
+
+/// Where the walls of a face stand.
+#[derive(Clone, Copy, PartialEq)]
+enum Walls {
+    /// Along its edges.
+    Edges,
+    /// Along the sides of its outline's convex hull, where edges are too short to say how they run.
+    Sides,
+}
+
+/// A closed surface to be made convex.
+struct Solid<'a> {
+    vertices: &'a [Vec3],
+    tree: &'a Places,
     diameter: f64,
-) -> Result<Vec<HullFace>, Vec<Problem>> {
-    let tolerance = PLANE_TOLERANCE * diameter;
-    let authored = merge::Faces::new(vertices, faces, active, diameter);
-    let last = merge::LEVELS + 1;
-    let mut suspect = 0;
-    for attempt in 0..last {
-        let mut merged = faces_of_attempt(attempt, vertices, &authored, tolerance);
-        let is_bad = |face: &mut HullFace| match attempt {
-            0 => checks::face(vertices, face, tree, diameter).is_some(),
-            // What supports the solid has nothing in front.
-            _ => {
-                !merge::support(vertices, face, tree, tolerance)
-                    || checks::dented(vertices, face, diameter).is_some()
+    active: &'a [bool],
+}
+
+impl Solid<'_> {
+    /// The faces, merged as far as the solid stays convex; or what keeps it from being so.
+    fn convex_faces(&self, faces: &[Vec<u32>]) -> Result<Vec<HullFace>, Vec<Problem>> {
+        let Self { vertices, tree, diameter, active } = *self;
+        let tolerance = PLANE_TOLERANCE * diameter;
+        let authored = merge::Faces::new(vertices, faces, active, diameter);
+        let last = merge::LEVELS + 1;
+        let mut suspect = 0;
+        let attempts = (0..=last).map(|attempt| (attempt, Walls::Edges));
+        for (attempt, walls) in attempts.chain((1..=last).map(|attempt| (attempt, Walls::Sides))) {
+            let mut merged = faces_of_attempt(attempt, vertices, &authored, tolerance);
+            let is_bad = |merged: &mut Merged| match attempt {
+                0 => checks::face(vertices, &merged.face, tree, diameter).is_some(),
+                // What supports the solid has nothing in front.
+                _ => {
+                    !merge::support(vertices, merged, tree, tolerance)
+                        || !self.has_walls(&mut merged.face, walls)
+                }
+            };
+            match first_from(&mut merged, suspect, is_bad) {
+                // Likely this is where the next attempt fails too: it begins there, and need not look at all faces.
+                Some(authored) => suspect = authored,
+                None => {
+                    let faces = faces_alone(merged);
+                    if checks::thickness(&faces, tree, diameter).is_ok() {
+                        return Ok(faces);
+                    }
+                }
             }
-        };
-        match first_from(&mut merged, suspect, is_bad) {
-            // Likely this is where the next attempt fails too: it begins there, and need not look at all faces.
-            Some(authored) => suspect = authored,
-            None if checks::thickness(&merged, tree, diameter).is_ok() => return Ok(merged),
-            None => {}
+        }
+        // What is wrong in the last attempt is told: its faces are those that were authored.
+        let mut merged = faces_of_attempt(last, vertices, &authored, tolerance);
+        for merged in &mut merged {
+            merge::support(vertices, merged, tree, tolerance);
+            self.has_walls(&mut merged.face, Walls::Sides);
+        }
+        let faces = faces_alone(merged);
+        checks::convex(vertices, &faces, tree, diameter)?;
+        Ok(faces)
+    }
+
+    /// Whether no corner of a face is beyond one of its walls.
+    fn has_walls(&self, face: &mut HullFace, walls: Walls) -> bool {
+        if checks::dented(self.vertices, face, self.diameter).is_none() {
+            return true;
+        }
+        let corners: Vec<Vec3> = face.outline.iter().map(|&v| self.vertices[v as usize]).collect();
+        let sides = polygon::hull_sides(&corners, &face.normal, PLANE_TOLERANCE * self.diameter);
+        let (Walls::Sides, Some(sides)) = (walls, sides) else { return false };
+        face.walls = sides.into_iter().map(|side| side.map(|corner| face.outline[corner])).collect();
+        true
+    }
+
+    /// Joins the faces that rounding has turned over to their neighbours, and what that makes of them, too. Answers whether
+    /// there are any.
+    fn join_turned_over(&self, faces: &mut Cow<'_, [Vec<u32>]>) -> bool {
+        let mut any = false;
+        loop {
+            let over = self.turned_over(faces);
+            slivers::join(self.vertices, faces.to_mut(), &over);
+            if over.iter().all(|&face| !faces[face].is_empty()) {
+                return any;
+            }
+            any = true;
         }
     }
-    // What is wrong in the last attempt is told: its faces are those that were authored.
-    let mut merged = faces_of_attempt(last, vertices, &authored, tolerance);
-    for face in &mut merged {
-        merge::support(vertices, face, tree, tolerance);
+
+    /// The narrow faces that no plane that supports the solid shows from outside: rounding has turned them over.
+    fn turned_over(&self, faces: &[Vec<u32>]) -> Vec<usize> {
+        let authored = merge::Faces::new(self.vertices, faces, self.active, self.diameter);
+        let is_over = |merged: &mut Merged| {
+            slivers::is_narrow(self.vertices, &merged.face.outline, merge::SURE_WIDTH * self.diameter)
+                && !(merge::support(self.vertices, merged, self.tree, PLANE_TOLERANCE * self.diameter)
+                    && self.has_walls(&mut merged.face, Walls::Sides))
+        };
+        let mut alone = authored.merged(merge::LEVELS);
+        alone
+            .iter_mut()
+            .filter_map(|merged| is_over(merged).then_some(merged.face.authored as usize))
+            .collect()
     }
-    checks::convex(vertices, &merged, tree, diameter)?;
-    Ok(merged)
+}
+
+fn faces_alone(merged: Vec<Merged>) -> Vec<HullFace> {
+    merged.into_iter().map(|merged| merged.face).collect()
 }
 
 /// The first attempt merges all that lies within the tolerance and leaves the rest as it is, which suits nearly every solid.
@@ -82,7 +190,7 @@ fn faces_of_attempt(
     vertices: &[Vec3],
     faces: &merge::Faces<'_>,
     tolerance: f64,
-) -> Vec<HullFace> {
+) -> Vec<Merged> {
     let mut merged = faces.merged(attempt.saturating_sub(1));
     if attempt > 0 {
         merge::straighten(vertices, &mut merged, tolerance);
@@ -92,13 +200,13 @@ fn faces_of_attempt(
 
 /// Looks at the faces once round, from an authored one on: which authored face the first bad one is.
 fn first_from(
-    faces: &mut [HullFace],
+    faces: &mut [Merged],
     authored: u32,
-    mut is_bad: impl FnMut(&mut HullFace) -> bool,
+    mut is_bad: impl FnMut(&mut Merged) -> bool,
 ) -> Option<u32> {
-    let first = faces.partition_point(|face| face.authored < authored);
+    let first = faces.partition_point(|merged| merged.face.authored < authored);
     let (before, after) = faces.split_at_mut(first);
-    after.iter_mut().chain(before).find_map(|face| is_bad(face).then_some(face.authored))
+    after.iter_mut().chain(before).find_map(|merged| is_bad(merged).then_some(merged.face.authored))
 }
 
 /// Bit-equal positions become one vertex.
@@ -127,13 +235,17 @@ fn without_unused(hull: Hull) -> Hull {
     let mut number = vec![u32::MAX; hull.vertices.len()];
     let mut vertices = Vec::new();
     let mut faces = hull.faces;
-    for vertex in faces.iter_mut().flat_map(|face| &mut face.outline) {
-        let slot = &mut number[*vertex as usize];
-        if *slot == u32::MAX {
-            *slot = vertices.len() as u32;
-            vertices.push(hull.vertices[*vertex as usize]);
+    for face in &mut faces {
+        for vertex in &mut face.outline {
+            let slot = &mut number[*vertex as usize];
+            if *slot == u32::MAX {
+                *slot = vertices.len() as u32;
+                vertices.push(hull.vertices[*vertex as usize]);
+            }
+            *vertex = *slot;
         }
-        *vertex = *slot;
+        // Walls run between vertices of the outline.
+        face.walls.iter_mut().flatten().for_each(|vertex| *vertex = number[*vertex as usize]);
     }
     Hull { vertices, faces, ..hull }
 }

@@ -55,6 +55,11 @@ pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f
     let tree = (corners.len() > MANY).then(|| Places::new(corners));
     let beyond = |(a, b): (Vec3, Vec3)| {
         let outward = unit(&(b - a)).cross(normal);
+        if outward.amax() == 0.0 {
+            // An edge along the normal has no side, and so no line to be behind.
+            return corners.iter().position(|c| *c == b).map(|corner| ((b - a).norm(), corner));
+        }
+        let outward = unit(&outward);
         match &tree {
             Some(tree) => {
                 let found = tree.highest((&outward, outward.dot(&a)), tolerance, |_| true);
@@ -69,9 +74,10 @@ pub(super) fn dent(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<(f
     edges(corners).filter_map(beyond).max_by(|x, y| x.0.total_cmp(&y.0))
 }
 
-/// Whether an outline that runs counter-clockwise about the normal is convex but for corners that lie within the tolerance of
-/// its hull: rounding may give the short edges of a straight side any direction, and no corner need move farther than that.
-pub(super) fn nearly_convex(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> bool {
+/// The sides of the convex hull of an outline that runs counter-clockwise about the normal: for each edge of the outline the two
+/// corners between which it runs. `None` unless all corners lie within the tolerance of their side: rounding may give the short
+/// edges of a straight side any direction, and no corner need move farther than that.
+pub(super) fn hull_sides(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> Option<Vec<[usize; 2]>> {
     let first = corners[0];
     let across = unit(&(if normal.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).cross(normal));
     let along = across.cross(normal);
@@ -80,29 +86,56 @@ pub(super) fn nearly_convex(corners: &[Vec3], normal: &Vec3, tolerance: f64) -> 
     let flat: Vec<[f64; 2]> =
         corners.iter().map(|c| [along.dot(&(c - first)), across.dot(&(c - first))]).collect();
     let place = |k: usize| flat[k % count];
-    let farthest =
-        |a: &usize, b: &usize| flat[*a][0].total_cmp(&flat[*b][0]).then(flat[*a][1].total_cmp(&flat[*b][1]));
-    let Some(start) = (0..count).max_by(farthest) else { return false };
-    let turn = |[a, b, c]: [[f64; 2]; 3]| (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]);
-    // The hull, by a scan around the outline from a corner that is on it.
-    let mut hull: Vec<usize> = vec![start];
-    for k in start + 1..=start + count {
-        while hull.len() > 1
-            && turn([place(hull[hull.len() - 2]), place(hull[hull.len() - 1]), place(k)]) <= 0.0
-        {
-            hull.pop();
-        }
-        hull.push(k);
+    let mut hull = convex_hull(&flat);
+    let first = hull.iter().enumerate().min_by_key(|(_, corner)| **corner).map_or(0, |(at, _)| at);
+    hull.rotate_left(first);
+    if hull.len() < 3 || !hull.is_sorted() {
+        // It runs clockwise, or crosses itself.
+        return None;
     }
-    hull.windows(2).all(|side| {
+    hull.push(hull[0] + count);
+    let mut sides = vec![[0; 2]; count];
+    for side in hull.windows(2) {
         let (a, b) = (place(side[0]), place(side[1]));
         let edge = [b[0] - a[0], b[1] - a[1]];
         let length = (edge[0] * edge[0] + edge[1] * edge[1]).sqrt();
-        (side[0] + 1..side[1]).all(|k| {
+        let is_near = |k: usize| {
             let away = [place(k)[0] - a[0], place(k)[1] - a[1]];
             (edge[0] * away[1] - edge[1] * away[0]).abs() <= tolerance * length
-        })
-    })
+        };
+        if !(side[0] + 1..side[1]).all(is_near) {
+            return None;
+        }
+        (side[0]..side[1]).for_each(|k| sides[k % count] = [side[0] % count, side[1] % count]);
+    }
+    Some(sides)
+}
+
+/// The corners of the convex hull of places in a plane, counter-clockwise (Andrew, 1979).
+fn convex_hull(places: &[[f64; 2]]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&a, &b| {
+        places[a][0].total_cmp(&places[b][0]).then(places[a][1].total_cmp(&places[b][1])).then(a.cmp(&b))
+    });
+    let left_of = |[a, b, c]: [usize; 3]| {
+        let [a, b, c] = [places[a], places[b], places[c]];
+        (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0]) > 0.0
+    };
+    let half = |order: &mut dyn Iterator<Item = usize>| {
+        let mut chain: Vec<usize> = Vec::new();
+        for corner in order {
+            while chain.len() > 1 && !left_of([chain[chain.len() - 2], chain[chain.len() - 1], corner]) {
+                chain.pop();
+            }
+            chain.push(corner);
+        }
+        // The last one begins the other half.
+        chain.pop();
+        chain
+    };
+    let lower = half(&mut order.iter().copied());
+    let upper = half(&mut order.iter().rev().copied());
+    [lower, upper].concat()
 }
 
 pub(super) fn longest_edge(corners: &[Vec3]) -> f64 {

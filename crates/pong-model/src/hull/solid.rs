@@ -33,6 +33,8 @@ pub(crate) struct HullFace {
     pub(crate) closed: bool,
     /// Vertices counter-clockwise seen from outside.
     pub(crate) outline: Vec<u32>,
+    /// For each edge of the outline the two vertices that its wall runs between; none where every wall runs along its edge.
+    pub(crate) walls: Vec<[u32; 2]>,
     /// The lowest authored face that went into it.
     pub(crate) authored: u32,
 }

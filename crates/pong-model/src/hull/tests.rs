@@ -33,15 +33,16 @@ fn a_ball_that_takes_many_attempts_costs_little_more() {
     let tree = Places::new(&vertices);
     let authored = merge::Faces::new(&vertices, &faces, &active, 2.0);
     let of_attempt = |attempt| faces_of_attempt(attempt, &vertices, &authored, 2.0 * PLANE_TOLERANCE);
-    assert!(checks::convex(&vertices, &of_attempt(0), &tree, 2.0).is_err());
+    assert!(checks::convex(&vertices, &faces_alone(of_attempt(0)), &tree, 2.0).is_err());
     tree.looked.set(0);
     let mut once = of_attempt(merge::LEVELS + 1);
-    for face in &mut once {
-        assert!(merge::support(&vertices, face, &tree, 2.0 * PLANE_TOLERANCE));
+    for merged in &mut once {
+        assert!(merge::support(&vertices, merged, &tree, 2.0 * PLANE_TOLERANCE));
     }
-    assert!(checks::convex(&vertices, &once, &tree, 2.0).is_ok());
+    assert!(checks::convex(&vertices, &faces_alone(once), &tree, 2.0).is_ok());
     let looked_once = tree.looked.replace(0);
-    assert!(convex_faces((&vertices, &tree), &faces, &active, 2.0).is_ok());
+    let solid = Solid { vertices: &vertices, tree: &tree, diameter: 2.0, active: &active };
+    assert!(solid.convex_faces(&faces).is_ok());
     let looked = tree.looked.get();
     assert!(looked < 2 * looked_once, "{looked} boxes, {looked_once} at every face once");
 }

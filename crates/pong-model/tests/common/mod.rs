@@ -1,6 +1,8 @@
 //! Short ways to write models.
 #![allow(dead_code)]
 
+pub mod families;
+pub mod held;
 pub mod solids;
 
 use pong_geometry::extension::Extensions;

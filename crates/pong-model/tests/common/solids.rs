@@ -1,6 +1,7 @@
 //! Solids for tests: an exact convex hull of whole numbers, and shapes of many faces.
 #![allow(dead_code)]
 
+use nalgebra::Matrix3;
 use pong_geometry::Vec3;
 
 /// Vertices and faces, counter-clockwise seen from outside.
@@ -8,39 +9,6 @@ use pong_geometry::Vec3;
 pub struct Solid {
     pub vertices: Vec<Vec3>,
     pub faces: Vec<Vec<u32>>,
-}
-
-/// Numbers that look random and are the same in every run (xorshift).
-pub struct Random(pub u64);
-
-impl Random {
-    /// From 0 up to 1.
-    pub fn share(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.share()
-    }
-
-    pub fn direction(&mut self) -> Vec3 {
-        loop {
-            let v = Vec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
-            if (0.01..1.0).contains(&v.norm_squared()) {
-                return v.normalize();
-            }
-        }
-    }
-
-    /// The columns of a turn.
-    pub fn turn(&mut self) -> [Vec3; 3] {
-        let x = self.direction();
-        let y = x.cross(&self.direction()).normalize();
-        [x, y, x.cross(&y)]
-    }
 }
 
 pub type Whole = [i64; 3];
@@ -119,8 +87,8 @@ impl Solid {
     }
 
     /// Turned, moved and rounded to single precision.
-    pub fn posed(&self, [x, y, z]: [Vec3; 3], to: Vec3, size: f64) -> Self {
-        let place = |v: &Vec3| (to + (x * v.x + y * v.y + z * v.z) * size).map(|x| f64::from(x as f32));
+    pub fn posed(&self, turn: Matrix3<f64>, to: Vec3, size: f64) -> Self {
+        let place = |v: &Vec3| (to + turn * v * size).map(|x| f64::from(x as f32));
         Self { vertices: self.vertices.iter().map(place).collect(), faces: self.faces.clone() }
     }
 

@@ -1,0 +1,193 @@
+//! A plane that supports the solid along a face that is too narrow, or too small, to say how it lies.
+//!
+//! Rounding moves the vertices of such a face by no more than those of a large one, but it may turn the face's plane by any
+//! angle, and far away the plane would cut into the solid. A better plane always exists where the vertices were moved by less
+//! than the tolerance: the one that the face had before. Of all planes with a normal n the best one leaves the same distance to
+//! the highest vertex p of the solid and to the lowest vertex c of the face; that distance is half of n·p − n·c. Over all
+//! normals near a given one this is a convex function, whose smallest value is a linear program in two tilts. Cutting planes
+//! find it: at each normal that is tried, the tree of all vertices tells the highest one, and the pair (p, c) is a bound from below at
+//! all others (Kelley, 1960).
+
+use super::places::Places;
+use super::polygon::{mean, unit};
+use nalgebra::Matrix3;
+use pong_geometry::Vec3;
+
+/// The largest tangent by which a normal is turned along either axis at once.
+const REACH: f64 = 2.0;
+/// How often the search begins again around the normal that it has found: one farther off may be better.
+const TURNS: usize = 4;
+/// Above this tangent it does.
+const FAR: f64 = 0.25;
+/// The longest normal that tilts within reach make of a unit one: 1, 2 and 2 along three axes.
+const LONGEST: f64 = 3.0;
+/// How many normals are tried in one search. TODO
+const CUTS: usize = 100;
+/// The search ends when the distance is as good as the best to this share of the tolerance.
+const ENOUGH: f64 = 1e-3;
+/// Rounding of a distance, in tolerances: the diameter is a million of them.
+const ROUNDING: f64 = 1e-7;
+
+/// A plane: unit normal and offset along it.
+pub(super) type Plane = (Vec3, f64);
+
+/// A bound of the distance for all tilts, `distance ≥ at + along · tilt`; or of the tilt alone, without the distance.
+#[derive(Clone, Copy)]
+struct Cut {
+    along: [f64; 2],
+    at: f64,
+    with_distance: bool,
+}
+
+impl Cut {
+    /// By how much a tilt and a distance miss it.
+    fn missed(&self, [x, y, distance]: [f64; 3]) -> f64 {
+        self.at + self.along[0] * x + self.along[1] * y - if self.with_distance { distance } else { 0.0 }
+    }
+
+    fn row(&self) -> [f64; 3] {
+        [self.along[0], self.along[1], if self.with_distance { -1.0 } else { 0.0 }]
+    }
+}
+
+/// The linear program: the tilt with the smallest distance that all cuts allow.
+struct Program {
+    cuts: Vec<Cut>,
+    /// Both tilts and the distance.
+    lowest: [f64; 3],
+}
+
+impl Program {
+    /// Tilts as far as they may go, and no distance below zero.
+    fn new() -> Self {
+        let bound = |along| Cut { along, at: -REACH, with_distance: false };
+        let mut cuts = [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]].map(bound).to_vec();
+        cuts.push(Cut { along: [0.0; 2], at: 0.0, with_distance: true });
+        Self { cuts, lowest: [0.0; 3] }
+    }
+
+    /// Takes one more cut. Answers whether there still is a lowest place: if not, the numbers have too few digits.
+    ///
+    /// Where the cut excludes the lowest place so far, the new one lies on it, and on two of the others.
+    fn add(&mut self, cut: Cut) -> bool {
+        if cut.missed(self.lowest) > ROUNDING {
+            let mut lowest: Option<[f64; 3]> = None;
+            for (index, first) in self.cuts.iter().enumerate() {
+                for second in &self.cuts[..index] {
+                    let Some(place) = common([&cut, first, second]) else { continue };
+                    if lowest.is_none_or(|l| is_lower(&place, &l))
+                        && self.cuts.iter().all(|cut| cut.missed(place) <= ROUNDING)
+                    {
+                        lowest = Some(place);
+                    }
+                }
+            }
+            let Some(lowest) = lowest else { return false };
+            self.lowest = lowest;
+        }
+        self.cuts.push(cut);
+        true
+    }
+}
+
+/// The lower place, and of equals the one that is tilted less.
+fn is_lower(a: &[f64; 3], b: &[f64; 3]) -> bool {
+    let tilt = |p: &[f64; 3]| p[0] * p[0] + p[1] * p[1];
+    (a[2] - b[2]).abs() <= ROUNDING && tilt(a) < tilt(b) || a[2] < b[2] - ROUNDING
+}
+
+/// Where three cuts are met exactly.
+fn common(cuts: [&Cut; 3]) -> Option<[f64; 3]> {
+    let rows = cuts.map(Cut::row).concat();
+    let place = Matrix3::from_row_slice(&rows).try_inverse()? * Vec3::from(cuts.map(|cut| -cut.at));
+    place.iter().all(|x| x.is_finite()).then_some(place.into())
+}
+
+/// A plane that was tried: midway between the highest vertex of the solid and the lowest one of the face, and its distance from
+/// both.
+#[derive(Clone, Copy)]
+struct Tried {
+    plane: Plane,
+    distance: f64,
+}
+
+/// The plane nearest to the vertices that a face holds, of all that no vertex of the solid is farther in front of than
+/// those; if that is within the tolerance. It is looked for around a normal.
+pub(super) fn plane(
+    held: &[Vec3],
+    (vertices, tree): (&[Vec3], &Places),
+    around: Vec3,
+    tolerance: f64,
+) -> Option<Plane> {
+    let mut chart = Chart {
+        held,
+        vertices,
+        tree,
+        middle: mean(held),
+        tolerance,
+        center: around,
+        axes: [Vec3::zeros(); 2],
+    };
+    for _ in 0..TURNS {
+        let (best, tilt) = chart.best();
+        if best.distance <= tolerance {
+            return Some(best.plane);
+        }
+        if tilt < FAR {
+            break;
+        }
+        chart.center = best.plane.0;
+    }
+    None
+}
+
+/// The planes along a face whose normals are a given one, tilted along two axes.
+struct Chart<'a> {
+    held: &'a [Vec3],
+    vertices: &'a [Vec3],
+    tree: &'a Places,
+    middle: Vec3,
+    tolerance: f64,
+    center: Vec3,
+    axes: [Vec3; 2],
+}
+
+impl Chart<'_> {
+    /// The best plane, and the larger one of its tilts.
+    fn best(&mut self) -> (Tried, f64) {
+        let across = unit(&self.center.cross(&if self.center.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }));
+        self.axes = [across, self.center.cross(&across)];
+        let mut program = Program::new();
+        let mut best: Option<(Tried, f64)> = None;
+        for _ in 0..CUTS {
+            let [x, y, least] = program.lowest;
+            let (tried, cut) = self.tried(x, y);
+            if best.is_none_or(|(best, _)| tried.distance < best.distance) {
+                best = Some((tried, x.abs().max(y.abs())));
+            }
+            let enough = cut.missed([x, y, least]) <= ENOUGH;
+            if enough || least > LONGEST || !program.add(cut) {
+                break;
+            }
+        }
+        best.unwrap_or_else(|| (self.tried(0.0, 0.0).0, 0.0))
+    }
+
+    /// The plane of a tilt, and what it tells of the others.
+    fn tried(&self, x: f64, y: f64) -> (Tried, Cut) {
+        let normal = self.center + self.axes[0] * x + self.axes[1] * y;
+        let length = normal.norm();
+        let highest = self.tree.highest((&normal, 0.0), f64::NEG_INFINITY, |_| true);
+        let highest = highest.map_or(self.middle, |(_, vertex)| self.vertices[vertex as usize]);
+        let height = |place: &Vec3| normal.dot(&(place - self.middle));
+        let lower = |a: &&Vec3, b: &&Vec3| height(a).total_cmp(&height(b));
+        let lowest = self.held.iter().min_by(lower).copied().unwrap_or(self.middle);
+        let half = (highest - lowest) * 0.5;
+        let offset = normal.dot(&self.middle) + height(&(lowest + half));
+        let plane = (normal / length, offset / length);
+        let in_tolerances = half / self.tolerance;
+        let along = self.axes.map(|axis| axis.dot(&in_tolerances));
+        let cut = Cut { along, at: self.center.dot(&in_tolerances), with_distance: true };
+        (Tried { plane, distance: normal.dot(&half) / length }, cut)
+    }
+}
