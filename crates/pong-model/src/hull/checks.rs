@@ -116,7 +116,7 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     Ok(())
 }
 
-fn no_thickness() -> Problem {
+pub(super) fn no_thickness() -> Problem {
     let cause = format!("the solid is thinner than {PLANE_TOLERANCE:.0e} of its diameter");
     Problem::new(None, "zero-volume", cause, "give it a thickness, or use triangles")
 }
@@ -155,8 +155,11 @@ pub(super) fn face(vertices: &[Vec3], face: &HullFace, tree: &Places, diameter: 
     vertex_in_front(vertices, face, tree, diameter).or_else(|| dented(vertices, face, diameter))
 }
 
-/// What is wrong with the outline of a face.
+/// What is wrong with the outline of a face whose walls run along its edges.
 pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Option<Problem> {
+    if !face.walls.is_empty() {
+        return None;
+    }
     let corners = corners(vertices, &face.outline);
     let (depth, corner) = dent(&corners, &face.normal, PLANE_TOLERANCE * diameter)?;
     let cause = format!(
@@ -172,6 +175,23 @@ pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Che
     let floor = PLANE_TOLERANCE * diameter;
     let thin = |face: &HullFace| !tree.any_above((&-face.normal, -face.offset), floor);
     if faces.len() < 4 || faces.iter().any(thin) { Err(vec![no_thickness()]) } else { Ok(()) }
+}
+
+/// None of some vertices that lie in no face lies deeper below the surface than the tolerance.
+pub(super) fn none_deep(vertices: &[Vec3], lost: &[u32], faces: &[HullFace], diameter: f64) -> Checked {
+    let problem = |vertex: &u32| {
+        let vertex = &vertices[*vertex as usize];
+        let depths = faces.iter().map(|face| face.offset - face.normal.dot(vertex));
+        let depth = depths.fold(f64::INFINITY, f64::min);
+        let cause = format!(
+            "not convex: the vertex {} is {:.1e} of the diameter below the faces beside those without width",
+            place(vertex),
+            depth / diameter
+        );
+        let problem = Problem::new(None, "not-convex", cause, "remove it, or move it").at(&[*vertex]);
+        (depth > PLANE_TOLERANCE * diameter).then(|| problem.off(depth))
+    };
+    verdict(lost.iter().filter_map(problem).collect())
 }
 
 fn not_convex(face: &HullFace, rule: &'static str, cause: String) -> Problem {

@@ -332,14 +332,16 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
     }
 }
 
-/// Gives a face that a vertex is in front of another plane, if one supports the solid and holds the face's vertices: across a
+/// Gives a face that a vertex is in front of, or that does not hold its own, another plane, if one supports the solid and holds the face's vertices: across a
 /// narrow face rounding decides which way its normal points. Answers whether nothing is in front of it then.
 pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
     let face = &mut merged.face;
-    if tree.highest((&face.normal, face.offset), tolerance, |v| !face.outline.contains(&v)).is_none() {
+    let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();
+    let holds = held.iter().all(|place| (face.normal.dot(place) - face.offset).abs() <= tolerance);
+    if holds && tree.highest((&face.normal, face.offset), tolerance, |v| !face.outline.contains(&v)).is_none()
+    {
         return true;
     }
-    let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();
     let Some(plane) = support::plane(&held, (vertices, tree), face.normal, tolerance) else { return false };
     (face.normal, face.offset) = plane;
     true

@@ -3,7 +3,9 @@
 //! Degenerate cases, each with its own rule: vertices that are not finite; too few faces; faces of too few,
 //! unknown or repeated vertices; edges without length; slivers; faces that are not planar or not convex; open
 //! or inside-out surfaces; solids without thickness; solids that are not convex. All tolerances are relative to
-//! the diameter, so that what `f32` rounding makes of a good shape passes at every size.
+//! the diameter, so that what `f32` rounding makes of a good shape passes at every size. What rounding leaves without extent or
+//! turned over is left out or joined to its neighbours ([`slivers`]), and faces too narrow to have a normal get a plane that
+//! supports the solid ([`support`]).
 
 mod checks;
 mod merge;
@@ -41,11 +43,11 @@ pub(crate) fn check(vertices: &[Vec3], faces: &[&[u32]], active: &[bool]) -> Res
 }
 
 /// A solid whose edges all have a length; faces without an outline are none.
-fn of_surface(vertices: &[Vec3], faces: &[Vec<u32>], active: &[bool]) -> Result<Hull, Vec<Problem>> {
+fn of_surface(vertices: &[Vec3], authored: &[Vec<u32>], active: &[bool]) -> Result<Hull, Vec<Problem>> {
     let tree = Places::new(vertices);
     let diameter = places::diameter(vertices, &tree);
-    checks::closed_surface(vertices, faces)?;
-    let mut faces = Cow::Borrowed(faces);
+    checks::closed_surface(vertices, authored)?;
+    let mut faces = Cow::Borrowed(authored);
     join_slivers(vertices, &mut faces)?;
     checks::volume(vertices, &faces, diameter)?;
     checks::planar(vertices, &faces, diameter)?;
@@ -57,8 +59,9 @@ fn of_surface(vertices: &[Vec3], faces: &[Vec<u32>], active: &[bool]) -> Result<
             Err(problems)
         }
     })?;
+    checks::none_deep(vertices, &slivers::lost(authored, &faces), &convex, diameter)?;
     let joined = faces.iter().filter(|face| face.is_empty()).count();
-    let remark = || format!("{joined} faces that rounding has left without width belong to their neighbours");
+    let remark = || format!("faces without width, which have joined their neighbours: {joined}");
     let remarks = (joined > 0).then(remark).into_iter().collect();
     Ok(without_unused(Hull { vertices: vertices.to_vec(), faces: convex, diameter, remarks }))
 }
@@ -96,7 +99,8 @@ struct Solid<'a> {
 }
 
 impl Solid<'_> {
-    /// The faces, merged as far as the solid stays convex; or what keeps it from being so.
+    /// The faces, merged as far as the solid stays convex; or what keeps it from being so. Walls along the sides of hulls are
+    /// the last resort, as they are no longer those of the edges that push.
     fn convex_faces(&self, faces: &[Vec<u32>]) -> Result<Vec<HullFace>, Vec<Problem>> {
         let Self { vertices, tree, diameter, active } = *self;
         let tolerance = PLANE_TOLERANCE * diameter;
@@ -131,9 +135,9 @@ impl Solid<'_> {
             merge::support(vertices, merged, tree, tolerance);
             self.has_walls(&mut merged.face, Walls::Sides);
         }
-        let faces = faces_alone(merged);
-        checks::convex(vertices, &faces, tree, diameter)?;
-        Ok(faces)
+        checks::convex(vertices, &faces_alone(merged), tree, diameter)?;
+        // Faces that others have joined may have a vertex off their plane.
+        Err(checks::planar(vertices, faces, diameter).err().unwrap_or_else(|| vec![checks::no_thickness()]))
     }
 
     /// Whether no corner of a face is beyond one of its walls.

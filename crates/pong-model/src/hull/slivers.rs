@@ -58,6 +58,20 @@ pub(super) fn join(vertices: &[Vec3], faces: &mut [Vec<u32>], narrow: &[usize]) 
     left
 }
 
+/// The vertices that no face has any more after some have joined others.
+pub(super) fn lost(before: &[Vec<u32>], after: &[Vec<u32>]) -> Vec<u32> {
+    if before.iter().zip(after).all(|(before, after)| before == after) {
+        return Vec::new();
+    }
+    let mut kept: Vec<u32> = after.iter().flatten().copied().collect();
+    kept.sort_unstable();
+    let mut lost: Vec<u32> = before.iter().flatten().copied().collect();
+    lost.retain(|vertex| kept.binary_search(vertex).is_err());
+    lost.sort_unstable();
+    lost.dedup();
+    lost
+}
+
 /// The faces without what has no area where vertices have come together: edges between a vertex and itself, faces of fewer than
 /// three vertices, and pairs of faces back to back. What is taken out keeps its number, with no outline. `None` if there is
 /// nothing to take out.
