@@ -78,6 +78,20 @@ fn scenes_that_once_differed() {
         ("cut", 74128),
         // The foot of a slender ellipsoid lay beside its box.
         ("group_frame", 98704),
+        // A bar left two pieces, or none, through the edge in which their wall ends.
+        ("reordered", 23975),
+        ("scaled", 69375),
+        ("reordered", 85273),
+        ("group_frame", 97611),
+        // A ball's centre on the edge in which the wall between two pieces ends, pushed by both.
+        ("scaled", 48503),
+        ("cut", 64721),
+        // A vertex that lies in front of its own face by the rounding of single precision, below an ellipsoid.
+        ("reordered", 87530),
+        // An ellipsoid's centre on the rim of a plate.
+        ("group_frame", 93627),
+        // Two balls, one almost in the other's centre.
+        ("beside", 26535),
         // Two jumps at one place, which rounding combined otherwise.
         ("turned", 75486),
         ("turned", 87486),

@@ -19,7 +19,8 @@
 //! beyond the edge, behind it if it would push a ball.
 //!
 //! Degenerate cases: centre in the plane, on an edge or a vertex counts as in front; there the nearest surface point's
-//! normal decides.
+//! normal decides. A centre on an edge that may push is taken as a hair's breadth away from it, along the mean of the normals
+//! there: which side of the edge rounding puts it on says nothing.
 
 use super::behind_triangle::has_behind;
 use super::ellipsoid_math::{
@@ -216,6 +217,13 @@ impl Tester<'_> {
         })
     }
 
+    /// Whether the centre lies on the line of edge `k`, which may push, within rounding.
+    fn is_on_rim(&self, k: usize) -> bool {
+        self.height.abs() <= self.foot_slack
+            && self.edges.beyond(k, &self.ellipsoid.center).abs() <= self.foot_slack
+            && !matches!(self.edges.class(k), EdgeClass::Silent { .. })
+    }
+
     /// Whether the face stands in for a foot that it does not hold: beyond an edge by rounding, or where concave and flat
     /// edges have lost it and the centre says so (see the head of this file).
     fn stands_in(&self, foot: &Vec3) -> bool {
@@ -315,7 +323,7 @@ impl Tester<'_> {
             return [None, None];
         }
         let [first, _] = self.view.edge_ends(k);
-        let from_edge = self.ellipsoid.center - first;
+        let mut from_edge = self.ellipsoid.center - first;
         let neighbor = match self.edges.class(k) {
             EdgeClass::Silent { .. } => return [None, None],
             EdgeClass::Free if self.is_behind(self.height) => return [None, None],
@@ -323,6 +331,12 @@ impl Tester<'_> {
             EdgeClass::Convex { normal, outward, .. } => Some((normal, outward)),
         };
         let outward = self.edges.outward(k);
+        let mean =
+            || (self.view.normal + neighbor.map_or(outward, |(other, _): (Vec3, Vec3)| other)).normalize();
+        let on_rim = self.is_on_rim(k).then(mean);
+        if let Some(mean) = on_rim {
+            from_edge = mean * self.foot_slack;
+        }
         let shadow = Shadow::new(self.prepared, &self.view.normal, &outward);
         let y = shadow.components(&from_edge);
         let at_foot = |foot: NormalFoot<2>, limit: f64| {
@@ -330,6 +344,9 @@ impl Tester<'_> {
                 return None;
             }
             let normal = shadow.vector(&foot.normal);
+            if on_rim.is_some_and(|mean| mean.dot(&normal) <= 0.0) {
+                return None;
+            }
             // Where the two faces are flat but for rounding, the normals within the slack are those of the back as well.
             if neighbor.is_some_and(|(other, _)| (self.view.normal + other).dot(&normal) <= 0.0) {
                 return None;

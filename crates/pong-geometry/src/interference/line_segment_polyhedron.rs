@@ -19,7 +19,7 @@
 //! face takes no part; a segment that only touches has no contact; ties go to the lower face.
 
 use super::Interference;
-use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls};
+use super::segment_at_walls::{end_that_crosses, inside_of_wide_walls, leaves_at_wall};
 use super::segment_bounds::{Bounds, Missed, SegmentPlanes};
 use super::segment_ends::{AtEnd, InsideEnd, Measured, Wedge};
 use crate::primitive::{Containment, FacePlanes, LineSegment, Polyhedron};
@@ -40,6 +40,10 @@ pub enum AtWall {
     SharedEdge,
     /// Of a tip beyond a wall by no more than rounding: counts if the tip is in no piece at all.
     StandsIn,
+    /// The segment leaves by an active face where a wall ends: the piece behind the wall may have this end as well.
+    Exit,
+    /// The same where rounding tells the wall: counts if no other piece has the end, and none holds what lies beyond.
+    ExitStandsIn,
 }
 
 /// Energies this close are a tie, so that rounding does not choose between equal faces.
@@ -52,7 +56,8 @@ pub fn line_segment_polyhedron(segment: &LineSegment, polyhedron: &Polyhedron) -
     let counts = |(contact, at_wall): &(Interference, AtWall)| match at_wall {
         AtWall::No => true,
         AtWall::SharedEdge => polyhedron.edges[contact.feature.index()].push.is_some(),
-        AtWall::StandsIn => false,
+        AtWall::Exit => true,
+        AtWall::StandsIn | AtWall::ExitStandsIn => false,
     };
     line_segment_piece(segment, polyhedron).map(|found| found.filter(counts).map(|(contact, _)| contact))
 }
@@ -93,7 +98,7 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
     polyhedron: &Polyhedron,
 ) -> PieceContacts {
     let planes = SegmentPlanes::new(simd, segment, polyhedron);
-    let inside = match planes.inside_part::<F, N>() {
+    let mut inside = match planes.inside_part::<F, N>() {
         Ok(inside) => inside,
         Err(missed) => {
             let has_walls = !polyhedron.planes().all_active;
@@ -101,7 +106,12 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
             return if may_be_at_walls { along_walls(segment, polyhedron) } else { [None, None] };
         }
     };
-    let mut search = Search { segment, polyhedron, inside: inside.ends, best: None };
+    let exits = if polyhedron.planes().all_active {
+        [AtWall::No; 2]
+    } else {
+        told_by_faces(segment, polyhedron, &mut inside.ends)
+    };
+    let mut search = Search { segment, polyhedron, inside: inside.ends, exits, best: None };
     let moderate =
         polyhedron.planes().moderate && is_moderate(&segment.ends[0]) && is_moderate(&segment.ends[1]);
     if polyhedron.planes().blocks.len() > N || !moderate {
@@ -121,13 +131,30 @@ fn test<S: Simd, F: Finder<S>, const N: usize>(
 /// Then each of them answers for its endpoints as if it held them; which one counts is decided for the whole body.
 #[cold]
 fn along_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> PieceContacts {
-    let Some(inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
-    let mut search = Search { segment, polyhedron, inside, best: None };
+    let Some(mut inside) = inside_of_wide_walls(segment, polyhedron) else { return [None, None] };
+    let exits = told_by_faces(segment, polyhedron, &mut inside);
+    let mut search = Search { segment, polyhedron, inside, exits, best: None };
     search.visit_all();
     let contacts = search.contacts();
     [0, 1].map(|end: usize| {
-        let at_tip = contacts[end].filter(|(contact, _)| contact.deepest_b == segment.ends[end]);
-        at_tip.map(|(contact, _)| (contact, AtWall::StandsIn))
+        let (contact, at_wall) = contacts[end]?;
+        match at_wall {
+            AtWall::Exit | AtWall::ExitStandsIn => Some((contact, AtWall::ExitStandsIn)),
+            _ if contact.deepest_b == segment.ends[end] => Some((contact, AtWall::StandsIn)),
+            _ => None,
+        }
+    })
+}
+
+/// Which ends leave where an inner wall ends; these leave by the active face there, whichever of the two rounding tells.
+fn told_by_faces(segment: &LineSegment, polyhedron: &Polyhedron, inside: &mut [InsideEnd; 2]) -> [AtWall; 2] {
+    [0, 1].map(|end: usize| match leaves_at_wall(segment, polyhedron, &inside[end], end) {
+        None => AtWall::No,
+        Some(told) => {
+            let is_told = told.leaves_by == inside[end].leaves_by;
+            inside[end] = told;
+            if is_told { AtWall::Exit } else { AtWall::ExitStandsIn }
+        }
     })
 }
 
@@ -140,6 +167,8 @@ struct Search<'a> {
     segment: &'a LineSegment,
     polyhedron: &'a Polyhedron,
     inside: [InsideEnd; 2],
+    /// Whether each end leaves where an inner wall ends.
+    exits: [AtWall; 2],
     best: Option<Stored>,
 }
 
@@ -233,14 +262,14 @@ impl Search<'_> {
         if exit.is_some_and(|exit| !self.polyhedron.faces[exit].active) {
             return self.carried_at_wall(best, end, contact);
         }
-        let contact = contact?;
+        let (contact, at_wall) = (contact?, self.exits[end]);
         let end = match (&best.ends[end], exit) {
             (Measured::Crossing(_), Some(exit)) if self.is_claimed_by_both(best, end, exit) => {
                 Wedge::of_faces(self.polyhedron, best.face, exit).farther_out(self.segment, end)
             }
             _ => end,
         };
-        Some(((contact, AtWall::No), end))
+        Some(((contact, at_wall), end))
     }
 
     /// Whether the segment enters by the best face and leaves by another at an end, and both measure the one crossing.
@@ -267,7 +296,8 @@ impl Search<'_> {
             // A tip that is at walls within rounding is asked for among all faces: along a wall, what is inside by rounding
             // alone says nothing.
             None if self.polyhedron.containment(&self.segment.ends[end]) != Containment::Outside => {
-                along_walls(self.segment, self.polyhedron)[end].map(|found| (found, end))
+                let stood_in = along_walls(self.segment, self.polyhedron)[end];
+                stood_in.filter(|(_, at_wall)| *at_wall == AtWall::StandsIn).map(|found| (found, end))
             }
             None => None,
         }

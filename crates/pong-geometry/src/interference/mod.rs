@@ -20,7 +20,7 @@ pub mod point_sphere;
 pub mod ray_plane;
 pub mod ray_polyhedron;
 pub mod ray_triangle;
-mod segment_at_walls;
+pub mod segment_at_walls;
 mod segment_bounds;
 mod segment_ends;
 pub mod sphere_plane;

@@ -2,6 +2,10 @@
 //! [`line_segment_polyhedron`](super::line_segment_polyhedron)). The piece behind the wall carries the end, with two
 //! exceptions: a convex edge of the body in which the wall ends pushes, once for all pieces that have it, and a tip where
 //! several walls meet may lie in none of the pieces there.
+//!
+//! Where a segment leaves the body through the edge of an active face in which a wall ends, rounding decides by which of the
+//! two planes it leaves a piece, and whether the piece behind the wall holds anything of it. So it leaves by the active face
+//! of each piece that it leaves there, and the body says which of these pieces carries the end ([`exit_at_wall`]).
 
 use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
@@ -10,9 +14,14 @@ use crate::primitive::{LineSegment, Polyhedron};
 
 /// The part of a segment inside a piece whose inner walls stand out by what is within rounding of them.
 pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
+    inside_of(segment, polyhedron, polyhedron.planes().wall_slack)
+}
+
+/// The part of a segment inside a piece whose inner walls stand out by `room` (m).
+fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Option<[InsideEnd; 2]> {
     let mut ends = [0.0, 1.0].map(|at| InsideEnd { at, leaves_by: None });
     for (index, face) in polyhedron.faces.iter().enumerate() {
-        let room = if face.active { 0.0 } else { polyhedron.planes().wall_slack };
+        let room = if face.active { 0.0 } else { room };
         let [first, second] = segment.ends.map(|end| face.height(&end) - room);
         if first >= 0.0 && second >= 0.0 {
             return None;
@@ -59,4 +68,70 @@ pub(super) fn end_that_crosses(
         (false, true) => Some(1 - end),
         (false, false) => None,
     }
+}
+
+/// Where a segment leaves the body through the edge of an active face in which an inner wall of a piece ends, or ends at one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExitAtWall {
+    /// Whether the segment ends there.
+    pub is_tip: bool,
+    /// From where to where the segment is inside the piece, as parameters along the segment (no unit).
+    pub inside: [f64; 2],
+    /// Parameters along the segment that are no further apart than this are one place (no unit).
+    pub slack: f64,
+}
+
+/// How a segment leaves a piece at one of its ends, if that is where an inner wall ends; or where it ends itself, if that is at a
+/// wall.
+pub fn exit_at_wall(segment: &LineSegment, polyhedron: &Polyhedron, end: usize) -> Option<ExitAtWall> {
+    let inside = inside_of(segment, polyhedron, 0.0).or_else(|| inside_of_wide_walls(segment, polyhedron))?;
+    let is_tip = inside[end].leaves_by.is_none();
+    if is_tip {
+        polyhedron.walls_at(&segment.ends[end]).next()?;
+    } else {
+        leaves_at_wall(segment, polyhedron, &inside[end], end)?;
+    }
+    let length = (segment.ends[1] - segment.ends[0]).norm();
+    Some(ExitAtWall {
+        is_tip,
+        inside: inside.map(|end| end.at),
+        slack: polyhedron.planes().wall_slack / if length > 0.0 { length } else { 1.0 },
+    })
+}
+
+/// From where to where a segment is inside a piece, as parameters along the segment.
+pub fn part_inside(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[f64; 2]> {
+    inside_of(segment, polyhedron, 0.0).map(|ends| ends.map(|end| end.at))
+}
+
+/// Whether a segment leaves by an edge of an active face in which an inner wall ends, whichever of the two planes rounding
+/// tells; then the end as the active face has it.
+pub(super) fn leaves_at_wall(
+    segment: &LineSegment,
+    polyhedron: &Polyhedron,
+    inside: &InsideEnd,
+    end: usize,
+) -> Option<InsideEnd> {
+    let leaves_by = inside.leaves_by?;
+    let (from, to) = (&segment.ends[1 - end], &segment.ends[end]);
+    let place = segment.ends[0] + (segment.ends[1] - segment.ends[0]) * inside.at;
+    if polyhedron.faces[leaves_by].active {
+        return polyhedron.walls_at(&place).next().is_some().then_some(*inside);
+    }
+    // Beyond the wall it leaves by the active face as well, no farther than the slack along its way.
+    let (length, slack) = ((to - from).norm(), polyhedron.planes().wall_slack);
+    let exit = |other: usize| {
+        let [before, beyond] = [from, to].map(|tip| polyhedron.height(other, tip));
+        let is_there = beyond >= 0.0
+            && before < 0.0
+            && -polyhedron.height(other, &place) * length <= slack * (beyond - before);
+        let share = before / (before - beyond);
+        is_there
+            .then_some(InsideEnd { at: if end == 1 { share } else { 1.0 - share }, leaves_by: Some(other) })
+    };
+    let nearer = |a: &InsideEnd, b: &InsideEnd| if end == 1 { a.at <= b.at } else { a.at >= b.at };
+    // Of walls in one plane rounding may tell another.
+    let rims = polyhedron.walls_at(&place).flat_map(|wall| polyhedron.rims_of(wall));
+    let beside = rims.map(|rim| rim.neighbor as usize).filter(|&other| polyhedron.faces[other].active);
+    beside.filter_map(exit).reduce(|a, b| if nearer(&a, &b) { a } else { b })
 }

@@ -3,7 +3,7 @@
 
 use super::{Feature, Interference};
 use crate::Vec3;
-use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace};
+use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
 
 /// One end of the part of the segment inside the solid.
 #[derive(Clone, Copy)]
@@ -156,6 +156,17 @@ impl AtEnd<'_> {
         self.segment.ends[0] + self.along() * self.inside.at
     }
 
+    /// The outline's edge in which the wall ends that the segment leaves by. Of walls in one plane rounding may tell another.
+    #[cold]
+    fn rim_at_wall(&self) -> Option<&RimEdge> {
+        let (place, slack) = (self.leaving(), self.polyhedron.planes().wall_slack);
+        let is_there = |rim: &&RimEdge| {
+            let neighbor = &self.polyhedron.faces[rim.neighbor as usize];
+            !neighbor.active && neighbor.height(&place).abs() <= slack
+        };
+        self.polyhedron.rim(self.face).iter().find(is_there)
+    }
+
     /// `None` if the planes do not meet.
     #[inline(always)]
     fn crossing(&self, leaves_by: usize) -> Option<Crossing> {
@@ -175,8 +186,9 @@ impl AtEnd<'_> {
         // The nearest point lies where the edge's line, δ·u above it, is in the plane of the exit face.
         let back = crossing.depth * exit.normal.dot(&normal) / exit.normal.dot(&along);
         let nearest = self.leaving() - along * back;
-        let shared =
-            self.polyhedron.rim(self.face).iter().find(|rim| rim.neighbor as usize == crossing.leaves_by);
+        let rims = self.polyhedron.rim(self.face);
+        let leaves_by_rim = rims.iter().find(|rim| rim.neighbor as usize == crossing.leaves_by);
+        let shared = leaves_by_rim.or_else(|| if exit.active { None } else { self.rim_at_wall() });
         let feature = shared.map_or(Feature::face(self.face), |rim| Feature::edge(rim.edge as usize));
         Interference { depth: crossing.depth, normal_b: normal, deepest_b: nearest, feature }
     }

@@ -97,7 +97,12 @@ impl PolyhedronParts {
     /// The outline of a face.
     #[inline]
     pub fn rim(&self, face: usize) -> &[RimEdge] {
-        let face = &self.faces[face];
+        self.rims_of(&self.faces[face])
+    }
+
+    /// The outline of a face, told by itself.
+    #[inline]
+    pub fn rims_of(&self, face: &PolyhedronFace) -> &[RimEdge] {
         &self.rims[face.first_rim as usize..(face.first_rim + face.rim_count) as usize]
     }
 

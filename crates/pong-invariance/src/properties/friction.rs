@@ -86,8 +86,10 @@ pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
         let Ok(again) = base.stage.evaluate(&other) else { return Verdict::DoesNotApply };
         let apart = distance(&first.wrenches, &again.wrenches, scene.size);
         let largest = base.largest(frame);
-        // Springs of both directions over the step; what turns, turns by the step over the size.
-        let steep = 16.0 * (scene.stiffness() + largest / scene.size);
+        // Springs of both directions over the step; what turns, turns by the step over the size, and the line of two centres by
+        // the step over their distance.
+        let arm = distance_of_centers(&scene, states).min(scene.size);
+        let steep = 16.0 * (scene.stiffness() + largest / arm);
         let rounding = 64.0 * f64::EPSILON * scene.size * scene.stiffness();
         let is_same = first.contacts.len() == again.contacts.len();
         if is_same && apart > steep * step + rounding + 1e-12 * largest {
@@ -95,6 +97,21 @@ pub fn beside(base: &mut Base, random: &mut Random) -> Verdict {
         }
     }
     Verdict::Agrees
+}
+
+/// The least distance of a point or the centre of a ball of A from the centre of a ball of B, m; infinite if there is none.
+fn distance_of_centers(scene: &Scene, states: &[State; 2]) -> f64 {
+    let centers = |body: usize, with_points: bool| {
+        let pose = states[body].pose();
+        let shapes = scene.bodies[body].shapes.iter().filter_map(move |shape| match shape {
+            Shape::Sphere { center, .. } => Some(*center),
+            Shape::Point { position } if with_points => Some(*position),
+            _ => None,
+        });
+        shapes.map(move |center| pose.position + pose.orientation * center)
+    };
+    let of_one = |a: Vec3| centers(1, false).map(|b| (a - b).norm()).fold(f64::INFINITY, f64::min);
+    centers(0, true).map(of_one).fold(f64::INFINITY, f64::min)
 }
 
 /// A ball led without slip, spinning about the normal, over a fixed ball or a plane.

@@ -1,5 +1,6 @@
 //! Which of the interferences found for a chunk of A count, and with what weight.
 
+mod exits;
 mod pieces;
 mod ray_hits;
 mod rims;
@@ -8,9 +9,10 @@ pub(crate) mod solver;
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
 use crate::state::{ContactRole, NO_FACE};
+use exits::{is_exit_that_stands_in, keep_one_of_exits};
 use pieces::{
-    are_convex, are_in_both_planes, are_one_place, drop_what_the_body_lacks, next_deeper, pushes_before,
-    touch_convexly, touched,
+    are_convex, are_in_both_planes, are_one_place, drop_second_of_edges, drop_what_the_body_lacks,
+    next_deeper, pushes_before, touch_convexly, touched,
 };
 use pong_arena::{Arena, Full, List};
 use pong_geometry::Vec3;
@@ -69,6 +71,10 @@ pub(crate) fn assign_weights(
                 (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
                     drop_what_the_body_lacks(group, &context.body_b.polyhedra);
                 }
+                (PrimitiveKind::Sphere, PrimitiveKind::Polyhedron) => {
+                    let radius = context.body_a.spheres[group[0].element_a as usize].radius;
+                    drop_second_of_edges(group, radius, &context.body_b.polyhedra);
+                }
                 (PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => drop_deeper_faces(group),
                 _ => {}
             }
@@ -80,6 +86,7 @@ pub(crate) fn assign_weights(
 
 fn is_at_wall(contact: &ContactCandidate) -> bool {
     matches!(contact.status, CandidateStatus::AtWall | CandidateStatus::BeyondWall)
+        || is_exit_that_stands_in(contact)
 }
 
 /// A point (or a sphere's centre) at inner walls of a body is in one of its pieces, whatever rounding says: where several
@@ -112,13 +119,16 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
 /// The endpoint of a segment at inner walls of a body is in one of its pieces as well, and decided alike. Where a segment crosses an
 /// edge differs from piece to piece and is another contact; its endpoint is the same to the bit.
 fn choose_piece_of_end_at_walls(group: &mut [ContactCandidate], context: &PairContext<'_>) {
+    keep_one_of_exits(group, context);
     keep_first_of_edges(group, &context.body_b.polyhedra);
     let Some(endpoint) = group.iter().find(|found| is_at_wall(found) && found.feature.is_face()) else {
         return;
     };
     let endpoint = endpoint.deepest_b;
-    let in_piece =
-        |found: &ContactCandidate| found.deepest_b == endpoint && found.status != CandidateStatus::BeyondWall;
+    let in_piece = |found: &ContactCandidate| {
+        let counts = !matches!(found.status, CandidateStatus::BeyondWall | CandidateStatus::Culled);
+        counts && found.deepest_b == endpoint
+    };
     let first = group
         .iter()
         .position(in_piece)

@@ -1,7 +1,9 @@
-//! Which contacts of one ellipsoid with the pieces of one body count: those that the uncut body would have.
+//! Which contacts of one ellipsoid or sphere with the pieces of one body count: those that the uncut body would have.
 
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use crate::state::{ContactRole, NO_FACE};
 use pong_geometry::Vec3;
+use pong_geometry::interference::FeatureKind;
 use pong_geometry::primitive::Polyhedron;
 
 /// Relative: depths this close are one depth, so that rounding does not choose between two features.
@@ -72,7 +74,30 @@ fn meet_convexly(contact: &ContactCandidate, other: &ContactCandidate, pieces: &
         // Where the pieces meet, two faces are touched in one place: that says nothing, the faces themselves do.
         return lies_below(contact, other, pieces) && lies_below(other, contact, pieces);
     }
-    touch_convexly(contact, other)
+    is_part_of(contact, other, pieces) || is_part_of(other, contact, pieces) || touch_convexly(contact, other)
+}
+
+/// Whether the first contact is of an edge or a vertex of the face or the edge of the second. What pushes there is convex; the
+/// places say less, since corners in single precision may lie in front of the plane.
+fn is_part_of(contact: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhedron]) -> bool {
+    let piece = &pieces[contact.element_b as usize];
+    let is_corner = |vertex: u32| has_corner(other, &piece.vertices[vertex as usize].position, pieces);
+    match contact.feature.kind() {
+        FeatureKind::Face => false,
+        FeatureKind::Edge => piece.edges[contact.feature.index()].vertices.iter().all(|v| is_corner(*v)),
+        FeatureKind::Vertex => is_corner(contact.feature.index() as u32),
+    }
+}
+
+/// Whether a face or an edge that pushes has a corner at a place.
+fn has_corner(contact: &ContactCandidate, place: &Vec3, pieces: &[Polyhedron]) -> bool {
+    let (piece, index) = (&pieces[contact.element_b as usize], contact.feature.index());
+    let is_there = |vertex: u32| piece.vertices[vertex as usize].position == *place;
+    match contact.feature.kind() {
+        FeatureKind::Face => piece.rim(index).iter().any(|rim| is_there(rim.start)),
+        FeatureKind::Edge => piece.edges[index].vertices.iter().any(|vertex| is_there(*vertex)),
+        FeatureKind::Vertex => false,
+    }
 }
 
 /// Whether the features of two contacts belong to one convex body, by the places that are touched.
@@ -124,4 +149,66 @@ fn lies_below(of: &ContactCandidate, other: &ContactCandidate, pieces: &[Polyhed
     let corners = piece.rim(of.feature.index()).iter().map(|rim| piece.vertices[rim.start as usize].position);
     corners.map(|corner| plane.height(&corner)).fold(f64::NEG_INFINITY, f64::max)
         <= PLANE_SLACK * piece.diameter
+}
+
+/// Marks as dropped what a sphere has twice on a convex edge in which a wall ends (`group`: its contacts with the pieces of one
+/// body).
+///
+/// A centre on such an edge lies in the planes of the faces on both sides, and each of them belongs to another piece. Where
+/// corners are rounded to single precision, the outlines of the two overlap. The uncut body has one contact there: the less deep
+/// counts.
+pub(super) fn drop_second_of_edges(group: &mut [ContactCandidate], radius: f64, pieces: &[Polyhedron]) {
+    let is_on_surface = |contact: &ContactCandidate| {
+        let slack = pieces[contact.element_b as usize].planes().wall_slack;
+        let counts = contact.status != CandidateStatus::Culled && contact.role == ContactRole::Active;
+        counts && (contact.depth - radius).abs() <= slack
+    };
+    for i in 0..group.len() {
+        let contact = &group[i];
+        if !is_on_surface(contact) {
+            continue;
+        }
+        let is_second = group.iter().any(|other| {
+            is_on_surface(other)
+                && other.element_b != contact.element_b
+                && pushes_before(other, contact)
+                && share_an_edge(contact, other, radius, pieces)
+        });
+        if is_second && contact.entry_face != NO_FACE {
+            group[i].role = ContactRole::Tracked;
+        } else if is_second {
+            group[i].status = CandidateStatus::Culled;
+        }
+    }
+}
+
+/// Whether the centre of a sphere lies on one convex edge for both of its contacts.
+fn share_an_edge(
+    contact: &ContactCandidate,
+    other: &ContactCandidate,
+    radius: f64,
+    pieces: &[Polyhedron],
+) -> bool {
+    edges_under(contact, radius, pieces)
+        .any(|ends| edges_under(other, radius, pieces).any(|other_ends| ends == other_ends))
+}
+
+/// The ends of the convex edges that the centre of a sphere lies on, of those that what pushes it has.
+fn edges_under<'p>(
+    contact: &ContactCandidate,
+    radius: f64,
+    pieces: &'p [Polyhedron],
+) -> impl Iterator<Item = [Vec3; 2]> + use<'p> {
+    let piece = &pieces[contact.element_b as usize];
+    let (feature, center) = (contact.feature, contact.deepest_b + contact.normal_b * radius);
+    let slack = piece.planes().wall_slack;
+    let face = if feature.is_face() { piece.rim(feature.index()) } else { &[] };
+    let of_face = face.iter().filter(move |rim| rim.outward.dot(&(center - rim.anchor)).abs() <= slack);
+    let alone = (feature.kind() == FeatureKind::Edge).then_some(feature.index());
+    of_face
+        .map(|rim| rim.edge as usize)
+        .chain(alone)
+        .map(|edge| &piece.edges[edge])
+        .filter(|edge| edge.convex.is_some())
+        .map(|edge| edge.vertices.map(|vertex| piece.vertices[vertex as usize].position))
 }

@@ -48,10 +48,11 @@ pub(crate) enum CandidateStatus {
     Fallback,
     /// The same with the centre behind the face.
     BackFaceFallback,
-    /// Stands in for what has lost its foot: counts only where nothing else is as deep.
+    /// Stands in for what has lost its foot: counts only where nothing else is as deep. Of a segment: for what leaves a piece
+    /// within rounding where a wall ends.
     StandIn,
     /// A point or the endpoint of a segment in a piece, at an inner wall, or an edge in which the wall ends: counts unless a
-    /// piece of lower index has it as well.
+    /// piece of lower index has it as well. Also a segment's exit beside a wall, which one piece carries.
     AtWall,
     /// A point or endpoint at an inner wall of a piece, but beyond: counts only where rounding leaves it in no piece at all.
     BeyondWall,

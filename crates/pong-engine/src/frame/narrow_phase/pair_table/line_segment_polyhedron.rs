@@ -24,8 +24,9 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
 /// How an end of a segment in a piece of a body stands among those of the same surface.
 fn status_of_end(contact: &Interference, at_wall: AtWall, piece: &Polyhedron) -> CandidateStatus {
     match at_wall {
-        AtWall::SharedEdge => CandidateStatus::AtWall,
+        AtWall::SharedEdge | AtWall::Exit => CandidateStatus::AtWall,
         AtWall::StandsIn => CandidateStatus::BeyondWall,
+        AtWall::ExitStandsIn => CandidateStatus::StandIn,
         AtWall::No if piece.planes().all_active || !contact.feature.is_face() => CandidateStatus::Front,
         AtWall::No => match piece.containment(&contact.deepest_b) {
             Containment::AtWall | Containment::BeyondWall => CandidateStatus::AtWall,
