@@ -44,6 +44,7 @@ impl Scene {
             "ring" => Self::ring(&Ring::new(ring::SIZES[1]), Tip::Sphere),
             "wheels" => Self::wheels(&Terrain::SIZES[1], Wheel::BOTH[0]),
             "contact" => Self::spheres_on_plane(1, 0.0),
+            "contacts" => Self::spheres_on_plane(65, 0.0),
             other => Err(format!("{other}: use one of {}", FIXED.join(", ")).into()),
         }
     }
