@@ -13,7 +13,8 @@ use pong_geometry::simd::{Level, set_level};
 use std::error::Error;
 use std::sync::Arc;
 
-const SCENES: &str = "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels, contact, contacts";
+const SCENES: &str =
+    "docking, docking_crowded, docking_unused, docking_pair_off, ring, wheels, contact, contacts";
 /// Objects that meet nobody, in a crowded scene.
 const BYSTANDERS: usize = 1000;
 /// What is read before a cold frame, bytes: twice the largest cache that `ci/instructions` simulates.
