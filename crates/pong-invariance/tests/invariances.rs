@@ -123,6 +123,7 @@ fn balls_in_valleys_and_bowls() {
 fn ellipsoids_beside_the_walls_between_pieces() {
     let are_ellipsoids = |scene: &Scene| all_touch_as("Ellipsoid", scene);
     nothing_differs_where(&["cut", "turned"], "solid", 3000, are_ellipsoids);
+    nothing_differs_where(&["reordered"], "junction", 4000, are_ellipsoids);
 }
 
 #[test]
