@@ -56,9 +56,9 @@ fn corners(vertices: &[Vec3], face: &[u32]) -> Vec<Vec3> {
 pub(super) fn edges(vertices: &[Vec3], faces: &[Vec<u32>]) -> Checked {
     let without = |(index, face): (usize, &Vec<u32>)| {
         let (a, _) = polygon::edges(face).find(|(a, b)| a == b)?;
-        let cause = "two neighbouring vertices are the same place".to_owned();
-        let problem = Problem::new(Some(index), "zero-length-edge", cause, "merge the two");
-        Some(problem.at(&[vertices[a as usize]]))
+        let vertex = vertices[a as usize];
+        let cause = format!("two neighbouring vertices are the same place, {}", place(&vertex));
+        Some(Problem::new(Some(index), "zero-length-edge", cause, "merge the two").at(&[vertex]))
     };
     verdict(faces.iter().enumerate().filter_map(without).collect())
 }
@@ -106,7 +106,8 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     }
     // Thickness in diameters is about the volume over the largest area.
     if six_volumes.abs() <= PLANE_TOLERANCE * largest_area {
-        return Err(vec![no_thickness()]);
+        let thickness = six_volumes.abs() / (3.0 * largest_area);
+        return Err(vec![no_thickness(None, &format!("about {thickness:.1e} of its diameter thick"))]);
     }
     if six_volumes < 0.0 {
         let cause = "its faces run clockwise seen from outside".to_owned();
@@ -116,9 +117,15 @@ pub(super) fn volume(vertices: &[Vec3], faces: &[Vec<u32>], diameter: f64) -> Ch
     Ok(())
 }
 
-pub(super) fn no_thickness() -> Problem {
-    let cause = format!("the solid is thinner than {PLANE_TOLERANCE:.0e} of its diameter");
-    Problem::new(None, "zero-volume", cause, "give it a thickness, or use triangles")
+/// What is told of a solid without thickness: behind which face, and how thick it is.
+fn no_thickness(face: Option<usize>, how_thick: &str) -> Problem {
+    let cause = format!("the solid is {how_thick}; it has to be thicker than {PLANE_TOLERANCE:.0e}");
+    Problem::new(face, "zero-volume", cause, "give it a thickness, or use triangles")
+}
+
+/// What is told where no faces are left that make a solid.
+pub(super) fn too_few_faces() -> Problem {
+    no_thickness(None, "as good as flat: its faces lie in fewer than four planes")
 }
 
 /// Faces of more than three vertices lie in a plane.
@@ -173,8 +180,14 @@ pub(super) fn dented(vertices: &[Vec3], face: &HullFace, diameter: f64) -> Optio
 /// There is something behind every face. Merged to fewer than four, the solid would be as good as flat.
 pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Checked {
     let floor = PLANE_TOLERANCE * diameter;
-    let thin = |face: &HullFace| !tree.any_above((&-face.normal, -face.offset), floor);
-    if faces.len() < 4 || faces.iter().any(thin) { Err(vec![no_thickness()]) } else { Ok(()) }
+    if faces.len() < 4 {
+        return Err(vec![too_few_faces()]);
+    }
+    let is_thin = |face: &&HullFace| !tree.any_above((&-face.normal, -face.offset), floor);
+    let thin = faces.iter().find(is_thin).map(|face| face.authored as usize);
+    let told =
+        |face| vec![no_thickness(Some(face), "as good as flat: no vertex is farther behind this face")];
+    thin.map_or(Ok(()), |face| Err(told(face)))
 }
 
 /// None of some vertices that lie in no face lies deeper below the surface than the tolerance.

@@ -137,7 +137,7 @@ impl Solid<'_> {
         }
         checks::convex(vertices, &faces_alone(merged), tree, diameter)?;
         // Faces that others have joined may have a vertex off their plane.
-        Err(checks::planar(vertices, faces, diameter).err().unwrap_or_else(|| vec![checks::no_thickness()]))
+        Err(checks::planar(vertices, faces, diameter).err().unwrap_or_else(|| vec![checks::too_few_faces()]))
     }
 
     /// Whether no corner of a face is beyond one of its walls.
