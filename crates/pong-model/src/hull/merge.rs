@@ -332,8 +332,9 @@ fn drop_between(vertices: &[Vec3], chain: &[u32], tolerance: f64, dropped: &mut 
     }
 }
 
-/// Gives a face that a vertex is in front of, or that does not hold its own, another plane, if one supports the solid and holds the face's vertices: across a
-/// narrow face rounding decides which way its normal points. Answers whether nothing is in front of it then.
+/// Gives a face that a vertex is in front of, or that does not hold its own, the plane that comes nearest to supporting the
+/// solid and holding the face's vertices: across a narrow face rounding decides which way its normal points. Answers whether
+/// it does both.
 pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tolerance: f64) -> bool {
     let face = &mut merged.face;
     let held: Vec<Vec3> = merged.held.iter().map(|&v| vertices[v as usize]).collect();
@@ -342,7 +343,7 @@ pub(super) fn support(vertices: &[Vec3], merged: &mut Merged, tree: &Places, tol
     {
         return true;
     }
-    let Some(plane) = support::plane(&held, (vertices, tree), face.normal, tolerance) else { return false };
+    let (plane, supports) = support::plane(&held, (vertices, tree), face.normal, tolerance);
     (face.normal, face.offset) = plane;
-    true
+    supports
 }

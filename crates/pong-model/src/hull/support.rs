@@ -112,13 +112,13 @@ struct Tried {
 }
 
 /// The plane nearest to the vertices that a face holds, of all that no vertex of the solid is farther in front of than
-/// those; if that is within the tolerance. It is looked for around a normal.
+/// those, and whether that is within the tolerance. It is looked for around a normal.
 pub(super) fn plane(
     held: &[Vec3],
     (vertices, tree): (&[Vec3], &Places),
     around: Vec3,
     tolerance: f64,
-) -> Option<Plane> {
+) -> (Plane, bool) {
     let mut chart = Chart {
         held,
         vertices,
@@ -128,17 +128,15 @@ pub(super) fn plane(
         center: around,
         axes: [Vec3::zeros(); 2],
     };
-    for _ in 0..TURNS {
-        let (best, tilt) = chart.best();
-        if best.distance <= tolerance {
-            return Some(best.plane);
-        }
-        if tilt < FAR {
+    let (mut best, mut tilt) = chart.best();
+    for _ in 1..TURNS {
+        if best.distance <= tolerance || tilt < FAR {
             break;
         }
         chart.center = best.plane.0;
+        (best, tilt) = chart.best();
     }
-    None
+    (best.plane, best.distance <= tolerance)
 }
 
 /// The planes along a face whose normals are a given one, tilted along two axes.
