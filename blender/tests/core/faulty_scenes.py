@@ -446,18 +446,19 @@ def zero_volume():
     return solid(lambda vertices, faces: (vertices * (1.0, 1.0, 1e-8), faces))
 
 
+TETRAHEDRON = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]]
+
+
 @faulty
 def zero_length_edge():
-    def doubled(vertices, faces):
-        return [*vertices, vertices[7]], [faces[0], [4, 5, 7, 8, 6], *faces[2:]]
-
-    return solid(doubled)
+    """Two of four vertices are one: no solid is left without the edge between them."""
+    return one("Polyhedron", mesh([(0, 0, 0), (0, 0, 0), (1, 0, 0), (0, 0, 1)], TETRAHEDRON))
 
 
 @faulty
 def sliver_face():
-    flat = [[0, 2, 3, 1], [0, 1, 3, 2]]
-    return one("Polyhedron", mesh([(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)], [*flat, [0, 1, 2], [1, 3, 2]]))
+    """A face without width, and no solid is left where it joins another."""
+    return one("Polyhedron", mesh([(0, 0, 0), (1, 0, 0), (0.5, 1e-10, 0), (0, 0, 1)], TETRAHEDRON))
 
 
 @faulty
