@@ -32,11 +32,14 @@ pub(crate) struct WideBox {
     high: [f64; 3],
 }
 
-/// One ball per lane in B's frame: centres and radii, m.
+/// One ball per lane in B's frame: centres, m, and radii with room for rounding.
 struct LaneBalls {
     centers: [[f64; LANES]; 3],
-    /// With room for rounding.
-    radii: [f64; LANES],
+    /// Squares of the radii, m². Kept as such: a compiler that squares radii ahead of the loop that may need them does so
+    /// for a chunk without balls, too, and what it squares there may overflow.
+    squares: [f64; LANES],
+    /// Radius of the first, m.
+    first_radius: f64,
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
@@ -262,10 +265,17 @@ impl LaneBoxes {
 impl LaneBalls {
     #[inline(always)]
     fn new(centers: &Lanes, radii: &[f64; LANES]) -> Self {
-        let mut balls = Self { centers: [centers.x, centers.y, centers.z], radii: *radii };
-        for (lane, radius) in balls.radii.iter_mut().enumerate() {
+        let with_room = |lane: usize| {
             let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
-            *radius += margin(size + *radius);
+            radii[lane] + margin(size + radii[lane])
+        };
+        let mut balls = Self {
+            centers: [centers.x, centers.y, centers.z],
+            squares: [0.0; LANES],
+            first_radius: with_room(0),
+        };
+        for (lane, square) in balls.squares.iter_mut().enumerate() {
+            *square = with_room(lane) * with_room(lane);
         }
         balls
     }
@@ -291,15 +301,14 @@ impl LaneBalls {
             let (low, high) = (simd.splat(one.low[axis]), simd.splat(one.high[axis]));
             distance = simd.add(distance, square_outside(simd, center, low, high));
         }
-        let radii = simd.load(&self.radii);
-        simd.bits(simd.at_least(simd.mul(radii, radii), distance))
+        simd.bits(simd.at_least(simd.load(&self.squares), distance))
     }
 
     /// The first ball, as a tree sees it.
     #[inline(always)]
     fn first_narrowed(&self, tree: &BoxTree) -> NarrowBall {
         let [x, y, z] = &self.centers;
-        tree.narrowed_ball(&Vec3::new(x[0], y[0], z[0]), self.radii[0])
+        tree.narrowed_ball(&Vec3::new(x[0], y[0], z[0]), self.first_radius)
     }
 }
 
