@@ -13,8 +13,12 @@ pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
 
 /// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> (f64, f64) {
+    // Without a ramp there is nothing to divide by.
+    if depth >= ramp {
+        return (stiffness, damping);
+    }
     let x = depth / ramp;
-    let slope = if depth < ramp { 6.0 * x * (1.0 - x) / ramp } else { 0.0 };
+    let slope = 6.0 * x * (1.0 - x) / ramp;
     (stiffness + damping * slope * rate, damping * ramp_factor(depth, ramp))
 }
 

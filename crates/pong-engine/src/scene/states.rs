@@ -90,9 +90,11 @@ impl State {
 
     /// Whether a frame can compute with it: [`why_refused`] tells why not.
     fn is_acceptable(&self) -> bool {
-        // Not short of any number: to look at all is quicker than to ask after each.
-        let small =
-            |values: &[f64]| values.iter().fold(true, |all, value| all & (value.abs() <= Self::LARGEST));
+        // Not short of any number: to look at all is quicker than to ask after each. By bits, which grow with the size and
+        // are largest for what is no number: to compare such a value itself is an invalid operation.
+        const SIZE: u64 = u64::MAX >> 1;
+        let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
+        let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));
         let vectors = small(&self.position) & small(&self.linear_velocity) & small(&self.angular_velocity);
         vectors & small(&self.orientation) && self.norm_error() <= NORM_ERROR_MAX
     }
