@@ -14,7 +14,8 @@ pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
 /// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> (f64, f64) {
     // Without a ramp there is nothing to divide by.
-    if depth >= ramp {
+    let on_ramp = depth < ramp;
+    if !on_ramp {
         return (stiffness, damping);
     }
     let x = depth / ramp;
