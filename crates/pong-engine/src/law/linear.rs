@@ -14,8 +14,7 @@ pub(super) fn stored(stiffness: f64, depth: f64) -> f64 {
 /// ∂F/∂δ, N/m, and ∂F/∂δ', N·s/m.
 pub(super) fn tangent(stiffness: f64, damping: f64, ramp: f64, depth: f64, rate: f64) -> (f64, f64) {
     // Without a ramp there is nothing to divide by.
-    let on_ramp = depth < ramp;
-    if !on_ramp {
+    if depth >= ramp {
         return (stiffness, damping);
     }
     let x = depth / ramp;

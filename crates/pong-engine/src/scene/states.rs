@@ -96,7 +96,7 @@ impl State {
         let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
         let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));
         let vectors = small(&self.position) & small(&self.linear_velocity) & small(&self.angular_velocity);
-        vectors & small(&self.orientation) && self.norm_error() <= NORM_ERROR_MAX
+        vectors & small(&self.orientation) && (self.norm() - 1.0).abs() <= NORM_ERROR_MAX
     }
 
     /// Whether every number is the same to the bit. As [`is_acceptable`](Self::is_acceptable), not short of any number.
@@ -109,9 +109,9 @@ impl State {
         pose | linear | differ(&self.angular_velocity, &other.angular_velocity) == 0
     }
 
-    /// How far the quaternion's norm is from 1.
-    fn norm_error(&self) -> f64 {
-        (self.orientation.iter().map(|x| x * x).sum::<f64>().sqrt() - 1.0).abs()
+    /// Of the quaternion.
+    fn norm(&self) -> f64 {
+        self.orientation.iter().map(|x| x * x).sum::<f64>().sqrt()
     }
 
     /// The velocities.
@@ -139,6 +139,5 @@ fn why_refused(state: &State) -> String {
             );
         }
     }
-    let norm = state.orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
-    format!("the quaternion has norm {norm}; give a unit quaternion (w, x, y, z)")
+    format!("the quaternion has norm {}; give a unit quaternion (w, x, y, z)", state.norm())
 }

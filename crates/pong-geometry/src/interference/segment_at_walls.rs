@@ -125,9 +125,10 @@ pub(super) fn leaves_at_wall(
         let is_there = beyond >= 0.0
             && before < 0.0
             && -polyhedron.height(other, &place) * length <= slack * (beyond - before);
-        let share = before / (before - beyond);
-        is_there
-            .then_some(InsideEnd { at: if end == 1 { share } else { 1.0 - share }, leaves_by: Some(other) })
+        is_there.then(|| {
+            let share = before / (before - beyond);
+            InsideEnd { at: if end == 1 { share } else { 1.0 - share }, leaves_by: Some(other) }
+        })
     };
     let nearer = |a: &InsideEnd, b: &InsideEnd| if end == 1 { a.at <= b.at } else { a.at >= b.at };
     // Of walls in one plane rounding may tell another.

@@ -184,10 +184,9 @@ pub(super) fn thickness(faces: &[HullFace], tree: &Places, diameter: f64) -> Che
         return Err(vec![too_few_faces()]);
     }
     let is_thin = |face: &&HullFace| !tree.any_above((&-face.normal, -face.offset), floor);
-    let thin = faces.iter().find(is_thin).map(|face| face.authored as usize);
-    let told =
-        |face| vec![no_thickness(Some(face), "as good as flat: no vertex is farther behind this face")];
-    thin.map_or(Ok(()), |face| Err(told(face)))
+    let Some(thin) = faces.iter().find(is_thin) else { return Ok(()) };
+    let how_thick = "as good as flat: no vertex is farther behind this face";
+    Err(vec![no_thickness(Some(thin.authored as usize), how_thick)])
 }
 
 /// None of some vertices that lie in no face lies deeper below the surface than the tolerance.

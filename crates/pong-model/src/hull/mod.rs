@@ -145,9 +145,12 @@ impl Solid<'_> {
         if checks::dented(self.vertices, face, self.diameter).is_none() {
             return true;
         }
+        if walls == Walls::Edges {
+            return false;
+        }
         let corners: Vec<Vec3> = face.outline.iter().map(|&v| self.vertices[v as usize]).collect();
         let sides = polygon::hull_sides(&corners, &face.normal, PLANE_TOLERANCE * self.diameter);
-        let (Walls::Sides, Some(sides)) = (walls, sides) else { return false };
+        let Some(sides) = sides else { return false };
         face.walls = sides.into_iter().map(|side| side.map(|corner| face.outline[corner])).collect();
         true
     }

@@ -275,7 +275,8 @@ impl LaneBalls {
             first_radius: with_room(0),
         };
         for (lane, square) in balls.squares.iter_mut().enumerate() {
-            *square = with_room(lane) * with_room(lane);
+            let radius = with_room(lane);
+            *square = radius * radius;
         }
         balls
     }
