@@ -301,13 +301,20 @@ fn site(
             let [one, other] = body.segments[element].ends;
             (if (one - from).norm() > (other - from).norm() { one } else { other }, 0.0)
         }
-        // Box of an ellipsoid, of a ray with its tip, of a kind of the host's.
-        PrimitiveKind::Ellipsoid | PrimitiveKind::Ray | PrimitiveKind::Custom => {
+        // Box of an ellipsoid, of a round part, of a ray with its tip, of a kind of the host's.
+        PrimitiveKind::Ellipsoid
+        | PrimitiveKind::Capsule
+        | PrimitiveKind::Cylinder
+        | PrimitiveKind::Cone
+        | PrimitiveKind::Ray
+        | PrimitiveKind::Custom => {
             let item = Item { primitive: primitive as u32, element: info.elements.start };
             let (low, high) = Element::new(body, item).extent();
             (0.5 * (low + high), 0.5 * (high - low).norm())
         }
-        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => return None,
+        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane | PrimitiveKind::Bore => {
+            return None;
+        }
     };
     (center.iter().all(|x| x.is_finite()) && radius.is_finite()).then_some(ContactSite {
         center,

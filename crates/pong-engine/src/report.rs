@@ -91,15 +91,17 @@ impl Tally {
 /// clear one, then takes as long as what is in them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct TallyTable<const KINDS: usize> {
-    /// A bit per tally that is not zero, by number of A's kind and of B's.
-    used: u128,
+    /// A bit per row in which a tally is not zero, by number of A's kind.
+    used: u16,
+    /// Of each row a bit per such tally, by number of B's kind.
+    used_in: [u16; KINDS],
     tallies: [[Tally; KINDS]; KINDS],
 }
 
 impl<const KINDS: usize> Default for TallyTable<KINDS> {
     fn default() -> Self {
-        const { assert!(KINDS * KINDS <= u128::BITS as usize) };
-        Self { used: 0, tallies: [[Tally::default(); KINDS]; KINDS] }
+        const { assert!(KINDS <= u16::BITS as usize) };
+        Self { used: 0, used_in: [0; KINDS], tallies: [[Tally::default(); KINDS]; KINDS] }
     }
 }
 
@@ -107,19 +109,16 @@ impl<const KINDS: usize> TallyTable<KINDS> {
     #[inline]
     fn note(&mut self, a: usize, b: usize, more: Tally) {
         if more != Tally::default() {
-            self.used |= 1 << (a * KINDS + b);
+            self.used |= 1 << a;
+            self.used_in[a] |= 1 << b;
             self.tallies[a][b].add(more);
         }
     }
 
     /// The pairs that are in use, in order of A's kind, then B's.
     fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<KINDS> {
-        let mut left = self.used;
-        std::iter::from_fn(move || {
-            let place = (left != 0).then(|| left.trailing_zeros() as usize)?;
-            left &= left - 1;
-            Some((place / KINDS, place % KINDS))
-        })
+        let used_in = self.used_in;
+        ones(self.used).flat_map(move |a| ones(used_in[a]).map(move |b| (a, b)))
     }
 
     /// The tallies of pairs that were tested.
@@ -133,8 +132,18 @@ impl<const KINDS: usize> TallyTable<KINDS> {
 
     fn clear(&mut self) {
         self.pairs().for_each(|(a, b)| self.tallies[a][b] = Tally::default());
+        ones(self.used).for_each(|a| self.used_in[a] = 0);
         self.used = 0;
     }
+}
+
+/// The places of the bits that are set, from the lowest.
+fn ones(mut bits: u16) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = (bits != 0).then(|| bits.trailing_zeros() as usize)?;
+        bits &= bits - 1;
+        Some(place)
+    })
 }
 
 /// Kinds of primitives.

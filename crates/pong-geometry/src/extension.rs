@@ -4,8 +4,8 @@ use crate::Transform;
 use crate::bounding::{Bounded, CustomVolume, Volume};
 use crate::interference::Interference;
 use crate::primitive::{
-    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere,
-    TriangleSet,
+    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, PrimitiveKind,
+    Ray, Sphere, TriangleSet,
 };
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,10 @@ pub enum PrimitiveRef<'a> {
     Polyhedron(&'a Polyhedron),
     Plane(&'a Plane),
     Custom(&'a dyn CustomPrimitive),
+    Capsule(&'a Capsule),
+    Cylinder(&'a Frustum),
+    Cone(&'a Frustum),
+    Bore(&'a Bore),
 }
 
 /// Makes a custom primitive from the parameters in the model file, or says what is wrong with them.
@@ -144,6 +148,10 @@ impl PrimitiveRef<'_> {
             Self::Polyhedron(_) => PrimitiveKind::Polyhedron,
             Self::Plane(_) => PrimitiveKind::Plane,
             Self::Custom(_) => PrimitiveKind::Custom,
+            Self::Capsule(_) => PrimitiveKind::Capsule,
+            Self::Cylinder(_) => PrimitiveKind::Cylinder,
+            Self::Cone(_) => PrimitiveKind::Cone,
+            Self::Bore(_) => PrimitiveKind::Bore,
         }
     }
 

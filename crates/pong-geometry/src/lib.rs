@@ -32,3 +32,9 @@ pub type Vec3 = nalgebra::Vector3<f64>;
 pub type Mat3 = nalgebra::Matrix3<f64>;
 /// A unit quaternion (w, x, y, z), Hamilton product.
 pub type Quat = nalgebra::UnitQuaternion<f64>;
+
+/// Some unit vector across a unit vector, the same for the same vector.
+pub(crate) fn any_perpendicular(axis: &Vec3) -> Vec3 {
+    let least = axis.iamin();
+    axis.cross(&Vec3::ith(least, 1.0)).normalize()
+}

@@ -65,6 +65,9 @@ impl<'b> Element<'b> {
             PrimitiveKind::Ellipsoid => ask(&WithFeet(&body.ellipsoids[index])),
             PrimitiveKind::Polyhedron => ask(&body.polyhedra[index]),
             PrimitiveKind::Plane => ask(&body.planes[index]),
+            PrimitiveKind::Capsule => ask(&body.capsules[index]),
+            PrimitiveKind::Cylinder | PrimitiveKind::Cone => ask(&body.frusta[index]),
+            PrimitiveKind::Bore => ask(&body.bores[index]),
             PrimitiveKind::Custom => ask(&CustomBounds(body.customs[index].as_ref())),
             PrimitiveKind::Triangle if self.thickness().is_none() => {
                 ask(&PointCloud(&body.triangles.corners(self.item.element)))

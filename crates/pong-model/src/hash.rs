@@ -8,7 +8,7 @@ use crate::fnv::Fnv;
 use crate::model::{Model, MovableGroup, PrimitiveInfo};
 use crate::surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};
 use pong_geometry::Vec3;
-use pong_geometry::primitive::{Polyhedron, RayResponse, TriangleSet};
+use pong_geometry::primitive::{Frustum, Polyhedron, RayResponse, TriangleSet};
 
 /// The hash on its way through a model.
 struct ModelHash(Fnv);
@@ -141,6 +141,27 @@ impl ModelHash {
         });
         self.triangles(&body.triangles);
         self.list(&body.polyhedra, Self::polyhedron);
+        self.round_parts(body);
+    }
+
+    /// The kinds of the primitives tell which of these lists are there: a model without round parts keeps the hash that it had
+    /// before there were any.
+    fn round_parts(&mut self, body: &MovableGroup) {
+        for capsule in &body.capsules {
+            capsule.ends.iter().for_each(|end| self.vector(end));
+            self.number(capsule.radius);
+        }
+        body.frusta.iter().for_each(|frustum| self.frustum(frustum));
+        for bore in &body.bores {
+            self.frustum(&bore.hole);
+            self.number(bore.thickness);
+            bore.mouths.iter().for_each(|&pushes| self.word(u64::from(pushes)));
+        }
+    }
+
+    fn frustum(&mut self, frustum: &Frustum) {
+        frustum.ends.iter().for_each(|end| self.vector(end));
+        frustum.radii.iter().for_each(|&radius| self.number(radius));
     }
 
     fn primitive(&mut self, info: &PrimitiveInfo) {

@@ -5,8 +5,8 @@ use crate::surface::{PairOverride, Surface};
 use pong_geometry::bounding::Volume;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{
-    CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, PrimitiveKind, Ray, Sphere,
-    TriangleSet,
+    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, PrimitiveKind,
+    Ray, Sphere, TriangleSet,
 };
 use pong_geometry::simd::LANES;
 use pong_geometry::{Pose, Vec3};
@@ -62,6 +62,12 @@ pub struct MovableGroup {
     pub polyhedra: Vec<Polyhedron>,
     /// All planes.
     pub planes: Vec<Plane>,
+    /// All capsules.
+    pub capsules: Vec<Capsule>,
+    /// All cylinders and cones.
+    pub frusta: Vec<Frustum>,
+    /// All bores.
+    pub bores: Vec<Bore>,
     /// All custom primitives.
     pub customs: Vec<Arc<dyn CustomPrimitive>>,
     /// Number of shells: connected surfaces of triangles or of polyhedra joined by inner walls (section 2.1);

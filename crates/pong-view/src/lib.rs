@@ -18,6 +18,7 @@ mod error;
 mod html;
 mod hull;
 mod origin;
+mod round;
 mod run;
 mod shape;
 mod surface;

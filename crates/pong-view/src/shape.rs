@@ -2,6 +2,7 @@
 
 use crate::blob::{Blob, Column};
 use crate::hull::hull;
+use crate::round;
 use crate::surface::Surface;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Mat3, Quat, Vec3};
@@ -138,6 +139,11 @@ impl Draft {
             }
             PrimitiveKind::Triangle => self.surface.add_mesh(&body.triangles, info),
             PrimitiveKind::Polyhedron => self.surface.add_polyhedron(&body.polyhedra[index]),
+            PrimitiveKind::Capsule => self.surface.add_hull(&round::of_capsule(&body.capsules[index])),
+            PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+                self.surface.add_hull(&round::of_frustum(&body.frusta[index]))
+            }
+            PrimitiveKind::Bore => self.surface.add_hull(&round::of_bore(&body.bores[index])),
             PrimitiveKind::Custom => self.surface.add_hull(&hull(body.customs[index].as_ref())),
         }
     }

@@ -2,7 +2,9 @@
 
 use super::volume::{Bounded, Volume};
 use crate::Vec3;
-use crate::primitive::{CustomPrimitive, Ellipsoid, LineSegment, Plane, Point, Polyhedron, Ray, Sphere};
+use crate::primitive::{
+    Bore, Capsule, CustomPrimitive, Ellipsoid, Frustum, LineSegment, Plane, Point, Polyhedron, Ray, Sphere,
+};
 
 /// The convex hull of points, for whatever is one: a triangle, a mesh, the vertices of a solid.
 #[derive(Clone, Copy, Debug)]
@@ -127,6 +129,60 @@ impl Bounded for Ellipsoid {
             let arm = self.axes.column(i) * self.semi_axes[i];
             out.extend([self.center + arm, self.center - arm]);
         }
+    }
+}
+
+impl Bounded for Capsule {
+    fn support(&self, direction: &Vec3) -> f64 {
+        PointCloud(&self.ends).support(direction) + self.radius
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        PointCloud(&self.ends).farthest(from) + self.radius
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        self.ends.iter().for_each(|end| ball_representatives(end, self.radius, out));
+    }
+}
+
+impl Bounded for Frustum {
+    fn support(&self, direction: &Vec3) -> f64 {
+        Frustum::support(self, direction)
+    }
+
+    /// The farthest point lies on one of the circles, opposite to where `from` lies beside the axis.
+    fn farthest(&self, from: &Vec3) -> f64 {
+        let of_circle = |end: usize| {
+            let arm = from - self.ends[end];
+            let along = self.axis.dot(&arm);
+            let aside = (arm - self.axis * along).norm();
+            along.hypot(aside + self.radii[end])
+        };
+        largest([0, 1].map(of_circle).into_iter())
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        let across = crate::any_perpendicular(&self.axis);
+        let other = self.axis.cross(&across);
+        for (end, radius) in self.ends.iter().zip(self.radii) {
+            out.extend([across, -across, other, -other].map(|arm| end + arm * radius));
+        }
+    }
+}
+
+/// What a bore may push: all that is in the hole or less than the thickness behind its wall.
+impl Bounded for Bore {
+    fn support(&self, direction: &Vec3) -> f64 {
+        self.hole.support(direction) + self.thickness * direction.cross(&self.hole.axis).norm()
+    }
+
+    fn farthest(&self, from: &Vec3) -> f64 {
+        self.hole.farthest(from) + self.thickness
+    }
+
+    fn representatives(&self, out: &mut Vec<Vec3>) {
+        self.hole.representatives(out);
     }
 }
 

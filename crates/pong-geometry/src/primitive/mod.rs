@@ -7,6 +7,7 @@ mod edge_blocks;
 mod face_planes;
 mod polyhedron;
 mod polyhedron_parts;
+mod round;
 mod simple;
 mod triangles;
 
@@ -17,13 +18,14 @@ pub use polyhedron::{Containment, Polyhedron};
 pub use polyhedron_parts::{
     EdgePush, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,
 };
+pub use round::{Bore, Capsule, Frustum};
 pub use simple::{LineSegment, Plane, Point, Ray, RayResponse};
 pub use triangles::{MayPush, NO_NEIGHBOR, TriangleRecord, TriangleSet};
 
 use crate::Vec3;
 
-/// The kind of a primitive. The order is that of the tester table: for a pair of different kinds, A is the one
-/// listed first.
+/// The kind of a primitive. Its number is part of the hash of models and never changes; what is A of a pair of kinds stands in
+/// the table of pairs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum PrimitiveKind {
@@ -45,11 +47,19 @@ pub enum PrimitiveKind {
     Plane = 7,
     /// A kind added by the user (see [`CustomPrimitive`]).
     Custom = 8,
+    /// Everything within a radius of a segment.
+    Capsule = 9,
+    /// A straight round solid with flat ends.
+    Cylinder = 10,
+    /// A frustum of a cone.
+    Cone = 11,
+    /// The inner wall of a round hole.
+    Bore = 12,
 }
 
 impl PrimitiveKind {
-    /// All kinds, in order.
-    pub const ALL: [Self; 9] = [
+    /// All kinds, by number.
+    pub const ALL: [Self; 13] = [
         Self::Point,
         Self::LineSegment,
         Self::Ray,
@@ -59,6 +69,10 @@ impl PrimitiveKind {
         Self::Polyhedron,
         Self::Plane,
         Self::Custom,
+        Self::Capsule,
+        Self::Cylinder,
+        Self::Cone,
+        Self::Bore,
     ];
 
     /// The name as the model file spells it.
@@ -73,6 +87,10 @@ impl PrimitiveKind {
             Self::Polyhedron => "Polyhedron",
             Self::Plane => "Plane",
             Self::Custom => "Custom",
+            Self::Capsule => "Capsule",
+            Self::Cylinder => "Cylinder",
+            Self::Cone => "Cone",
+            Self::Bore => "Bore",
         }
     }
 }

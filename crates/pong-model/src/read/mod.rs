@@ -10,6 +10,7 @@ mod opened_primitive;
 mod place;
 mod primitive;
 mod reader;
+mod round;
 mod scalar;
 mod size;
 mod suggest;

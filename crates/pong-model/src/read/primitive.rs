@@ -4,7 +4,7 @@ use super::fields::Fields;
 use super::opened_primitive::Primitive;
 use super::place::{GroupReader, Place, authored_name, read_name, surface_index};
 use super::reader::Reader;
-use super::{custom, mesh_primitive, size};
+use super::{custom, mesh_primitive, round, size};
 use crate::draft::BodyDraft;
 use crate::model::{Item, PrimitiveInfo};
 use crate::ron_tree::Node;
@@ -14,7 +14,7 @@ use pong_geometry::primitive::{
 };
 use std::collections::HashSet;
 
-const KINDS: [&str; 10] = [
+const KINDS: [&str; 14] = [
     "Point",
     "Plane",
     "LineSegment",
@@ -24,6 +24,10 @@ const KINDS: [&str; 10] = [
     "Triangle",
     "TriangleMesh",
     "Polyhedron",
+    "Capsule",
+    "Cylinder",
+    "Cone",
+    "Bore",
     "Custom",
 ];
 
@@ -88,6 +92,9 @@ fn allowed(kind: &str) -> Vec<&'static str> {
         "Triangle" => &["vertices", "thickness", "two_sided"],
         "TriangleMesh" => &["vertices", "triangles", "file", "scale", "thickness", "two_sided"],
         "Polyhedron" => &["vertices", "faces", "file", "scale", "inactive_faces"],
+        "Capsule" | "Cylinder" => &["ends", "radius"],
+        "Cone" => &["ends", "radii"],
+        "Bore" => &["ends", "radii", "thickness", "mouths"],
         _ => &["kind", "parameters"],
     };
     [&["name", "surface"], own].concat()
@@ -138,6 +145,22 @@ fn read_shape(
         "Polyhedron" => {
             let hull = mesh_primitive::polyhedron(reader, p)?;
             push(&mut p.draft.hulls, hull)
+        }
+        "Capsule" => {
+            let capsule = round::capsule(reader, p)?;
+            push(&mut p.draft.body.capsules, capsule)
+        }
+        "Cylinder" => {
+            let cylinder = round::cylinder(reader, p)?;
+            push(&mut p.draft.body.frusta, cylinder)
+        }
+        "Cone" => {
+            let cone = round::cone(reader, p)?;
+            push(&mut p.draft.body.frusta, cone)
+        }
+        "Bore" => {
+            let bore = round::bore(reader, p)?;
+            push(&mut p.draft.body.bores, bore)
         }
         _ => {
             let primitive = custom::custom(reader, p)?;

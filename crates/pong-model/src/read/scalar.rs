@@ -131,6 +131,31 @@ impl Reader<'_> {
         self.tuple::<3>(node, path, "a tuple of three numbers (x, y, z)").map(Vec3::from)
     }
 
+    /// `(a, b)`, neither below zero.
+    pub(crate) fn not_negative_pair(&mut self, node: &Node, path: &str, what: &str) -> Option<[f64; 2]> {
+        let pair = self.tuple::<2>(node, path, "a tuple of two numbers (at end 0, at end 1)")?;
+        if pair.iter().all(|&x| x >= 0.0) {
+            return Some(pair);
+        }
+        let cause = format!("{what} is {}", pair[0].min(pair[1]));
+        self.fault(node.at, path, "negative", cause, "it must be zero or above");
+        None
+    }
+
+    /// `(true, false)`.
+    pub(crate) fn boolean_pair(&mut self, node: &Node, path: &str) -> Option<[bool; 2]> {
+        let Value::Tuple(None, items) = &node.value else {
+            self.wrong_type(node, path, "a tuple of two of true and false");
+            return None;
+        };
+        let [one, other] = &items[..] else {
+            self.wrong_type(node, path, "a tuple of two of true and false");
+            return None;
+        };
+        let (one, other) = (self.boolean(one, path), self.boolean(other, path));
+        Some([one?, other?])
+    }
+
     /// `N` tuples of three numbers.
     pub(crate) fn vectors<const N: usize>(&mut self, node: &Node, path: &str) -> Option<[Vec3; N]> {
         match &node.value {

@@ -8,7 +8,7 @@ use crate::draft::BodyDraft;
 use crate::limits::{LARGEST_SIZE, SMALLEST_SIZE};
 use crate::model::PrimitiveInfo;
 use pong_geometry::Vec3;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::primitive::{Frustum, PrimitiveKind};
 
 /// Notes a primitive that is too small or too large; whether it is neither.
 pub(super) fn check(reader: &mut Reader<'_>, draft: &BodyDraft, info: &PrimitiveInfo, at: u32) -> bool {
@@ -55,10 +55,28 @@ fn sizes(draft: &BodyDraft, info: &PrimitiveInfo) -> Vec<(&'static str, f64)> {
                 edges.fold((f64::INFINITY, 0.0_f64), |(least, most), edge| (least.min(edge), most.max(edge)));
             sizes.extend([("the longest edge of a triangle", least), ("an edge", most)]);
         }
+        PrimitiveKind::Capsule => {
+            let capsule = &body.capsules[first];
+            let [a, b] = capsule.ends;
+            sizes.extend([("the length", longest(&[a - b])), ("the radius", capsule.radius)]);
+        }
+        PrimitiveKind::Cylinder | PrimitiveKind::Cone => sizes.extend(of_frustum(&body.frusta[first])),
+        PrimitiveKind::Bore => {
+            let bore = &body.bores[first];
+            sizes.extend(of_frustum(&bore.hole));
+            sizes.push(("the thickness", bore.thickness));
+        }
         PrimitiveKind::Polyhedron => sizes.push(("the diameter", draft.hulls[first].diameter)),
         PrimitiveKind::Point | PrimitiveKind::Plane | PrimitiveKind::Custom => {}
     }
     sizes
+}
+
+/// A tip has no radius.
+fn of_frustum(frustum: &Frustum) -> Vec<(&'static str, f64)> {
+    let radii = frustum.radii.into_iter().filter(|radius| *radius > 0.0);
+    let [a, b] = frustum.ends;
+    radii.map(|radius| ("a radius", radius)).chain([("the length", longest(&[a - b]))]).collect()
 }
 
 /// Length of the longest vector, whose squares may lie outside the range of numbers: by its largest component, which is

@@ -1,6 +1,6 @@
 //! A primitive that can be A, in B's frame.
 
-use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, PrimitiveKind, Ray, Sphere};
+use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, PrimitiveKind, Ray, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_model::{Item, MovableGroup};
 
@@ -12,6 +12,9 @@ pub(crate) enum TransformedPrimitive {
     Ray(Ray),
     Sphere(Sphere),
     Ellipsoid(Ellipsoid),
+    Capsule(Capsule),
+    /// A cylinder or a cone.
+    Frustum(Frustum),
 }
 
 impl TransformedPrimitive {
@@ -25,9 +28,12 @@ impl TransformedPrimitive {
             PrimitiveKind::Ray => Self::Ray(body.rays[i].carried(x_ba)),
             PrimitiveKind::Sphere => Self::Sphere(body.spheres[i].carried(x_ba)),
             PrimitiveKind::Ellipsoid => Self::Ellipsoid(body.ellipsoids[i].carried(x_ba)),
+            PrimitiveKind::Capsule => Self::Capsule(body.capsules[i].carried(x_ba)),
+            PrimitiveKind::Cylinder | PrimitiveKind::Cone => Self::Frustum(body.frusta[i].carried(x_ba)),
             PrimitiveKind::Triangle
             | PrimitiveKind::Polyhedron
             | PrimitiveKind::Plane
+            | PrimitiveKind::Bore
             | PrimitiveKind::Custom => return None,
         })
     }
@@ -46,8 +52,20 @@ impl TransformedPrimitive {
             }
             Self::Sphere(sphere) => around(&sphere.center, Vec3::repeat(sphere.radius)),
             Self::Ellipsoid(ellipsoid) => around(&ellipsoid.center, half_sizes(ellipsoid, meets_triangles)),
+            Self::Capsule(Capsule { ends: [a, b], radius }) => {
+                (a.inf(b).add_scalar(-radius), a.sup(b).add_scalar(*radius))
+            }
+            Self::Frustum(frustum) => box_of_frustum(frustum),
         }
     }
+}
+
+/// Least and greatest coordinates of a frustum, m. Apart from the cheap kinds, as an ellipsoid.
+#[inline(never)]
+fn box_of_frustum(frustum: &Frustum) -> (Vec3, Vec3) {
+    let axes = [Vec3::x(), Vec3::y(), Vec3::z()];
+    let along = |sign: f64| Vec3::from(axes.map(|axis| sign * frustum.support(&(axis * sign))));
+    (along(-1.0), along(1.0))
 }
 
 /// Half of the box of an ellipsoid, m. Apart from the other kinds, which are cheap: in one function with it each of them

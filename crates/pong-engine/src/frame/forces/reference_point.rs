@@ -6,7 +6,7 @@ use pong_geometry::primitive::{CustomPrimitive, PrimitiveKind};
 use pong_model::MovableGroup;
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
-/// a segment's end, a ray's tip.
+/// a segment's end, a ray's tip, the end of a round part's axis.
 pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a: u32) -> Vec3 {
     let element = element_a as usize;
     match body_a.primitives[key.primitive_a as usize].kind {
@@ -16,7 +16,23 @@ pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a
         PrimitiveKind::Sphere => body_a.spheres[element].center,
         PrimitiveKind::Ellipsoid => body_a.ellipsoids[element].center,
         PrimitiveKind::Custom => middle(&*body_a.customs[element]),
-        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane => Vec3::zeros(),
+        PrimitiveKind::Capsule => on_axis(&body_a.capsules[element].ends, key.end),
+        PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
+            let [one, other] = body_a.frusta[element].ends;
+            if key.end % 2 == 0 { one } else { other }
+        }
+        PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane | PrimitiveKind::Bore => {
+            Vec3::zeros()
+        }
+    }
+}
+
+/// The end of a round part's axis, or its middle for what touches between the ends.
+fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Vec3 {
+    match end {
+        0 => *one,
+        1 => *other,
+        _ => 0.5 * (one + other),
     }
 }
 

@@ -30,6 +30,10 @@ fn element_ref(body: &MovableGroup, item: Item) -> PrimitiveRef<'_> {
         Triangle => PrimitiveRef::Triangle(&body.triangles, item.element),
         Polyhedron => PrimitiveRef::Polyhedron(&body.polyhedra[i]),
         Plane => PrimitiveRef::Plane(&body.planes[i]),
+        PrimitiveKind::Capsule => PrimitiveRef::Capsule(&body.capsules[i]),
+        PrimitiveKind::Cylinder => PrimitiveRef::Cylinder(&body.frusta[i]),
+        PrimitiveKind::Cone => PrimitiveRef::Cone(&body.frusta[i]),
+        PrimitiveKind::Bore => PrimitiveRef::Bore(&body.bores[i]),
         Custom => PrimitiveRef::Custom(&*body.customs[i]),
     }
 }
