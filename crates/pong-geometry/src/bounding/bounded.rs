@@ -156,8 +156,8 @@ impl Bounded for Frustum {
         let of_circle = |end: usize| {
             let arm = from - self.ends[end];
             let along = self.axis.dot(&arm);
-            let aside = (arm - self.axis * along).norm();
-            along.hypot(aside + self.radii[end])
+            let aside = (arm - self.axis * along).norm() + self.radii[end];
+            (along * along + aside * aside).sqrt()
         };
         largest([0, 1].map(of_circle).into_iter())
     }

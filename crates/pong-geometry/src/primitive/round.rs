@@ -1,4 +1,4 @@
-//! Round parts: capsule, cylinder, cone and bore (docs/theory.md, 2.9).
+//! Round parts: capsule, cylinder, cone and bore (docs/theory.md, 2.8).
 
 use crate::{Transform, Vec3};
 
@@ -52,7 +52,7 @@ impl Frustum {
         let between = ends[1] - ends[0];
         let length = between.norm();
         let widening = radii[1] - radii[0];
-        let slant = length.hypot(widening);
+        let slant = (length * length + widening * widening).sqrt();
         let wall = [-widening / slant, length / slant];
         Self { ends, radii, axis: between / length, length, wall }
     }
