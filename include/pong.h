@@ -462,7 +462,7 @@ typedef struct pong_contact {
     uint32_t feature_kind;
     /// Which one of its kind.
     uint32_t feature_index;
-    /// End of a segment, 0 or 1; 0 otherwise.
+    /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them; 0 otherwise.
     uint32_t end;
     /// 1 if friction sticks, 0 if it slips.
     int32_t sticks;

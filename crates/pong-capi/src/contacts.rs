@@ -46,7 +46,7 @@ pub struct pong_contact {
     pub feature_kind: u32,
     /// Which one of its kind.
     pub feature_index: u32,
-    /// End of a segment, 0 or 1; 0 otherwise.
+    /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them; 0 otherwise.
     pub end: u32,
     /// 1 if friction sticks, 0 if it slips.
     pub sticks: i32,

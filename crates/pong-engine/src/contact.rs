@@ -16,7 +16,8 @@ pub struct Contact {
     pub b: ContactSide,
     /// Feature of B that pushes: kind in the two highest bits (0 face, 1 edge, 2 vertex), index below.
     pub feature: u32,
-    /// End of a segment (0 or 1); 0 otherwise.
+    /// Of a segment or a round part with two ends: 0 and 1 at its ends, 2 between them, and beyond 2 other places of a cylinder's or
+    /// cone's rims (docs/theory.md, 2.8). 0 for all else.
     pub end: u32,
     /// Place c where the force acts, m, in the common frame.
     pub point: Vec3,

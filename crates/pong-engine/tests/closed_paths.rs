@@ -254,3 +254,37 @@ fn point_in_a_box() {
     let tip = model("tip", &elastic(), "Point(name: \"p\", position: (0.05,0,0))");
     check_closed_paths("point–box", &tip, &solid(), (Vec3::new(0.5, 0.4, 0.3), 0.08, 0.4), Allowed::Loss);
 }
+
+const PIN: &str = "Cylinder(name: \"c\", ends: ((-0.5,0.05,0),(0.5,0,0.1)), radius: 0.3)";
+const PLUG: &str = "Cone(name: \"c\", ends: ((-0.5,0,0),(0.5,0.05,0)), radii: (0.4,0.15))";
+const LOG: &str = "Capsule(name: \"c\", ends: ((-0.5,0,0.02),(0.5,0,0)), radius: 0.3)";
+
+#[test]
+fn balls_around_round_parts() {
+    let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
+    for (name, part) in [("pin", PIN), ("plug", PLUG), ("log", LOG)] {
+        for center in [Vec3::new(0.5, 0.1, 0.4), Vec3::new(0.1, 0.3, 0.3), Vec3::new(-0.6, 0.0, 0.2)] {
+            let part = model(name, &elastic(), part);
+            check_closed_paths(name, &ball, &part, (center, 0.15, 0.5), Allowed::Nothing);
+        }
+    }
+}
+
+/// Lying, over an end, on a rim, a tip on a side: as long as the rod does not come to stand square to the part with an end of the
+/// one beside an end of the other (docs/theory.md, 2.8).
+#[test]
+fn rods_around_round_parts() {
+    let long = "Capsule(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)), radius: 0.1)";
+    let short = "Capsule(name: \"l\", ends: ((-0.3,0,0),(0.3,0.1,0)), radius: 0.1)";
+    let line = "LineSegment(name: \"l\", ends: ((-0.9,0,0),(0.9,0.1,0)))";
+    let (lying, over_an_end) = (Vec3::new(0.1, 0.0, 0.35), Vec3::new(0.4, 0.2, 0.3));
+    for (part, rod, center, size, turn) in [
+        (PIN, line, lying, 0.08, 0.1),
+        (PIN, short, over_an_end, 0.2, 0.3),
+        (PLUG, long, over_an_end, 0.2, 0.3),
+        (LOG, short, over_an_end, 0.2, 0.3),
+    ] {
+        let (rod, of) = (model("rod", &elastic(), rod), model("part", &elastic(), part));
+        check_closed_paths(part, &rod, &of, (center, size, turn), Allowed::Nothing);
+    }
+}

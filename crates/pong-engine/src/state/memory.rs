@@ -25,7 +25,7 @@ pub(crate) struct ContactKey {
     pub primitive_a: u32,
     /// Shell of B.
     pub shell_b: u32,
-    /// End of a segment; 0 otherwise.
+    /// End of a two-ended body, or 2 and above between its ends; 0 otherwise.
     pub end: u32,
 }
 

@@ -3,6 +3,8 @@
 //! Every test takes A already carried into the frame of B's movable group and hands out [`Interference`]s in
 //! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
 
+mod axis_approach;
+pub mod ball_round;
 mod behind_triangle;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;
@@ -20,6 +22,7 @@ pub mod point_sphere;
 pub mod ray_plane;
 pub mod ray_polyhedron;
 pub mod ray_triangle;
+mod round_surface;
 pub mod segment_at_walls;
 mod segment_bounds;
 mod segment_ends;
@@ -30,6 +33,7 @@ pub mod sphere_triangle;
 pub mod sphere_triangle_pairs;
 pub mod triangle_features;
 mod triangle_reach;
+pub mod two_ended_round;
 
 use crate::Vec3;
 use crate::primitive::Sphere;

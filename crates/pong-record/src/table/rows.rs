@@ -155,7 +155,7 @@ row! {
         feature_kind: u32,
         /// Which face, edge or vertex.
         feature_index: u32,
-        /// End of a segment, 0 or 1.
+        /// Of a body with two ends: 0 and 1 at its ends, 2 and above between them.
         end: u32,
         /// 1 if friction sticks.
         sticks: u32,

@@ -11,7 +11,7 @@ pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a
     let element = element_a as usize;
     match body_a.primitives[key.primitive_a as usize].kind {
         PrimitiveKind::Point => body_a.points[element].position,
-        PrimitiveKind::LineSegment => body_a.segments[element].ends[key.end as usize],
+        PrimitiveKind::LineSegment => on_axis(&body_a.segments[element].ends, key.end),
         PrimitiveKind::Ray => body_a.rays[element].tip(),
         PrimitiveKind::Sphere => body_a.spheres[element].center,
         PrimitiveKind::Ellipsoid => body_a.ellipsoids[element].center,
@@ -27,7 +27,7 @@ pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a
     }
 }
 
-/// The end of a round part's axis, or its middle for what touches between the ends.
+/// The end of an axis, or its middle for what touches between the ends.
 fn on_axis([one, other]: &[Vec3; 2], end: u32) -> Vec3 {
     match end {
         0 => *one,

@@ -3,16 +3,18 @@
 //! A blank is ignored, as the author may intend.
 //!
 //! ```text
-//!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane
-//!  Point           x         x                    x         x
-//!  LineSegment                                    x         x
+//!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone
+//!  Point           x         x                    x         x       x        x       x
+//!  LineSegment                                    x         x       x        x       x
 //!  Ray                                 x          x         x
-//!  Sphere          x                   x          x         x
+//!  Sphere          x                   x          x         x       x        x       x
 //!  Ellipsoid                           x          x         x
+//!  Capsule                                                          x        x       x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
 
+mod ball_round;
 mod ellipsoid_plane;
 mod ellipsoid_polyhedron;
 mod ellipsoid_triangle;
@@ -29,6 +31,7 @@ mod sphere_plane;
 mod sphere_polyhedron;
 mod sphere_sphere;
 pub(crate) mod sphere_triangle;
+mod two_ended_round;
 
 use super::element_pair::{ChunkCandidates, ElementPair};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
@@ -70,6 +73,18 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Ellipsoid, b: Triangle, test: ellipsoid_triangle::test, cost_ns: 1000, contacts: 4 },
     KindPair { a: Ellipsoid, b: Polyhedron, test: ellipsoid_polyhedron::test, cost_ns: 200, contacts: 4 },
     KindPair { a: Ellipsoid, b: Plane, test: ellipsoid_plane::test, cost_ns: 200, contacts: 1 },
+    KindPair { a: Point, b: Capsule, test: ball_round::test_capsule, cost_ns: 15, contacts: 1 },
+    KindPair { a: Point, b: Cylinder, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
+    KindPair { a: Point, b: Cone, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
+    KindPair { a: LineSegment, b: Capsule, test: two_ended_round::test_capsule, cost_ns: 100, contacts: 3 },
+    KindPair { a: LineSegment, b: Cylinder, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
+    KindPair { a: LineSegment, b: Cone, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
+    KindPair { a: Sphere, b: Capsule, test: ball_round::test_capsule, cost_ns: 15, contacts: 1 },
+    KindPair { a: Sphere, b: Cylinder, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
+    KindPair { a: Sphere, b: Cone, test: ball_round::test_frustum, cost_ns: 30, contacts: 1 },
+    KindPair { a: Capsule, b: Capsule, test: two_ended_round::test_capsule, cost_ns: 100, contacts: 3 },
+    KindPair { a: Capsule, b: Cylinder, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
+    KindPair { a: Capsule, b: Cone, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();

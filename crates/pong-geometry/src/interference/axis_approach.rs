@@ -1,0 +1,320 @@
+//! How near the axis of a two-ended body comes to a round solid, and which way it leaves it soonest (docs/theory.md, 2.8).
+
+use super::Feature;
+use super::round_surface::{Nearest, nearest_on_segment, of_capsule, of_frustum};
+use crate::primitive::{Capsule, Frustum};
+use crate::{Vec3, any_perpendicular};
+
+/// Where a segment is nearest to a solid, or how it leaves it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Approach {
+    /// Distance of the two, m; negative: the least translation that takes the segment out.
+    pub distance: f64,
+    /// Unit vector from the solid to the segment, or the way out.
+    pub normal: Vec3,
+    /// The place of the segment that is nearest, or deepest.
+    pub place: Vec3,
+    /// What of the solid is touched.
+    pub feature: Feature,
+}
+
+/// A round convex solid, as B of a two-ended body.
+pub(crate) trait RoundSolid {
+    /// Where a place is nearest to the surface.
+    fn nearest(&self, place: &Vec3) -> Nearest;
+
+    /// Where a segment is nearest, or how it leaves the solid.
+    fn approach(&self, segment: &[Vec3; 2]) -> Approach;
+
+    /// The same of what the solid ends in: a ball or a disc.
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach;
+
+    /// From end 0 to end 1, of any length.
+    fn axis(&self) -> Vec3;
+}
+
+impl RoundSolid for Capsule {
+    fn nearest(&self, place: &Vec3) -> Nearest {
+        of_capsule(place, self)
+    }
+
+    /// Two axes that cross leave each other across both.
+    fn approach(&self, segment: &[Vec3; 2]) -> Approach {
+        let at = nearest_to_segment(segment, &self.ends);
+        let nearest = of_capsule(&at, self);
+        // Of axes that cross the nearest places coincide, and their difference is noise.
+        let along = [segment[1] - segment[0], self.axis()];
+        let across = along[0].cross(&along[1]);
+        let scale = at.amax().max(self.ends[0].amax()).max(self.ends[1].amax());
+        let crosses = nearest.distance + self.radius <= 64.0 * f64::EPSILON * scale
+            && across.norm_squared() > f64::EPSILON * along[0].norm_squared() * along[1].norm_squared();
+        let normal = if crosses { across.normalize() } else { nearest.normal };
+        Approach { distance: nearest.distance, normal, place: at, feature: nearest.feature }
+    }
+
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
+        let center = self.ends[end];
+        let place = nearest_on_segment(&center, segment);
+        let arm = place - center;
+        let distance = arm.norm();
+        let normal = if distance > 0.0 {
+            (arm / distance).normalize()
+        } else {
+            any_perpendicular(&(segment[1] - segment[0]).normalize())
+        };
+        Approach { distance: distance - self.radius, normal, place, feature: Feature::WHOLE }
+    }
+
+    fn axis(&self) -> Vec3 {
+        self.ends[1] - self.ends[0]
+    }
+}
+
+/// The place of a segment nearest to another one. Of parallel segments any of those that are as near.
+fn nearest_to_segment(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Vec3 {
+    let mut best = (f64::INFINITY, segment[0]);
+    let mut offer = |place: Vec3, on_other: &Vec3| {
+        let square = (place - on_other).norm_squared();
+        if square < best.0 {
+            best = (square, place);
+        }
+    };
+    if let Some((place, on_other)) = common_perpendicular(segment, other) {
+        offer(place, &on_other);
+    }
+    segment.iter().for_each(|end| offer(*end, &nearest_on_segment(end, other)));
+    other.iter().for_each(|end| offer(nearest_on_segment(end, segment), end));
+    best.1
+}
+
+/// The feet of the common perpendicular of two segments, where both lie between the ends.
+fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3, Vec3)> {
+    let (u, v, between) = (segment[1] - segment[0], other[1] - other[0], other[0] - segment[0]);
+    let across = u.cross(&v);
+    let square = across.norm_squared();
+    if square <= f64::EPSILON * f64::EPSILON * u.norm_squared() * v.norm_squared() {
+        return None;
+    }
+    let share = between.cross(&v).dot(&across) / square;
+    let share_other = between.cross(&u).dot(&across) / square;
+    let inside = |share: f64| (0.0..=1.0).contains(&share);
+    (inside(share) && inside(share_other)).then(|| (segment[0] + u * share, other[0] + v * share_other))
+}
+
+impl RoundSolid for Frustum {
+    fn nearest(&self, place: &Vec3) -> Nearest {
+        of_frustum(place, self)
+    }
+
+    fn approach(&self, segment: &[Vec3; 2]) -> Approach {
+        /// Relative: a segment this close is taken to be inside; a disc has no inside that a distance could tell.
+        const INSIDE: f64 = 1e-13;
+        let (place, nearest) = least_on_segment(segment, |place| of_frustum(place, self));
+        let scale = self.length.max(self.radii[0]).max(self.radii[1]);
+        if nearest.distance > INSIDE * scale {
+            let Nearest { distance, normal, feature } = nearest;
+            return Approach { distance, normal, place, feature };
+        }
+        WayOut::new(segment, self).shortest()
+    }
+
+    fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
+        self.disc(end).approach(segment)
+    }
+
+    fn axis(&self) -> Vec3 {
+        self.axis
+    }
+}
+
+/// The place of a segment that is nearest to a convex solid, or deepest in it: the distance is convex along the segment, and its
+/// slope is the part of the normal along it.
+fn least_on_segment(segment: &[Vec3; 2], nearest: impl Fn(&Vec3) -> Nearest) -> (Vec3, Nearest) {
+    /// Relative to the segment: a slope this small is none.
+    const FLAT: f64 = 4.0 * f64::EPSILON;
+    const STEPS: usize = 100;
+    let along = segment[1] - segment[0];
+    let flat = FLAT * along.norm();
+    let at = |share: f64| {
+        let place = segment[0] + along * share;
+        let found = nearest(&place);
+        (place, found, found.normal.dot(&along))
+    };
+    let (mut low, mut high) = ((0.0, at(0.0)), (1.0, at(1.0)));
+    if low.1.2 >= -flat {
+        return (low.1.0, low.1.1);
+    }
+    if high.1.2 <= flat {
+        return (high.1.0, high.1.1);
+    }
+    for step in 0..STEPS {
+        let ((from, (.., falls)), (to, (.., rises))) = (low, high);
+        let width = to - from;
+        // Where the slope jumps a secant crawls: every third step halves.
+        let secant = (from - falls * width / (rises - falls)).clamp(from + 0.01 * width, to - 0.01 * width);
+        let share = if step % 3 == 2 { 0.5 * (from + to) } else { secant };
+        if width <= f64::EPSILON {
+            break;
+        }
+        let found = at(share);
+        if found.2.abs() <= flat {
+            return (found.0, found.1);
+        }
+        *(if found.2 < 0.0 { &mut low } else { &mut high }) = (share, found);
+    }
+    let best = if low.1.1.distance <= high.1.1.distance { low.1 } else { high.1 };
+    (best.0, best.1)
+}
+
+/// How a segment that is in a frustum leaves it by the least translation.
+///
+/// Along a unit vector n that translation is the greatest of h(n) − n·p over the ends p, with h the support function. Where it
+/// is least, either one end alone is last out, by the wall or an end face that is nearest to it, or both are, across the segment.
+struct WayOut<'a> {
+    segment: &'a [Vec3; 2],
+    frustum: &'a Frustum,
+    best: Approach,
+}
+
+impl<'a> WayOut<'a> {
+    fn new(segment: &'a [Vec3; 2], frustum: &'a Frustum) -> Self {
+        let best = Approach {
+            distance: f64::NEG_INFINITY,
+            normal: frustum.axis,
+            place: segment[0],
+            feature: Feature::face(2),
+        };
+        Self { segment, frustum, best }
+    }
+
+    fn shortest(mut self) -> Approach {
+        let axis = self.frustum.axis;
+        self.offer(&-axis, Feature::face(1));
+        self.offer(&axis, Feature::face(2));
+        for end in self.segment {
+            let arm = end - self.frustum.ends[0];
+            let across = arm - axis * axis.dot(&arm);
+            let aside = across.norm();
+            if aside > 0.0 {
+                let [wall_along, wall_aside] = self.frustum.wall;
+                let normal = axis * wall_along + across * (wall_aside / aside);
+                self.offer(&normal.normalize(), Feature::face(0));
+            }
+        }
+        self.offer_across();
+        self.best
+    }
+
+    /// Out along a unit vector.
+    fn offer(&mut self, normal: &Vec3, feature: Feature) {
+        let [one, other] = self.segment;
+        let place = if normal.dot(&(other - one)) < 0.0 { other } else { one };
+        let distance = normal.dot(place) - self.frustum.support(normal);
+        if distance > self.best.distance {
+            self.best = Approach { distance, normal: *normal, place: *place, feature };
+        }
+    }
+
+    /// Out across the segment: seen along it the solid is the hull of two ellipses and the segment a place in it.
+    fn offer_across(&mut self) {
+        let along = (self.segment[1] - self.segment[0]).normalize();
+        let first = self.first_across(&along);
+        let second = along.cross(&first);
+        let directions = EVEN_DIRECTIONS.map(|(x, y)| first * x + second * y);
+        let lengths = directions.map(|normal| self.frustum.support(&normal) - normal.dot(&self.segment[0]));
+        let count = directions.len();
+        for i in 0..count {
+            let (before, after) = ((i + count - 1) % count, (i + 1) % count);
+            if lengths[i] <= lengths[before] && lengths[i] <= lengths[after] {
+                let normal = self.least_near(&along, [directions[before], directions[i], directions[after]]);
+                self.offer_at(&along, &normal);
+            }
+        }
+    }
+
+    /// Where the search starts turns with the two bodies, so that no answer depends on their pose.
+    fn first_across(&self, along: &Vec3) -> Vec3 {
+        let across = |v: &Vec3| v - along * along.dot(v);
+        let arm = self.segment[0] - self.frustum.ends[0];
+        for (v, least) in [(self.frustum.axis, 1e-6), (arm, 1e-9 * arm.norm())] {
+            let part = across(&v);
+            if part.norm() > least {
+                return part.normalize();
+            }
+        }
+        any_perpendicular(along)
+    }
+
+    /// The direction between three that follow each other in which the way is shortest, by halving.
+    fn least_near(&self, along: &Vec3, [before, middle, after]: [Vec3; 3]) -> Vec3 {
+        const STEPS: usize = 52;
+        let (mut low, mut high) =
+            if self.slope(along, &middle) > 0.0 { (before, middle) } else { (middle, after) };
+        for _ in 0..STEPS {
+            let between = (low + high).normalize();
+            *(if self.slope(along, &between) > 0.0 { &mut high } else { &mut low }) = between;
+        }
+        (low + high).normalize()
+    }
+
+    /// The place of each end of the solid that is farthest along a unit vector.
+    fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
+        let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
+        let aside = across.norm();
+        let way = if aside > 0.0 { across / aside } else { across };
+        [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
+    }
+
+    /// How the way out grows as the direction turns about the segment.
+    fn slope(&self, along: &Vec3, normal: &Vec3) -> f64 {
+        let [one, other] = self.farthest(normal);
+        let farther = if normal.dot(&one) >= normal.dot(&other) { one } else { other };
+        along.cross(normal).dot(&(farther - self.segment[0]))
+    }
+
+    /// Where the solid is touched along the shortest way out across the segment: where that does not tend to turn. On the wall
+    /// that is between the two ends.
+    fn touched(&self, along: &Vec3, normal: &Vec3) -> Vec3 {
+        let [one, other] = self.farthest(normal);
+        let turning = along.cross(normal);
+        let [first, last] = [one, other].map(|place| turning.dot(&(place - self.segment[0])));
+        if first * last < 0.0 {
+            return one + (other - one) * (first / (first - last));
+        }
+        if normal.dot(&one) >= normal.dot(&other) { one } else { other }
+    }
+
+    fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
+        let [one, other] = self.segment;
+        let distance = normal.dot(one) - self.frustum.support(normal);
+        if distance > self.best.distance {
+            let touched = self.touched(along, normal);
+            let travelled = along.dot(&(touched - one)).clamp(0.0, along.dot(&(other - one)));
+            let place = one + along * travelled;
+            self.best = Approach { distance, normal: *normal, place, feature: Feature::face(0) };
+        }
+    }
+}
+
+const C: f64 = 0.923_879_532_511_286_8;
+const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const E: f64 = 0.382_683_432_365_089_8;
+/// Sixteen directions in a plane, every 22.5°.
+const EVEN_DIRECTIONS: [(f64, f64); 16] = [
+    (1.0, 0.0),
+    (C, E),
+    (D, D),
+    (E, C),
+    (0.0, 1.0),
+    (-E, C),
+    (-D, D),
+    (-C, E),
+    (-1.0, 0.0),
+    (-C, -E),
+    (-D, -D),
+    (-E, -C),
+    (0.0, -1.0),
+    (E, -C),
+    (D, -D),
+    (C, -E),
+];
