@@ -11,9 +11,9 @@ pub(crate) struct Approach {
     /// Distance of the two, m; negative: the least translation that takes the segment out.
     pub distance: f64,
     /// Unit vector from the solid to the segment, or the way out.
-    pub normal: Vec3,
-    /// The place of the segment that is nearest, or deepest.
-    pub place: Vec3,
+    pub normal_b: Vec3,
+    /// The place of the segment that is nearest, or deepest, m.
+    pub place_b: Vec3,
     /// What of the solid is touched.
     pub feature: Feature,
 }
@@ -48,8 +48,8 @@ impl RoundSolid for Capsule {
         let scale = at.amax().max(self.ends[0].amax()).max(self.ends[1].amax());
         let crosses = nearest.distance + self.radius <= 64.0 * f64::EPSILON * scale
             && across.norm_squared() > f64::EPSILON * along[0].norm_squared() * along[1].norm_squared();
-        let normal = if crosses { across.normalize() } else { nearest.normal };
-        Approach { distance: nearest.distance, normal, place: at, feature: nearest.feature }
+        let normal = if crosses { across.normalize() } else { nearest.normal_b };
+        Approach { distance: nearest.distance, normal_b: normal, place_b: at, feature: nearest.feature }
     }
 
     fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
@@ -62,7 +62,12 @@ impl RoundSolid for Capsule {
         } else {
             any_perpendicular(&(segment[1] - segment[0]).normalize())
         };
-        Approach { distance: distance - self.radius, normal, place, feature: Feature::WHOLE }
+        Approach {
+            distance: distance - self.radius,
+            normal_b: normal,
+            place_b: place,
+            feature: Feature::WHOLE,
+        }
     }
 
     fn axis(&self) -> Vec3 {
@@ -112,8 +117,8 @@ impl RoundSolid for Frustum {
         let (place, nearest) = least_on_segment(segment, |place| of_frustum(place, self));
         let scale = self.length.max(self.radii[0]).max(self.radii[1]);
         if nearest.distance > INSIDE * scale {
-            let Nearest { distance, normal, feature } = nearest;
-            return Approach { distance, normal, place, feature };
+            let Nearest { distance, normal_b, feature } = nearest;
+            return Approach { distance, normal_b, place_b: place, feature };
         }
         WayOut::new(segment, self).shortest()
     }
@@ -138,7 +143,7 @@ fn least_on_segment(segment: &[Vec3; 2], nearest: impl Fn(&Vec3) -> Nearest) -> 
     let at = |share: f64| {
         let place = segment[0] + along * share;
         let found = nearest(&place);
-        (place, found, found.normal.dot(&along))
+        (place, found, found.normal_b.dot(&along))
     };
     let (mut low, mut high) = ((0.0, at(0.0)), (1.0, at(1.0)));
     if low.1.2 >= -flat {
@@ -180,8 +185,8 @@ impl<'a> WayOut<'a> {
     fn new(segment: &'a [Vec3; 2], frustum: &'a Frustum) -> Self {
         let best = Approach {
             distance: f64::NEG_INFINITY,
-            normal: frustum.axis,
-            place: segment[0],
+            normal_b: frustum.axis,
+            place_b: segment[0],
             feature: Feature::face(2),
         };
         Self { segment, frustum, best }
@@ -211,7 +216,7 @@ impl<'a> WayOut<'a> {
         let place = if normal.dot(&(other - one)) < 0.0 { other } else { one };
         let distance = normal.dot(place) - self.frustum.support(normal);
         if distance > self.best.distance {
-            self.best = Approach { distance, normal: *normal, place: *place, feature };
+            self.best = Approach { distance, normal_b: *normal, place_b: *place, feature };
         }
     }
 
@@ -291,7 +296,7 @@ impl<'a> WayOut<'a> {
             let touched = self.touched(along, normal);
             let travelled = along.dot(&(touched - one)).clamp(0.0, along.dot(&(other - one)));
             let place = one + along * travelled;
-            self.best = Approach { distance, normal: *normal, place, feature: Feature::face(0) };
+            self.best = Approach { distance, normal_b: *normal, place_b: place, feature: Feature::face(0) };
         }
     }
 }

@@ -21,8 +21,8 @@ pub(crate) fn pressed(center: &Vec3, radius: f64, nearest: &Nearest) -> Option<I
     let depth = radius - nearest.distance;
     (depth > 0.0).then(|| Interference {
         depth,
-        normal_b: nearest.normal,
-        deepest_b: center - nearest.normal * radius,
+        normal_b: nearest.normal_b,
+        deepest_b: center - nearest.normal_b * radius,
         feature: nearest.feature,
     })
 }

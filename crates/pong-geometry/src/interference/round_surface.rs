@@ -10,7 +10,7 @@ pub(crate) struct Nearest {
     /// Distance of the place from the surface, m; negative inside.
     pub distance: f64,
     /// Unit vector from the solid to the place, or the way out of it.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// What of the solid is nearest: of a frustum face 0 is the wall, faces 1 and 2 the ends, edges 0 and 1 the rims.
     pub feature: Feature,
 }
@@ -28,7 +28,7 @@ pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
     } else {
         any_perpendicular(&(capsule.ends[1] - capsule.ends[0]).normalize())
     };
-    Nearest { distance: distance - capsule.radius, normal, feature: Feature::WHOLE }
+    Nearest { distance: distance - capsule.radius, normal_b: normal, feature: Feature::WHOLE }
 }
 
 /// The place of a segment nearest to a place.
@@ -84,7 +84,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
         }
         let (along, aside) = normals[least];
         let normal = in_space(along, aside).normalize();
-        return Nearest { distance: heights[least], normal, feature: Feature::face(least) };
+        return Nearest { distance: heights[least], normal_b: normal, feature: Feature::face(least) };
     }
     let feet = [on_wall(&at, frustum), (0.0, at.aside.min(first)), (frustum.length, at.aside.min(last))];
     let square = |side: usize| {
@@ -103,7 +103,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
         (along, aside) if along == frustum.length && aside == last => Feature::edge(1),
         _ => Feature::face(nearest),
     };
-    Nearest { distance, normal: in_space(along, aside).normalize(), feature }
+    Nearest { distance, normal_b: in_space(along, aside).normalize(), feature }
 }
 
 /// The place of the wall's line nearest to a place of the half plane.

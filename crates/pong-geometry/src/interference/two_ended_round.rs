@@ -64,8 +64,8 @@ fn touched(approach: &Approach, radius: f64) -> Option<Interference> {
     let depth = radius - approach.distance;
     (depth > 0.0).then(|| Interference {
         depth,
-        normal_b: approach.normal,
-        deepest_b: approach.place - approach.normal * radius,
+        normal_b: approach.normal_b,
+        deepest_b: approach.place_b - approach.normal_b * radius,
         feature: approach.feature,
     })
 }
