@@ -19,7 +19,7 @@ pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a
         PrimitiveKind::Capsule => on_axis(&body_a.capsules[element].ends, key.end),
         PrimitiveKind::Cylinder | PrimitiveKind::Cone => {
             let [one, other] = body_a.frusta[element].ends;
-            if key.end % 2 == 0 { one } else { other }
+            if key.end.is_multiple_of(2) { one } else { other }
         }
         PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane | PrimitiveKind::Bore => {
             Vec3::zeros()
