@@ -40,7 +40,7 @@ static int build_world(contact_world *w, const mjModel *m, int instance, message
 {
     contact_config config;
     int done = read_config(&config, m, instance, why) && open_world(w, &config, why) && bind_bodies(w, &config, m, why) &&
-               refuse_double_pairs(&config, m, instance, why) && refuse_sleep(w, m, why) &&
+               refuse_double_pairs(w, &config, m, instance, why) && refuse_sleep(w, m, why) &&
                (!config.checks_step || plan_step(w, m, why)) && seal_world(w, mj_id2name(m, mjOBJ_PLUGIN, instance), why);
     close_config(&config);
     return done;

@@ -190,50 +190,69 @@ int bind_bodies(contact_world *w, const contact_config *config, const mjModel *m
     return 1;
 }
 
-/* A pair as it must not be there twice: bodies of the roots and models. */
+/* A pair as it must not be there twice: Objects, bodies of their roots, models. */
 typedef struct pair_signature {
+    const contact_config *config;
+    const char *names[2];
     int bodies[2];
     const char *models[2];
 } pair_signature;
 
 static void sign_pair(pair_signature *signature, const contact_config *config, const mjModel *m, entry both)
 {
-    const char *names[2];
     char full[512];
     int side;
     size_t i;
-    names[0] = both.first, names[1] = both.second;
+    signature->config = config;
+    signature->names[0] = both.first, signature->names[1] = both.second;
     for (side = 0; side < 2; side++) {
-        signature->bodies[side] = find_body(config, m, body_name_of(config, names[side]), full, sizeof full);
+        const char *name = signature->names[side];
+        signature->bodies[side] = find_body(config, m, body_name_of(config, name), full, sizeof full);
         signature->models[side] = "";
         for (i = 0; i < config->objects.count; i++)
-            if (strcmp(config->objects.entries[i].first, names[side]) == 0)
+            if (strcmp(config->objects.entries[i].first, name) == 0)
                 signature->models[side] = config->objects.entries[i].second;
         if (inline_text(config, signature->models[side]) != NULL)
             signature->models[side] = inline_text(config, signature->models[side]);
     }
 }
 
-static int same_pair(const pair_signature *p, const pair_signature *q)
+/* Whether an Object of the world `w` (a side of `p`) and an Object of the same model (a side of `q`) move with the same bodies. */
+static int same_bodies(const contact_world *w, const mjModel *m, const pair_signature *p, int side, const pair_signature *q, int other)
+{
+    char group[512], full[512];
+    size_t i, length = strlen(p->names[side]);
+    if (p->bodies[side] != q->bodies[other] || strcmp(p->models[side], q->models[other]) != 0)
+        return 0;
+    for (i = 0; i < w->group_count; i++) {
+        if (strncmp(w->names[i], p->names[side], length) != 0 || w->names[i][length] != '/')
+            continue;
+        snprintf(group, sizeof group, "%s%s", q->names[other], w->names[i] + length);
+        if (find_body(q->config, m, body_name_of(q->config, group), full, sizeof full) != w->bodies[i])
+            return 0;
+    }
+    return 1;
+}
+
+static int same_pair(const contact_world *w, const mjModel *m, const pair_signature *p, const pair_signature *q)
 {
     int swapped;
     for (swapped = 0; swapped < 2; swapped++)
-        if (p->bodies[0] == q->bodies[swapped] && p->bodies[1] == q->bodies[1 - swapped] &&
-            strcmp(p->models[0], q->models[swapped]) == 0 && strcmp(p->models[1], q->models[1 - swapped]) == 0)
+        if (same_bodies(w, m, p, 0, q, swapped) && same_bodies(w, m, p, 1, q, 1 - swapped))
             return 1;
     return 0;
 }
 
-static int refuse_double(const contact_config *mine, const contact_config *other, const char *other_name, int is_same_instance,
+static int refuse_double(const contact_world *w, const contact_config *mine, const contact_config *other, const char *other_name,
                          const mjModel *m, message *why)
 {
     size_t i, k;
     for (i = 0; i < pair_count(mine); i++)
-        for (k = 0; k < (is_same_instance ? i : pair_count(other)); k++) {
+        for (k = 0; k < (mine == other ? i : pair_count(other)); k++) {
             pair_signature p, q;
             sign_pair(&p, mine, m, pair_at(mine, i));
             sign_pair(&q, other, m, pair_at(other, k));
-            if (same_pair(&p, &q))
+            if (same_pair(w, m, &p, &q))
                 return fail(why, "the pair `%s, %s` is the pair `%s, %s` of the instance `%s`: the same bodies with the same "
                                  "models, so the contact force would act twice; leave one of the two out",
                             pair_at(mine, i).first, pair_at(mine, i).second, pair_at(other, k).first, pair_at(other, k).second,
@@ -242,16 +261,16 @@ static int refuse_double(const contact_config *mine, const contact_config *other
     return 1;
 }
 
-int refuse_double_pairs(const contact_config *config, const mjModel *m, int instance, message *why)
+int refuse_double_pairs(const contact_world *w, const contact_config *config, const mjModel *m, int instance, message *why)
 {
-    int other, done = refuse_double(config, config, mj_id2name(m, mjOBJ_PLUGIN, instance), 1, m, why);
+    int other, done = refuse_double(w, config, config, mj_id2name(m, mjOBJ_PLUGIN, instance), m, why);
     for (other = 0; other < instance && done; other++) {
         contact_config theirs;
         message ignored;
         if (m->plugin[other] != m->plugin[instance])
             continue;
         if (read_config(&theirs, m, other, &ignored))
-            done = refuse_double(config, &theirs, mj_id2name(m, mjOBJ_PLUGIN, other), 0, m, why);
+            done = refuse_double(w, config, &theirs, mj_id2name(m, mjOBJ_PLUGIN, other), m, why);
         close_config(&theirs);
     }
     return done;

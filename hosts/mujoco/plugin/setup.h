@@ -23,7 +23,7 @@ int bind_bodies(contact_world *w, const contact_config *config, const mjModel *m
 
 /* Refuses a pair of Objects whose models and bodies are those of another pair, of this instance or of one before it: its force
  * would act twice. */
-int refuse_double_pairs(const contact_config *config, const mjModel *m, int instance, message *why);
+int refuse_double_pairs(const contact_world *w, const contact_config *config, const mjModel *m, int instance, message *why);
 
 /* Tells the world the masses of the bodies and the step, so that its seal warns of contacts for which the step is too long. */
 int plan_step(contact_world *w, const mjModel *m, message *why);

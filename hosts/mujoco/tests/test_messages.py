@@ -54,6 +54,21 @@ class Compiling(unittest.TestCase):
                           pairs="ball, ground; b, ground", **TEXTS)
         self.refused(inside, "`b, ground` is the pair `ball, ground`")
 
+    def test_two_objects_of_one_model_whose_groups_are_other_bodies(self):
+        """Both roots are the world: what moves tells them apart, and makes them one."""
+        arm = """(format: "pong-model", version: 1, name: "arm", surfaces: { "rubber": (stiffness: 1e4) }, root: (name: "arm",
+            surface: "rubber", groups: [(name: "tip", movable: true, primitives: [Sphere(name: "s", center: (0, 0, 0), radius: 0.1)])]))"""
+        bodies = "".join(BALL.replace('ball', name) for name in ("a/tip", "b/tip"))
+
+        def two(b_tip):
+            return instance("a = text1; b = text1; ground = text2", pairs="a, ground; b, ground", text1=arm, text2=GROUND,
+                            bodies=f"a = world; b = world; ground = world; b/tip = {b_tip}")
+
+        m = mujoco.MjModel.from_xml_string(mjcf(bodies, two("b/tip")))
+        self.assertEqual(m.nplugin, 1)
+        with self.assertRaisesRegex(ValueError, "act twice"):
+            mujoco.MjModel.from_xml_string(mjcf(bodies, two("a/tip")))
+
     def test_two_instances_of_different_contacts(self):
         one = instance("ball = text1; ground = text2", bodies="ground = world", **TEXTS)
         other = instance("ball = text1; ground = text2", "c2", bodies="ground = world", text1=ball_model(radius=0.2), text2=GROUND)
