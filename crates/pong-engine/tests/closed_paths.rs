@@ -288,3 +288,24 @@ fn rods_around_round_parts() {
         check_closed_paths(part, &rod, &of, (center, size, turn), Allowed::Nothing);
     }
 }
+
+const STRAIGHT: &str = "Bore(name: \"b\", ends: ((-0.5,0.05,0),(0.5,0,0.1)), radii: (0.3,0.3))";
+const TAPERED: &str = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0.05,0)), radii: (0.4,0.25))";
+const SEAT: &str = "Bore(name: \"b\", ends: ((0,0,0),(0.2,0,0)), radii: (0.05,0.5), mouths: (false,true))";
+
+/// On the wall, over a mouth, and in a wide cone, where the two sides share the spring.
+#[test]
+fn balls_in_bores() {
+    let ball = model("ball", &elastic(), "Sphere(name: \"s\", center: (0,0,0), radius: 0.2)");
+    let point = model("point", &elastic(), "Point(name: \"p\", position: (0,0,0))");
+    for (name, bore, of, center, size) in [
+        ("straight", STRAIGHT, &ball, Vec3::new(0.1, 0.1, 0.1), 0.1),
+        ("over a mouth", STRAIGHT, &ball, Vec3::new(-0.5, 0.15, 0.05), 0.1),
+        ("tapered", TAPERED, &ball, Vec3::new(0.3, 0.1, 0.1), 0.12),
+        ("a point", TAPERED, &point, Vec3::new(0.1, 0.2, 0.25), 0.05),
+        ("seat", SEAT, &ball, Vec3::new(0.21, 0.0, 0.0), 0.03),
+    ] {
+        let hole = model(name, &elastic(), bore);
+        check_closed_paths(name, of, &hole, (center, size, 0.3), Allowed::Nothing);
+    }
+}

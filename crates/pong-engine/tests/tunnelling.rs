@@ -109,6 +109,24 @@ fn sheets_are_passed_from_behind_by_right() {
     }
 }
 
+/// Out of a hole, at once or pressed slowly; from behind it may come in.
+#[test]
+fn the_wall_of_a_hole_is_gone_through_from_within() {
+    let bore = "Bore(name: \"b\", ends: ((0,0,-0.25),(0,0,0.25)), radii: (0.12,0.1), thickness: 0.01)";
+    for bullet in [POINT, BALL, RAY] {
+        let mut rig = rig(bullet, bore);
+        let direction = if bullet == RAY { -1.0 } else { 1.0 };
+        let places = [0.0, 0.3, 0.0, 0.3, 0.5].map(|x| x * direction);
+        assert_eq!(told(&mut rig, &places), [false, true, false, true, false], "{bullet}");
+    }
+    for bullet in [POINT, BALL] {
+        let mut rig = rig(bullet, bore);
+        let places: Vec<f64> = (0..200).map(|i| 0.001 * f64::from(i)).collect();
+        let count = told(&mut rig, &places).into_iter().filter(|told| *told).count();
+        assert_eq!(count, 1, "{bullet}");
+    }
+}
+
 #[test]
 fn what_is_stopped_or_leaves_as_it_came_is_not_told() {
     for (bullet, wall) in

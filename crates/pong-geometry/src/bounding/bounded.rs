@@ -174,7 +174,14 @@ impl Bounded for Frustum {
 /// What a bore may push: all that is in the hole or less than the thickness behind its wall.
 impl Bounded for Bore {
     fn support(&self, direction: &Vec3) -> f64 {
-        self.hole.support(direction) + self.thickness * direction.cross(&self.hole.axis).norm()
+        let [along, aside] = self.hole.wall.map(|part| part * self.thickness);
+        let Frustum { ends, radii, axis, .. } = self.hole;
+        let behind = Frustum {
+            ends: ends.map(|end| end + axis * along),
+            radii: radii.map(|radius| radius + aside),
+            ..self.hole
+        };
+        self.hole.support(direction).max(behind.support(direction))
     }
 
     fn farthest(&self, from: &Vec3) -> f64 {

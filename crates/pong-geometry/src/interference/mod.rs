@@ -4,6 +4,7 @@
 //! that frame. A test never allocates; where a pair can touch at several places it calls `emit` for each.
 
 mod axis_approach;
+pub mod ball_bore;
 pub mod ball_round;
 mod behind_triangle;
 pub mod ellipsoid_math;
@@ -19,6 +20,7 @@ pub mod point_ellipsoid;
 pub mod point_plane;
 pub mod point_polyhedron;
 pub mod point_sphere;
+pub mod ray_bore;
 pub mod ray_plane;
 pub mod ray_polyhedron;
 pub mod ray_triangle;

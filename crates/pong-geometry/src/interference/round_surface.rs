@@ -16,7 +16,7 @@ pub(crate) struct Nearest {
 }
 
 /// Relative to the coordinates: what the last few roundings of two places come to.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Nearest to a ball around the nearest place of the axis. On the axis every way across it is as good: the same one is taken.
 pub(crate) fn of_capsule(place: &Vec3, capsule: &Capsule) -> Nearest {
@@ -45,24 +45,24 @@ pub(crate) fn nearest_on_segment(place: &Vec3, [one, other]: &[Vec3; 2]) -> Vec3
 }
 
 /// A place in the half plane through the axis of a frustum in which it lies.
-struct Meridian {
+pub(crate) struct Meridian {
     /// From end 0 along the axis, m.
-    along: f64,
+    pub along: f64,
     /// Away from the axis, m, not negative.
-    aside: f64,
+    pub aside: f64,
     /// Unit vector from the axis towards the place.
-    away: Vec3,
+    pub away_b: Vec3,
 }
 
 impl Meridian {
-    fn new(place: &Vec3, frustum: &Frustum) -> Self {
+    pub fn new(place: &Vec3, frustum: &Frustum) -> Self {
         let arm = place - frustum.ends[0];
         let along = frustum.axis.dot(&arm);
         let across = arm - frustum.axis * along;
         let aside = across.norm();
         let is_beside = aside > ROUNDING * place.amax().max(frustum.ends[0].amax());
-        let away = if is_beside { (across / aside).normalize() } else { any_perpendicular(&frustum.axis) };
-        Self { along, aside, away }
+        let away_b = if is_beside { (across / aside).normalize() } else { any_perpendicular(&frustum.axis) };
+        Self { along, aside, away_b }
     }
 }
 
@@ -71,7 +71,7 @@ pub(crate) fn of_frustum(place: &Vec3, frustum: &Frustum) -> Nearest {
     let at = Meridian::new(place, frustum);
     let [wall_along, wall_aside] = frustum.wall;
     let [first, last] = frustum.radii;
-    let in_space = |along: f64, aside: f64| frustum.axis * along + at.away * aside;
+    let in_space = |along: f64, aside: f64| frustum.axis * along + at.away_b * aside;
     let over_wall = at.along * wall_along + (at.aside - first) * wall_aside;
     let heights = [over_wall, -at.along, at.along - frustum.length];
     let normals = [(wall_along, wall_aside), (-1.0, 0.0), (1.0, 0.0)];

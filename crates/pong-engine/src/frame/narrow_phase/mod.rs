@@ -6,5 +6,6 @@ mod nearest_side;
 mod on_triangle;
 pub(crate) mod pair_table;
 mod registered;
+mod side_of_bore;
 mod side_of_entry;
 pub(crate) mod testers;

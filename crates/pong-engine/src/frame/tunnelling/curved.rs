@@ -1,12 +1,14 @@
-//! Lines through spheres and ellipsoids: of two balls, through the larger, whichever it is.
+//! Lines through spheres and ellipsoids (of two balls, through the larger, whichever it is) and out of bores.
 
 use super::line::{Line, Met};
+use super::sheets::along;
 use crate::frame::input::PairContext;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::interference::ray_bore::ray_bore;
+use pong_geometry::primitive::{Bore, PrimitiveKind, Ray};
 use pong_geometry::{Mat3, Vec3};
 use pong_model::Item;
 
-/// What a line did to a ball of B. Planes are half spaces, which nothing goes through; a user's own kinds are not known.
+/// What a line did to a ball or a bore of B. Planes are half spaces, which nothing goes through; a user's own kinds are not known.
 pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: &Line) -> Option<Met> {
     let (body_a, body_b) = (context.body_a, context.body_b);
     let element = item_b.element as usize;
@@ -29,8 +31,15 @@ pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: 
             let at = through_unit_ball(&unit(&line.from_b), &unit(&line.to_b))?;
             Some(Met::Through((to_axes.transpose() * at).normalize()))
         }
+        PrimitiveKind::Bore => out_of_bore(&body_b.bores[element], line),
         _ => None,
     }
+}
+
+/// Whether a line goes from the hole through the wall.
+fn out_of_bore(bore: &Bore, line: &Line) -> Option<Met> {
+    let ray = Ray { reach: Some(0.0), ..along(&line.from_b, &line.to_b)? };
+    ray_bore(&ray, bore).map(|hit| Met::Through(hit.normal_b))
 }
 
 /// Where a line with both ends outside the unit ball enters it, if it does.

@@ -11,6 +11,7 @@ use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
 use crate::state::{ContactRecord, ContactRole};
 use pong_geometry::Vec3;
+use pong_geometry::interference::ball_bore::is_behind_wall;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::TriangleView;
 use pong_geometry::primitive::PrimitiveKind;
@@ -78,6 +79,8 @@ impl Seen<'_> {
         };
         if of_shell(PrimitiveKind::Polyhedron) {
             self.came_out_of_solid(record, &line)
+        } else if of_shell(PrimitiveKind::Bore) {
+            body.bores.get(record.element_b as usize).is_some_and(|bore| is_behind_wall(&line.to_b, bore))
         } else if body
             .triangles
             .triangles

@@ -35,6 +35,9 @@ pub(crate) fn least_travel_m(
         let least = b.ellipsoids.iter().map(|ellipsoid| 2.0 * ellipsoid.semi_axes.min());
         thinnest = least.fold(thinnest, f64::min);
     }
+    if touched(PrimitiveKind::Bore) {
+        thinnest = b.bores.iter().map(|bore| bore.thickness).fold(thinnest, f64::min);
+    }
     0.5 * thinnest
 }
 

@@ -3,17 +3,18 @@
 //! A blank is ignored, as the author may intend.
 //!
 //! ```text
-//!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone
-//!  Point           x         x                    x         x       x        x       x
+//!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
+//!  Point           x         x                    x         x       x        x       x     x
 //!  LineSegment                                    x         x       x        x       x
-//!  Ray                                 x          x         x
-//!  Sphere          x                   x          x         x       x        x       x
+//!  Ray                                 x          x         x                              x
+//!  Sphere          x                   x          x         x       x        x       x     x
 //!  Ellipsoid                           x          x         x
 //!  Capsule                                                          x        x       x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
 
+mod ball_bore;
 mod ball_round;
 mod ellipsoid_plane;
 mod ellipsoid_polyhedron;
@@ -24,6 +25,7 @@ mod point_ellipsoid;
 mod point_plane;
 mod point_polyhedron;
 mod point_sphere;
+mod ray_bore;
 mod ray_plane;
 mod ray_polyhedron;
 mod ray_triangle;
@@ -85,6 +87,9 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Capsule, b: Capsule, test: two_ended_round::test_capsule, cost_ns: 100, contacts: 3 },
     KindPair { a: Capsule, b: Cylinder, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
     KindPair { a: Capsule, b: Cone, test: two_ended_round::test_frustum, cost_ns: 1000, contacts: 3 },
+    KindPair { a: Point, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 1 },
+    KindPair { a: Ray, b: Bore, test: ray_bore::test, cost_ns: 50, contacts: 1 },
+    KindPair { a: Sphere, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 2 },
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();

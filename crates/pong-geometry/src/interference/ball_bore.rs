@@ -1,0 +1,114 @@
+//! Point and sphere (A) – bore (B): the wall beside the centre, and for a ball too large for the hole the wall opposite as well
+//! (docs/theory.md, 2.8).
+
+use super::round_surface::{Meridian, ROUNDING};
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Bore, Frustum, Sphere};
+
+/// Of a ball in a hole: beside its centre, and opposite.
+pub type BallContacts = [Option<Interference>; 2];
+
+/// A ball, or with radius 0 a point, in a bore. The two contacts share one spring where they push the same way.
+pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
+    let at = Meridian::new(&ball.center, &bore.hole);
+    let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
+    let opposite = Beside { aside: -at.aside, away_b: -at.away_b, ..beside };
+    [beside.touched(ball), opposite.touched(ball)]
+}
+
+/// Whether a place is behind the wall of a bore, between its ends, m: what comes from there is not pushed into the hole.
+pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
+    let at = Meridian::new(place, &bore.hole);
+    let beside = Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b };
+    beside.height() > ROUNDING * place.amax().max(bore.hole.ends[0].amax()) && beside.past_end().is_none()
+}
+
+/// A centre seen from one side of the wall: in the half plane through the axis on that side, or opposite to it.
+#[derive(Clone, Copy)]
+struct Beside<'a> {
+    bore: &'a Bore,
+    /// From end 0 along the axis, m.
+    along: f64,
+    /// From the axis to this side, m.
+    aside: f64,
+    /// Unit vector from the axis to this side.
+    away_b: Vec3,
+}
+
+impl Beside<'_> {
+    fn hole(&self) -> &Frustum {
+        &self.bore.hole
+    }
+
+    /// How far the centre is behind the wall, m; negative in the hole.
+    fn height(&self) -> f64 {
+        let [wall_along, wall_aside] = self.hole().wall;
+        self.along * wall_along + (self.aside - self.hole().radii[0]) * wall_aside
+    }
+
+    /// The end past which the foot of the centre on the wall lies.
+    fn past_end(&self) -> Option<usize> {
+        let [first, last] = self.hole().radii;
+        let (length, widening) = (self.hole().length, last - first);
+        let travelled = self.along * length + (self.aside - first) * widening;
+        if travelled < 0.0 {
+            Some(0)
+        } else {
+            (travelled > length * length + widening * widening).then_some(1)
+        }
+    }
+
+    fn touched(&self, ball: &Sphere) -> Option<Interference> {
+        match self.past_end() {
+            Some(end) => self.touched_at_mouth(ball, end),
+            None => self.touched_on_wall(ball),
+        }
+    }
+
+    fn touched_on_wall(&self, ball: &Sphere) -> Option<Interference> {
+        let [wall_along, wall_aside] = self.hole().wall;
+        let height = self.height();
+        let normal = || (self.in_space(wall_along, wall_aside) * -1.0).normalize();
+        (height < self.bore.thickness)
+            .then(|| pushed(ball, ball.radius + height, normal, Feature::face(0)))
+            .flatten()
+    }
+
+    /// A convex mouth pushes inside its normal cone. What is over the face around the hole is that face's.
+    fn touched_at_mouth(&self, ball: &Sphere, end: usize) -> Option<Interference> {
+        let radius = self.hole().radii[end];
+        let mouth_along = if end == 0 { 0.0 } else { self.hole().length };
+        let (along, aside) = (self.along - mouth_along, self.aside - radius);
+        if !self.bore.mouths[end] || radius == 0.0 || aside > 0.0 {
+            return None;
+        }
+        let distance = (along * along + aside * aside).sqrt();
+        let scale = self.along.abs().max(radius).max(self.hole().length);
+        let normal = || {
+            if distance > ROUNDING * scale {
+                return (self.in_space(along, aside) / distance).normalize();
+            }
+            let [wall_along, wall_aside] = self.hole().wall;
+            let outward = if end == 0 { -1.0 } else { 1.0 };
+            self.in_space(outward - wall_along, -wall_aside).normalize()
+        };
+        pushed(ball, ball.radius - distance, normal, Feature::edge(end))
+    }
+
+    fn in_space(&self, along: f64, aside: f64) -> Vec3 {
+        self.hole().axis * along + self.away_b * aside
+    }
+}
+
+fn pushed(
+    ball: &Sphere,
+    depth: f64,
+    normal: impl FnOnce() -> Vec3,
+    feature: Feature,
+) -> Option<Interference> {
+    (depth > 0.0).then(|| {
+        let normal_b = normal();
+        Interference { depth, normal_b, deepest_b: ball.center - normal_b * ball.radius, feature }
+    })
+}

@@ -1,0 +1,48 @@
+//! Ray (A) – bore (B): where it goes from the hole into the wall (docs/theory.md, 2.5 and 2.8).
+//!
+//! Degenerate case: a ray along the wall, or from behind it, does not hit it.
+
+use super::Feature;
+use super::ray_plane::RayHit;
+use crate::Vec3;
+use crate::primitive::{Bore, Ray};
+
+/// Where a ray hits the wall from within the hole, if at −reach < distance < length. Without a reach of its own the ray is given
+/// the thickness of the wall.
+pub fn ray_bore(ray: &Ray, bore: &Bore) -> Option<RayHit> {
+    let distance = way_out(&ray.origin, &ray.direction, bore)?;
+    let reach = ray.reach.unwrap_or(bore.thickness);
+    if !(-reach < distance && distance < ray.length) {
+        return None;
+    }
+    let hole = &bore.hole;
+    let arm = ray.origin + ray.direction * distance - hole.ends[0];
+    let along = hole.axis.dot(&arm);
+    let across = arm - hole.axis * along;
+    let aside = across.norm();
+    if !(0.0..=hole.length).contains(&along) || aside == 0.0 {
+        return None;
+    }
+    let [wall_along, wall_aside] = hole.wall;
+    let outward = hole.axis * wall_along + across * (wall_aside / aside);
+    Some(RayHit { distance, normal_b: -outward.normalize(), feature: Feature::face(0) })
+}
+
+/// Where a line goes out through the wall's cone, in units of the direction: of the two places at which it meets the cone the
+/// one at which the distance from the axis grows past the cone's radius.
+pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f64> {
+    let hole = &bore.hole;
+    let widening = (hole.radii[1] - hole.radii[0]) / hole.length;
+    let arm = origin - hole.ends[0];
+    let (along, rate) = (hole.axis.dot(&arm), hole.axis.dot(direction));
+    let (across, turning) = (arm - hole.axis * along, direction - hole.axis * rate);
+    let (radius, growth) = (hole.radii[0] + widening * along, widening * rate);
+    // |across|² − radius² along the line: square·t² + 2·half·t + start, zero with a positive slope.
+    let square = (turning.norm() - growth) * (turning.norm() + growth);
+    let half = across.dot(&turning) - radius * growth;
+    let start = (across.norm() - radius) * (across.norm() + radius);
+    let root = half * half - square * start;
+    let slope = if root > 0.0 { root.sqrt() } else { return None };
+    let distance = if half > 0.0 { -start / (half + slope) } else { (slope - half) / square };
+    (distance.is_finite() && radius + growth * distance > 0.0).then_some(distance)
+}
