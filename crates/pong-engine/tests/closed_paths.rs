@@ -309,3 +309,14 @@ fn balls_in_bores() {
         check_closed_paths(name, of, &hole, (center, size, 0.3), Allowed::Nothing);
     }
 }
+
+/// Lying, standing on a disc, on a rim and on a ball, and tilting from one to the other.
+#[test]
+fn round_parts_on_a_plane() {
+    let plane = model("floor", &elastic(), "Plane(name: \"p\", normal: (0,0,1), offset: 0)");
+    let standing = "Cylinder(name: \"c\", ends: ((0,0,-0.5),(0,0,0.5)), radius: 0.3)";
+    for (part, height, turn) in [(PIN, 0.3, 2.0), (PLUG, 0.3, 2.0), (LOG, 0.3, 0.2), (standing, 0.5, 0.2)] {
+        let of = model("part", &elastic(), part);
+        check_closed_paths(part, &of, &plane, (Vec3::z() * height, 0.1, turn), Allowed::Nothing);
+    }
+}

@@ -6,10 +6,12 @@
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
 //!  Point           x         x                    x         x       x        x       x     x
 //!  LineSegment                                    x         x       x        x       x
-//!  Ray                                 x          x         x                              x
+//!  Ray                                 x          x         x       x        x       x     x
 //!  Sphere          x                   x          x         x       x        x       x     x
 //!  Ellipsoid                           x          x         x
-//!  Capsule                                                          x        x       x
+//!  Capsule                                                  x       x        x       x
+//!  Cylinder                                                 x
+//!  Cone                                                     x
 //! ```
 //!
 //! Point–Triangle is blank on purpose: no depth can be defined.
@@ -28,7 +30,9 @@ mod point_sphere;
 mod ray_bore;
 mod ray_plane;
 mod ray_polyhedron;
+mod ray_round;
 mod ray_triangle;
+mod round_plane;
 mod sphere_plane;
 mod sphere_polyhedron;
 mod sphere_sphere;
@@ -90,6 +94,12 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Point, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 1 },
     KindPair { a: Ray, b: Bore, test: ray_bore::test, cost_ns: 50, contacts: 1 },
     KindPair { a: Sphere, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 2 },
+    KindPair { a: Capsule, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 2 },
+    KindPair { a: Cylinder, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
+    KindPair { a: Cone, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
+    KindPair { a: Ray, b: Capsule, test: ray_round::test_capsule, cost_ns: 50, contacts: 1 },
+    KindPair { a: Ray, b: Cylinder, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
+    KindPair { a: Ray, b: Cone, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();

@@ -1,0 +1,154 @@
+//! Ray (A) – capsule, cylinder and cone (B) (docs/theory.md, 2.5 and 2.8): where the ray's line enters the solid.
+//!
+//! Degenerate cases: a line that only grazes does not enter. One through a rim of a cylinder or a cone enters by the wall. As in
+//! a polyhedron the origin may lie inside, up to the reach behind the surface, but not beyond the far side.
+
+use super::Feature;
+use super::ray_plane::RayHit;
+use super::round_surface::nearest_on_segment;
+use crate::primitive::{Capsule, Frustum, Ray};
+use crate::{Vec3, any_perpendicular};
+
+/// Where a ray enters a capsule: of its wall and its two balls the first.
+pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {
+    let [one, other] = capsule.ends;
+    let line = Line::near(ray, &(0.5 * (one + other)));
+    let wall = Frustum::new(capsule.ends, [capsule.radius; 2]);
+    let inside = [
+        line.in_round(&wall).and_then(|inside| inside.cut(&line.between_ends(&wall))),
+        line.in_ball(&one, capsule.radius),
+        line.in_ball(&other, capsule.radius),
+    ];
+    let inside = inside.into_iter().flatten().reduce(|all, part| all.with(&part))?;
+    let place = line.at(inside.from);
+    let normal = (place - nearest_on_segment(&place, &capsule.ends)).normalize();
+    line.hit(ray, &inside, normal, Feature::WHOLE)
+}
+
+/// Where a ray enters a cylinder or a cone: face 0 is the wall, faces 1 and 2 the ends.
+pub fn ray_frustum(ray: &Ray, frustum: &Frustum) -> Option<RayHit> {
+    let line = Line::near(ray, &(0.5 * (frustum.ends[0] + frustum.ends[1])));
+    let (round, between) = (line.in_round(frustum)?, line.between_ends(frustum));
+    let inside = round.cut(&between)?;
+    if round.from >= between.from {
+        let normal = wall_normal(&line.at(inside.from), frustum);
+        return line.hit(ray, &inside, normal, Feature::face(0));
+    }
+    let goes_up = line.direction.dot(&frustum.axis) > 0.0;
+    let (normal, face) = if goes_up { (-frustum.axis, 1) } else { (frustum.axis, 2) };
+    line.hit(ray, &inside, normal, Feature::face(face))
+}
+
+/// Outward at a place of the wall.
+fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
+    let arm = place - frustum.ends[0];
+    let across = arm - frustum.axis * frustum.axis.dot(&arm);
+    let aside = across.norm();
+    let away = if aside > 0.0 { across / aside } else { any_perpendicular(&frustum.axis) };
+    let [wall_along, wall_aside] = frustum.wall;
+    (frustum.axis * wall_along + away * wall_aside).normalize()
+}
+
+/// The part of a line that is inside something, m along it.
+#[derive(Clone, Copy)]
+struct Inside {
+    from: f64,
+    to: f64,
+}
+
+impl Inside {
+    /// What two have in common, if that is more than a place.
+    fn cut(&self, other: &Self) -> Option<Self> {
+        let (from, to) = (self.from.max(other.from), self.to.min(other.to));
+        (from < to).then_some(Self { from, to })
+    }
+
+    /// Two parts of one convex solid.
+    fn with(&self, other: &Self) -> Self {
+        Self { from: self.from.min(other.from), to: self.to.max(other.to) }
+    }
+}
+
+/// The line of a ray, measured from its place nearest to the middle of a solid: far away, squares would lose their digits.
+struct Line {
+    start: Vec3,
+    direction: Vec3,
+    /// Of the start from the ray's origin, m.
+    ahead: f64,
+}
+
+impl Line {
+    fn near(ray: &Ray, middle: &Vec3) -> Self {
+        let ahead = ray.direction.dot(&(middle - ray.origin));
+        Self { start: ray.origin + ray.direction * ahead, direction: ray.direction, ahead }
+    }
+
+    fn at(&self, along: f64) -> Vec3 {
+        self.start + self.direction * along
+    }
+
+    fn hit(&self, ray: &Ray, inside: &Inside, normal: Vec3, feature: Feature) -> Option<RayHit> {
+        let [distance, leaves] = [inside.from, inside.to].map(|along| along + self.ahead);
+        let within = -ray.reach.unwrap_or(0.0) < distance && distance < ray.length && leaves > 0.0;
+        let from_front = ray.direction.dot(&normal) < 0.0;
+        (within && from_front).then_some(RayHit { distance, normal_b: normal, feature })
+    }
+
+    fn in_ball(&self, center: &Vec3, radius: f64) -> Option<Inside> {
+        let arm = self.start - center;
+        let along = arm.dot(&self.direction);
+        let aside = arm - self.direction * along;
+        let square = (radius - aside.norm()) * (radius + aside.norm());
+        let half = if square > 0.0 { square.sqrt() } else { return None };
+        Some(Inside { from: -along - half, to: half - along })
+    }
+
+    /// Between the planes of the two ends.
+    fn between_ends(&self, frustum: &Frustum) -> Inside {
+        let (climb, height) =
+            (self.direction.dot(&frustum.axis), (self.start - frustum.ends[0]).dot(&frustum.axis));
+        if climb == 0.0 {
+            let is_between = 0.0 < height && height < frustum.length;
+            let far = if is_between { f64::INFINITY } else { f64::NEG_INFINITY };
+            return Inside { from: -far, to: far };
+        }
+        let [one, other] = [-height / climb, (frustum.length - height) / climb];
+        Inside { from: one.min(other), to: one.max(other) }
+    }
+
+    /// Inside the wall, which goes on beyond the ends as far as it has a radius: where the square of the distance from the axis is
+    /// less than that of the radius, a·t² + 2b·t + c < 0.
+    fn in_round(&self, frustum: &Frustum) -> Option<Inside> {
+        let [first, last] = frustum.radii;
+        let widening = (last - first) / frustum.length;
+        let arm = self.start - frustum.ends[0];
+        let (height, climb) = (arm.dot(&frustum.axis), self.direction.dot(&frustum.axis));
+        let (across, sideways) = (arm - frustum.axis * height, self.direction - frustum.axis * climb);
+        let (radius, opening) = (first + widening * height, widening * climb);
+        let a = sideways.norm_squared() - opening * opening;
+        let b = across.dot(&sideways) - radius * opening;
+        let c = across.norm_squared() - radius * radius;
+        let root = b * b - a * c;
+        if a > 0.0 {
+            return if root > 0.0 { Some(roots(a, b, c, root)) } else { None };
+        }
+        // Steeper than the wall: inside from where it has come in for ever, on the side to which the wall opens.
+        if opening == 0.0 {
+            return (c < 0.0).then_some(Inside { from: f64::NEG_INFINITY, to: f64::INFINITY });
+        }
+        let far = f64::INFINITY.copysign(opening);
+        let at = match a < 0.0 {
+            true if opening > 0.0 => roots(a, b, c, root.max(0.0)).to,
+            true => roots(a, b, c, root.max(0.0)).from,
+            false => -0.5 * c / b,
+        };
+        Some(Inside { from: at.min(far), to: at.max(far) })
+    }
+}
+
+/// The two roots of a·t² + 2b·t + c, with b² − a·c given: neither as a difference of equal numbers.
+fn roots(a: f64, b: f64, c: f64, square: f64) -> Inside {
+    let sum = -(b + square.sqrt().copysign(b));
+    let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / sum });
+    Inside { from: one.min(other), to: one.max(other) }
+}
