@@ -24,7 +24,7 @@ TOKEN = re.compile(
     |b?'(?:\\[^u]|\\u\{[^}]*\}|[^'\\\n])'""",
     re.DOTALL | re.VERBOSE,
 )
-TEST = re.compile(r"#\[cfg\((?:test|all\(test,[^\]]*\))\)\]\s*(?:#\[[^\]]*\]\s*)*")
+TEST = re.compile(r"#\[cfg\((?:all\()?(?:\w+, )*test(?:, \w+)*\)?\)\]\s*(?:#\[[^\]]*\]\s*)*")
 TEST_FILE = re.compile(r"(?:pub(?:\([a-z]+\))?\s+)?mod\s+(\w+)\s*;")
 
 

@@ -245,6 +245,8 @@ impl WorldBuilder {
 }
 
 /// Why a world could not be sealed, and the builder as it was: mend it and seal it again.
+#[derive(thiserror::Error)]
+#[error("{error}")]
 pub struct SealError {
     error: EngineError,
     builder: WorldBuilder,
@@ -267,14 +269,6 @@ impl std::fmt::Debug for SealError {
         self.error.fmt(f)
     }
 }
-
-impl std::fmt::Display for SealError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        std::fmt::Display::fmt(&self.error, f)
-    }
-}
-
-impl std::error::Error for SealError {}
 
 impl From<SealError> for EngineError {
     fn from(refused: SealError) -> Self {

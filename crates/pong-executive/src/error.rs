@@ -3,11 +3,13 @@
 use pong_engine::{EngineError, SealError};
 
 /// An error of the executive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExecutiveError {
     /// The engine refused a call.
-    Engine(EngineError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
     /// Something that was handed in cannot be used.
+    #[error("{what}: {cause}; {cure}")]
     Invalid {
         /// The thing.
         what: String,
@@ -17,6 +19,10 @@ pub enum ExecutiveError {
         cure: String,
     },
     /// A state left the range of numbers.
+    #[error(
+        "body `{body}`: its state is no longer finite at t = {time} s; the step is too long for the \
+         stiffness and mass at hand: shorten it"
+    )]
     Diverged {
         /// The body.
         body: String,
@@ -32,28 +38,6 @@ impl ExecutiveError {
         cure: impl Into<String>,
     ) -> Self {
         Self::Invalid { what: what.into(), cause: cause.into(), cure: cure.into() }
-    }
-}
-
-impl std::fmt::Display for ExecutiveError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Engine(error) => error.fmt(f),
-            Self::Invalid { what, cause, cure } => write!(f, "{what}: {cause}; {cure}"),
-            Self::Diverged { body, time } => write!(
-                f,
-                "body `{body}`: its state is no longer finite at t = {time} s; the step is too long for the \
-                 stiffness and mass at hand: shorten it"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for ExecutiveError {}
-
-impl From<EngineError> for ExecutiveError {
-    fn from(error: EngineError) -> Self {
-        Self::Engine(error)
     }
 }
 

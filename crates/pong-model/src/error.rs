@@ -1,10 +1,13 @@
 //! What is wrong with a model file, where, and what to do about it.
 
 use crate::printable;
-use std::fmt;
 
 /// One fault of a model file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{}:{line}:{column}: {}: [{rule}] {}; {}",
+    printable(.file), printable(.path), printable(.cause), printable(.cure)
+)]
 pub struct ModelError {
     /// The file as the caller named it.
     pub file: String,
@@ -22,30 +25,7 @@ pub struct ModelError {
     pub cure: String,
 }
 
-impl fmt::Display for ModelError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { file, line, column, path, rule, cause, cure } = self;
-        let [file, path, cause, cure] = [file, path, cause, cure].map(|text| printable(text));
-        write!(f, "{file}:{line}:{column}: {path}: [{rule}] {cause}; {cure}")
-    }
-}
-
-impl std::error::Error for ModelError {}
-
 /// Every fault of a model file, in the order of the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct ModelErrors(pub Vec<ModelError>);
-
-impl fmt::Display for ModelErrors {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (index, error) in self.0.iter().enumerate() {
-            if index > 0 {
-                writeln!(f)?;
-            }
-            write!(f, "{error}")?;
-        }
-        Ok(())
-    }
-}
-
-impl std::error::Error for ModelErrors {}

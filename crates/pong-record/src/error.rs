@@ -5,10 +5,11 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Why a log cannot be written or read. The text names the file, the cause and the cure.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum LogError {
     /// A file or folder cannot be read.
+    #[error("{path}: cannot be read: {reason}; name the folder of a response log")]
     Unreadable {
         /// Which.
         path: PathBuf,
@@ -16,6 +17,7 @@ pub enum LogError {
         reason: String,
     },
     /// A file or folder cannot be written.
+    #[error("{path}: cannot be written: {reason}; name a folder with room")]
     Unwritable {
         /// Which.
         path: PathBuf,
@@ -23,6 +25,7 @@ pub enum LogError {
         reason: String,
     },
     /// A file does not hold what it must.
+    #[error("{path}: is damaged: {cause}; use another copy of the log")]
     Damaged {
         /// Which.
         path: PathBuf,
@@ -30,6 +33,7 @@ pub enum LogError {
         cause: String,
     },
     /// The folder holds another log.
+    #[error("{path}: holds a log already (`{found}`); name another folder, or ask to have it overwritten")]
     Occupied {
         /// The folder.
         path: PathBuf,
@@ -37,6 +41,10 @@ pub enum LogError {
         found: String,
     },
     /// The log is of a version of the format that this program does not read.
+    #[error(
+        "{path}: is of version {version}, this program reads versions 1 to {VERSION}; use the program that wrote it, or \
+         a later one"
+    )]
     Version {
         /// Its run.json.
         path: PathBuf,
@@ -44,6 +52,7 @@ pub enum LogError {
         version: u64,
     },
     /// A model cannot be kept with the log.
+    #[error("model `{name}`: cannot be kept with the log: {cause}; {cure}")]
     Model {
         /// Its name.
         name: String,
@@ -53,11 +62,13 @@ pub enum LogError {
         cure: String,
     },
     /// The files could not be written to the end.
+    #[error("{text}")]
     Ended {
         /// Why, and how far the log goes.
         text: String,
     },
     /// A call at the wrong time, or with a value that cannot be.
+    #[error("log: {cause}; {cure}")]
     Refused {
         /// What and why.
         cause: String,
@@ -65,7 +76,8 @@ pub enum LogError {
         cure: String,
     },
     /// The engine refused something.
-    Engine(pong_engine::EngineError),
+    #[error(transparent)]
+    Engine(#[from] pong_engine::EngineError),
 }
 
 impl LogError {
@@ -84,47 +96,6 @@ impl LogError {
 
     pub(crate) fn refused(cause: impl Into<String>, cure: impl Into<String>) -> Self {
         Self::Refused { cause: cause.into(), cure: cure.into() }
-    }
-}
-
-impl std::fmt::Display for LogError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Unreadable { path, reason } => {
-                write!(f, "{}: cannot be read: {reason}; name the folder of a response log", path.display())
-            }
-            Self::Unwritable { path, reason } => {
-                write!(f, "{}: cannot be written: {reason}; name a folder with room", path.display())
-            }
-            Self::Damaged { path, cause } => {
-                write!(f, "{}: is damaged: {cause}; use another copy of the log", path.display())
-            }
-            Self::Occupied { path, found } => write!(
-                f,
-                "{}: holds a log already (`{found}`); name another folder, or ask to have it overwritten",
-                path.display()
-            ),
-            Self::Version { path, version } => write!(
-                f,
-                "{}: is of version {version}, this program reads versions 1 to {}; use the program that wrote it, or a later one",
-                path.display(),
-                VERSION
-            ),
-            Self::Model { name, cause, cure } => {
-                write!(f, "model `{name}`: cannot be kept with the log: {cause}; {cure}")
-            }
-            Self::Ended { text } => f.write_str(text),
-            Self::Refused { cause, cure } => write!(f, "log: {cause}; {cure}"),
-            Self::Engine(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for LogError {}
-
-impl From<pong_engine::EngineError> for LogError {
-    fn from(error: pong_engine::EngineError) -> Self {
-        Self::Engine(error)
     }
 }
 

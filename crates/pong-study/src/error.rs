@@ -7,7 +7,8 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// An error of a study.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
 pub struct StudyError(pub String);
 
 impl StudyError {
@@ -26,14 +27,6 @@ impl StudyError {
         Self::file(path, format!("{reason}; name another folder with -o"))
     }
 }
-
-impl Display for StudyError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for StudyError {}
 
 /// Errors that say thing, cause and cure themselves.
 macro_rules! told_already {

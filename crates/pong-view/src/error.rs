@@ -5,14 +5,19 @@ use pong_record::LogError;
 use std::path::PathBuf;
 
 /// Why a log cannot be shown. The text names the thing, the cause and the cure.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
     /// The log cannot be read.
-    Log(LogError),
+    #[error(transparent)]
+    Log(#[from] LogError),
     /// A model of the log cannot be read.
+    #[error(transparent)]
     Model(ModelErrors),
     /// A model and the log do not belong together.
+    #[error(
+        "{model}: {cause}; the model was changed after the run: put back the file that the log was written with"
+    )]
     Foreign {
         /// The file of the model.
         model: PathBuf,
@@ -20,37 +25,9 @@ pub enum ViewError {
         cause: String,
     },
     /// There is nothing to show.
+    #[error("{0}: holds no whole frame, so there is nothing to show; let the run write at least one frame")]
     Empty(PathBuf),
     /// The data cannot be packed.
+    #[error("the page's data cannot be packed: {0}; free some memory")]
     Packing(std::io::Error),
-}
-
-impl std::fmt::Display for ViewError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Log(error) => error.fmt(f),
-            Self::Model(errors) => errors.fmt(f),
-            Self::Foreign { model, cause } => write!(
-                f,
-                "{}: {cause}; the model was changed after the run: put back the file that the log was written with",
-                model.display()
-            ),
-            Self::Empty(folder) => write!(
-                f,
-                "{}: holds no whole frame, so there is nothing to show; let the run write at least one frame",
-                folder.display()
-            ),
-            Self::Packing(reason) => {
-                write!(f, "the page's data cannot be packed: {reason}; free some memory")
-            }
-        }
-    }
-}
-
-impl std::error::Error for ViewError {}
-
-impl From<LogError> for ViewError {
-    fn from(error: LogError) -> Self {
-        Self::Log(error)
-    }
 }

@@ -30,9 +30,13 @@ const RECORD_LEN: usize = 8 * 4 + 2 * 4 + 4 * 3 * 8 + 3 * 8;
 const CHECKSUM_LEN: usize = 8;
 
 /// Why a block was refused. The world keeps the state it had.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StateError {
     /// The buffer has the wrong length.
+    #[error(
+        "contact state: the buffer has {got} bytes where the block has {least}; give as many, or up to {most} of \
+         which those behind the block are zero"
+    )]
     Length {
         /// Bytes of the block.
         least: usize,
@@ -42,48 +46,28 @@ pub enum StateError {
         got: usize,
     },
     /// The block does not start like a contact state block.
+    #[error(
+        "contact state: the bytes are not a contact state block; hand in one that was saved by this engine"
+    )]
     Foreign,
     /// The block was written by another version of the format.
+    #[error(
+        "contact state: the block has format version {got}, this engine reads {VERSION}; save it again with this version"
+    )]
     Version {
         /// Version in the block.
         got: u32,
     },
     /// The block belongs to a world that was built by other calls.
+    #[error(
+        "contact state: the block was saved by a world that was built from other models or other calls; build the world \
+         by the same calls in the same order"
+    )]
     World,
     /// The block's contents do not match its checksum.
+    #[error("contact state: the block is damaged (checksum mismatch); use another copy")]
     Damaged,
 }
-
-impl std::fmt::Display for StateError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Length { least, most, got } => {
-                write!(
-                    f,
-                    "contact state: the buffer has {got} bytes where the block has {least}; give as many, or up to {most} of \
-                     which those behind the block are zero"
-                )
-            }
-            Self::Foreign => write!(
-                f,
-                "contact state: the bytes are not a contact state block; hand in one that was saved by this engine"
-            ),
-            Self::Version { got } => write!(
-                f,
-                "contact state: the block has format version {got}, this engine reads {VERSION}; save it again with this version"
-            ),
-            Self::World => write!(
-                f,
-                "contact state: the block was saved by a world that was built from other models or other calls; build the world by the same calls in the same order"
-            ),
-            Self::Damaged => {
-                write!(f, "contact state: the block is damaged (checksum mismatch); use another copy")
-            }
-        }
-    }
-}
-
-impl std::error::Error for StateError {}
 
 /// Size of the largest block of a memory, bytes.
 pub(crate) fn largest_len(memory: &ContactMemory) -> usize {

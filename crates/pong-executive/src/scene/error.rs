@@ -32,17 +32,9 @@ impl std::fmt::Display for SceneError {
 impl std::error::Error for SceneError {}
 
 /// Every fault of a scene, in the order of the file's sections.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
 pub struct SceneErrors(pub Vec<SceneError>);
-
-impl std::fmt::Display for SceneErrors {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
-        f.write_str(&lines.join("\n"))
-    }
-}
-
-impl std::error::Error for SceneErrors {}
 
 /// Collects faults of one file.
 pub(crate) struct Faults<'a> {
