@@ -1,6 +1,6 @@
 //! Energy accounts.
 
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::ids::{pong_interface_id, pong_pair_id};
 use crate::interfaces::too_small;
@@ -83,14 +83,9 @@ pub unsafe extern "C" fn pong_get_energy_account(
     world: *const pong_world,
     account: *mut pong_energy_account,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(account, "account")?
-                .set((&inner.phase.sealed().map_or_else(EnergyAccount::default, World::account)).into());
-            Ok(())
-        })
-    }
+    get(world, (account, "account"), |inner| {
+        Ok((&inner.phase.sealed().map_or_else(EnergyAccount::default, World::account)).into())
+    })
 }
 
 /// Number of pairs of movable groups that accounts are kept of; 0 unless the configuration has energy_accounts.
@@ -99,13 +94,7 @@ pub unsafe extern "C" fn pong_pair_energy_account_count(
     world: *const pong_world,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.pair_accounts().count());
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(inner.pair_accounts().count()))
 }
 
 /// The accounts of a pair of movable groups at the last commit, always in the same order.
@@ -115,16 +104,11 @@ pub unsafe extern "C" fn pong_get_pair_energy_account(
     index: usize,
     account: *mut pong_pair_energy_account,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(account, "account")?;
-            let count = inner.pair_accounts().count();
-            let found = inner.pair_accounts().nth(index);
-            out.set((&found.ok_or_else(|| no_such("pair account", index, count))?).into());
-            Ok(())
-        })
-    }
+    get(world, (account, "account"), |inner| {
+        let count = inner.pair_accounts().count();
+        let found = inner.pair_accounts().nth(index);
+        Ok((&found.ok_or_else(|| no_such("pair account", index, count))?).into())
+    })
 }
 
 /// What to do about a pair of movable groups that makes energy: in words, with the numbers of the pair. The text lives until
@@ -135,18 +119,13 @@ pub unsafe extern "C" fn pong_pair_remedy(
     index: usize,
     remedy: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(remedy, "remedy")?;
-            let count = inner.pair_accounts().count();
-            let found = inner.pair_accounts().nth(index);
-            let found = found.ok_or_else(|| no_such("pair account", index, count))?;
-            inner.remedy = c_text(&found.remedy());
-            out.set(inner.remedy.as_ptr());
-            Ok(())
-        })
-    }
+    get(world, (remedy, "remedy"), |inner| {
+        let count = inner.pair_accounts().count();
+        let found = inner.pair_accounts().nth(index);
+        let found = found.ok_or_else(|| no_such("pair account", index, count))?;
+        inner.remedy = c_text(&found.remedy());
+        Ok(inner.remedy.as_ptr())
+    })
 }
 
 /// The accounts of the contacts of the last frame, each since the contact began, in the order of pong_get_contacts(): the
@@ -159,21 +138,17 @@ pub unsafe extern "C" fn pong_get_contact_energy_accounts(
     capacity: usize,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            apart(("accounts", accounts, capacity), ("count", count, 1))?;
-            let (mut out, count) =
-                (OutArray::new(accounts, capacity, "accounts")?, Out::new(count, "count")?);
-            inner.law_faults.check()?;
-            let listed = inner.phase.sealed().into_iter().flat_map(World::contact_accounts).enumerate();
-            listed.take(capacity).for_each(|(index, account)| out.set(index, (&account).into()));
-            let kept = inner.phase.scene().wrench_coupling().is_some();
-            let total = if kept { inner.phase.report().contacts as usize } else { 0 };
-            count.set(total);
-            too_small("accounts", capacity, total)
-        })
-    }
+    with_world(world, |inner| {
+        apart(("accounts", accounts, capacity), ("count", count, 1))?;
+        let (mut out, count) = (OutArray::new(accounts, capacity, "accounts")?, Out::new(count, "count")?);
+        inner.law_faults.check()?;
+        let listed = inner.phase.sealed().into_iter().flat_map(World::contact_accounts).enumerate();
+        listed.take(capacity).for_each(|(index, account)| out.set(index, (&account).into()));
+        let kept = inner.phase.scene().wrench_coupling().is_some();
+        let total = if kept { inner.phase.report().contacts as usize } else { 0 };
+        count.set(total);
+        too_small("accounts", capacity, total)
+    })
 }
 
 impl Inner {

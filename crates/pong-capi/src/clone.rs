@@ -2,7 +2,7 @@
 
 use crate::counters::Counters;
 use crate::failure::Outcome;
-use crate::guard::with_world;
+use crate::guard::get;
 use crate::handle::{Inner, pong_world};
 use crate::law_adapters::LawFaults;
 use crate::memory;
@@ -22,18 +22,13 @@ pub unsafe extern "C" fn pong_clone_world(
     world: *const pong_world,
     clone: *mut *mut pong_world,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        if let Ok(out) = Out::new(clone, "clone") {
-            out.set(std::ptr::null_mut());
-        }
-        with_world(world, |inner| {
-            let out = Out::new(clone, "clone")?;
-            let made = inner.try_clone()?;
-            out.set(Box::into_raw(Box::new(pong_world { inner: Mutex::new(made) })));
-            Ok(())
-        })
+    if let Ok(out) = Out::new(clone, "clone") {
+        out.set(std::ptr::null_mut());
     }
+    get(world, (clone, "clone"), |inner| {
+        let made = inner.try_clone()?;
+        Ok(Box::into_raw(Box::new(pong_world { inner: Mutex::new(made) })))
+    })
 }
 
 impl Inner {

@@ -1,7 +1,7 @@
 //! Saving and restoring the contact state.
 
 use crate::failure::Failure;
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::pong_pair_id;
 use crate::pointers::{Out, OutArray, array};
@@ -14,28 +14,18 @@ use std::ffi::c_void;
 /// made once, is large enough for ever.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_state_size(world: *const pong_world, size: *mut usize) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(size, "size")?
-                .set(inner.phase.frames("ask for the size of the contact state")?.state_size());
-            Ok(())
-        })
-    }
+    get(world, (size, "size"), |inner| {
+        Ok(inner.phase.frames("ask for the size of the contact state")?.state_size())
+    })
 }
 
 /// Size of the contact state as it is to be saved now, bytes. It grows and shrinks with the contacts of the last commit, and
 /// is mostly far below pong_contact_state_size().
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_state_used(world: *const pong_world, size: *mut usize) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(size, "size")?
-                .set(inner.phase.frames("ask for the size of the contact state")?.state_used());
-            Ok(())
-        })
-    }
+    get(world, (size, "size"), |inner| {
+        Ok(inner.phase.frames("ask for the size of the contact state")?.state_used())
+    })
 }
 
 /// Saves the committed contact state into the caller's buffer of `size` bytes, pong_contact_state_used() or more. It takes
@@ -47,21 +37,18 @@ pub unsafe extern "C" fn pong_save_contact_state(
     buffer: *mut c_void,
     size: usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let world = inner.phase.frames("ask for the size of the contact state")?;
-            let needed = world.state_used();
-            let written = size.min(world.state_size());
-            if size < needed {
-                let message =
-                    format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
-                return Err(Failure::new(pong_status::BufferTooSmall, message));
-            }
-            let mut out = OutArray::new(buffer.cast::<u8>(), written, "buffer")?;
-            Ok(world.save_state(out.zeroed())?)
-        })
-    }
+    with_world(world, |inner| {
+        let world = inner.phase.frames("ask for the size of the contact state")?;
+        let needed = world.state_used();
+        let written = size.min(world.state_size());
+        if size < needed {
+            let message =
+                format!("contact state: the buffer has {size} bytes, it takes {needed}; make it larger");
+            return Err(Failure::new(pong_status::BufferTooSmall, message));
+        }
+        let mut out = OutArray::new(buffer.cast::<u8>(), written, "buffer")?;
+        Ok(world.save_state(out.zeroed())?)
+    })
 }
 
 /// Restores a contact state that was saved by this world or by one that was built by the same calls: the bytes that saving
@@ -73,18 +60,15 @@ pub unsafe extern "C" fn pong_restore_contact_state(
     buffer: *const c_void,
     size: usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let block = array(buffer.cast::<u8>(), size, "buffer")?;
-            let world = inner.phase.frames_mut("restore the contact state")?;
-            world.restore_state(block)?;
-            // The block ends where what is remembered now does.
-            let used = world.state_used();
-            inner.tell_log(|log| log.restored(&block[..used]));
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let block = array(buffer.cast::<u8>(), size, "buffer")?;
+        let world = inner.phase.frames_mut("restore the contact state")?;
+        world.restore_state(block)?;
+        // The block ends where what is remembered now does.
+        let used = world.state_used();
+        inner.tell_log(|log| log.restored(&block[..used]));
+        Ok(())
+    })
 }
 
 /// Accepts the states presently set, as pong_commit(), and preloads the bristles between the two Objects of a pair: for the first
@@ -99,29 +83,24 @@ pub unsafe extern "C" fn pong_preload_friction(
     force: *const f64,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::optional(count, "count")?;
-            let preload = if force.is_null() {
-                FrictionPreload::Sliding
-            } else {
-                let force = array(force, 3, "force")?;
-                FrictionPreload::Holding(Vec3::new(force[0], force[1], force[2]))
-            };
-            inner.phase.scene().objects_of(pair.id())?;
-            let world = inner.phase.frames_mut("preload friction")?;
-            let set = world.preload_friction(pair.id(), &preload)?;
-            // For the log it is what a restored contact state is.
-            if inner.log.is_some() {
-                let mut block = Vec::new();
-                world.save_state_packed(&mut block);
-                inner.tell_log(|log| log.restored(&block));
-            }
-            if let Some(out) = out {
-                out.set(set);
-            }
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let out = Out::optional(count, "count")?;
+        let preload = if force.is_null() {
+            FrictionPreload::Sliding
+        } else {
+            let force = array(force, 3, "force")?;
+            FrictionPreload::Holding(Vec3::new(force[0], force[1], force[2]))
+        };
+        inner.phase.scene().objects_of(pair.id())?;
+        let world = inner.phase.frames_mut("preload friction")?;
+        let set = world.preload_friction(pair.id(), &preload)?;
+        // For the log it is what a restored contact state is.
+        if inner.log.is_some() {
+            let mut block = Vec::new();
+            world.save_state_packed(&mut block);
+            inner.tell_log(|log| log.restored(&block));
+        }
+        out.set(set);
+        Ok(())
+    })
 }

@@ -1,6 +1,6 @@
 //! Contacts of the last frame.
 
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id, pong_pair_id};
 use crate::interfaces::too_small;
@@ -75,13 +75,7 @@ pub struct pong_contact {
 /// Number of contacts of the last frame; 0 before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_contact_count(world: *const pong_world, count: *mut usize) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.phase.report().contacts as usize);
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(inner.phase.report().contacts as usize))
 }
 
 /// The contacts of the last frame, always in the same order for the same frame: the first `capacity` are copied,
@@ -94,20 +88,16 @@ pub unsafe extern "C" fn pong_get_contacts(
     capacity: usize,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            apart(("contacts", contacts, capacity), ("count", count, 1))?;
-            let (mut out, count) =
-                (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
-            inner.law_faults.check()?;
-            let listed = inner.phase.sealed().into_iter().flat_map(World::contacts_iter).enumerate();
-            listed.take(capacity).for_each(|(index, contact)| out.set(index, (&contact).into()));
-            let total = inner.phase.report().contacts as usize;
-            count.set(total);
-            too_small("contacts", capacity, total)
-        })
-    }
+    with_world(world, |inner| {
+        apart(("contacts", contacts, capacity), ("count", count, 1))?;
+        let (mut out, count) = (OutArray::new(contacts, capacity, "contacts")?, Out::new(count, "count")?);
+        inner.law_faults.check()?;
+        let listed = inner.phase.sealed().into_iter().flat_map(World::contacts_iter).enumerate();
+        listed.take(capacity).for_each(|(index, contact)| out.set(index, (&contact).into()));
+        let total = inner.phase.report().contacts as usize;
+        count.set(total);
+        too_small("contacts", capacity, total)
+    })
 }
 
 /// How the normal force of each contact of the last frame changes with its depth (`stiffness`, N/m) and with the rate of that
@@ -122,26 +112,23 @@ pub unsafe extern "C" fn pong_get_contact_stiffness(
     capacity: usize,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            apart(("stiffness", stiffness, capacity), ("damping", damping, capacity))?;
-            apart(("stiffness", stiffness, capacity), ("count", count, 1))?;
-            apart(("damping", damping, capacity), ("count", count, 1))?;
-            let mut stiffness = OutArray::new(stiffness, capacity, "stiffness")?;
-            let mut damping = OutArray::new(damping, capacity, "damping")?;
-            let count = Out::new(count, "count")?;
-            inner.law_faults.check()?;
-            let listed = inner.phase.sealed().into_iter().flat_map(World::normal_tangents).enumerate();
-            for (index, tangent) in listed.take(capacity) {
-                stiffness.set(index, tangent.map_or(f64::NAN, |tangent| tangent.stiffness));
-                damping.set(index, tangent.map_or(f64::NAN, |tangent| tangent.damping));
-            }
-            let total = inner.phase.report().contacts as usize;
-            count.set(total);
-            too_small("stiffness and damping", capacity, total)
-        })
-    }
+    with_world(world, |inner| {
+        apart(("stiffness", stiffness, capacity), ("damping", damping, capacity))?;
+        apart(("stiffness", stiffness, capacity), ("count", count, 1))?;
+        apart(("damping", damping, capacity), ("count", count, 1))?;
+        let mut stiffness = OutArray::new(stiffness, capacity, "stiffness")?;
+        let mut damping = OutArray::new(damping, capacity, "damping")?;
+        let count = Out::new(count, "count")?;
+        inner.law_faults.check()?;
+        let listed = inner.phase.sealed().into_iter().flat_map(World::normal_tangents).enumerate();
+        for (index, tangent) in listed.take(capacity) {
+            stiffness.set(index, tangent.map_or(f64::NAN, |tangent| tangent.stiffness));
+            damping.set(index, tangent.map_or(f64::NAN, |tangent| tangent.damping));
+        }
+        let total = inner.phase.report().contacts as usize;
+        count.set(total);
+        too_small("stiffness and damping", capacity, total)
+    })
 }
 
 const KIND_SHIFT: u32 = 30;

@@ -14,16 +14,14 @@ use std::time::Instant;
 /// limit succeeds; its report has a flag.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_evaluate(world: *mut pong_world) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe { with_world(world, Inner::evaluate) }
+    with_world(world, Inner::evaluate)
 }
 
 /// Accepts the states presently set, evaluating them first if they are not the ones last evaluated. The only
 /// writer of contact state: call it once per accepted step, never from a stage of an integrator.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_commit(world: *mut pong_world) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe { with_world(world, Inner::commit_all) }
+    with_world(world, Inner::commit_all)
 }
 
 /// As pong_commit(), for some pairs only: the others keep their last committed state. For executives that run
@@ -34,33 +32,27 @@ pub unsafe extern "C" fn pong_commit_pairs(
     pairs: *const pong_pair_id,
     n: usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let pairs = array(pairs, n, "pairs")?;
-            let mut ids = std::mem::take(&mut inner.pairs);
-            ids.clear();
-            ids.extend(pairs.iter().map(|id| id.id()));
-            let outcome = inner.commit(|world| world.commit_pairs(&ids));
-            if outcome.is_ok() {
-                inner.tell_log(|log| log.committed_some(&ids));
-            }
-            inner.pairs = ids;
-            outcome
-        })
-    }
+    with_world(world, |inner| {
+        let pairs = array(pairs, n, "pairs")?;
+        let mut ids = std::mem::take(&mut inner.pairs);
+        ids.clear();
+        ids.extend(pairs.iter().map(|id| id.id()));
+        let outcome = inner.commit(|world| world.commit_pairs(&ids));
+        if outcome.is_ok() {
+            inner.tell_log(|log| log.committed_some(&ids));
+        }
+        inner.pairs = ids;
+        outcome
+    })
 }
 
 /// Evaluate and commit, for executives that call once a frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_step(world: *mut pong_world) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.evaluate()?;
-            inner.commit_all()
-        })
-    }
+    with_world(world, |inner| {
+        inner.evaluate()?;
+        inner.commit_all()
+    })
 }
 
 impl Inner {

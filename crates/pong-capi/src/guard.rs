@@ -4,6 +4,7 @@ use crate::failure::{Failure, Outcome, Why};
 use crate::handle::{Inner, pong_world};
 use crate::memory;
 use crate::message;
+use crate::pointers::Out;
 use crate::status::pong_status;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -62,6 +63,22 @@ pub(crate) unsafe fn with_world(
     })
 }
 
+/// As [`with_world`], for calls that give one answer back: into `place`, which has this name.
+///
+/// # Safety
+/// As [`with_world`]; `place` is NULL or may be written.
+pub(crate) unsafe fn get<T>(
+    world: *const pong_world,
+    (place, name): (*mut T, &str),
+    call: impl FnOnce(&mut Inner) -> Outcome<T>,
+) -> pong_status {
+    with_world(world, |inner| {
+        let out = Out::new(place, name)?;
+        out.set(call(inner)?);
+        Ok(())
+    })
+}
+
 /// As [`with_world`], for calls of set-up that take little memory: refused if there is none.
 ///
 /// # Safety
@@ -70,13 +87,10 @@ pub(crate) unsafe fn setting_up(
     world: *const pong_world,
     call: impl FnOnce(&mut Inner) -> Outcome,
 ) -> pong_status {
-    // SAFETY: by the contract of this function.
-    unsafe {
-        with_world(world, |inner| {
-            memory::require_little()?;
-            call(inner)
-        })
-    }
+    with_world(world, |inner| {
+        memory::require_little()?;
+        call(inner)
+    })
 }
 
 fn fault(payload: Box<dyn Any + Send>) -> Failure {

@@ -1,7 +1,7 @@
 //! Interfaces: where states go in and wrenches come out.
 
 use crate::failure::Failure;
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id};
 use crate::pointers::{Out, OutArray, apart, text};
@@ -18,14 +18,11 @@ pub unsafe extern "C" fn pong_find_interface(
     path: *const c_char,
     interface: *mut pong_interface_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (path, out) = (text(path, "path")?, Out::new(interface, "interface")?);
-            out.set(inner.phase.scene().interface(object.id(), path)?.into());
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (path, out) = (text(path, "path")?, Out::new(interface, "interface")?);
+        out.set(inner.phase.scene().interface(object.id(), path)?.into());
+        Ok(())
+    })
 }
 
 /// All Interfaces of an Object, the root's first, as many as `capacity`; `count` gets their number.
@@ -38,18 +35,15 @@ pub unsafe extern "C" fn pong_list_interfaces(
     capacity: usize,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            apart(("interfaces", interfaces, capacity), ("count", count, 1))?;
-            let (mut out, count) =
-                (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
-            let ids = inner.phase.scene().interfaces(object.id())?;
-            ids.iter().enumerate().for_each(|(index, id)| out.set(index, (*id).into()));
-            count.set(ids.len());
-            too_small("interfaces", out.len(), ids.len())
-        })
-    }
+    with_world(world, |inner| {
+        apart(("interfaces", interfaces, capacity), ("count", count, 1))?;
+        let (mut out, count) =
+            (OutArray::new(interfaces, capacity, "interfaces")?, Out::new(count, "count")?);
+        let ids = inner.phase.scene().interfaces(object.id())?;
+        ids.iter().enumerate().for_each(|(index, id)| out.set(index, (*id).into()));
+        count.set(ids.len());
+        too_small("interfaces", out.len(), ids.len())
+    })
 }
 
 /// The refusal of a buffer that is too small, if it is.
@@ -68,13 +62,7 @@ pub unsafe extern "C" fn pong_interface_path(
     interface: pong_interface_id,
     path: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(path, "path")?.set(inner.names.path(interface)?.as_ptr());
-            Ok(())
-        })
-    }
+    get(world, (path, "path"), |inner| Ok(inner.names.path(interface)?.as_ptr()))
 }
 
 /// The Object an Interface belongs to.
@@ -84,13 +72,7 @@ pub unsafe extern "C" fn pong_interface_object(
     interface: pong_interface_id,
     object: *mut pong_object_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(object, "object")?.set(inner.names.object_of(interface)?.into());
-            Ok(())
-        })
-    }
+    get(world, (object, "object"), |inner| Ok(inner.names.object_of(interface)?.into()))
 }
 
 /// Where the model's author placed a movable group in the frame of the root group, at rest: a place to start
@@ -101,12 +83,9 @@ pub unsafe extern "C" fn pong_get_authored_state(
     interface: pong_interface_id,
     state: *mut pong_state,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let pose = inner.phase.scene().authored_pose(interface.id())?;
-            Out::new(state, "state")?.set(pong_state::from_motion(&pose, &pong_geometry::Twist::zero()));
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let pose = inner.phase.scene().authored_pose(interface.id())?;
+        Out::new(state, "state")?.set(pong_state::from_motion(&pose, &pong_geometry::Twist::zero()));
+        Ok(())
+    })
 }

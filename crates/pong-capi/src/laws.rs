@@ -23,20 +23,14 @@ pub unsafe extern "C" fn pong_register_normal_law(
     stored: pong_normal_law,
     user: *mut c_void,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs; the functions are the caller's to vouch for.
-    unsafe {
-        setting_up(world, |inner| {
-            let name = text(name, "name")?;
-            let force = force.ok_or_else(|| no_function("force"))?;
-            inner.check_new_law(
-                name,
-                |known| matches!(known, Callback::Normal { name: n, .. } if n == name),
-            )?;
-            let fault = inner.law_faults.watch(name);
-            let law = NormalCallback { force, stored, user: User(user), fault };
-            inner.register(Callback::Normal { name: name.to_owned(), law })
-        })
-    }
+    setting_up(world, |inner| {
+        let name = text(name, "name")?;
+        let force = force.ok_or_else(|| no_function("force"))?;
+        inner.check_new_law(name, |known| matches!(known, Callback::Normal { name: n, .. } if n == name))?;
+        let fault = inner.law_faults.watch(name);
+        let law = NormalCallback { force, stored, user: User(user), fault };
+        inner.register(Callback::Normal { name: name.to_owned(), law })
+    })
 }
 
 /// Adds a friction law that remembers `state_len` numbers per contact (at most 64). The same rules as for
@@ -49,26 +43,21 @@ pub unsafe extern "C" fn pong_register_friction_law(
     law: pong_friction_law,
     user: *mut c_void,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs; the function is the caller's to vouch for.
-    unsafe {
-        setting_up(world, |inner| {
-            let name = text(name, "name")?;
-            let evaluate = law.ok_or_else(|| no_function("law"))?;
-            if state_len > MOST_NUMBERS {
-                let message = format!(
-                    "law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers"
-                );
-                return Err(Failure::new(pong_status::BadValue, message));
-            }
-            inner.check_new_law(
-                name,
-                |known| matches!(known, Callback::Friction { name: n, .. } if n == name),
-            )?;
-            let fault = inner.law_faults.watch(name);
-            let law = FrictionCallback { evaluate, state_len, user: User(user), fault };
-            inner.register(Callback::Friction { name: name.to_owned(), law })
-        })
-    }
+    setting_up(world, |inner| {
+        let name = text(name, "name")?;
+        let evaluate = law.ok_or_else(|| no_function("law"))?;
+        if state_len > MOST_NUMBERS {
+            let message = format!(
+                "law `{name}`: state_len is {state_len}; a law remembers at most {MOST_NUMBERS} numbers"
+            );
+            return Err(Failure::new(pong_status::BadValue, message));
+        }
+        inner
+            .check_new_law(name, |known| matches!(known, Callback::Friction { name: n, .. } if n == name))?;
+        let fault = inner.law_faults.watch(name);
+        let law = FrictionCallback { evaluate, state_len, user: User(user), fault };
+        inner.register(Callback::Friction { name: name.to_owned(), law })
+    })
 }
 
 const MOST_NUMBERS: usize = 64;

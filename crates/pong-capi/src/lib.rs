@@ -26,10 +26,12 @@
 //!
 //! A pointer is NULL or points to what its type says, for as long as the call runs; a world is one that
 //! `pong_create_world` made and `pong_destroy_world` has not destroyed; text ends with a zero byte; an array has
-//! as many elements as the caller says. Everything else is checked.
+//! as many elements as the caller says; a function may be called as its type says. Everything else is checked.
+//! An entry is unsafe as a whole, by this contract: a block `unsafe` around each body would say no more.
 
 #![allow(non_camel_case_types)] // The names are those of pong.h.
 #![allow(clippy::missing_safety_doc)] // One contract for all entries, above.
+#![allow(unsafe_op_in_unsafe_fn)] // As above.
 
 pub mod abi;
 pub mod accounts;

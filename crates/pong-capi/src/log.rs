@@ -2,7 +2,7 @@
 
 use crate::abi::PONG_ABI_VERSION;
 use crate::failure::{Failure, Outcome};
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::pointers::{Out, one, text};
 use crate::status::pong_status;
@@ -109,24 +109,21 @@ pub unsafe extern "C" fn pong_start_log(
     folder: *const c_char,
     options: *const pong_log_options,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let folder = Path::new(text(folder, "folder")?);
-            let default = pong_default_log_options();
-            let options = if options.is_null() { &default } else { one(options, "options")? };
-            let name = if options.name.is_null() { None } else { Some(text(options.name, "name")?) };
-            if inner.log.is_some() {
-                let message = "log: one is running; stop it with pong_stop_log() first";
-                return Err(Failure::new(pong_status::WrongPhase, message));
-            }
-            let options = options.check(name, folder)?;
-            let world = inner.phase.frames("ask for the size of the contact state")?;
-            let start = || Recorder::start(world, folder, &inner.sources, &options);
-            inner.log = Some(without_signals(start)?);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let folder = Path::new(text(folder, "folder")?);
+        let default = pong_default_log_options();
+        let options = if options.is_null() { &default } else { one(options, "options")? };
+        let name = if options.name.is_null() { None } else { Some(text(options.name, "name")?) };
+        if inner.log.is_some() {
+            let message = "log: one is running; stop it with pong_stop_log() first";
+            return Err(Failure::new(pong_status::WrongPhase, message));
+        }
+        let options = options.check(name, folder)?;
+        let world = inner.phase.frames("ask for the size of the contact state")?;
+        let start = || Recorder::start(world, folder, &inner.sources, &options);
+        inner.log = Some(without_signals(start)?);
+        Ok(())
+    })
 }
 
 /// Logs the frame last evaluated, of this time (s): states, wrenches and contacts. Call it after the commit of the frame
@@ -136,15 +133,12 @@ pub unsafe extern "C" fn pong_start_log(
 /// are not those of the frame any more.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_log_frame(world: *mut pong_world, time: f64) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.law_faults.check()?;
-            let evaluate_ns = inner.counters.evaluate_ns;
-            let Some(log) = &mut inner.log else { return Err(no_log()) };
-            Ok(log.record(inner.phase.frames("log a frame")?, time, evaluate_ns, None)?)
-        })
-    }
+    with_world(world, |inner| {
+        inner.law_faults.check()?;
+        let evaluate_ns = inner.counters.evaluate_ns;
+        let Some(log) = &mut inner.log else { return Err(no_log()) };
+        Ok(log.record(inner.phase.frames("log a frame")?, time, evaluate_ns, None)?)
+    })
 }
 
 /// How the log stands.
@@ -153,14 +147,7 @@ pub unsafe extern "C" fn pong_get_log_report(
     world: *const pong_world,
     report: *mut pong_log_report,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(report, "report")?;
-            out.set((&inner.log.as_ref().ok_or_else(no_log)?.status()).into());
-            Ok(())
-        })
-    }
+    get(world, (report, "report"), |inner| Ok((&inner.log.as_ref().ok_or_else(no_log)?.status()).into()))
 }
 
 /// Writes what is left and closes the log; waits for the disk, until it has taken nothing for 30 s. `report` may be NULL. PONG_STATUS_LOG_FAILED: the files
@@ -168,22 +155,17 @@ pub unsafe extern "C" fn pong_get_log_report(
 /// pong_destroy_world() closes a log too, and tells nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_stop_log(world: *mut pong_world, report: *mut pong_log_report) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::optional(report, "report")?;
-            let mut log = inner.log.take().ok_or_else(no_log)?;
-            log.close();
-            let status = log.status();
-            if let Some(out) = out {
-                out.set((&status).into());
-            }
-            match status.error {
-                None => Ok(()),
-                Some(text) => Err(Failure::new(pong_status::LogFailed, text)),
-            }
-        })
-    }
+    with_world(world, |inner| {
+        let out = Out::optional(report, "report")?;
+        let mut log = inner.log.take().ok_or_else(no_log)?;
+        log.close();
+        let status = log.status();
+        out.set((&status).into());
+        match status.error {
+            None => Ok(()),
+            Some(text) => Err(Failure::new(pong_status::LogFailed, text)),
+        }
+    })
 }
 
 impl Inner {

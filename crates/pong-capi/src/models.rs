@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::failure::Outcome;
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::ids::pong_model_id;
 use crate::memory;
@@ -24,16 +24,13 @@ pub unsafe extern "C" fn pong_load_model(
     path: *const c_char,
     model: *mut pong_model_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
-            memory::require_for_file(Path::new(path))?;
-            let loaded = pong_model::load(Path::new(path), inner.phase.scene().extensions())?;
-            out.set(inner.add_model(loaded, ModelSource::File(Path::new(path).to_owned()))?);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (path, out) = (text(path, "path")?, Out::new(model, "model")?);
+        memory::require_for_file(Path::new(path))?;
+        let loaded = pong_model::load(Path::new(path), inner.phase.scene().extensions())?;
+        out.set(inner.add_model(loaded, ModelSource::File(Path::new(path).to_owned()))?);
+        Ok(())
+    })
 }
 
 /// Loads a model from `length` bytes of UTF-8 text; it needs no zero byte at its end. Errors call it `name`.
@@ -48,33 +45,27 @@ pub unsafe extern "C" fn pong_load_model_text(
     mesh_dir: *const c_char,
     model: *mut pong_model_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            if text.is_null() {
-                return Err(Failure::new(
-                    pong_status::NullArgument,
-                    "`text` is NULL; give the text of a model",
-                ));
-            }
-            let bytes = array(text.cast::<u8>(), length, "text")?;
-            memory::require_little()?;
-            let name = crate::pointers::text(name, "name")?;
-            let mesh_dir =
-                if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
-            let out = Out::new(model, "model")?;
-            let Ok(text) = std::str::from_utf8(bytes) else {
-                let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
-                return Err(Failure::new(pong_status::ModelError, message));
-            };
-            memory::require_for_text(bytes, mesh_dir.map(Path::new))?;
-            let loaded =
-                pong_model::parse(text, name, mesh_dir.map(Path::new), inner.phase.scene().extensions())?;
-            let source = ModelSource::Text { text: text.to_owned(), mesh_dir: mesh_dir.map(PathBuf::from) };
-            out.set(inner.add_model(loaded, source)?);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        if text.is_null() {
+            return Err(Failure::new(pong_status::NullArgument, "`text` is NULL; give the text of a model"));
+        }
+        let bytes = array(text.cast::<u8>(), length, "text")?;
+        memory::require_little()?;
+        let name = crate::pointers::text(name, "name")?;
+        let mesh_dir =
+            if mesh_dir.is_null() { None } else { Some(crate::pointers::text(mesh_dir, "mesh_dir")?) };
+        let out = Out::new(model, "model")?;
+        let Ok(text) = std::str::from_utf8(bytes) else {
+            let message = format!("{name}: this is no UTF-8 text; save the model as UTF-8");
+            return Err(Failure::new(pong_status::ModelError, message));
+        };
+        memory::require_for_text(bytes, mesh_dir.map(Path::new))?;
+        let loaded =
+            pong_model::parse(text, name, mesh_dir.map(Path::new), inner.phase.scene().extensions())?;
+        let source = ModelSource::Text { text: text.to_owned(), mesh_dir: mesh_dir.map(PathBuf::from) };
+        out.set(inner.add_model(loaded, source)?);
+        Ok(())
+    })
 }
 
 /// Lets models that are loaded from now on read the meshes that they name from `folder` (UTF-8 path) and those below it
@@ -85,14 +76,11 @@ pub unsafe extern "C" fn pong_allow_files_below(
     world: *mut pong_world,
     folder: *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let folder = text(folder, "folder")?;
-            inner.phase.set_up("allow a folder")?.allow_files_below(folder);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let folder = text(folder, "folder")?;
+        inner.phase.set_up("allow a folder")?.allow_files_below(folder);
+        Ok(())
+    })
 }
 
 impl Inner {
@@ -112,13 +100,7 @@ pub unsafe extern "C" fn pong_model_warning_count(
     model: pong_model_id,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.names.model(model)?.warnings.len());
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(inner.names.model(model)?.warnings.len()))
 }
 
 /// A warning of a model. The text lives as long as the world.
@@ -129,12 +111,5 @@ pub unsafe extern "C" fn pong_model_warning(
     index: usize,
     warning: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(warning, "warning")?;
-            out.set(text_at("warning", &inner.names.model(model)?.warnings, index)?);
-            Ok(())
-        })
-    }
+    get(world, (warning, "warning"), |inner| text_at("warning", &inner.names.model(model)?.warnings, index))
 }

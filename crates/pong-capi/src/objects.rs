@@ -1,6 +1,6 @@
 //! Objects: instances of models.
 
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::{pong_model_id, pong_object_id};
 use crate::memory::require_for_object;
@@ -16,20 +16,17 @@ pub unsafe extern "C" fn pong_create_object(
     name: *const c_char,
     object: *mut pong_object_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
-            require_for_object(inner.names.group_count(model)?)?;
-            let builder = inner.phase.set_up("create an object")?;
-            let id = builder.create_object(model.id(), name)?;
-            let interfaces = builder.scene().interfaces(id)?;
-            inner.names.add_object(id, name, model.id(), &interfaces);
-            inner.states.reserve(interfaces.len());
-            out.set(id.into());
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
+        require_for_object(inner.names.group_count(model)?)?;
+        let builder = inner.phase.set_up("create an object")?;
+        let id = builder.create_object(model.id(), name)?;
+        let interfaces = builder.scene().interfaces(id)?;
+        inner.names.add_object(id, name, model.id(), &interfaces);
+        inner.states.reserve(interfaces.len());
+        out.set(id.into());
+        Ok(())
+    })
 }
 
 /// The Object of a name.
@@ -39,14 +36,11 @@ pub unsafe extern "C" fn pong_find_object(
     name: *const c_char,
     object: *mut pong_object_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
-            out.set(inner.phase.scene().object(name)?.into());
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (name, out) = (text(name, "name")?, Out::new(object, "object")?);
+        out.set(inner.phase.scene().object(name)?.into());
+        Ok(())
+    })
 }
 
 /// Name of an Object. The text lives as long as the world.
@@ -56,13 +50,7 @@ pub unsafe extern "C" fn pong_object_name(
     object: pong_object_id,
     name: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(name, "name")?.set(inner.names.object(object)?.as_ptr());
-            Ok(())
-        })
-    }
+    get(world, (name, "name"), |inner| Ok(inner.names.object(object)?.as_ptr()))
 }
 
 /// Clears an Object's contact state: after a teleport or a reset nothing of its past counts. After sealing.
@@ -71,13 +59,10 @@ pub unsafe extern "C" fn pong_clear_contact_history(
     world: *mut pong_world,
     object: pong_object_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.names.object(object)?;
-            inner.phase.frames_mut("forget an Object")?.clear_contact_history(object.id())?;
-            inner.tell_log(|log| log.forgot(object.id()));
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        inner.names.object(object)?;
+        inner.phase.frames_mut("forget an Object")?.clear_contact_history(object.id())?;
+        inner.tell_log(|log| log.forgot(object.id()));
+        Ok(())
+    })
 }

@@ -17,18 +17,13 @@ pub unsafe extern "C" fn pong_pair_objects(
     b: pong_object_id,
     pair: *mut pong_pair_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let out = Out::optional(pair, "pair")?;
-            let id = inner.phase.set_up("pair objects")?.pair(a.id(), b.id())?;
-            inner.pair_count += 1;
-            if let Some(out) = out {
-                out.set(id.into());
-            }
-            Ok(())
-        })
-    }
+    setting_up(world, |inner| {
+        let out = Out::optional(pair, "pair")?;
+        let id = inner.phase.set_up("pair objects")?.pair(a.id(), b.id())?;
+        inner.pair_count += 1;
+        out.set(id.into());
+        Ok(())
+    })
 }
 
 /// As pong_pair_objects(), by the names of the Objects.
@@ -39,20 +34,15 @@ pub unsafe extern "C" fn pong_pair_by_name(
     b: *const c_char,
     pair: *mut pong_pair_id,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let out = Out::optional(pair, "pair")?;
-            let scene = inner.phase.scene();
-            let (a, b) = (scene.object(text(a, "a")?)?, scene.object(text(b, "b")?)?);
-            let id = inner.phase.set_up("pair objects")?.pair(a, b)?;
-            inner.pair_count += 1;
-            if let Some(out) = out {
-                out.set(id.into());
-            }
-            Ok(())
-        })
-    }
+    setting_up(world, |inner| {
+        let out = Out::optional(pair, "pair")?;
+        let scene = inner.phase.scene();
+        let (a, b) = (scene.object(text(a, "a")?)?, scene.object(text(b, "b")?)?);
+        let id = inner.phase.set_up("pair objects")?.pair(a, b)?;
+        inner.pair_count += 1;
+        out.set(id.into());
+        Ok(())
+    })
 }
 
 /// Switches a pair on (1, as it begins) or off (0). A pair that is off has no contacts; when it is switched on
@@ -63,15 +53,12 @@ pub unsafe extern "C" fn pong_set_pair_enabled(
     pair: pong_pair_id,
     enabled: i32,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let enabled = yes_or_no(enabled)?;
-            inner.phase.set_pair_enabled(pair.id(), enabled)?;
-            inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let enabled = yes_or_no(enabled)?;
+        inner.phase.set_pair_enabled(pair.id(), enabled)?;
+        inner.tell_log(|log| log.pair_switched(pair.id(), enabled));
+        Ok(())
+    })
 }
 
 fn yes_or_no(value: i32) -> Outcome<bool> {

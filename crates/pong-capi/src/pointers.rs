@@ -4,6 +4,7 @@ use crate::failure::{Failure, Outcome};
 use crate::status::pong_status;
 use std::ffi::{CStr, c_char};
 use std::ops::Range;
+use std::ptr::NonNull;
 
 fn null(name: &str) -> Failure {
     Failure::new(pong_status::NullArgument, format!("`{name}` is NULL; give a place for it"))
@@ -21,33 +22,31 @@ fn check<T>(pointer: *const T, name: &str) -> Outcome {
     Ok(())
 }
 
-/// A place for one result.
-pub(crate) struct Out<T>(*mut T);
+/// A place for one result, or none: then the caller does not want to know.
+pub(crate) struct Out<T>(Option<NonNull<T>>);
 
 impl<T> Out<T> {
     /// # Safety
     /// `pointer` is NULL or may be written for as long as the `Out` lives.
     pub unsafe fn new(pointer: *mut T, name: &str) -> Outcome<Self> {
         check(pointer, name)?;
-        Ok(Self(pointer))
+        Ok(Self(NonNull::new(pointer)))
     }
 
     /// As [`new`](Self::new), where NULL means that the caller does not want to know.
     ///
     /// # Safety
     /// As [`new`](Self::new).
-    pub unsafe fn optional(pointer: *mut T, name: &str) -> Outcome<Option<Self>> {
-        if pointer.is_null() {
-            return Ok(None);
-        }
-        // SAFETY: by the contract of this function.
-        unsafe { Self::new(pointer, name) }.map(Some)
+    pub unsafe fn optional(pointer: *mut T, name: &str) -> Outcome<Self> {
+        if pointer.is_null() { Ok(Self(None)) } else { Self::new(pointer, name) }
     }
 
     /// Writes the result.
     pub fn set(&self, value: T) {
-        // SAFETY: `new` has checked the pointer and its caller vouches for the rest.
-        unsafe { self.0.write(value) }
+        if let Some(place) = self.0 {
+            // SAFETY: `new` has checked the pointer and its caller vouches for the rest.
+            unsafe { place.write(value) };
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Primitives, as contacts name them: an Interface and an index.
 
 use crate::failure::Failure;
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
 use crate::names::no_such;
@@ -16,13 +16,7 @@ pub unsafe extern "C" fn pong_primitive_count(
     interface: pong_interface_id,
     count: *mut u32,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.names.primitives(interface)?.len() as u32);
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(inner.names.primitives(interface)?.len() as u32))
 }
 
 /// Path of a primitive in its model. The text lives as long as the world.
@@ -33,16 +27,11 @@ pub unsafe extern "C" fn pong_primitive_path(
     primitive: u32,
     path: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(path, "path")?;
-            let paths = inner.names.primitives(interface)?;
-            let found = paths.get(primitive as usize);
-            out.set(found.ok_or_else(|| no_such("primitive", primitive as usize, paths.len()))?.as_ptr());
-            Ok(())
-        })
-    }
+    get(world, (path, "path"), |inner| {
+        let paths = inner.names.primitives(interface)?;
+        let found = paths.get(primitive as usize);
+        Ok(found.ok_or_else(|| no_such("primitive", primitive as usize, paths.len()))?.as_ptr())
+    })
 }
 
 /// Index of the primitive with this path in its model.
@@ -53,23 +42,19 @@ pub unsafe extern "C" fn pong_find_primitive(
     path: *const c_char,
     primitive: *mut u32,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (path, out) = (text(path, "path")?, Out::new(primitive, "primitive")?);
-            let paths = inner.names.primitives(interface)?;
-            let found = paths.iter().position(|known| known.to_bytes() == path.as_bytes());
-            let index = found.ok_or_else(|| {
-                let known: Vec<_> =
-                    paths.iter().take(MOST_NAMED).map(|known| known.to_string_lossy()).collect();
-                let more = if paths.len() > MOST_NAMED { ", …" } else { "" };
-                let message = format!("primitive `{path}`: there is none; known: {}{more}", known.join(", "));
-                Failure::new(pong_status::UnknownName, message)
-            })?;
-            out.set(index as u32);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (path, out) = (text(path, "path")?, Out::new(primitive, "primitive")?);
+        let paths = inner.names.primitives(interface)?;
+        let found = paths.iter().position(|known| known.to_bytes() == path.as_bytes());
+        let index = found.ok_or_else(|| {
+            let known: Vec<_> = paths.iter().take(MOST_NAMED).map(|known| known.to_string_lossy()).collect();
+            let more = if paths.len() > MOST_NAMED { ", …" } else { "" };
+            let message = format!("primitive `{path}`: there is none; known: {}{more}", known.join(", "));
+            Failure::new(pong_status::UnknownName, message)
+        })?;
+        out.set(index as u32);
+        Ok(())
+    })
 }
 
 /// How many primitives a message lists.

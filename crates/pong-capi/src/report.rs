@@ -1,7 +1,7 @@
 //! Report and energies.
 
 use crate::counters::Counters;
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::phase::Phase;
 use crate::pointers::Out;
@@ -103,13 +103,7 @@ pub struct pong_report {
 /// Counts, times, memory and flags of the last frame; all zero before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_report(world: *const pong_world, report: *mut pong_report) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(report, "report")?.set(report_of(&inner.phase, &inner.counters));
-            Ok(())
-        })
-    }
+    get(world, (report, "report"), |inner| Ok(report_of(&inner.phase, &inner.counters)))
 }
 
 fn report_of(phase: &Phase, counters: &Counters) -> pong_report {
@@ -221,18 +215,15 @@ pub struct pong_ledger {
 /// The energies; zero unless the configuration has keep_ledger.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_get_ledger(world: *const pong_world, ledger: *mut pong_ledger) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let energies = inner.phase.sealed().map(World::ledger).unwrap_or_default();
-            Out::new(ledger, "ledger")?.set(pong_ledger {
-                stored: energies.stored,
-                work: energies.work,
-                dissipated: energies.dissipated,
-            });
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let energies = inner.phase.sealed().map(World::ledger).unwrap_or_default();
+        Out::new(ledger, "ledger")?.set(pong_ledger {
+            stored: energies.stored,
+            work: energies.work,
+            dissipated: energies.dissipated,
+        });
+        Ok(())
+    })
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The end of set-up.
 
-use crate::guard::{setting_up, with_world};
+use crate::guard::{get, setting_up};
 use crate::handle::pong_world;
 use crate::names::{c_text, text_at};
 use crate::pointers::Out;
@@ -39,39 +39,34 @@ pub struct pong_seal_report {
 /// message lists every reason.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_seal(world: *mut pong_world, report: *mut pong_seal_report) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let out = Out::optional(report, "report")?;
-            let sealed = inner.phase.seal()?;
-            // Plan and masses were checked when they were told: nothing is refused any more.
-            let step = inner.advice.report(inner.phase.frames("plan the step")?)?;
-            let of_step = step.iter().flat_map(|step| step.warnings.iter().map(ToString::to_string));
-            let warnings = sealed.warnings.iter().map(ToString::to_string).chain(of_step);
-            inner.seal_warnings = warnings.map(|warning| c_text(&printable(&warning))).collect();
-            let of_step = step.iter().flat_map(|step| step.notes.iter().map(ToString::to_string));
-            let notes = sealed.notes.iter().map(ToString::to_string).chain(of_step);
-            inner.seal_notes = notes.map(|note| c_text(&printable(&note))).collect();
-            inner.workers = sealed.workers.iter().map(Into::into).collect();
-            inner.counters.contact_capacity = sealed.contact_capacity as u64;
-            inner.states.reserve(inner.names.interface_count());
-            inner.pairs.reserve(inner.pair_count);
-            if let Some(out) = out {
-                out.set(pong_seal_report {
-                    group_pairs: sealed.group_pairs as u64,
-                    contact_capacity: sealed.contact_capacity as u64,
-                    contact_state_size: sealed.state_size as u64,
-                    warning_count: inner.seal_warnings.len() as u64,
-                    workers: sealed.workers.len() as u64,
-                    note_count: inner.seal_notes.len() as u64,
-                    stable_step: step.as_ref().map_or(0.0, StepReport::stable_step),
-                    surely_stable_step: step.as_ref().map_or(0.0, StepReport::surely_stable_step),
-                    reserved: [0; 4],
-                });
-            }
-            Ok(())
-        })
-    }
+    setting_up(world, |inner| {
+        let out = Out::optional(report, "report")?;
+        let sealed = inner.phase.seal()?;
+        // Plan and masses were checked when they were told: nothing is refused any more.
+        let step = inner.advice.report(inner.phase.frames("plan the step")?)?;
+        let of_step = step.iter().flat_map(|step| step.warnings.iter().map(ToString::to_string));
+        let warnings = sealed.warnings.iter().map(ToString::to_string).chain(of_step);
+        inner.seal_warnings = warnings.map(|warning| c_text(&printable(&warning))).collect();
+        let of_step = step.iter().flat_map(|step| step.notes.iter().map(ToString::to_string));
+        let notes = sealed.notes.iter().map(ToString::to_string).chain(of_step);
+        inner.seal_notes = notes.map(|note| c_text(&printable(&note))).collect();
+        inner.workers = sealed.workers.iter().map(Into::into).collect();
+        inner.counters.contact_capacity = sealed.contact_capacity as u64;
+        inner.states.reserve(inner.names.interface_count());
+        inner.pairs.reserve(inner.pair_count);
+        out.set(pong_seal_report {
+            group_pairs: sealed.group_pairs as u64,
+            contact_capacity: sealed.contact_capacity as u64,
+            contact_state_size: sealed.state_size as u64,
+            warning_count: inner.seal_warnings.len() as u64,
+            workers: sealed.workers.len() as u64,
+            note_count: inner.seal_notes.len() as u64,
+            stable_step: step.as_ref().map_or(0.0, StepReport::stable_step),
+            surely_stable_step: step.as_ref().map_or(0.0, StepReport::surely_stable_step),
+            reserved: [0; 4],
+        });
+        Ok(())
+    })
 }
 
 /// A warning of sealing: something the author may not have intended, or a contact that gains energy at the planned step.
@@ -82,14 +77,7 @@ pub unsafe extern "C" fn pong_seal_warning(
     index: usize,
     warning: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(warning, "warning")?;
-            out.set(text_at("warning", &inner.seal_warnings, index)?);
-            Ok(())
-        })
-    }
+    get(world, (warning, "warning"), |inner| text_at("warning", &inner.seal_warnings, index))
 }
 
 /// A note of sealing: what may go wrong at the planned step if enough contacts act at once, and need not. The text lives
@@ -100,12 +88,5 @@ pub unsafe extern "C" fn pong_seal_note(
     index: usize,
     note: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(note, "note")?;
-            out.set(text_at("note", &inner.seal_notes, index)?);
-            Ok(())
-        })
-    }
+    get(world, (note, "note"), |inner| text_at("note", &inner.seal_notes, index))
 }

@@ -1,10 +1,10 @@
 //! States in.
 
 use crate::failure::{Failure, Outcome};
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::ids::pong_interface_id;
-use crate::pointers::{Out, array};
+use crate::pointers::array;
 use crate::status::pong_status;
 use pong_engine::State;
 use pong_geometry::{Pose, Twist};
@@ -39,17 +39,14 @@ pub unsafe extern "C" fn pong_set_states(
     states: *const pong_state,
     n: usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let ids = array(interfaces, n, "interfaces")?;
-            let states = array(states, n, "states")?;
-            inner.check_named_once(ids)?;
-            inner.states.clear();
-            inner.states.extend(ids.iter().zip(states).map(|(id, state)| (id.id(), State::from(*state))));
-            Ok(inner.phase.set_states(&inner.states)?)
-        })
-    }
+    with_world(world, |inner| {
+        let ids = array(interfaces, n, "interfaces")?;
+        let states = array(states, n, "states")?;
+        inner.check_named_once(ids)?;
+        inner.states.clear();
+        inner.states.extend(ids.iter().zip(states).map(|(id, state)| (id.id(), State::from(*state))));
+        Ok(inner.phase.set_states(&inner.states)?)
+    })
 }
 
 /// Sets the state of one movable group.
@@ -59,13 +56,10 @@ pub unsafe extern "C" fn pong_set_state(
     interface: pong_interface_id,
     state: *const pong_state,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let state = State::from(*crate::pointers::one(state, "state")?);
-            Ok(inner.phase.set_states(&[(interface.id(), state)])?)
-        })
-    }
+    with_world(world, |inner| {
+        let state = State::from(*crate::pointers::one(state, "state")?);
+        Ok(inner.phase.set_states(&[(interface.id(), state)])?)
+    })
 }
 
 /// The state last set for a movable group, its quaternion normalised. PONG_STATUS_UNSET_STATE if there is none.
@@ -75,19 +69,14 @@ pub unsafe extern "C" fn pong_get_state(
     interface: pong_interface_id,
     state: *mut pong_state,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(state, "state")?;
-            let Some(known) = inner.phase.state_as_set(interface.id())? else {
-                let path = inner.names.path(interface)?.to_string_lossy();
-                let message = format!("state of `{path}`: never set; set it first");
-                return Err(Failure::new(pong_status::UnsetState, message));
-            };
-            out.set(pong_state::from_motion(&known.pose(), &known.twist()));
-            Ok(())
-        })
-    }
+    get(world, (state, "state"), |inner| {
+        let Some(known) = inner.phase.state_as_set(interface.id())? else {
+            let path = inner.names.path(interface)?.to_string_lossy();
+            let message = format!("state of `{path}`: never set; set it first");
+            return Err(Failure::new(pong_status::UnsetState, message));
+        };
+        Ok(pong_state::from_motion(&known.pose(), &known.twist()))
+    })
 }
 
 impl Inner {

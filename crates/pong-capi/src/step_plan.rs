@@ -2,10 +2,10 @@
 
 use crate::coupling::{self, PONG_COUPLING_ZERO_ORDER_HOLD};
 use crate::failure::{Failure, Outcome};
-use crate::guard::{setting_up, with_world};
+use crate::guard::{get, setting_up};
 use crate::handle::pong_world;
 use crate::ids::pong_interface_id;
-use crate::pointers::{Out, one};
+use crate::pointers::one;
 use crate::status::pong_status;
 use pong_advise::{Accuracy, GroupMass, StepPlan};
 
@@ -84,15 +84,12 @@ pub unsafe extern "C" fn pong_set_mass(
     interface: pong_interface_id,
     mass: *const pong_mass,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
-            let scene = inner.phase.set_up("set a mass")?.scene();
-            let mass = GroupMass { mass, inertia, mass_center };
-            Ok(inner.advice.set_mass(scene, interface.id(), mass)?)
-        })
-    }
+    setting_up(world, |inner| {
+        let pong_mass { mass, inertia, mass_center } = *one(mass, "mass")?;
+        let scene = inner.phase.set_up("set a mass")?.scene();
+        let mass = GroupMass { mass, inertia, mass_center };
+        Ok(inner.advice.set_mass(scene, interface.id(), mass)?)
+    })
 }
 
 /// Has the seal check every contact against the host's step, by the masses of pong_set_mass(). What the step is too
@@ -100,17 +97,14 @@ pub unsafe extern "C" fn pong_set_mass(
 /// act at once, by pong_seal_note(). Before sealing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_plan_step(world: *mut pong_world, plan: *const pong_step_plan) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let plan = one(plan, "plan")?.check()?;
-            let builder = inner.phase.set_up("plan the step")?;
-            plan.check()?;
-            builder.leave_room_per_pair(pong_advise::BYTES_PER_PAIR);
-            inner.advice.plan = Some(plan);
-            Ok(())
-        })
-    }
+    setting_up(world, |inner| {
+        let plan = one(plan, "plan")?.check()?;
+        let builder = inner.phase.set_up("plan the step")?;
+        plan.check()?;
+        builder.leave_room_per_pair(pong_advise::BYTES_PER_PAIR);
+        inner.advice.plan = Some(plan);
+        Ok(())
+    })
 }
 
 /// What the contacts of the last frame leave of the planned step, with their true levers and normals. Needs the plan and
@@ -120,26 +114,21 @@ pub unsafe extern "C" fn pong_check_step(
     world: *const pong_world,
     check: *mut pong_step_check,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(check, "check")?;
-            let Some(plan) = &inner.advice.plan else {
-                let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
-                return Err(Failure::new(pong_status::WrongPhase, message));
-            };
-            let world = inner.phase.frames("inspect the scene")?;
-            let found = pong_advise::acting_report(world, plan, &inner.advice.masses())?;
-            out.set(pong_step_check {
-                contacts: found.contacts as u64,
-                not_judged: found.not_judged as u64,
-                stable_step: found.stable_step,
-                stiffness_rate: found.stiffness_rate,
-                damping_rate: found.damping_rate,
-            });
-            Ok(())
+    get(world, (check, "check"), |inner| {
+        let Some(plan) = &inner.advice.plan else {
+            let message = "no step is planned; call pong_plan_step() before the seal".to_owned();
+            return Err(Failure::new(pong_status::WrongPhase, message));
+        };
+        let world = inner.phase.frames("inspect the scene")?;
+        let found = pong_advise::acting_report(world, plan, &inner.advice.masses())?;
+        Ok(pong_step_check {
+            contacts: found.contacts as u64,
+            not_judged: found.not_judged as u64,
+            stable_step: found.stable_step,
+            stiffness_rate: found.stiffness_rate,
+            damping_rate: found.damping_rate,
         })
-    }
+    })
 }
 
 impl pong_step_plan {

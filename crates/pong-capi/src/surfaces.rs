@@ -1,7 +1,7 @@
 //! Surface values, changed between frames.
 
 use crate::failure::{Failure, Outcome};
-use crate::guard::{setting_up, with_world};
+use crate::guard::{get, setting_up, with_world};
 use crate::handle::pong_world;
 use crate::ids::pong_model_id;
 use crate::names::text_at;
@@ -68,13 +68,7 @@ pub unsafe extern "C" fn pong_surface_count(
     model: pong_model_id,
     count: *mut usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(inner.names.model(model)?.surfaces.len());
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(inner.names.model(model)?.surfaces.len()))
 }
 
 /// Name of a surface of a model. The text lives as long as the world.
@@ -85,14 +79,7 @@ pub unsafe extern "C" fn pong_surface_name(
     index: usize,
     name: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(name, "name")?;
-            out.set(text_at("surface", &inner.names.model(model)?.surfaces, index)?);
-            Ok(())
-        })
-    }
+    get(world, (name, "name"), |inner| text_at("surface", &inner.names.model(model)?.surfaces, index))
 }
 
 /// The values of a surface as they are now.
@@ -103,14 +90,11 @@ pub unsafe extern "C" fn pong_get_surface(
     surface: *const c_char,
     values: *mut pong_surface_values,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
-            out.set(inner.phase.surface(model.id(), name)?.into());
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        let (name, out) = (text(surface, "surface")?, Out::new(values, "values")?);
+        out.set(inner.phase.surface(model.id(), name)?.into());
+        Ok(())
+    })
 }
 
 /// Sets the values of a surface for all Objects of a model, from the next evaluation on. Allocates: between
@@ -122,17 +106,14 @@ pub unsafe extern "C" fn pong_set_surface(
     surface: *const c_char,
     values: *const pong_surface_values,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        setting_up(world, |inner| {
-            let (name, values) = (text(surface, "surface")?, one(values, "values")?);
-            let old = inner.phase.surface(model.id(), name)?;
-            let new = values.applied_to(old)?;
-            inner.phase.set_surface(model.id(), &new)?;
-            inner.tell_log(|log| log.surface_set(model.id(), &new));
-            Ok(())
-        })
-    }
+    setting_up(world, |inner| {
+        let (name, values) = (text(surface, "surface")?, one(values, "values")?);
+        let old = inner.phase.surface(model.id(), name)?;
+        let new = values.applied_to(old)?;
+        inner.phase.set_surface(model.id(), &new)?;
+        inner.tell_log(|log| log.surface_set(model.id(), &new));
+        Ok(())
+    })
 }
 
 impl From<&Surface> for pong_surface_values {

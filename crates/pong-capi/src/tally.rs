@@ -1,9 +1,8 @@
 //! How often what was tested in the last frame, and what that found.
 
-use crate::guard::with_world;
+use crate::guard::get;
 use crate::handle::{Inner, pong_world};
 use crate::names::no_such;
-use crate::pointers::Out;
 use crate::status::pong_status;
 use pong_engine::{FrameCounts, Tally, World};
 use std::ffi::c_char;
@@ -36,13 +35,7 @@ pub struct pong_tally {
 /// frame; 0 before the first.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_tally_count(world: *const pong_world, count: *mut usize) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            Out::new(count, "count")?.set(tallies(&counts_of(inner)).count());
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| Ok(tallies(&counts_of(inner)).count()))
 }
 
 /// A tally of the last frame. Bounding volumes come first, then primitives, always in the same order of kinds. The
@@ -53,16 +46,11 @@ pub unsafe extern "C" fn pong_get_tally(
     index: usize,
     tally: *mut pong_tally,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(tally, "tally")?;
-            let counts = counts_of(inner);
-            let found = tallies(&counts).nth(index);
-            out.set(found.ok_or_else(|| no_such("tally", index, tallies(&counts).count()))?);
-            Ok(())
-        })
-    }
+    get(world, (tally, "tally"), |inner| {
+        let counts = counts_of(inner);
+        let found = tallies(&counts).nth(index);
+        found.ok_or_else(|| no_such("tally", index, tallies(&counts).count()))
+    })
 }
 
 /// None of anything before the seal.

@@ -1,10 +1,9 @@
 //! A number of the host's on Objects and primitives.
 
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::pong_world;
 use crate::ids::{pong_interface_id, pong_object_id};
 use crate::names::no_such;
-use crate::pointers::Out;
 use crate::status::pong_status;
 
 /// Keeps a number of the host's with an Object: an index, a pointer. The engine never looks at it.
@@ -14,14 +13,11 @@ pub unsafe extern "C" fn pong_set_object_user_data(
     object: pong_object_id,
     user_data: u64,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.names.object(object)?;
-            inner.user_data.objects.insert(object.bits, user_data);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        inner.names.object(object)?;
+        inner.user_data.objects.insert(object.bits, user_data);
+        Ok(())
+    })
 }
 
 /// The number kept with an Object; 0 if none was set.
@@ -31,15 +27,10 @@ pub unsafe extern "C" fn pong_get_object_user_data(
     object: pong_object_id,
     user_data: *mut u64,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(user_data, "user_data")?;
-            inner.names.object(object)?;
-            out.set(inner.user_data.objects.get(&object.bits).copied().unwrap_or(0));
-            Ok(())
-        })
-    }
+    get(world, (user_data, "user_data"), |inner| {
+        inner.names.object(object)?;
+        Ok(inner.user_data.objects.get(&object.bits).copied().unwrap_or(0))
+    })
 }
 
 /// Keeps a number of the host's with a primitive of one Object.
@@ -50,14 +41,11 @@ pub unsafe extern "C" fn pong_set_primitive_user_data(
     primitive: u32,
     user_data: u64,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.check_primitive(interface, primitive)?;
-            inner.user_data.primitives.insert((interface.bits, primitive), user_data);
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        inner.check_primitive(interface, primitive)?;
+        inner.user_data.primitives.insert((interface.bits, primitive), user_data);
+        Ok(())
+    })
 }
 
 /// The number kept with a primitive; 0 if none was set.
@@ -68,16 +56,11 @@ pub unsafe extern "C" fn pong_get_primitive_user_data(
     primitive: u32,
     user_data: *mut u64,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(user_data, "user_data")?;
-            inner.check_primitive(interface, primitive)?;
-            let kept = inner.user_data.primitives.get(&(interface.bits, primitive));
-            out.set(kept.copied().unwrap_or(0));
-            Ok(())
-        })
-    }
+    get(world, (user_data, "user_data"), |inner| {
+        inner.check_primitive(interface, primitive)?;
+        let kept = inner.user_data.primitives.get(&(interface.bits, primitive));
+        Ok(kept.copied().unwrap_or(0))
+    })
 }
 
 impl crate::handle::Inner {

@@ -1,10 +1,9 @@
 //! Workers: waking them, letting them sleep, what became of them and what they did.
 
 use crate::failure::{Failure, Outcome};
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::names::c_text;
-use crate::pointers::Out;
 use crate::report::by_work;
 use crate::status::pong_status;
 use crate::worker::Started;
@@ -26,41 +25,30 @@ pub const PONG_GRANT_REFUSED: u32 = 2;
 /// PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_prewake(world: *mut pong_world, at_most_us: u64) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.phase.frames_mut("wake the workers")?.prewake(Duration::from_micros(at_most_us));
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        inner.phase.frames_mut("wake the workers")?.prewake(Duration::from_micros(at_most_us));
+        Ok(())
+    })
 }
 
 /// Lets the workers sleep at once, as in a freeze. The next frame wakes them. Does nothing without workers.
 /// PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_quiesce(world: *mut pong_world) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            inner.phase.frames_mut("let the workers sleep")?.quiesce();
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        inner.phase.frames_mut("let the workers sleep")?.quiesce();
+        Ok(())
+    })
 }
 
 /// Number of workers that were started, which may be fewer than the configuration asks for.
 /// PONG_STATUS_WRONG_PHASE before the seal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pong_worker_count(world: *const pong_world, count: *mut usize) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(count, "count")?;
-            inner.phase.frames("count the workers")?;
-            out.set(inner.workers.len());
-            Ok(())
-        })
-    }
+    get(world, (count, "count"), |inner| {
+        inner.phase.frames("count the workers")?;
+        Ok(inner.workers.len())
+    })
 }
 
 /// What became of a worker and what it did last. `index` is 1 to pong_worker_count(), or 0 for the calling thread.
@@ -71,18 +59,13 @@ pub unsafe extern "C" fn pong_get_worker(
     index: usize,
     worker: *mut pong_worker,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(worker, "worker")?;
-            let world = inner.phase.frames("ask for a worker")?;
-            let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
-            let LaneWork { blocks, busy_ns } = world.lane_work().nth(index).unwrap_or_default();
-            let work_ns = world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
-            out.set(pong_worker { blocks, busy_ns, work_ns, ..asked });
-            Ok(())
-        })
-    }
+    get(world, (worker, "worker"), |inner| {
+        let world = inner.phase.frames("ask for a worker")?;
+        let asked = if index == 0 { pong_worker::default() } else { inner.worker(index)?.asked };
+        let LaneWork { blocks, busy_ns } = world.lane_work().nth(index).unwrap_or_default();
+        let work_ns = world.lane_times().nth(index).map_or([0; 4], |times| by_work(&times));
+        Ok(pong_worker { blocks, busy_ns, work_ns, ..asked })
+    })
 }
 
 /// What became of a worker, in words: its core and priority, or why it has not got them. `index` is 1 to
@@ -93,14 +76,7 @@ pub unsafe extern "C" fn pong_worker_text(
     index: usize,
     text: *mut *const c_char,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(text, "text")?;
-            out.set(inner.worker(index)?.text.as_ptr());
-            Ok(())
-        })
-    }
+    get(world, (text, "text"), |inner| Ok(inner.worker(index)?.text.as_ptr()))
 }
 
 impl Inner {

@@ -1,10 +1,10 @@
 //! Wrenches out.
 
 use crate::failure::{Failure, Outcome};
-use crate::guard::with_world;
+use crate::guard::{get, with_world};
 use crate::handle::{Inner, pong_world};
 use crate::ids::pong_interface_id;
-use crate::pointers::{Out, OutArray, apart, array};
+use crate::pointers::{OutArray, apart, array};
 use crate::status::pong_status;
 use pong_engine::EngineError;
 
@@ -36,20 +36,17 @@ pub unsafe extern "C" fn pong_get_wrenches(
     wrenches: *mut pong_wrench,
     n: usize,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            apart(("interfaces", interfaces, n), ("wrenches", wrenches, n))?;
-            let ids = array(interfaces, n, "interfaces")?;
-            let mut out = OutArray::new(wrenches, n, "wrenches")?;
-            check_frame(frame)?;
-            inner.check_interfaces(ids)?;
-            for (index, id) in ids.iter().enumerate() {
-                out.set(index, inner.wrench(*id, frame)?);
-            }
-            Ok(())
-        })
-    }
+    with_world(world, |inner| {
+        apart(("interfaces", interfaces, n), ("wrenches", wrenches, n))?;
+        let ids = array(interfaces, n, "interfaces")?;
+        let mut out = OutArray::new(wrenches, n, "wrenches")?;
+        check_frame(frame)?;
+        inner.check_interfaces(ids)?;
+        for (index, id) in ids.iter().enumerate() {
+            out.set(index, inner.wrench(*id, frame)?);
+        }
+        Ok(())
+    })
 }
 
 /// Wrench of the last frame on one movable group.
@@ -60,15 +57,10 @@ pub unsafe extern "C" fn pong_get_wrench(
     frame: pong_reference_frame,
     wrench: *mut pong_wrench,
 ) -> pong_status {
-    // SAFETY: see "Safety of all entries" in lib.rs.
-    unsafe {
-        with_world(world, |inner| {
-            let out = Out::new(wrench, "wrench")?;
-            check_frame(frame)?;
-            out.set(inner.wrench(interface, frame)?);
-            Ok(())
-        })
-    }
+    get(world, (wrench, "wrench"), |inner| {
+        check_frame(frame)?;
+        inner.wrench(interface, frame)
+    })
 }
 
 fn check_frame(frame: pong_reference_frame) -> Outcome {
