@@ -96,6 +96,30 @@ def ellipsoid(name, center, semi_axes, orientation=None, surface=None):
     return Primitive("Ellipsoid", name, fields, surface)
 
 
+def capsule(name, a, b, radius, surface=None):
+    """Everything within `radius` of the segment from a to b: a link of a cable, a bar with ball ends."""
+    return Primitive("Capsule", name, {"ends": (rounded(a), rounded(b)), "radius": _length(radius)}, surface)
+
+
+def cylinder(name, a, b, radius, surface=None):
+    """A round solid with flat ends at a and b."""
+    return Primitive("Cylinder", name, {"ends": (rounded(a), rounded(b)), "radius": _length(radius)}, surface)
+
+
+def cone(name, a, b, radii, surface=None):
+    """A round solid with one radius at a and another at b, of which one may be zero."""
+    return Primitive("Cone", name, {"ends": (rounded(a), rounded(b)), "radii": rounded(radii)}, surface)
+
+
+def bore(name, a, b, radii, thickness=None, mouths=(True, True), surface=None):
+    """The wall of a hole from a to b; `radii`: at both, or one number. `mouths`: which ends have an edge that pushes."""
+    both = (radii, radii) if isinstance(radii, (int, float)) else radii
+    fields = {"ends": (rounded(a), rounded(b)), "radii": rounded(both)}
+    if thickness is not None:
+        fields["thickness"] = _length(thickness)
+    return Primitive("Bore", name, {**fields, "mouths": tuple(map(bool, mouths))}, surface)
+
+
 def ray(name, origin, direction, length, reach=None, response="Normal", surface=None):
     """A plunger; `direction` need not be of unit length."""
     fields = {"origin": rounded(origin), "direction": rounded(direction), "length": _length(length)}

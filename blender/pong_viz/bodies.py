@@ -82,7 +82,7 @@ def _draw(stage, shown, number, item, listed) -> None:
             continue
         child = _child(stage, frame, shape.path, shape.vertices, shape.faces, anchor, color)
         child["pong_kind"] = shape.kind
-        if shape.kind in ("Point", "Sphere", "Ellipsoid"):
+        if shape.kind in ("Point", "Sphere", "Ellipsoid", "Capsule"):
             child.data.shade_smooth()
         if touches is not None:
             _light_up(child, touches, color, only_then=item is not None and stage.options.shapes == "touched")

@@ -118,6 +118,7 @@ def extent_of(model: Model) -> float:
     return max((float((high - low).max()) for low, high in boxes_of(model).values()), default=0.0)
 
 
+ROUND = 32  # sides that a round part is drawn with
 FAR = 1000.0  # m; beyond, single precision leaves less than 0.1 mm
 
 
@@ -178,6 +179,36 @@ def _mesh(faces_name):
     return drawn
 
 
+def _capsule(fields, _):
+    """A ball whose halves are pulled apart."""
+    low, high = np.asarray(fields["ends"], dtype=float)
+    along, (vertices, faces) = (high - low) / np.linalg.norm(high - low), ball(32, 16)
+    across, other = frame_of(along)
+    turned = vertices @ np.array([across, other, along]) * fields["radius"]
+    return turned + np.where(vertices[:, 2:] > 0.0, high, low), faces
+
+
+def _frustum(fields, _):
+    radii = fields.get("radii") or (fields["radius"],) * 2
+    vertices, sides = _wall(fields["ends"], radii)
+    return vertices, [*sides, tuple(range(ROUND - 1, -1, -1)), tuple(range(ROUND, 2 * ROUND))]
+
+
+def _bore(fields, _):
+    """Its wall, seen from within the hole."""
+    vertices, sides = _wall(fields["ends"], fields["radii"])
+    return vertices, [side[::-1] for side in sides]
+
+
+def _wall(ends, radii):
+    low, high = np.asarray(ends, dtype=float)
+    across, other = frame_of((high - low) / np.linalg.norm(high - low))
+    angles = np.linspace(0.0, 2.0 * np.pi, ROUND, endpoint=False)
+    ring = np.cos(angles)[:, None] * across + np.sin(angles)[:, None] * other
+    sides = [(i, (i + 1) % ROUND, ROUND + (i + 1) % ROUND, ROUND + i) for i in range(ROUND)]
+    return np.concatenate([low + radii[0] * ring, high + radii[1] * ring]), sides
+
+
 def _rod(start, end, radius):
     """A closed cylinder with twelve sides."""
     start, end = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
@@ -226,4 +257,8 @@ _DRAWN = {
     "Triangle": _triangle,
     "TriangleMesh": _mesh("triangles"),
     "Polyhedron": _mesh("faces"),
+    "Capsule": _capsule,
+    "Cylinder": _frustum,
+    "Cone": _frustum,
+    "Bore": _bore,
 }

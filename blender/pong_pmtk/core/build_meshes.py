@@ -57,7 +57,8 @@ def _tell_loose(shape: Shape) -> None:
         shape.warn("loose-geometry", cause, "delete them, or mark them as Points", vertices=loose, fix="delete-loose")
 
 
-def _thickness(shape: Shape) -> dict:
+def thickness_of(shape: Shape) -> dict:
+    """The thickness of a mark, if it is given."""
     options = {}
     thickness = shape.place.number("thickness")
     if thickness is not None:
@@ -65,8 +66,11 @@ def _thickness(shape: Shape) -> dict:
         if not (np.isfinite(options["thickness"]) and options["thickness"] > 0.0):
             cause = f"its thickness is {options['thickness']}"
             shape.error("thickness", cause, "it is above zero; leave it out for the default")
-    options["two_sided"] = bool(shape.mark.two_sided)
     return options
+
+
+def _sheet(shape: Shape) -> dict:
+    return {**thickness_of(shape), "two_sided": bool(shape.mark.two_sided)}
 
 
 def _triangles(shape: Shape, faces: np.ndarray) -> Made:
@@ -77,7 +81,7 @@ def _triangles(shape: Shape, faces: np.ndarray) -> Made:
         cure = "cut them into triangles, or mark it as a TriangleMesh"
         shape.error("not-a-triangle", cause, cure, faces=wide, fix="triangulate")
         return []
-    options = _thickness(shape)
+    options = _sheet(shape)
     corners = shape.vertices[loops.reshape(-1, 3)].tolist()
     each = [{"vertices": tuple(map(tuple, triangle)), **options} for triangle in corners]
     return shape.numbered("Triangle", each, [[face] for face in faces])
@@ -94,7 +98,7 @@ def _triangle_mesh(shape: Shape, faces: np.ndarray, files: dict[str, bytes]) -> 
         return []
     _tell_convex(shape, faces, loops, starts)
     used, triangles = np.unique(triangles, return_inverse=True)
-    fields = {"vertices": shape.vertices[used], "triangles": triangles.reshape(-1, 3), **_thickness(shape)}
+    fields = {"vertices": shape.vertices[used], "triangles": triangles.reshape(-1, 3), **_sheet(shape)}
     made = shape.numbered("TriangleMesh", [fields], [faces[source]])
     return _to_file(shape, made, "triangles", files)
 

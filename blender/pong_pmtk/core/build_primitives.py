@@ -12,6 +12,7 @@ from .exact import meant, meant_rows
 from .marks import KINDS, Mark, Part
 from .model import Primitive
 from .polygon import plane_of
+from .round_shape import ROUND_KINDS
 from .scene import Scene
 from .schema import RESPONSES
 from .size_check import check_size
@@ -119,11 +120,12 @@ class Shape:
 
 def build_primitive(place: Place, surface: str | None, files: dict[str, bytes]) -> list[tuple[Primitive, Origin]]:
     """The primitives of an object."""
-    from .build_meshes import build_mesh_kind  # which needs the classes above
+    from .build_meshes import build_mesh_kind  # which need the classes above
+    from .build_round import build_round
 
     made = []
     for shape in _shapes(place, surface):
-        build = _KINDS.get(shape.kind)
+        build = build_round if shape.kind in ROUND_KINDS else _KINDS.get(shape.kind)
         made += build(shape) if build else build_mesh_kind(shape, files)
     return made
 

@@ -41,6 +41,7 @@ FIXES = {
     "dissolve-degenerate": "dissolve edges and faces without extent",
     "fit-ellipsoid": "make it an ellipsoid with the semi-axes of the mesh",
     "fit-length": "take the length that is shown",
+    "fit-round": "take the length and the radii that are shown",
     "fit-sphere": "take the radius that is shown",
     "leave-edit-mode": "leave edit mode",
     "make-instances-real": "make the instances real",

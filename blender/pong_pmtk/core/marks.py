@@ -23,6 +23,10 @@ KINDS = (
     "Triangle",
     "TriangleMesh",
     "Polyhedron",
+    "Capsule",
+    "Cylinder",
+    "Cone",
+    "Bore",
     "Custom",
 )
 
@@ -62,6 +66,7 @@ class Mark:
     | Triangle | – | every face, which must be a triangle |
     | TriangleMesh | – | all faces, cut into triangles |
     | Polyhedron | – | all of it; each connected piece is a polyhedron of its own |
+    | Capsule, Cylinder, Cone, Bore | axis along z, its middle at its origin, `length` long | the same: the mesh only shows it |
     | Custom | `custom_kind` and `parameters` alone | the same |
 
     An object that yields several primitives numbers them: `foot_0`, `foot_1`, …. All lengths are in units of the scene,
@@ -82,10 +87,12 @@ class Mark:
     kind: str = ""
     radius: float = 0.0  # before the object's scale
     semi_axes: tuple[float, float, float] = (0.0, 0.0, 0.0)  # before the object's scale
-    length: float = 0.0  # before the object's scale
+    radii: tuple[float, float] = (0.0, 0.0)  # of a Cone or Bore: at -z and at +z; before the object's scale
+    length: float = 0.0  # of a Ray, or between the ends of a round part's axis; before the object's scale
     reach: float | None = None
     response: str = "Normal"  # or "Axial"
     thickness: float | None = None
+    mouths: tuple[bool, bool] = (True, True)  # of a Bore: whether it ends in an edge that pushes, at -z and at +z
     two_sided: bool = False
     inactive_faces: list[int] = field(default_factory=list)  # of a Polyhedron: faces of the stored mesh
     file: str = ""  # TriangleMesh, Polyhedron: write the mesh to this OBJ or STL file beside the model

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lines to draw over a scene: bounds, normals, rays and groups of a model, as arrays of positions.
+"""Lines to draw over a scene: bounds, normals, rays, round parts and groups of a model, as arrays of positions.
 
 Every function gives a table from paths to (2n, 3) arrays: the ends of n lines, in metres in the root's frame.
 """
@@ -12,6 +12,7 @@ from .bounds import Volume, volumes
 from .canonical import flattened
 from .model import Group, Model, Primitive
 from .polygon import area_vector, unit
+from .round_shape import ROUND_KINDS, radii_of
 from .transforms import Affine, identity
 from .triangle_check import pose_of
 
@@ -87,6 +88,39 @@ def _ray(primitive: Primitive) -> np.ndarray | None:
     if f.get("reach"):
         lines += [origin - direction * f["reach"], origin]
     return np.array(lines)
+
+
+def round_lines(model: Model) -> Lines:
+    """Of every capsule, cylinder, cone and bore: a circle at each end and in the middle, four lines along the wall, and the
+    half circles over the ends of a capsule."""
+    return _of_primitives(model, _round)
+
+
+def _round(primitive: Primitive) -> np.ndarray | None:
+    if primitive.kind not in ROUND_KINDS:
+        return None
+    low, high = np.asarray(primitive.fields["ends"], dtype=np.float64)
+    radii = radii_of(primitive.kind, primitive.fields)
+    z = unit(high - low)
+    x = unit(np.cross(np.eye(3)[np.abs(z).argmin()], z))
+    y = np.cross(z, x)
+    turn = np.linspace(0.0, 2.0 * np.pi, CIRCLE + 1)
+    around = np.cos(turn)[:, None] * x + np.sin(turn)[:, None] * y
+    middle = (low + high) / 2.0, (radii[0] + radii[1]) / 2.0
+    rings = [center + radius * around for center, radius in ((low, radii[0]), middle, (high, radii[1])) if radius > 0.0]
+    lines = [_joined(ring) for ring in rings]
+    lines += [np.array([low + radii[0] * side, high + radii[1] * side]) for side in (x, y, -x, -y)]
+    if primitive.kind == "Capsule":
+        half = np.linspace(0.0, np.pi, CIRCLE // 2 + 1)
+        for end, outward in ((low, -z), (high, z)):
+            arcs = [np.cos(half)[:, None] * side + np.sin(half)[:, None] * outward for side in (x, y)]
+            lines += [_joined(end + radii[0] * arc) for arc in arcs]
+    return np.concatenate(lines)
+
+
+def _joined(places: np.ndarray) -> np.ndarray:
+    """The lines from each place to the next one."""
+    return np.repeat(places, 2, axis=0)[1:-1]
 
 
 def groups_lines(model: Model, length: float) -> Lines:

@@ -11,9 +11,11 @@ from .engine import PLANE_TOLERANCE, polyhedron_faults
 from .exact import meant_rows
 from .pieces import is_closed, pieces_of
 from .polygon import off_plane
+from .round_shape import ROUND_KINDS, fit, fitted_numbers, off, radii_of
 from .snapshot import Mesh, SnapshotObject
 
 ROUND_VERTICES = 26  # fewer are a solid with corners: an icosahedron has 12
+ROUND_SIDES = 12  # fewer are a prism or a pyramid that is meant so
 ROUND_DEPTH = 0.9  # the middle of every face of a round mesh lies this near to the surface
 FIT_TOLERANCE = 2e-3  # of the size: how far vertices may lie off a fitted surface
 CENTER_TOLERANCE = 1e-4  # of the size
@@ -50,6 +52,7 @@ def propose_mesh(vertices: np.ndarray, mesh: Mesh) -> list[Proposal]:
     found = []
     if count <= CHECKED_FACES and is_closed(faces):
         found = [*_round(vertices, faces), *_solid(vertices, faces)]
+        found += _round_parts(vertices, faces) if found else []
     return [*found, _surface(faces, bool(found))]
 
 
@@ -91,6 +94,39 @@ def _round(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
     semi_axes = tuple(float(f"{a:.7g}") for a in axes)
     reason = f"its vertices lie on an ellipsoid of semi-axes {shown}{note}"
     return [Proposal("Ellipsoid", reason, {"semi_axes": semi_axes}, fix)]
+
+
+def _round_parts(vertices: np.ndarray, faces: list[np.ndarray]) -> list[Proposal]:
+    """The simplest round part around the z axis of the object that a closed mesh shows."""
+    for kind in ROUND_KINDS[:3]:
+        numbers, found = fitted_numbers(vertices, kind), fit(vertices, kind)
+        if not numbers or found is None or not _is_round(vertices, faces, kind, numbers):
+            continue
+        middle = abs(found[2]) > CENTER_TOLERANCE * numbers["length"]
+        note = "; its origin is not its middle and must be set there first" if middle else ""
+        radii = radii_of(kind, numbers)
+        shown = f"radius {radii[0]:.6g}" if "radius" in numbers else f"radii {radii[0]:.6g} and {radii[1]:.6g}"
+        reason = f"its vertices lie on a {kind} of {shown}, {numbers['length']:.6g} long{note}"
+        return [Proposal(kind, reason, numbers, "set-origin" if middle else "")]
+    return []
+
+
+def _is_round(vertices: np.ndarray, faces: list[np.ndarray], kind: str, numbers: dict) -> bool:
+    """Whether the vertices lie on the part, and enough of them around it that its corners are not meant."""
+    length, radii = numbers["length"], radii_of(kind, numbers)
+    size = max(length, 2.0 * max(radii))
+    centered = vertices - np.array([0.0, 0.0, fit(vertices, kind)[2]])
+    tapered = np.ptp(fit(vertices, kind)[1]) > FIT_TOLERANCE * size and kind != "Cone"
+    if tapered or off(centered, kind, length, radii) > FIT_TOLERANCE * size:
+        return False
+    end = 0 if radii[0] >= radii[1] else 1
+    near = np.abs(centered[:, 2] - (end - 0.5) * length) <= FIT_TOLERANCE * size
+    ring = centered[near & (np.sqrt((centered[:, :2] ** 2).sum(axis=1)) >= (1.0 - FIT_TOLERANCE) * radii[end])]
+    turns = np.sort(np.arctan2(ring[:, 1], ring[:, 0]))
+    if len(turns) < ROUND_SIDES:
+        return False
+    gaps = np.diff(np.append(turns, turns[0] + 2.0 * np.pi))
+    return bool(gaps.max() <= 2.0 * np.pi / (ROUND_SIDES - 0.5))
 
 
 def fit_ellipsoid(points: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:

@@ -15,6 +15,7 @@ import numpy as np
 
 from .build_primitives import Origin
 from .model import Group, Primitive
+from .round_shape import ROUND_KINDS
 from .scene import Scene
 from .transforms import Affine, identity, quaternion_matrix
 from .triangle_check import pose_of
@@ -34,7 +35,7 @@ class _Shape:
     kind: str
     points: np.ndarray
     in_order: bool  # whether the first point of another is to be where this one's is
-    radius: float
+    radii: tuple[float, ...]
     origin: Origin
 
 
@@ -64,8 +65,8 @@ def _bodies(root: Group, origins: dict[int, Origin]) -> list[list[_Shape]]:
         for primitive in group.primitives:
             points = _points(primitive, place) if id(primitive) in origins else None
             if points is not None and len(points):
-                radius = primitive.fields["radius"] if primitive.kind == "Sphere" else 0.0
-                body.append(_Shape(primitive.kind, points, primitive.kind in ORDERED, radius, origins[id(primitive)]))
+                points, radii, in_order = _turned(primitive, points)
+                body.append(_Shape(primitive.kind, points, in_order, radii, origins[id(primitive)]))
         for below in group.groups:
             if below.movable:
                 bodies.append([])
@@ -77,12 +78,25 @@ def _bodies(root: Group, origins: dict[int, Origin]) -> list[list[_Shape]]:
     return bodies
 
 
+def _turned(primitive: Primitive, points: np.ndarray) -> tuple[np.ndarray, tuple[float, ...], bool]:
+    """Points and radii of a primitive, and whether their order tells one from another. A cone may be written from either end."""
+    fields = primitive.fields
+    if "radius" in fields:
+        return points, (fields["radius"],), False
+    if "radii" not in fields:
+        return points, (0.0,), primitive.kind in ORDERED
+    radii = tuple(map(float, fields["radii"]))
+    if radii[0] > radii[1]:
+        points, radii = points[::-1], radii[::-1]
+    return points, radii, radii[0] != radii[1]
+
+
 def _points(primitive: Primitive, place: Affine) -> np.ndarray | None:
     """Points that stand for a primitive, in the frame of its body."""
     f = primitive.fields
     if primitive.kind in ("Point", "Sphere"):
         return place.points(np.array([f["position" if primitive.kind == "Point" else "center"]], dtype=np.float64))
-    if primitive.kind == "LineSegment":
+    if primitive.kind == "LineSegment" or primitive.kind in ROUND_KINDS:
         return place.points(np.array(f["ends"], dtype=np.float64))
     if primitive.kind == "Ray":
         origin = np.asarray(f["origin"], dtype=np.float64)
@@ -135,7 +149,7 @@ def _compare(shapes: list[_Shape], members: np.ndarray, first: list[int], tolera
 
 
 def _same(one: _Shape, other: _Shape, tolerance: float) -> bool:
-    if abs(one.radius - other.radius) > tolerance:
+    if max(abs(a - b) for a, b in zip(one.radii, other.radii)) > tolerance:
         return False
     if np.abs(one.points - other.points).max() <= tolerance:
         return True

@@ -57,6 +57,15 @@ PRIMITIVES: dict[str, tuple[Field, ...]] = {
         ("vertices", "vertices"),
         ("faces", "faces"),
     ),
+    "Capsule": _fields(("ends", "vectors2", REQUIRED), ("radius", "positive", REQUIRED)),
+    "Cylinder": _fields(("ends", "vectors2", REQUIRED), ("radius", "positive", REQUIRED)),
+    "Cone": _fields(("ends", "vectors2", REQUIRED), ("radii", "radii", REQUIRED)),
+    "Bore": _fields(
+        ("ends", "vectors2", REQUIRED),
+        ("radii", "radii", REQUIRED),
+        ("thickness", "positive"),
+        ("mouths", "booleans", (True, True)),
+    ),
     "Custom": _fields(("kind", "text_value", REQUIRED), ("parameters", "numbers", ())),
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether what shows a sphere, an ellipsoid or a ray has the size of its mark.
+"""Whether what shows a sphere, an ellipsoid, a ray or a round part has the size of its mark.
 
 The mark's numbers count, the mesh (or the empty) only shows them. Blender's *Apply Scale* and Edit Mode change what is
 shown and know nothing of marks, so the two can come apart.
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .propose import CENTER_TOLERANCE, FIT_TOLERANCE, round_fit
+from .round_shape import ONE_RADIUS, fit, off
 
 if TYPE_CHECKING:
     from .build_primitives import Shape
@@ -58,6 +59,45 @@ def _check_mesh(shape: Shape, axes: np.ndarray) -> None:
         cause = f"its mesh shows {_said(shape, kind, found)}, its mark says {_of_mark(shape, axes)}"
         cure = "what the mark says is exported; fit it to the mesh (Apply Scale and Edit Mode change only the mesh)"
         shape.warn("size-not-shown", cause, cure, fix=f"fit-{kind.lower()}")
+
+
+def check_round(shape: Shape, radii: tuple[float, float], length: float) -> None:
+    """`radii` and `length`: what the mark says, in the object's own coordinates. An empty shows half the length."""
+    if shape.mesh is None:
+        seen = shape.place.thing.display_size
+        if seen is not None and abs(2.0 * seen - length) > SIZE_TOLERANCE * length:
+            cause = f"it is shown with half a length of {_metres(shape, seen)}, its mark says {_metres(shape, length / 2)}"
+            cure = "what the mark says is exported; take over what is shown (Apply Scale changes only what is shown)"
+            shape.warn("size-not-shown", cause, cure, fix="fit-round")
+        return
+    vertices = np.asarray(shape.mesh.vertices, dtype=np.float64)
+    found = fit(vertices, shape.kind)
+    if found is None:
+        return
+    seen_length, seen_radii, middle = found
+    size = max(length, 2.0 * max(radii))
+    if abs(middle) > CENTER_TOLERANCE * size:
+        shown = f"{float(shape.place.scene.metres(middle)):.6g}"
+        cause = f"the middle of its mesh is at z = {shown} m, and what is exported is around the object's origin"
+        shape.warn("center-not-shown", cause, "move its origin into the middle of its mesh", fix="set-origin")
+        return
+    apart = np.abs(np.subtract((seen_length, *seen_radii), (length, *radii))).max()
+    tapered = shape.kind in ONE_RADIUS and np.ptp(seen_radii) > FIT_TOLERANCE * size
+    if tapered or apart <= FIT_TOLERANCE * size and off(vertices, shape.kind, length, radii) > FIT_TOLERANCE * size:
+        cause = f"its mesh is no {shape.kind}: {_round(shape, length, radii)} is exported"
+        shape.findings.hint("mesh-not-round", shape.where, cause, "nothing, if its mesh is only there to be looked at")
+    elif apart > SIZE_TOLERANCE * size:
+        shown = _round(shape, seen_length, seen_radii)
+        cause = f"its mesh shows {shown}, its mark says {_round(shape, length, radii)}"
+        cure = "what the mark says is exported; fit it to the mesh (Apply Scale and Edit Mode change only the mesh)"
+        shape.warn("size-not-shown", cause, cure, fix="fit-round")
+
+
+def _round(shape: Shape, length: float, radii: tuple[float, float]) -> str:
+    if shape.kind in ONE_RADIUS:
+        return f"a {shape.kind} of length {_metres(shape, length)} and radius {_metres(shape, radii[0])}"
+    both = " and ".join(_metres(shape, radius) for radius in radii)
+    return f"a {shape.kind} of length {_metres(shape, length)} and radii {both}"
 
 
 def _of_mark(shape: Shape, axes: np.ndarray) -> str:

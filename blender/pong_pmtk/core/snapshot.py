@@ -66,9 +66,9 @@ class SnapshotObject:
     collections: list[str] = field(default_factory=list)  # those it is in, directly or through their parents
     exact: dict[str, np.ndarray] = field(default_factory=dict)
     """Numbers in full precision for what Blender rounds to single. They count as long as rounding them gives what
-    Blender has now; see exact.py. "location", "rotation", "scale"; "vertices" (of the stored mesh); "radius",
+    Blender has now; see exact.py. "location", "rotation", "scale"; "vertices" (of the stored mesh); "radius", "radii",
     "semi_axes", "length", "reach", "thickness", "file_scale" (of the mark); and what a place only stands for, which
-    counts while location and rotation do: "direction" of a Ray, "normal" and "offset" of a Plane."""
+    counts while location and rotation do: "direction" of a Ray, "normal" and "offset" of a Plane, "ends" of a round part."""
 
 
 @dataclass

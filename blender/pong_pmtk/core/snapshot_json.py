@@ -115,7 +115,7 @@ def _value(kind, name: str, value, path: str):
     if name == "pairs":
         return [_with_laws(fields) for fields in value]
     if text.startswith("tuple"):
-        return tuple(map(float, value))
+        return tuple(map(bool if "bool" in text else float, value))
     return {key: tuple(item) for key, item in value.items()} if name == "instance_offsets" else value
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Model -> Snapshot: the scene whose export gives the model again, byte for byte.
 
-Every group is an empty, every primitive an object of its own: points, rays, spheres, ellipsoids, planes and custom
-primitives are empties, the others meshes. What single precision cannot hold is kept beside it (`exact`).
+Every group is an empty, every primitive an object of its own: points, rays, spheres, ellipsoids, planes, round parts
+and custom primitives are empties, the others meshes. What single precision cannot hold is kept beside it (`exact`).
 """
 
 from __future__ import annotations
@@ -136,6 +136,19 @@ def _plane(thing: SnapshotObject, fields: dict) -> None:
     thing.exact["normal"], thing.exact["offset"] = normal, np.asarray(float(fields["offset"]))
 
 
+def _round(thing: SnapshotObject, fields: dict) -> None:
+    low, high = np.asarray(fields["ends"], dtype=np.float64)
+    axis = high - low
+    _place(thing, tuple((low / 2.0 + high / 2.0 + 0.0).tolist()), turn_of_z(axis))
+    thing.exact["ends"] = np.array([low, high])
+    _number(thing, "length", float(np.sqrt((axis**2).sum())))
+    for name in ("radius", "radii", "thickness"):
+        if name in fields:
+            value = fields[name]
+            _number(thing, name, tuple(map(float, value)) if name == "radii" else float(value))
+    thing.mark.mouths = tuple(map(bool, fields.get("mouths", (True, True))))
+
+
 def _custom(thing: SnapshotObject, fields: dict) -> None:
     thing.mark.custom_kind = fields["kind"]
     thing.mark.parameters = list(fields.get("parameters", ()))
@@ -160,6 +173,10 @@ _EMPTIES = {
     "Ellipsoid": _ellipsoid,
     "Ray": _ray,
     "Plane": _plane,
+    "Capsule": _round,
+    "Cylinder": _round,
+    "Cone": _round,
+    "Bore": _round,
     "Custom": _custom,
 }
 

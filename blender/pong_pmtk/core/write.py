@@ -151,6 +151,8 @@ _AS_DATA = {
     "text_value": str,
     "boolean": bool,
     "response": str,
+    "radii": _numbers,
+    "booleans": lambda values: tuple(map(bool, values)),
     "numbers": lambda values: [float(x) for x in values],
     "indices": lambda values: [int(x) for x in values],
     "vertices": lambda array: np.asarray(array, dtype=np.float64).reshape(-1, 3),

@@ -13,6 +13,7 @@ from mathutils import Matrix
 
 from ..core.exact import meant, meant_rows
 from ..core.marks import VERSION
+from ..core.round_shape import ROUND_KINDS
 from ..core.transforms import SCALE_TOLERANCE, frame_of, local_transform, matrix_quaternion
 from ..store import exact, marks
 from ..store.references import select_only, siblings, unique_name
@@ -145,9 +146,11 @@ def _scaled_sizes(obj, linear):
     """(kind, numbers) of a mark after its object's transform went into it; raises `FixFault` where no mark can say that."""
     kind = obj.pong.kind if obj.pong.role == "primitive" else ""
     on_empty = obj.type == "EMPTY"
-    if kind not in ("Sphere", "Ellipsoid") and not (on_empty and kind in ("Ray", "Plane")):
+    if kind not in ("Sphere", "Ellipsoid", *ROUND_KINDS) and not (on_empty and kind in ("Ray", "Plane")):
         return None
     numbers, lengths = marks.read_numbers(obj), np.sqrt((linear * linear).sum(axis=0))
+    if kind in ROUND_KINDS:
+        return kind, _scaled_round(obj, kind, linear, numbers)
     even = np.ptp(lengths) <= SCALE_TOLERANCE * lengths.max()
     if kind == "Sphere" and even:
         return kind, {"radius": numbers.get("radius", 0.0) * float(lengths[0])}
@@ -160,6 +163,19 @@ def _scaled_sizes(obj, linear):
         return None
     axes = (numbers.get("radius", 0.0),) * 3 if kind == "Sphere" else numbers.get("semi_axes", (0.0,) * 3)
     return "Ellipsoid", {"semi_axes": tuple(float(axis) for axis in axes * lengths)}
+
+
+def _scaled_round(obj, kind, linear, numbers):
+    """The numbers of a round part after its object's scale went into them: what lies along z stays there."""
+    size = np.abs(linear).max()
+    even = np.abs(np.diff(np.diag(linear)[: 3 if kind == "Capsule" else 2])).max() <= SCALE_TOLERANCE * size
+    if np.abs(linear - np.diag(np.diag(linear))).max() > SCALE_TOLERANCE * size or linear[2, 2] < 0.0 or not even:
+        raise FixFault(f"the {kind.lower()} of {obj.name} lies around its z axis: only a scale that is the same around it "
+                       "can be applied")
+    across, along = abs(float(linear[0, 0])), float(linear[2, 2])
+    scaled = {"length": numbers.get("length", 0.0) * along}
+    scaled |= {"radius": numbers["radius"] * across} if "radius" in numbers else {}
+    return scaled | ({"radii": tuple(r * across for r in numbers["radii"])} if "radii" in numbers else {})
 
 
 def _resize(obj, sizes):
@@ -231,6 +247,18 @@ def fit(kind):
         marks.write_numbers(obj, sizes)
 
     return repair
+
+
+def fit_round(context, obj):
+    """Takes the size that is shown: that of the mesh, or the length of an empty."""
+    kind = obj.pong.kind
+    sizes = proposal.sizes(context, obj, kind) if kind in ROUND_KINDS else {}
+    if not sizes:
+        raise FixFault(f"{obj.name} shows no round part: choose its kind, and show a mesh that has a length and a width")
+    if obj.type == "EMPTY":
+        given = marks.read_numbers(obj)
+        sizes = {name: value for name, value in sizes.items() if name == "length" or name not in given}
+    marks.write_numbers(obj, sizes)
 
 
 def adopt_parts(context, obj):
@@ -321,6 +349,7 @@ REPAIRS = {
     "dissolve-degenerate": dissolve_degenerate,
     "fit-ellipsoid": fit("Ellipsoid"),
     "fit-length": fit("Ray"),
+    "fit-round": fit_round,
     "fit-sphere": fit("Sphere"),
     "flip-normals": flip_normals,
     "leave-edit-mode": leave_edit_mode,

@@ -4,12 +4,15 @@
 import bpy
 from mathutils import Matrix
 
+from ..core.round_shape import ROUND_KINDS
 from ..store import exact, marks
 from . import meshes
 
 MARK_NUMBERS = (*marks.NUMBERS, *marks.LISTS)  # a mark keeps these in full precision itself
 EMPTY_SHAPES = {"root": "PLAIN_AXES", "group": "ARROWS", "primitive": "SPHERE"}
-EMPTY_SHAPES_BY_KIND = {"Point": "PLAIN_AXES", "Ray": "SINGLE_ARROW", "Plane": "CIRCLE"}
+EMPTY_SHAPES_BY_KIND = {
+    "Point": "PLAIN_AXES", "Ray": "SINGLE_ARROW", "Plane": "CIRCLE", **dict.fromkeys(ROUND_KINDS, "SINGLE_ARROW"),
+}
 
 
 def insert(snapshot, scene):

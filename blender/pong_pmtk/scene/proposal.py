@@ -4,6 +4,7 @@
 from ..core.engine import WheelMissing
 from ..core.marks import Mark
 from ..core.propose import Proposal, fit_ellipsoid, fit_sphere, propose
+from ..core.round_shape import ROUND_KINDS, fitted_numbers, numbers_of
 from ..core.snapshot import SnapshotObject
 from ..store import exact
 from . import extract
@@ -47,6 +48,8 @@ def of_elements(select_mode):
 
 def sizes(context, obj, kind):
     """The numbers of a mark of some kind that follow from how the object looks, in its own coordinates."""
+    if kind in ROUND_KINDS:
+        return _round_sizes(context, obj, kind)
     if kind not in ("Sphere", "Ellipsoid", "Ray"):
         return {}
     if obj.type == "MESH" and kind != "Ray":
@@ -54,6 +57,15 @@ def sizes(context, obj, kind):
         return _fitted(mesh.vertices, kind) if mesh is not None else {}
     size = float(f"{obj.empty_display_size:.7g}") if obj.type == "EMPTY" else 1.0
     return {"Sphere": {"radius": size}, "Ellipsoid": {"semi_axes": (size,) * 3}, "Ray": {"length": size}}[kind]
+
+
+def _round_sizes(context, obj, kind):
+    """Those of its mesh; an empty is shown with half its length, and is begun half as thick as it is long."""
+    if obj.type == "MESH":
+        mesh = _shown_mesh(context, obj)
+        return fitted_numbers(mesh.vertices, kind) if mesh is not None else {}
+    size = float(f"{obj.empty_display_size:.7g}") if obj.type == "EMPTY" else 1.0
+    return numbers_of(kind, 2.0 * size, (size / 2.0,) * 2)
 
 
 def _fitted(vertices, kind):

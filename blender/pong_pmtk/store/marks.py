@@ -8,6 +8,7 @@ are on the object, never on its mesh, which others may share.
 import bpy
 
 from ..core.marks import KINDS, VERSION, Mark, ModelSettings, Part
+from ..core.round_shape import ROUND_KINDS
 from . import elements, numbers, spec, surfaces
 from .changes import changed, watched
 from .references import unique_name
@@ -28,6 +29,10 @@ KIND_TIPS = {
     "Triangle": "Every face of a mesh, all of them triangles",
     "TriangleMesh": "All faces of a mesh, cut into triangles",
     "Polyhedron": "A convex solid; each connected piece of a mesh is one of its own",
+    "Capsule": "A bar with ball ends, such as a link of a cable: along the object's z axis, around its origin",
+    "Cylinder": "A round solid with flat ends: along the object's z axis, around its origin",
+    "Cone": "A solid with a radius at each end, one of which may be zero: along the object's z axis",
+    "Bore": "The wall of a round or tapered hole, open at both ends: along the object's z axis",
 }
 KIND_ITEMS = [("NONE", "None", "Nothing")] + [(kind, kind, KIND_TIPS.get(kind, "")) for kind in KINDS]
 BOUND_ITEMS = [
@@ -43,6 +48,7 @@ LENGTH = {"subtype": "DISTANCE", "unit": "LENGTH", "min": 0.0, "precision": 6}
 def shown_size(mark):
     """The display size of an empty that shows a mark of its kind; None where a display size means nothing."""
     sizes = {"Sphere": mark.radius, "Ellipsoid": max(mark.semi_axes), "Ray": mark.length}
+    sizes.update(dict.fromkeys(ROUND_KINDS, mark.length / 2.0))
     return sizes.get(mark.kind) or None
 
 
@@ -84,7 +90,10 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
     radius: numbers.number("radius_64", name="Radius", shown=_show_size, **LENGTH)
     semi_axes: numbers.vector("semi_axes_64", name="Semi-axes", shown=_show_size,
                               **{**LENGTH, "subtype": "XYZ_LENGTH"})
-    length: numbers.number("length_64", name="Length", description="Free length of the plunger", shown=_show_size, **LENGTH)
+    radii: numbers.vector("radii_64", (0.0, 0.0), name="Radii", description="At the end at -z and at the one at +z",
+                          **{**LENGTH, "subtype": "NONE"})
+    length: numbers.number("length_64", name="Length", description="Free length of the plunger; of a round part from end to "
+                           "end of its axis, without the balls of a capsule", shown=_show_size, **LENGTH)
     use_reach: numbers.given("reach_64", name="Reach")
     reach: numbers.number("reach_64", name="Reach", description="How far behind the origin a surface is still hit", **LENGTH)
     response: bpy.props.EnumProperty(name="Response", items=[
@@ -92,7 +101,11 @@ class PONG_PG_mark(bpy.types.PropertyGroup):
         ("Axial", "Axial", "The force acts along the ray")])
     use_thickness: numbers.given("thickness_64", default=0.01, name="Thickness")
     thickness: numbers.number("thickness_64", name="Thickness",
-                              description="How far behind its front a triangle still pushes forward", **LENGTH)
+                              description="How far behind its front a triangle still pushes forward, and behind its "
+                                          "wall a bore", **LENGTH)
+    mouths: bpy.props.BoolVectorProperty(
+        name="Mouths", size=2, default=(True, True),
+        description="Whether the hole ends in an edge that pushes, at -z and at +z. Off where it goes on as another bore")
     two_sided: bpy.props.BoolProperty(name="Two-sided", description="Two surfaces back to back")
     inactive: bpy.props.StringProperty(options={"HIDDEN"})  # attribute of the mesh
     file: bpy.props.StringProperty(name="File", description="Write the mesh to this OBJ or STL file beside the model")
@@ -125,7 +138,7 @@ SAME = (
 )
 # Kept in full precision, and left out where not given.
 NUMBERS = ("radius", "length", "reach", "thickness", "file_scale")
-LISTS = {"semi_axes": tuple, "parameters": list}
+LISTS = {"semi_axes": tuple, "radii": tuple, "parameters": list}
 
 
 def read_mark(obj):
@@ -134,6 +147,7 @@ def read_mark(obj):
     mark = Mark(version=group.version or VERSION, name=group.label, kind=_kind(group))
     for field in SAME:
         setattr(mark, field, getattr(group, field))
+    mark.mouths = tuple(group.mouths)
     for field, value in read_numbers(obj).items():
         setattr(mark, field, value)
     if obj.type == "MESH":
@@ -222,6 +236,7 @@ def write_mark(obj, mark):
     group.kind = mark.kind or "NONE"
     for field in SAME:
         setattr(group, field, getattr(mark, field))
+    group.mouths = mark.mouths
     write_numbers(obj, {field: getattr(mark, field) for field in (*NUMBERS, *LISTS)})
     if mark.inactive_faces:
         group.inactive = elements.new_attribute(elements.INACTIVE)

@@ -32,7 +32,7 @@ def number(key, default=0.0, shown=None, **options):
 
 
 def vector(key, default=(0.0, 0.0, 0.0), shown=None, **options):
-    """The same for three numbers."""
+    """The same for three numbers, or as many as there are in `default`."""
 
     def read(self):
         return self.get(key, default)
@@ -42,7 +42,7 @@ def vector(key, default=(0.0, 0.0, 0.0), shown=None, **options):
         if shown is not None:
             shown(self)
 
-    return bpy.props.FloatVectorProperty(size=3, get=read, set=write, **options)
+    return bpy.props.FloatVectorProperty(size=len(default), get=read, set=write, **options)
 
 
 def given(key, default=0.0, **options):

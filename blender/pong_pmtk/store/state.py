@@ -58,6 +58,7 @@ class PONG_PG_state(bpy.types.PropertyGroup):
     show_bounds: _toggle("Bounds", "Bounding volumes of the groups")
     show_normals: _toggle("Normals", "Outward normals of faces and planes")
     show_rays: _toggle("Rays", "Rays with their reach, and segments")
+    show_round: _toggle("Round Parts", "Capsules, cylinders, cones and bores")
     show_groups: _toggle("Groups", "What hangs below what; movable groups stand out")
     normal_length: bpy.props.FloatProperty(name="Length", default=0.05, min=0.001, update=_redraw,
                                            description="Of the normals, as a share of the model's size")

@@ -22,6 +22,7 @@ COLOURS = {
     "show_bounds": (0.95, 0.75, 0.2, 0.8),
     "show_normals": (0.3, 0.8, 1.0, 0.8),
     "show_rays": (1.0, 0.35, 0.3, 1.0),
+    "show_round": (0.85, 0.55, 1.0, 1.0),
     "show_groups": (0.5, 1.0, 0.4, 1.0),
 }
 LINE_WIDTH_PX = 1.5
@@ -69,6 +70,7 @@ def lines(context, root, result):
         "show_bounds": lambda: bounds,
         "show_normals": lambda: overlay.normals_lines(model, shown.normal_length * size),
         "show_rays": lambda: overlay.rays_lines(model),
+        "show_round": lambda: overlay.round_lines(model),
         "show_groups": lambda: overlay.groups_lines(model, AXES_SHARE * size),
     }
     return {name: in_scene(context, root, tables[name]()) for name in wanted(shown)}

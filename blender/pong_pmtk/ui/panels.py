@@ -7,7 +7,11 @@ from ..store.references import current_root
 from ..store.state import state
 from . import overlay
 
-SIZES = {"Sphere": ("radius",), "Ellipsoid": ("semi_axes",), "Ray": ("length",)}
+SIZES = {
+    "Sphere": ("radius",), "Ellipsoid": ("semi_axes",), "Ray": ("length",),
+    "Capsule": ("length", "radius"), "Cylinder": ("length", "radius"),
+    "Cone": ("length", "radii"), "Bore": ("length", "radii"),
+}
 BUTTONS_OF_PARTS = (("ADD", "pong.mark_elements", {}), ("REMOVE", "pong.part_remove", {}))
 
 
@@ -97,6 +101,9 @@ class PONG_PT_object(Panel, bpy.types.Panel):
         if mark.kind == "Ray":
             draw_optional(layout, mark, "reach")
             layout.prop(mark, "response")
+        if mark.kind == "Bore":
+            draw_optional(layout, mark, "thickness")
+            layout.prop(mark, "mouths")
         if mark.kind in ("Triangle", "TriangleMesh"):
             draw_optional(layout, mark, "thickness")
             layout.prop(mark, "two_sided")
@@ -291,7 +298,7 @@ class PONG_PT_overlays(Panel, bpy.types.Panel):
     def draw(self, context):
         shown = state(context)
         grid = self.layout.grid_flow(columns=2, align=True)
-        for name in ("show_bounds", "show_normals", "show_rays", "show_groups"):
+        for name in ("show_bounds", "show_normals", "show_rays", "show_round", "show_groups"):
             grid.prop(shown, name, toggle=True)
         if shown.show_normals:
             self.layout.prop(shown, "normal_length")

@@ -301,12 +301,25 @@ def no_kind():
 
 @faulty
 def unknown_kind():
-    return with_change("ball", kind="Cone")
+    return with_change("ball", kind="Torus")
 
 
 @faulty
 def needs_mesh():
     return one("Polyhedron")
+
+
+@faulty
+def sheared_round():
+    s, stretched = _stretched()
+    turned = {"rotation_mode": "XYZ", "rotation": (0.0, 0.0, TURN)}
+    s.primitive("pin", "Cylinder", above=stretched, radius=0.1, length=0.3, **turned)
+    return s
+
+
+@faulty
+def uneven_round():
+    return one("Cylinder", radius=0.1, length=0.3, scale=(1.0, 2.0, 1.0))
 
 
 @faulty

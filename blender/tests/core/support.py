@@ -77,6 +77,7 @@ def in_single_precision(snapshot):
             if getattr(mark, name) is not None:
                 setattr(mark, name, float(exact.rounded(getattr(mark, name))))
         mark.semi_axes = tuple(exact.rounded(mark.semi_axes).tolist())
+        mark.radii = tuple(exact.rounded(mark.radii).tolist())
     return snapshot
 
 

@@ -79,7 +79,7 @@ class Faults(unittest.TestCase):
         for body, rule in {
             'Sphere(name: "a", center: (0, 0, 0))': "missing-field",
             'Sphere(name: "a", center: (0, 0), radius: 1)': "wrong-type",
-            'Cone(name: "a")': "unknown-kind",
+            'Torus(name: "a")': "unknown-kind",
             'Point(name: "a", position: (0, 0, 0), color: 1)': "unknown-field",
             'Point(name: "a", name: "b", position: (0, 0, 0))': "repeated-field",
             'Point(name: "a", position: (0, 0, inf))': "not-finite",

@@ -50,6 +50,10 @@ def random_primitive(index):
         ("Triangle", {"vertices": ((0.0, 0.0, 0.0), (1.0, 0.1, 0.0), (0.0, 20.0, single)), "two_sided": True}),
         ("TriangleMesh", {"vertices": solid, "triangles": np.array([[0, 1, 2], [5, 4, 2]]), "thickness": length}),
         ("Polyhedron", {"vertices": solid, "faces": faces, "inactive_faces": (0, 4)}),
+        ("Capsule", {"ends": (random_vector(), (11.0, 0.1, single)), "radius": length}),
+        ("Cylinder", {"ends": (random_vector(), (11.0, 0.1, single)), "radius": single}),
+        ("Cone", {"ends": (random_vector(), (11.0, 0.1, single)), "radii": (length, 0.0)}),
+        ("Bore", {"ends": (random_vector(), (11.0, 0.1, single)), "radii": (single, length), "mouths": (True, False)}),
         ("Custom", {"kind": "torus", "parameters": (1.0, single)}),
     ])  # fmt: skip
     return Primitive(

@@ -23,11 +23,15 @@ def of_size(kind, size):
         s.mesh("thing", kind, mesh(size / np.sqrt(3.0) * BOX.vertices, np.split(BOX.loops, BOX.face_starts[1:-1])))
     else:
         sizes = {"Ray": {"length": size}, "Sphere": {"radius": size}, "Ellipsoid": {"semi_axes": (size,) * 3}}
+        sizes |= dict.fromkeys(("Capsule", "Cylinder"), {"length": 1.0, "radius": size})
+        sizes |= {"Cone": {"length": 1.0, "radii": (size, 0.0)}, "Bore": {"length": size, "radii": (1.0, 1.0)}}
         s.primitive("thing", kind, **sizes[kind])
     return s
 
 
-KINDS = ("LineSegment", "Ray", "Sphere", "Ellipsoid", "Triangle", "TriangleMesh", "Polyhedron")
+KINDS = (
+    "LineSegment", "Ray", "Sphere", "Ellipsoid", "Triangle", "TriangleMesh", "Polyhedron", "Capsule", "Cylinder", "Cone", "Bore",
+)
 
 
 class SizeRange(unittest.TestCase):

@@ -30,6 +30,9 @@ pub(crate) struct Arguments {
     /// Makes unmarked parts that are not convex their convex hulls: hulls of CoACD, which rounding has dented.
     #[arg(long)]
     hull: bool,
+    /// Makes unmarked parts that are a capsule, a cylinder, a cone or a bore within this distance that primitive: 0.1mm.
+    #[arg(long, value_name = "TOLERANCE", value_parser = length_m)]
+    round: Option<f64>,
 }
 
 /// The mesh file, the model file, and how the one becomes the other.
@@ -163,6 +166,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         root: arguments.root.clone(),
         faces_max: arguments.faces_max,
         inline_max: arguments.mesh_files.unwrap_or(usize::MAX),
+        round_m: arguments.round,
         hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
         ..arguments.mesh.options()
     };

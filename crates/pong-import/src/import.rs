@@ -34,6 +34,9 @@ pub struct Options {
     /// What finds the convex hulls that unmarked closed parts become if they are not convex (`pong_decompose::hull_of_mesh`);
     /// `None` leaves such parts as they are.
     pub hull: Option<HullFinder>,
+    /// Unmarked parts that are a capsule, a cylinder, a cone or a bore within this distance become that primitive, m; `None` leaves
+    /// them polyhedra and surfaces.
+    pub round_m: Option<f64>,
     /// Folders beside the mesh file's own from which files that it names (buffers of glTF) may be read.
     pub allowed: Vec<PathBuf>,
 }
@@ -51,6 +54,7 @@ impl Default for Options {
             faces_max: 1000,
             inline_max: usize::MAX,
             hull: None,
+            round_m: None,
             allowed: Vec::new(),
         }
     }
@@ -67,10 +71,11 @@ impl Options {
     /// How a model is to be made of it.
     #[doc(hidden)]
     pub fn building<'a>(&self, input: &Path, progress: &'a mut dyn FnMut(&str)) -> Building<'a> {
-        let Self { root, name, surface, weld_m, unit_m, faces_max, inline_max, hull, .. } = self.clone();
+        let Self { root, name, surface, weld_m, unit_m, faces_max, inline_max, hull, round_m, .. } =
+            self.clone();
         let stem = || input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let (file, name) = (input.display().to_string(), name.unwrap_or_else(stem));
-        Building { file, name, root, weld_m, unit_m, surface, faces_max, inline_max, hull, progress }
+        Building { file, name, root, weld_m, unit_m, surface, faces_max, inline_max, hull, round_m, progress }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Mesh files (glTF, OBJ, STL) to model files.
 //!
 //! The way of a file: `source` (any format to a tree of nodes with geometry), `marks` (what `extras.pong` says),
-//! `mesh` (cleaning, parts, planar faces, convexity), `build` (nodes to a model), `write` (a model to text),
+//! `mesh` (cleaning, parts, planar faces, convexity), `round` (parts that are capsules, cylinders, cones, bores), `build` (nodes to a model), `write` (a model to text),
 //! `files` (read back by the engine's loader, then put in place). `pong-decompose`, a crate beside this one,
 //! makes convex pieces of what is read; it is built on the
 //! modules that are public here though no stable interface: they follow the importer.
@@ -25,6 +25,8 @@ pub mod mesh;
 pub mod model;
 #[doc(hidden)]
 pub mod number;
+#[doc(hidden)]
+pub mod round;
 #[doc(hidden)]
 pub mod source;
 #[doc(hidden)]

@@ -8,7 +8,7 @@ const VERSION: u64 = 1;
 
 const ROLES: [&str; 4] = ["none", "root", "group", "primitive"];
 const BOUNDS: [&str; 3] = ["Aabb", "Sphere", "Obb"];
-pub(crate) const KINDS: [&str; 10] = [
+pub(crate) const KINDS: [&str; 14] = [
     "Point",
     "LineSegment",
     "Ray",
@@ -18,6 +18,10 @@ pub(crate) const KINDS: [&str; 10] = [
     "Triangle",
     "TriangleMesh",
     "Polyhedron",
+    "Capsule",
+    "Cylinder",
+    "Cone",
+    "Bore",
     "Custom",
 ];
 
@@ -39,6 +43,10 @@ pub(crate) struct Mark {
     pub(crate) radius: f64,
     pub(crate) semi_axes: [f64; 3],
     pub(crate) length: f64,
+    /// Of a cone or bore, at -z and at +z.
+    pub(crate) radii: [f64; 2],
+    /// Of a bore, likewise: whether it ends there in an edge that pushes.
+    pub(crate) mouths: [bool; 2],
     /// Whatever the scale, as is the thickness.
     pub(crate) reach: Option<f64>,
     pub(crate) response: String,
@@ -97,10 +105,22 @@ impl Fields<'_> {
     }
 
     fn flag(&mut self, key: &str) -> Option<bool> {
-        // Custom properties of some programs keep 0 and 1 for false and true.
-        self.take(key, "true or false", |value| {
-            value.as_bool().or(value.as_u64().filter(|x| *x < 2).map(|x| x == 1))
-        })
+        self.take(key, "true or false", flag_of)
+    }
+
+    fn radii(&mut self) -> [f64; 2] {
+        let two = |value: &Value| -> Option<[f64; 2]> {
+            let radii: [f64; 2] = numbers_of(value)?.try_into().ok()?;
+            radii.iter().all(|radius| *radius >= 0.0).then_some(radii)
+        };
+        self.take("radii", "two numbers that are not negative", two).unwrap_or([0.0; 2])
+    }
+
+    fn mouths(&mut self) -> [bool; 2] {
+        let two = |value: &Value| -> Option<[bool; 2]> {
+            value.as_array()?.iter().map(flag_of).collect::<Option<Vec<bool>>>()?.try_into().ok()
+        };
+        self.take("mouths", "two of true and false", two).unwrap_or([true; 2])
     }
 
     fn bound(&mut self) -> String {
@@ -119,6 +139,15 @@ impl Fields<'_> {
             self.findings.note(self.path, "unknown-field", cause, "");
         }
     }
+}
+
+/// Custom properties of some programs keep 0 and 1 for false and true.
+fn flag_of(value: &Value) -> Option<bool> {
+    value.as_bool().or(value.as_u64().filter(|x| *x < 2).map(|x| x == 1))
+}
+
+fn numbers_of(value: &Value) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(Value::as_f64).collect()
 }
 
 /// The object of `extras.pong`; some programs keep it as text.
@@ -154,9 +183,7 @@ impl Mark {
         let map = object(value, &mut parsed, path, findings)?;
         let before = findings.faults.len();
         let mut fields = Fields { map, path, findings };
-        let all_numbers =
-            |value: &Value| -> Option<Vec<f64>> { value.as_array()?.iter().map(Value::as_f64).collect() };
-        let numbers = |value: &Value| -> Option<[f64; 3]> { all_numbers(value)?.try_into().ok() };
+        let numbers = |value: &Value| -> Option<[f64; 3]> { numbers_of(value)?.try_into().ok() };
         let mark = Self {
             role: fields.word("role", &ROLES, if map.contains_key("kind") { "primitive" } else { "none" }),
             name: fields.text("name"),
@@ -168,6 +195,8 @@ impl Mark {
             radius: fields.number("radius").unwrap_or(0.0),
             semi_axes: fields.take("semi_axes", "three numbers", numbers).unwrap_or([0.0; 3]),
             length: fields.number("length").unwrap_or(0.0),
+            radii: fields.radii(),
+            mouths: fields.mouths(),
             reach: fields.number("reach"),
             response: fields.word("response", &["Normal", "Axial"], "Normal"),
             thickness: fields.number("thickness"),
@@ -175,7 +204,7 @@ impl Mark {
             file: fields.text("file"),
             file_scale: fields.number("file_scale").filter(|scale| *scale > 0.0).unwrap_or(1.0),
             custom_kind: fields.text("custom_kind"),
-            parameters: fields.take("parameters", "a list of numbers", all_numbers).unwrap_or_default(),
+            parameters: fields.take("parameters", "a list of numbers", numbers_of).unwrap_or_default(),
             settings: map.get("settings").filter(|settings| settings.is_object()).cloned(),
             numbered: ["inactive_faces", "parts"]
                 .into_iter()
@@ -194,6 +223,8 @@ impl Mark {
             "radius",
             "semi_axes",
             "length",
+            "radii",
+            "mouths",
             "reach",
             "response",
             "thickness",

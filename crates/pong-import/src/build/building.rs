@@ -21,5 +21,7 @@ pub struct Building<'a> {
     pub inline_max: usize,
     /// What unmarked parts that are not convex become, if anything: their convex hulls.
     pub hull: Option<HullFinder>,
+    /// Unmarked parts that are round within this distance become round primitives, m; `None` leaves them as they are.
+    pub round_m: Option<f64>,
     pub progress: &'a mut dyn FnMut(&str),
 }

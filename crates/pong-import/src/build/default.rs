@@ -4,6 +4,7 @@ use super::building::Building;
 use super::kinds::{self, Naming};
 use super::meshes::{self, Placed};
 use super::names::Names;
+use super::round;
 use crate::affine::Affine;
 use crate::findings::Findings;
 use crate::mesh::{self, Flaw, HullFinder, Mesh, Polyhedron, bounds};
@@ -117,17 +118,19 @@ impl Build<'_, '_> {
         primitives
     }
 
-    /// Convex solids become polyhedra, all else surfaces.
+    /// Round parts become what they are if that is asked for, convex solids polyhedra, all else surfaces.
     fn of_triangles(&mut self, naming: &Naming<'_>, shape: Shape) -> Vec<Primitive> {
         let looks = shape.looks.clone();
         let placed = meshes::triangles(shape, self.building, naming.path, self.findings);
+        let (mut primitives, placed) =
+            round::taken_out(naming, placed, &looks, self.building, self.grid, self.findings);
+        if placed.mesh.triangles.is_empty() {
+            return primitives;
+        }
         let (solids, rest) = self.sorted(naming, &placed, &looks);
         let count = solids.len();
-        let mut primitives: Vec<Primitive> = solids
-            .into_iter()
-            .enumerate()
-            .map(|(index, solid)| kinds::solid(naming, index, count, solid, &looks))
-            .collect();
+        let solids = solids.into_iter().enumerate();
+        primitives.extend(solids.map(|(index, solid)| kinds::solid(naming, index, count, solid, &looks)));
         if !rest.triangles.is_empty() {
             let rest = Placed { mesh: rest, two_sided: placed.two_sided };
             primitives.extend(kinds::surfaces(naming, &rest, &looks, (None, false), self.findings));

@@ -111,7 +111,7 @@ pub(super) fn ball(
     Some(naming.primitive("Ellipsoid", 0, 1, fields))
 }
 
-fn straight(to_body: &Affine, path: &str, findings: &mut Findings) -> Option<Stretch> {
+pub(super) fn straight(to_body: &Affine, path: &str, findings: &mut Findings) -> Option<Stretch> {
     match to_body.stretch() {
         Ok(stretch) => Some(stretch),
         Err(Skew::Flat) => {

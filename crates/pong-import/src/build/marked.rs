@@ -5,6 +5,7 @@ use super::frames::body_frame;
 use super::kinds::{self, Naming};
 use super::meshes;
 use super::names::natural;
+use super::round;
 use crate::affine::Affine;
 use crate::findings::Findings;
 use crate::marks::Mark;
@@ -281,6 +282,10 @@ impl Build<'_, '_> {
             }
             ("Custom", _) => vec![kinds::custom(&naming, mark)],
             ("Sphere" | "Ellipsoid", _) => self.ball(&naming, mark, to_body).into_iter().collect(),
+            ("Capsule" | "Cylinder" | "Cone" | "Bore", _) => {
+                let round = round::marked(&naming, mark, unit, to_body, self.grid, self.findings);
+                round.into_iter().collect()
+            }
             (_, None) => self.of_empty(&naming, mark, to_body),
             (_, Some(mut shape)) => {
                 meshes::place(&mut shape, to_body, self.grid);

@@ -8,6 +8,7 @@ mod marked;
 mod mesh_files;
 pub mod meshes;
 mod names;
+mod round;
 mod surfaces;
 
 use crate::findings::Findings;

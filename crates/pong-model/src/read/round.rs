@@ -6,26 +6,24 @@ use pong_geometry::Vec3;
 use pong_geometry::primitive::{Bore, Capsule, Frustum};
 
 pub(super) fn capsule(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Capsule> {
-    let ends = ends(reader, p, "use a Sphere");
+    let ends = ends(reader, p, "move one end, or use a Sphere");
     let radius = radius(reader, p);
     Some(Capsule { ends: ends?, radius: radius? })
 }
 
 pub(super) fn cylinder(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Frustum> {
-    let ends = ends(reader, p, "a cylinder has a length");
+    let ends = ends(reader, p, "move one end: a cylinder has a length");
     let radius = radius(reader, p);
     Some(Frustum::new(ends?, [radius?; 2]))
 }
 
 pub(super) fn cone(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Frustum> {
-    let ends = ends(reader, p, "a cone has a length");
-    let radii = radii(reader, p);
-    Some(Frustum::new(ends?, radii?))
+    frustum(reader, p, "move one end: a cone has a length", "give one end a radius, or use a LineSegment")
 }
 
 /// Without a thickness all that is closer behind the wall than the smaller radius is pushed back.
 pub(super) fn bore(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Bore> {
-    let hole = cone(reader, p);
+    let hole = frustum(reader, p, "move one end: a bore has a length", "give one end a radius");
     let thickness = match p.fields.optional("thickness") {
         Some(node) => reader.positive(node, &p.path, "the thickness").map(Some),
         None => Some(None),
@@ -40,13 +38,25 @@ pub(super) fn bore(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Bor
     Some(Bore { hole, thickness: thickness.unwrap_or(narrowest), mouths: mouths? })
 }
 
+/// With the cures of an axis and of radii that are zero.
+fn frustum(
+    reader: &mut Reader<'_>,
+    p: &Primitive<'_, '_>,
+    without_length: &str,
+    without_radius: &str,
+) -> Option<Frustum> {
+    let ends = ends(reader, p, without_length);
+    let radii = radii(reader, p, without_radius);
+    Some(Frustum::new(ends?, radii?))
+}
+
 /// Two places that are not the same.
 fn ends(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[Vec3; 2]> {
     let node = p.fields.required(reader, "ends")?;
     let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
     if reader.judges_shapes && ends[0] == ends[1] {
         let cause = "both ends of the axis are the same place";
-        reader.fault(node.at, &p.path, "zero-length", cause, format!("move one end; {cure}"));
+        reader.fault(node.at, &p.path, "zero-length", cause, cure);
         return None;
     }
     Some(ends)
@@ -57,12 +67,12 @@ fn radius(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<f64> {
 }
 
 /// One of the two may be zero: the tip of a cone.
-fn radii(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<[f64; 2]> {
+fn radii(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[f64; 2]> {
     let node = p.fields.required(reader, "radii")?;
     let radii = reader.not_negative_pair(node, &p.path, "a radius")?;
     if reader.judges_shapes && radii == [0.0; 2] {
         let cause = "both radii are zero";
-        reader.fault(node.at, &p.path, "not-positive", cause, "give one end a radius, or use a LineSegment");
+        reader.fault(node.at, &p.path, "not-positive", cause, cure);
         return None;
     }
     Some(radii)
