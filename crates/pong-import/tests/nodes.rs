@@ -304,7 +304,7 @@ fn what_deforms_or_lies_outside_is_refused() {
             marked(json!({"role": "primitive", "kind": "Polyhedron", "version": 2}));
     });
     assert_refused("field", "mark", |gltf| {
-        gltf.json["nodes"][0]["extras"] = marked(json!({"role": "primitive", "kind": "Cone"}));
+        gltf.json["nodes"][0]["extras"] = marked(json!({"role": "primitive", "kind": "Torus"}));
     });
 }
 

@@ -106,7 +106,7 @@ impl Pose {
 fn imported(test: &str, triangles: &[[Place; 3]], round_m: Option<f64>) -> (Imported, Model) {
     let path = folder(test).join("part.obj");
     std::fs::write(&path, obj(triangles)).unwrap();
-    run(&path, &Options { round_m, ..options() }).unwrap()
+    run(&path, &Options { round_m, faces_max: 10_000, ..options() }).unwrap()
 }
 
 /// Ends and radii of the only round primitive, the end nearer to `low` first.
@@ -288,7 +288,9 @@ fn marks_that_make_no_round_part_are_refused() {
         let mut gltf = Gltf::new();
         gltf.node(None, json!({"name": "part", "scale": scale, "extras": marked(mark)}));
         let path = gltf.save(&folder("refused_round"), "round.glb");
-        rules(&run(&path, &options()).unwrap_err())
+        // A node whose mark cannot be read has none, and then there is nothing to import.
+        let rules = rules(&run(&path, &options()).unwrap_err());
+        rules.into_iter().filter(|rule| *rule != "empty-mesh").collect::<Vec<_>>()
     };
     assert_eq!(faults([1.0; 3], json!({"kind": "Cylinder", "radius": 1.0})), ["not-positive"]);
     assert_eq!(

@@ -8,8 +8,10 @@ use nalgebra::{DMatrix, DVector, Vector3};
 const ROUNDS: usize = 20;
 /// Steps below this share of the size change nothing any more.
 const SETTLED: f64 = 1e-14;
-/// A place nearer to the axis than this share of the size has no direction away from it: the tip of a cone.
+/// A place nearer to the axis than this share of the size has no direction away from it.
 const ON_AXIS: f64 = 1e-6;
+/// A place of a wall nearer to the axis than this share of the widest is the tip of a cone.
+const TIP: f64 = 0.02;
 
 /// A primitive with the frame of its axis.
 pub(super) struct Fit {
@@ -106,21 +108,14 @@ fn heights(part: &Mesh, edges: &Adjacency, frame: &Frame, kind: Kind, tolerance_
 /// The frustum's wall nearest to places. A step moves the axis, leans it, and changes radius and slope.
 fn fit_wall(places: &[Vector3<f64>], start: &Frame, tapers: bool, size_m: f64) -> Option<(Frame, Wall)> {
     let unknowns = if tapers { 6 } else { 5 };
-    let (mut frame, mut wall) = (*start, Wall { radius: 0.0, slope: 0.0 });
-    wall.radius =
-        places.iter().map(|place| frame.local(place).xy().norm()).sum::<f64>() / places.len() as f64;
+    let mut frame = *start;
+    let away = |place: &Vector3<f64>| frame.local(place).xy().norm();
+    let mean = places.iter().map(away).sum::<f64>() / places.len() as f64;
+    let tip = TIP * places.iter().map(away).fold(0.0, f64::max);
+    let mut wall = Wall { radius: mean, slope: 0.0 };
     for _ in 0..ROUNDS {
-        let row = |place: &Vector3<f64>| {
-            let local = frame.local(place);
-            let away = local.xy().norm();
-            if away <= ON_AXIS * size_m {
-                return None;
-            }
-            let (ux, uy, z, b) = (local.x / away, local.y / away, local.z, wall.slope);
-            let lean = [-ux * z - b * local.x, -uy * z - b * local.y];
-            Some((away - wall.radius - b * z, vec![-ux, -uy, lean[0], lean[1], -1.0, -z]))
-        };
-        let step = step(places.iter().filter_map(row), unknowns)?;
+        let rows = |place: &Vector3<f64>| rows_of_wall(&frame.local(place), wall, tip);
+        let step = step(places.iter().flat_map(rows), unknowns)?;
         frame = frame.changed([step[0], step[1]], [step[2], step[3]]);
         wall.radius += step[4];
         wall.slope += if tapers { step[5] } else { 0.0 };
@@ -129,6 +124,22 @@ fn fit_wall(places: &[Vector3<f64>], start: &Frame, tapers: bool, size_m: f64) -
         }
     }
     Some((frame, wall))
+}
+
+/// How far a place is off the wall along the radius, and by how much each unknown changes that. A tip has no direction away from
+/// the axis: it is to be on the axis, and the radius there zero.
+fn rows_of_wall(local: &Vector3<f64>, wall: Wall, tip: f64) -> Vec<(f64, Vec<f64>)> {
+    let (away, z, b) = (local.xy().norm(), local.z, wall.slope);
+    if away <= tip {
+        return vec![
+            (local.x, vec![-1.0, 0.0, -z, 0.0, 0.0, 0.0]),
+            (local.y, vec![0.0, -1.0, 0.0, -z, 0.0, 0.0]),
+            (-wall.radius - b * z, vec![0.0, 0.0, 0.0, 0.0, -1.0, -z]),
+        ];
+    }
+    let (ux, uy) = (local.x / away, local.y / away);
+    let lean = [-ux * z - b * local.x, -uy * z - b * local.y];
+    vec![(away - wall.radius - b * z, vec![-ux, -uy, lean[0], lean[1], -1.0, -z])]
 }
 
 /// The capsule nearest to all vertices. A step also moves both ends along the axis.

@@ -11,7 +11,6 @@ mod measure;
 
 use crate::mesh::{Adjacency, Mesh, volume_m3};
 use fit::Fit;
-use frame::Frame;
 use nalgebra::Vector3;
 
 /// Fewer places around the axis are a prism that is meant as one: a box, a hexagon.
