@@ -1,7 +1,7 @@
 //! The primitive of a kind that is nearest to a mesh, from an axis near its own: least squares, by Gauss and Newton.
 
 use super::frame::Frame;
-use super::{Kind, Round};
+use super::shape::{Kind, Round};
 use crate::mesh::{Adjacency, Mesh};
 use nalgebra::{DMatrix, DVector, Vector3};
 

@@ -1,7 +1,7 @@
 //! How far a mesh is from a round primitive, and whether it is all of it.
 
 use super::frame::Frame;
-use super::{Kind, Round};
+use super::shape::{Kind, Round};
 use crate::mesh::{Adjacency, Mesh, area_vector, volume_m3};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};

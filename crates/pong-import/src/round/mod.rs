@@ -8,48 +8,15 @@ mod axes;
 mod fit;
 mod frame;
 mod measure;
+mod shape;
 
 use crate::mesh::{Adjacency, Mesh, volume_m3};
 use fit::Fit;
-use nalgebra::Vector3;
+
+pub use shape::{Kind, Recognised, Round};
 
 /// Fewer places around the axis are a prism that is meant as one: a box, a hexagon.
 const SIDES_MIN: usize = 8;
-
-/// What a part is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    Capsule,
-    Cylinder,
-    Cone,
-    Bore,
-}
-
-/// A round primitive, lengths in m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Round {
-    pub kind: Kind,
-    pub ends: [Vector3<f64>; 2],
-    pub radii: [f64; 2],
-}
-
-/// A primitive and how far the mesh is from it at most, m.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recognised {
-    pub round: Round,
-    pub farthest_m: f64,
-}
-
-impl Kind {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Capsule => "Capsule",
-            Self::Cylinder => "Cylinder",
-            Self::Cone => "Cone",
-            Self::Bore => "Bore",
-        }
-    }
-}
 
 /// The round primitive that a connected part is within a tolerance, if it is one: a solid if it is closed and faces outwards, a
 /// bore if it is open at two ends and faces its axis.
