@@ -67,3 +67,57 @@ fn a_ray_is_pressed_by_the_wall_that_it_comes_to_from_within() {
         "{found:?}"
     );
 }
+
+/// A pin of 0.1 m that is `depth` in a hole 1 mm wider, tilted, 20 µm in the wall with its rim and in the mouth with its side.
+fn jammed(depth: f64) -> (Vec3, Quat) {
+    let (diameter, hole, press) = (0.1_f64, 0.101_f64, 2e-5);
+    let (mut low, mut high) = (0.0_f64, 0.2_f64);
+    for _ in 0..60 {
+        let tilt = 0.5 * (low + high);
+        let taken = depth * tilt.sin() + diameter * (1.0 - 0.5 * tilt.sin() * tilt.sin());
+        *(if taken < (hole + 2.0 * press) * tilt.cos() { &mut low } else { &mut high }) = tilt;
+    }
+    let tip = Vec3::new(0.5 * hole + press - 0.5 * diameter * low.cos(), 0.0, -depth);
+    (tip, Quat::from_scaled_axis(Vec3::y() * -low))
+}
+
+/// What is stored half a second after a jammed pin of 1 kg has been let go, J.
+fn stored_at_last(depth: f64, friction: f64) -> f64 {
+    const MASS: f64 = 1.0;
+    const STEP: f64 = 5e-5;
+    let steel = format!(
+        "\"s\": (stiffness: 1e6, normal: Linear(damping: 400.0), friction: Bristle(mu: {friction:?}))"
+    );
+    let pin = "Cylinder(name: \"p\", ends: ((0,0,0),(0,0,0.2)), radius: 0.05)";
+    let hole = "Bore(name: \"b\", ends: ((0,0,-0.15),(0,0,0)), radii: (0.0505,0.0505))";
+    let mut rig = Rig::new(&model("a", &steel, pin), &model("b", &steel, hole));
+    let inertia = Vec3::new(0.00396, 0.00396, 0.00125);
+    let (tip, mut q) = jammed(depth);
+    let mut center = tip + q * Vec3::z() * 0.1;
+    let (mut v, mut w) = (Vec3::zeros(), Vec3::zeros());
+    for _ in 0..10_000 {
+        let origin = center - q * Vec3::z() * 0.1;
+        let state = moving(origin, q, v - w.cross(&(center - origin)), w);
+        rig.place([state, pong_engine::State::identity()]);
+        rig.world.step().unwrap();
+        let wrench = rig.wrench(0);
+        let moment = wrench.moment - (center - origin).cross(&wrench.force);
+        v += wrench.force * (STEP / MASS);
+        w += q * (q.inverse() * moment).component_div(&inertia) * STEP;
+        center += v * STEP;
+        q = Quat::from_scaled_axis(w * STEP) * q;
+    }
+    rig.world.contacts().iter().map(|contact| contact.stored).sum()
+}
+
+/// A pin that is pressed into two places wedges only if the line between them is in both friction cones: L < μD. Else it turns out
+/// of its tilt, and nothing is stored.
+#[test]
+fn a_pin_wedges_only_if_it_is_less_deep_than_friction_times_its_diameter() {
+    for (depth, friction, wedges) in
+        [(0.03, 0.5, true), (0.08, 0.5, false), (0.03, 0.25, false), (0.05, 1.5, true), (0.03, 0.0, false)]
+    {
+        let stored = stored_at_last(depth, friction);
+        assert_eq!(stored > 1e-6, wedges, "{depth} {friction}: {stored:e} J");
+    }
+}

@@ -320,3 +320,31 @@ fn round_parts_on_a_plane() {
         check_closed_paths(part, &of, &plane, (Vec3::z() * height, 0.1, turn), Allowed::Nothing);
     }
 }
+
+/// In the hole, through one mouth and through both; a segment with its axis behind the wall, and a pin that its hole is too small
+/// for.
+#[test]
+fn rods_in_bores() {
+    let long = "ends: ((-0.8,0,0),(0.8,0,0))";
+    let half = "ends: ((-0.9,0,0),(0.2,0,0))";
+    let short = "ends: ((-0.25,0,0),(0.25,0,0))";
+    let capsule = |ends: &str| format!("Capsule(name: \"l\", {ends}, radius: 0.2)");
+    let segment = |ends: &str| format!("LineSegment(name: \"l\", {ends})");
+    let pin = |ends: &str, radius: f64| format!("Cylinder(name: \"l\", {ends}, radius: {radius})");
+    let straight = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radii: (0.3,0.3))";
+    let tapered = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0,0)), radii: (0.33,0.3))";
+    for (name, bore, rod, size, turn) in [
+        ("capsule in", straight, capsule(short), 0.12, 0.2),
+        ("capsule half in", tapered, capsule(half), 0.1, 0.15),
+        ("capsule through", straight, capsule(long), 0.1, 0.15),
+        ("segment in", tapered, segment(short), 0.3, 0.3),
+        ("segment through", straight, segment(long), 0.3, 0.2),
+        ("pin in", straight, pin(short, 0.29), 0.02, 0.04),
+        ("pin half in", tapered, pin(half, 0.29), 0.02, 0.04),
+        ("pin through", tapered, pin(long, 0.29), 0.02, 0.03),
+        ("pin too large", straight, pin(short, 0.302), 0.01, 0.02),
+    ] {
+        let (rod, hole) = (model("rod", &elastic(), &rod), model("hole", &elastic(), bore));
+        check_closed_paths(name, &rod, &hole, (Vec3::zeros(), size, turn), Allowed::Nothing);
+    }
+}

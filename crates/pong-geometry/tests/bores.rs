@@ -2,8 +2,10 @@
 //! energy, seams, and what must not matter.
 #![allow(missing_docs)]
 
+mod bore_support;
 mod common;
 
+use bore_support::{across, carried, on_wall, random_bore, rounded, scaled, shared_square, swapped};
 use common::random_motion;
 use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::ball_bore::{BallContacts, ball_bore, is_behind_wall};
@@ -12,59 +14,6 @@ use pong_geometry::primitive::{Bore, Frustum, Ray, RayResponse, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_testkit::Random;
 use std::f64::consts::TAU;
-
-/// About 1 m in size, straight or tapered, anywhere near the origin.
-fn random_bore(random: &mut Random) -> Bore {
-    let one = random.direction() * random.between(0.0, 1.0);
-    let other = one + random.direction() * random.between(0.3, 2.0);
-    let radius = random.between(0.2, 1.0);
-    let last = if random.below(2) == 0 { radius } else { random.between(0.2, 1.0) };
-    Bore {
-        hole: Frustum::new([one, other], [radius, last]),
-        thickness: random.between(0.1, 0.6),
-        mouths: [random.below(4) > 0, random.below(4) > 0],
-    }
-}
-
-fn carried(bore: &Bore, x: &Transform) -> Bore {
-    Bore { hole: bore.hole.carried(x), ..*bore }
-}
-
-fn scaled(bore: &Bore, factor: f64) -> Bore {
-    let Frustum { ends, radii, .. } = bore.hole;
-    let hole = Frustum::new(ends.map(|end| end * factor), radii.map(|radius| radius * factor));
-    Bore { hole, thickness: bore.thickness * factor, mouths: bore.mouths }
-}
-
-fn swapped(bore: &Bore) -> Bore {
-    let Frustum { ends: [a, b], radii: [r, s], .. } = bore.hole;
-    let [m, n] = bore.mouths;
-    Bore { hole: Frustum::new([b, a], [s, r]), thickness: bore.thickness, mouths: [n, m] }
-}
-
-/// What a model in single precision holds.
-fn rounded(bore: &Bore) -> Bore {
-    let round = |x: f64| f64::from(x as f32);
-    let Frustum { ends, radii, .. } = bore.hole;
-    let hole = Frustum::new(ends.map(|end| end.map(round)), radii.map(round));
-    Bore { hole, thickness: round(bore.thickness), mouths: bore.mouths }
-}
-
-/// Two unit vectors across the axis, square to each other.
-fn across(bore: &Bore) -> [Vec3; 2] {
-    let one = bore.hole.axis.cross(&Vec3::ith(bore.hole.axis.iamin(), 1.0)).normalize();
-    [one, bore.hole.axis.cross(&one)]
-}
-
-/// The place of the wall at a share of the length and an angle.
-fn on_wall(bore: &Bore, share: f64, angle: f64) -> Vec3 {
-    let [one, other] = across(bore);
-    let [first, last] = bore.hole.radii;
-    let radius = first + (last - first) * share;
-    bore.hole.ends[0]
-        + bore.hole.axis * (bore.hole.length * share)
-        + (one * angle.cos() + other * angle.sin()) * radius
-}
 
 /// A place in the hole, behind its wall or beyond a mouth.
 fn near(random: &mut Random, bore: &Bore) -> Vec3 {
@@ -96,16 +45,6 @@ fn nearest_by_search(bore: &Bore, place: &Vec3) -> (f64, f64) {
 fn energy(contacts: &BallContacts) -> f64 {
     let [one, two] = contacts.map(|contact| contact.map_or((0.0, Vec3::zeros()), |c| (c.depth, c.normal_b)));
     0.5 * shared_square(one.0, two.0, one.1.dot(&two.1))
-}
-
-/// Of two depths and the cosine between their normals.
-fn shared_square(one: f64, two: f64, cosine: f64) -> f64 {
-    let g = cosine.max(0.0);
-    let (least, most) = (one.min(two), one.max(two));
-    if g * most >= least {
-        return most * most;
-    }
-    (one * one + two * two - 2.0 * g * one * two) / (1.0 - g * g)
 }
 
 /// Force with a stiffness of 1 N/m.

@@ -17,6 +17,12 @@ pub fn ball_bore(ball: &Sphere, bore: &Bore) -> BallContacts {
     [beside.touched(ball), opposite.touched(ball)]
 }
 
+/// A ball against the circle of one mouth, wherever along the axis it is.
+pub(super) fn ball_mouth(ball: &Sphere, bore: &Bore, mouth: usize) -> Option<Interference> {
+    let at = Meridian::new(&ball.center, &bore.hole);
+    Beside { bore, along: at.along, aside: at.aside, away_b: at.away_b }.touched_at_mouth(ball, mouth)
+}
+
 /// Whether a place is behind the wall of a bore, between its ends, m: what comes from there is not pushed into the hole.
 pub fn is_behind_wall(place: &Vec3, bore: &Bore) -> bool {
     let at = Meridian::new(place, &bore.hole);

@@ -7,6 +7,7 @@ mod axis_approach;
 pub mod ball_bore;
 pub mod ball_round;
 mod behind_triangle;
+mod circles;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;
 pub mod ellipsoid_polyhedron;
@@ -37,6 +38,7 @@ pub mod sphere_triangle;
 pub mod sphere_triangle_pairs;
 pub mod triangle_features;
 mod triangle_reach;
+pub mod two_ended_bore;
 pub mod two_ended_round;
 
 use crate::Vec3;

@@ -180,6 +180,14 @@ fn places(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> [Option<Vec3>
             let [a, b] = body.segments[i].ends;
             [Some(a), Some(b), Some(0.5 * (a + b))]
         }
+        PrimitiveKind::Capsule => {
+            let [a, b] = body.capsules[i].ends;
+            [Some(a), Some(b), Some(0.5 * (a + b))]
+        }
+        PrimitiveKind::Cylinder => {
+            let [a, b] = body.frusta[i].ends;
+            [Some(a), Some(b), Some(0.5 * (a + b))]
+        }
         _ => [None; 3],
     }
 }

@@ -3,7 +3,8 @@
 //! are; the status says it, so that no passage goes unnoticed.
 //!
 //! An element of A is followed at its *places*: a point, the centre of a ball, the origin of a ray, the ends and the
-//! middle of a segment, each along its straight line since the last commit, seen from B. It went through where
+//! middle of a segment, a capsule or a cylinder, each along its straight line since the last commit, seen from B. It went
+//! through where
 //!
 //! * the line goes into a solid of B and out again, or from the front through a sheet, and no contact pushes the element
 //!   back to the side it came from;

@@ -57,7 +57,9 @@ pub(crate) fn reach_m(a: &MovableGroup) -> f64 {
     let rays = a.rays.iter().map(|ray| ray.origin);
     let balls = a.spheres.iter().map(|sphere| sphere.center);
     let ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.center);
-    let all = points.chain(ends).chain(rays).chain(balls).chain(ellipsoids);
+    let round = a.capsules.iter().flat_map(|capsule| capsule.ends);
+    let round = round.chain(a.frusta.iter().flat_map(|frustum| frustum.ends));
+    let all = points.chain(ends).chain(rays).chain(balls).chain(ellipsoids).chain(round);
     all.map(|place| place.norm()).fold(0.0, f64::max)
 }
 

@@ -5,12 +5,12 @@
 //! ```text
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
 //!  Point           x         x                    x         x       x        x       x     x
-//!  LineSegment                                    x         x       x        x       x
+//!  LineSegment                                    x         x       x        x       x     x
 //!  Ray                                 x          x         x       x        x       x     x
 //!  Sphere          x                   x          x         x       x        x       x     x
 //!  Ellipsoid                           x          x         x
-//!  Capsule                                                  x       x        x       x
-//!  Cylinder                                                 x
+//!  Capsule                                                  x       x        x       x     x
+//!  Cylinder                                                 x                              x
 //!  Cone                                                     x
 //! ```
 //!
@@ -37,6 +37,7 @@ mod sphere_plane;
 mod sphere_polyhedron;
 mod sphere_sphere;
 pub(crate) mod sphere_triangle;
+mod two_ended_bore;
 mod two_ended_round;
 
 use super::element_pair::{ChunkCandidates, ElementPair};
@@ -100,6 +101,9 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Ray, b: Capsule, test: ray_round::test_capsule, cost_ns: 50, contacts: 1 },
     KindPair { a: Ray, b: Cylinder, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
     KindPair { a: Ray, b: Cone, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
+    KindPair { a: LineSegment, b: Bore, test: two_ended_bore::test, cost_ns: 1000, contacts: 2 },
+    KindPair { a: Capsule, b: Bore, test: two_ended_bore::test, cost_ns: 1000, contacts: 4 },
+    KindPair { a: Cylinder, b: Bore, test: two_ended_bore::test, cost_ns: 3000, contacts: 4 },
 ];
 
 const KINDS: usize = PrimitiveKind::ALL.len();

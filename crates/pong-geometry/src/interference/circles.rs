@@ -1,0 +1,205 @@
+//! Circles against each other: in which direction across an axis one reaches farthest past the other (docs/theory.md, 2.8).
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Bore, Frustum};
+
+/// A circle in space, with its disc.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Circle {
+    /// Its centre, m.
+    pub center_b: Vec3,
+    /// Unit vector.
+    pub axis_b: Vec3,
+    /// m; a point has none.
+    pub radius: f64,
+}
+
+impl Circle {
+    /// The place that is farthest along a vector. Along the axis all are: the centre stands for them.
+    pub fn farthest(&self, direction: &Vec3) -> Vec3 {
+        let across = direction - self.axis_b * self.axis_b.dot(direction);
+        let length = across.norm();
+        let scale = if length > 0.0 { self.radius / length } else { 0.0 };
+        self.center_b + across * scale
+    }
+}
+
+/// How far something reaches along a direction, m, and how that grows as the direction turns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    pub depth: f64,
+    pub slope: f64,
+}
+
+/// The plane of directions across a unit vector.
+pub(super) struct Across {
+    pub about_b: Vec3,
+    /// In the plane: where the search starts. It turns with the bodies, so that no answer depends on their pose.
+    pub first_b: Vec3,
+}
+
+const C: f64 = 0.923_879_532_511_286_8;
+const D: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const E: f64 = 0.382_683_432_365_089_8;
+/// A quarter of sixteen directions in a plane, every 22.5°.
+const QUARTER: [(f64, f64); 4] = [(1.0, 0.0), (C, E), (D, D), (E, C)];
+const COUNT: usize = 16;
+
+impl Across {
+    /// Starts along the first of some vectors that has a part across.
+    pub fn new(about: &Vec3, preferred: &[Vec3]) -> Self {
+        /// Relative: a part this small is rounding.
+        const LEAST: f64 = 1e-9;
+        let parts = preferred.iter().map(|v| (v - about * about.dot(v), v.norm()));
+        let part = parts.into_iter().find(|(part, whole)| part.norm() > LEAST * whole);
+        let first = part.map_or_else(|| crate::any_perpendicular(about), |(part, _)| part.normalize());
+        // What is across but for rounding is so once more.
+        Self { about_b: *about, first_b: (first - about * about.dot(&first)).normalize() }
+    }
+
+    fn direction(&self, index: usize) -> Vec3 {
+        let second = self.about_b.cross(&self.first_b);
+        let (x, y) = QUARTER[index % 4];
+        let (x, y) = match index / 4 {
+            0 => (x, y),
+            1 => (-y, x),
+            2 => (-x, -y),
+            _ => (y, -x),
+        };
+        self.first_b * x + second * y
+    }
+
+    /// The directions in which the reach is greater than beside them, the greatest first; at most two, as circles have them.
+    pub fn greatest(&self, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
+        let directions: [Vec3; COUNT] = std::array::from_fn(|index| self.direction(index));
+        let depths = directions.map(|direction| reach(&direction).depth);
+        let mut best: [Option<(f64, Vec3)>; 2] = [None; 2];
+        for index in 0..COUNT {
+            let (before, after) = ((index + COUNT - 1) % COUNT, (index + 1) % COUNT);
+            if depths[index] > depths[before] && depths[index] >= depths[after] {
+                let way = turned(&reach, [directions[before], directions[index], directions[after]]);
+                let found = Some((reach(&way).depth, way));
+                let is_deeper =
+                    |than: Option<(f64, Vec3)>| than.is_none_or(|(depth, _)| reach(&way).depth > depth);
+                if is_deeper(best[0]) {
+                    best = [found, best[0]];
+                } else if is_deeper(best[1]) {
+                    best[1] = found;
+                }
+            }
+        }
+        let ways = best.map(|found| found.map(|(_, way)| way));
+        // All around alike.
+        [ways[0].or(Some(self.first_b)), ways[1]]
+    }
+
+    /// The line of directions along which something is pinched most between both sides.
+    pub fn most_pinched(&self, cosine: f64, reach: impl Fn(&Vec3) -> Reach) -> Vec3 {
+        let pinched = |direction: &Vec3| {
+            let (one, two) = (reach(direction), reach(&-direction));
+            let deeper = if one.depth >= two.depth { one } else { two };
+            if deeper.depth <= 0.0 {
+                return deeper;
+            }
+            let shares = shares([one.depth, two.depth], cosine);
+            let slope = shares[0] * one.slope + shares[1] * two.slope;
+            Reach { depth: shares[0] * one.depth + shares[1] * two.depth, slope }
+        };
+        self.greatest(pinched)[0].unwrap_or(self.first_b)
+    }
+}
+
+/// The shares λ of two depths that have one spring in common, m (docs/theory.md, 2.2), of the cosine between their normals.
+pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
+    let [one, two] = depths.map(|depth| depth.max(0.0));
+    let g = cosine.max(0.0);
+    if g * one >= two {
+        [one, 0.0]
+    } else if g * two >= one {
+        [0.0, two]
+    } else {
+        let square = (1.0 - g) * (1.0 + g);
+        [(one - g * two) / square, (two - g * one) / square]
+    }
+}
+
+/// The direction between three that follow each other in which the slope is zero.
+fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -> Vec3 {
+    const STEPS: usize = 60;
+    let at_middle = reach(&middle).slope;
+    let (mut low, mut high) = if at_middle > 0.0 {
+        ((middle, at_middle), (after, reach(&after).slope))
+    } else {
+        ((before, reach(&before).slope), (middle, at_middle))
+    };
+    for step in 0..STEPS {
+        let ((from, rises), (to, falls)) = (low, high);
+        if !(rises > 0.0 && falls < 0.0) || (to - from).norm_squared() <= f64::EPSILON * f64::EPSILON {
+            break;
+        }
+        // A secant that stays at one side crawls: every third step halves.
+        let share = if step % 3 == 2 { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
+        let between = (from + (to - from) * share).normalize();
+        let slope = reach(&between).slope;
+        *(if slope > 0.0 { &mut low } else { &mut high }) = (between, slope);
+    }
+    if low.1.abs() <= high.1.abs() { low.0 } else { high.0 }
+}
+
+/// A direction of the wall's normal and what reaches beyond the wall along it.
+pub(super) struct Wall<'a>(pub &'a Bore);
+
+impl Wall<'_> {
+    fn hole(&self) -> &Frustum {
+        &self.0.hole
+    }
+
+    /// The outward normal on the side of a unit vector across the axis.
+    pub fn outward(&self, side: &Vec3) -> Vec3 {
+        let [along, aside] = self.hole().wall;
+        self.hole().axis * along + side * aside
+    }
+
+    /// The cosine between the normals on opposite sides.
+    pub fn cosine_opposite(&self) -> f64 {
+        let [along, aside] = self.hole().wall;
+        (along - aside) * (along + aside)
+    }
+
+    /// How far a place is beyond the straight line of the wall on one side, m.
+    pub fn height(&self, side: &Vec3, place: &Vec3) -> f64 {
+        let [_, aside] = self.hole().wall;
+        self.outward(side).dot(&(place - self.hole().ends[0])) - self.hole().radii[0] * aside
+    }
+
+    /// How far the foot of a place on that line is from an end, m along the wall, positive inside.
+    pub fn inside(&self, side: &Vec3, place: &Vec3, end: usize) -> f64 {
+        let [along, aside] = self.hole().wall;
+        // Along the wall from end 0 to end 1.
+        let forward = self.hole().axis * aside - side * along;
+        let rim = self.hole().ends[end] + side * self.hole().radii[end];
+        let travelled = forward.dot(&(place - rim));
+        if end == 0 { travelled } else { -travelled }
+    }
+
+    /// How a circle reaches beyond the wall.
+    pub fn reach(&self, circle: &Circle, side: &Vec3) -> Reach {
+        let [_, aside] = self.hole().wall;
+        let place = circle.farthest(&self.outward(side));
+        let turning = self.hole().axis.cross(side) * aside;
+        Reach { depth: self.height(side, &place), slope: turning.dot(&(place - self.hole().ends[0])) }
+    }
+
+    /// What a place beyond the wall feels, grown by a skin.
+    pub fn pushed(&self, side: &Vec3, place: &Vec3, skin: f64) -> Option<Interference> {
+        let height = self.height(side, place);
+        let outward = self.outward(side).normalize();
+        (height + skin > 0.0 && height < self.0.thickness).then(|| Interference {
+            depth: height + skin,
+            normal_b: -outward,
+            deepest_b: place + outward * skin,
+            feature: Feature::face(0),
+        })
+    }
+}

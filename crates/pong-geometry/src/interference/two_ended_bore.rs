@@ -1,0 +1,297 @@
+//! Line segment, capsule and cylinder (A) – bore (B): half a spring at each end of what is in the hole (docs/theory.md, 2.8).
+//!
+//! An end in the hole measures its tip or rim against the wall. An end beyond a mouth measures the side against the circle of
+//! the mouth. All three are rods: a segment is one without radius, a capsule a segment with a skin.
+
+use super::ball_bore::{BallContacts, ball_bore, ball_mouth};
+use super::circles::{Across, Circle, Reach, Wall, shares};
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::{Bore, Capsule, Frustum, LineSegment, Sphere};
+
+/// Of a rod in a hole: at its end 0 and at its end 1, beside the wall and opposite to it. The two of an end share one spring where
+/// they push the same way; each end has half a spring.
+pub type EndsInBore = [BallContacts; 2];
+
+/// A segment in a bore.
+pub fn segment_bore(segment: &LineSegment, bore: &Bore) -> EndsInBore {
+    Rod::new(segment.ends, 0.0, 0.0).ends_in(bore)
+}
+
+/// A capsule in a bore.
+pub fn capsule_bore(capsule: &Capsule, bore: &Bore) -> EndsInBore {
+    Rod::new(capsule.ends, 0.0, capsule.radius).ends_in(bore)
+}
+
+/// A cylinder in a bore: a pin in a hole.
+pub fn cylinder_bore(cylinder: &Frustum, bore: &Bore) -> EndsInBore {
+    Rod::new(cylinder.ends, cylinder.radii[0], 0.0).ends_in(bore)
+}
+
+const NOTHING: BallContacts = [None; 2];
+
+struct Rod {
+    ends: [Vec3; 2],
+    axis_b: Vec3,
+    length: f64,
+    /// Radius of the flat ends, m.
+    rim: f64,
+    /// What is around everything, m.
+    skin: f64,
+}
+
+impl Rod {
+    fn new(ends: [Vec3; 2], rim: f64, skin: f64) -> Self {
+        let between = ends[1] - ends[0];
+        let length = between.norm();
+        Self { ends, axis_b: between / length, length, rim, skin }
+    }
+
+    fn ends_in(&self, bore: &Bore) -> EndsInBore {
+        let same_way = self.axis_b.dot(&bore.hole.axis) >= 0.0;
+        [0, 1].map(|end| {
+            let mouth = if same_way { end } else { 1 - end };
+            RodEnd { rod: self, bore, wall: Wall(bore), end, mouth }.touched()
+        })
+    }
+
+    fn side(&self) -> f64 {
+        self.rim + self.skin
+    }
+
+    fn circle(&self, end: usize) -> Circle {
+        Circle { center_b: self.ends[end], axis_b: self.axis_b, radius: self.rim }
+    }
+}
+
+/// One end of a rod, and the mouth of the hole towards which it points.
+struct RodEnd<'a> {
+    rod: &'a Rod,
+    bore: &'a Bore,
+    wall: Wall<'a>,
+    end: usize,
+    mouth: usize,
+}
+
+/// Where a tip or a rim reaches farthest beyond the wall, as if the wall went on past the mouths.
+struct AtWall {
+    contacts: BallContacts,
+    /// Depth there, or how much is missing (negative), without the skin, m.
+    depth: f64,
+    /// How far that is from the own mouth, m, positive in the hole, and from the other one.
+    inside: [f64; 2],
+    /// Whether the rod comes nearer to the wall, or goes farther behind it, towards its end.
+    outward: bool,
+}
+
+impl RodEnd<'_> {
+    fn touched(&self) -> BallContacts {
+        if self.rod.skin == 0.0 && self.way_out(1 - self.mouth).min(self.way_out(self.mouth)) <= 0.0 {
+            return NOTHING;
+        }
+        let wall = self.at_wall();
+        if self.rod.skin > 0.0 && wall.depth <= 0.0 {
+            let tip = Sphere { center: self.rod.ends[self.end], radius: self.rod.skin };
+            return deeper(ball_bore(&tip, self.bore), self.side_at_mouth());
+        }
+        self.limited(self.with_corner(&wall))
+    }
+
+    /// Where the axis, or a rim, is behind the wall: past the mouth the side is measured at its circle. Beside the mouth, no
+    /// farther than it is deep, an end has the one of the two that does not step there: leaning outward the less deep, else the
+    /// deeper.
+    fn with_corner(&self, wall: &AtWall) -> BallContacts {
+        let [own, other] = wall.inside;
+        if other < 0.0 {
+            return NOTHING;
+        }
+        if own >= 0.0 && !(wall.outward && own < wall.depth) {
+            return wall.contacts;
+        }
+        let line = self.line_at_mouth();
+        if own >= 0.0 {
+            return if line == NOTHING { wall.contacts } else { shallower(wall.contacts, line) };
+        }
+        if line == NOTHING || wall.outward || -own > wall.depth { line } else { deeper(line, wall.contacts) }
+    }
+
+    fn at_wall(&self) -> AtWall {
+        let (rod, hole) = (self.rod, &self.bore.hole);
+        let circle = rod.circle(self.end);
+        let arm = circle.center_b - hole.ends[0];
+        let toward_end = rod.axis_b * if self.end == 0 { -1.0 } else { 1.0 };
+        let across = Across::new(&hole.axis, &[arm, toward_end]);
+        let reach = |side: &Vec3| {
+            let Reach { depth, slope } = self.wall.reach(&circle, side);
+            Reach { depth: depth + rod.skin, slope }
+        };
+        let sides = self.sides(&across, &circle, reach);
+        let contacts = sides.map(|side| {
+            let side = side?;
+            self.wall.pushed(&side, &circle.farthest(&self.wall.outward(&side)), rod.skin)
+        });
+        let deepest = sides[0].unwrap_or(across.first_b);
+        let place = circle.farthest(&self.wall.outward(&deepest));
+        AtWall {
+            contacts,
+            depth: self.wall.height(&deepest, &place),
+            inside: [self.mouth, 1 - self.mouth].map(|mouth| self.wall.inside(&deepest, &place, mouth)),
+            outward: toward_end.dot(&self.wall.outward(&deepest)) > 0.0,
+        }
+    }
+
+    /// The sides of the wall that a tip or rim is held against: where it is deepest, and opposite if it is too large for the hole.
+    fn sides(&self, across: &Across, circle: &Circle, reach: impl Fn(&Vec3) -> Reach) -> [Option<Vec3>; 2] {
+        let axis = self.bore.hole.axis;
+        // The place of the axis beside the circle, which is as far from the wall on all sides.
+        let beside = self.bore.hole.ends[0] + axis * axis.dot(&(circle.center_b - self.bore.hole.ends[0]));
+        let room = -self.wall.height(&across.first_b, &beside);
+        let size = circle.radius + self.rod.skin;
+        let off = (circle.center_b - beside).norm();
+        if circle.radius == 0.0 {
+            return [Some(across.first_b), (size > room).then_some(-across.first_b)];
+        }
+        if size > room {
+            let side = across.most_pinched(self.wall.cosine_opposite(), &reach);
+            let other = reach(&-side).depth > reach(&side).depth;
+            let side = if other { -side } else { side };
+            return [Some(side), Some(-side)];
+        }
+        if size + off <= room {
+            return [Some(across.first_b), None];
+        }
+        across.greatest(reach)
+    }
+
+    fn mouth_circle(&self) -> Circle {
+        let Frustum { ends, axis, radii, .. } = self.bore.hole;
+        Circle { center_b: ends[self.mouth], axis_b: axis, radius: radii[self.mouth] }
+    }
+
+    /// The side, as long as the rod goes, against the mouth; the tips of a capsule as well.
+    fn side_at_mouth(&self) -> BallContacts {
+        if !self.is_convex() {
+            return NOTHING;
+        }
+        let is_on_rod = |along: f64| (0.0..=self.rod.length).contains(&along);
+        let side = self.at_circle(is_on_rod);
+        let tips = [0, 1].map(|end| {
+            let tip = Sphere { center: self.rod.ends[end], radius: self.rod.skin };
+            [ball_mouth(&tip, self.bore, self.mouth), None]
+        });
+        tips.into_iter().fold(side, deeper)
+    }
+
+    /// The line of the side against the mouth, past its own end as well.
+    fn line_at_mouth(&self) -> BallContacts {
+        if !self.is_convex() {
+            return NOTHING;
+        }
+        let end = self.end;
+        self.at_circle(|along| if end == 0 { along <= self.rod.length } else { along >= 0.0 })
+    }
+
+    fn is_convex(&self) -> bool {
+        self.bore.mouths[self.mouth] && self.bore.hole.radii[self.mouth] > 0.0
+    }
+
+    /// Seen along the rod the mouth is an ellipse, and the axis a place in it.
+    fn at_circle(&self, counts: impl Fn(f64) -> bool) -> BallContacts {
+        let (rod, circle) = (self.rod, self.mouth_circle());
+        let arm = rod.ends[0] - circle.center_b;
+        let across = Across::new(&rod.axis_b, &[arm, circle.axis_b]);
+        let reach = |side: &Vec3| {
+            let apart = rod.ends[0] - circle.farthest(side);
+            let turning = rod.axis_b.cross(side);
+            Reach { depth: rod.side() + side.dot(&apart), slope: turning.dot(&apart) }
+        };
+        let off = (arm - rod.axis_b * rod.axis_b.dot(&arm)).norm();
+        if rod.side() + off <= circle.radius * rod.axis_b.dot(&circle.axis_b).abs() {
+            return NOTHING;
+        }
+        let touched = |side: Option<Vec3>| {
+            let side = side?.normalize();
+            let (place, depth) = (circle.farthest(&side), reach(&side).depth);
+            let holds = depth > 0.0
+                && counts(rod.axis_b.dot(&(place - rod.ends[0])))
+                && (depth <= rod.side() || self.is_crossed_behind(&counts));
+            holds.then(|| Interference {
+                depth,
+                normal_b: -side,
+                deepest_b: place + side * depth,
+                feature: Feature::edge(self.mouth),
+            })
+        };
+        if rod.side() > circle.radius {
+            let side = across.most_pinched(-1.0, reach);
+            let both = [Some(side), Some(-side)].map(touched);
+            if both.iter().all(Option::is_some) {
+                return both;
+            }
+        }
+        across.greatest(reach).map(touched)
+    }
+
+    /// Whether the axis itself goes through the wall around the mouth.
+    fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
+        let (rod, circle) = (self.rod, self.mouth_circle());
+        let rate = rod.axis_b.dot(&circle.axis_b);
+        if rate == 0.0 {
+            return false;
+        }
+        let along = circle.axis_b.dot(&(circle.center_b - rod.ends[0])) / rate;
+        let off = (rod.ends[0] + rod.axis_b * along - circle.center_b).norm();
+        counts(along) && off < circle.radius + self.bore.thickness
+    }
+
+    /// How far a rod must go to be out of the hole by a mouth, m.
+    fn way_out(&self, mouth: usize) -> f64 {
+        let outward = self.outward(mouth);
+        let depth = |end: usize| {
+            outward.dot(&(self.bore.hole.ends[mouth] - self.rod.circle(end).farthest(&-outward)))
+        };
+        depth(0).max(depth(1))
+    }
+
+    fn outward(&self, mouth: usize) -> Vec3 {
+        self.bore.hole.axis * if mouth == 0 { -1.0 } else { 1.0 }
+    }
+
+    /// What is hardly in the hole leaves it by the mouth.
+    fn limited(&self, contacts: BallContacts) -> BallContacts {
+        if self.rod.skin > 0.0 || contacts == NOTHING {
+            return contacts;
+        }
+        let leaves = |mouth: usize| {
+            let depth = self.way_out(mouth);
+            let outward = self.outward(mouth);
+            let places = [0, 1].map(|end| self.rod.circle(end).farthest(&-outward));
+            let is_first = outward.dot(&places[0]) <= outward.dot(&places[1]);
+            let contact = Interference {
+                depth,
+                normal_b: outward,
+                deepest_b: places[usize::from(!is_first)],
+                feature: Feature::edge(mouth),
+            };
+            self.bore.mouths[mouth].then_some([Some(contact), None])
+        };
+        [0, 1].into_iter().filter_map(leaves).fold(contacts, shallower)
+    }
+}
+
+/// With a stiffness of 2 N/m.
+fn energy(contacts: &BallContacts) -> f64 {
+    let [one, two] = contacts;
+    let depths = [one, two].map(|contact| contact.map_or(0.0, |contact| contact.depth));
+    let cosine = one.zip(*two).map_or(0.0, |(one, two)| one.normal_b.dot(&two.normal_b));
+    let shares = shares(depths, cosine);
+    shares[0] * depths[0] + shares[1] * depths[1]
+}
+
+fn deeper(one: BallContacts, other: BallContacts) -> BallContacts {
+    if energy(&other) > energy(&one) { other } else { one }
+}
+
+fn shallower(one: BallContacts, other: BallContacts) -> BallContacts {
+    if energy(&other) < energy(&one) { other } else { one }
+}
