@@ -48,7 +48,8 @@ impl GroupMass {
             ));
         }
         let beyond = |x: &f64| x.is_nan() || x.abs() > State::LARGEST;
-        if self.mass.is_finite() && (beyond(&self.mass) || beyond(&(1.0 / self.mass))) {
+        if self.mass.is_finite() && (beyond(&self.mass) || beyond(&(1.0 / self.mass.max(f64::MIN_POSITIVE))))
+        {
             let cause = format!("it is {:e} kg; give 1e-100 to 1e100, or infinity", self.mass);
             return bad(cause);
         }
@@ -61,13 +62,38 @@ impl GroupMass {
             let cause = "the inertia is not finite or beyond 1e100 kg·m²; give finite moments, or zeros if they are not known";
             return bad(cause.to_owned());
         }
-        if self.tensor().is_some_and(|tensor| tensor.cholesky().is_none()) {
+        if self.tensor().is_some_and(|tensor| root_of(tensor).is_none()) {
             let cause = "no body has this inertia; its principal moments must be above zero, or all values zero if \
                          they are not known";
             return bad(cause.to_owned());
         }
         Ok(())
     }
+}
+
+/// The lower triangle whose product with its transpose is a symmetric matrix (after Cholesky); `None` if the matrix is not
+/// positive definite.
+///
+/// What is not positive has no root and divides nothing, not even where a compiler takes the root before it asks.
+pub(crate) fn root_of(mut matrix: Mat3) -> Option<Mat3> {
+    for column in 0..3 {
+        for before in 0..column {
+            let share = matrix[(column, before)];
+            for row in column..3 {
+                matrix[(row, column)] -= share * matrix[(row, before)];
+            }
+        }
+        let square = matrix[(column, column)];
+        if square.is_nan() || square <= 0.0 {
+            return None;
+        }
+        let root = square.max(f64::MIN_POSITIVE).sqrt();
+        matrix[(column, column)] = root;
+        for row in column + 1..3 {
+            matrix[(row, column)] /= root;
+        }
+    }
+    Some(matrix.lower_triangle())
 }
 
 /// The host's step and what it does with the wrench.
@@ -117,6 +143,43 @@ impl StepPlan {
                 bad(format!("the wrench comes {late} frames late; give at most {DELAY_FRAMES_MAX}"))
             }
             _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_testkit::Random;
+    use pong_testkit::exceptions::are_raised_by;
+    use std::hint::black_box;
+
+    /// Those of nalgebra to the bit, and none where it has none; without the root of what has none.
+    #[test]
+    fn roots_of_random_matrices() {
+        let mut random = Random(7);
+        let mut found = 0;
+        for _ in 0..2_000 {
+            let any = Mat3::from_fn(|_, _| random.between(-1.0, 1.0));
+            let matrix = any * any.transpose() - Mat3::identity() * random.between(0.0, 0.2);
+            let expected = matrix.cholesky().map(|factor| factor.l());
+            assert_eq!(root_of(matrix), expected, "{matrix}");
+            found += u32::from(expected.is_some());
+            let raised = are_raised_by(|| {
+                black_box(root_of(black_box(matrix)));
+            });
+            assert!(!raised, "{matrix}");
+        }
+        assert!((500..1_500).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn an_inertia_of_no_body_has_no_root_and_raises_nothing() {
+        for moments in
+            [[-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0], [0.0, 1.0, 1.0], [1.0, 0.0, 0.0]]
+        {
+            let matrix = Mat3::from_diagonal(&moments.into());
+            assert!(!are_raised_by(|| assert!(root_of(black_box(matrix)).is_none())), "{moments:?}");
         }
     }
 }

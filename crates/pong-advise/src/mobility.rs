@@ -1,6 +1,6 @@
 //! How a body yields: contacts as rows of a matrix in coordinates in which the body's mass is one.
 
-use crate::mass::GroupMass;
+use crate::mass::{GroupMass, root_of};
 use nalgebra::DMatrix;
 use pong_geometry::{Mat3, Vec3};
 
@@ -22,8 +22,8 @@ impl Mobility {
         if mass.mass.is_infinite() {
             return None;
         }
-        let factor = mass.tensor().and_then(|tensor| tensor.cholesky());
-        let turn = factor.and_then(|factor| factor.l().try_inverse()).unwrap_or_else(Mat3::zeros);
+        let root = mass.tensor().and_then(root_of);
+        let turn = root.and_then(|root| root.try_inverse()).unwrap_or_else(Mat3::zeros);
         Some(Self { inverse_root: 1.0 / mass.mass.sqrt(), turn, center: mass.mass_center.into() })
     }
 

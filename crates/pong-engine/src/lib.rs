@@ -14,6 +14,11 @@
 //!
 //! *Evaluate* changes nothing that a later call can see; *commit* is the only writer of contact state; *step* is
 //! both. The engine never opens a file and never asks the time.
+//!
+//! No frame does an invalid operation (∞ − ∞, 0·∞, 0/0, the root of a negative number) or divides by zero, in lanes that nobody
+//! looks at included: a host that traps these would see them. Nor does anything overflow, except the wrench that is refused
+//! for it. What underflows or is rounded is no fault. A compiler may divide before the branch that keeps a zero out, so such
+//! a divisor is one that cannot be zero: `x.max(f64::MIN_POSITIVE)`, or `pong_geometry::divisor`.
 
 #![forbid(unsafe_code)]
 

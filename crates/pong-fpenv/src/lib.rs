@@ -14,6 +14,8 @@
 //! On x86-64 there are two units. The engine uses SSE alone; a law may use x87 (`long double`), which is cared for, too.
 //! Other architectures than x86-64 and AArch64 keep what the host has set.
 //!
+//! Which exceptions are faults of the engine, and which are not, is told in `crates/pong-engine/src/lib.rs`.
+//!
 //! Built with `--cfg pong_traps`, on x86-64, the engine's environment ends the program at an invalid operation or a division
 //! by zero: no code may rely on ∞ − ∞ or 0/0. With `--cfg pong_traps_overflow` an overflow ends it, too, which only input
 //! that the engine refuses may cause: a wrench beyond the range of numbers is found by its overflow. `ci/traps --long` runs

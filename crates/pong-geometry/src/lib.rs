@@ -33,6 +33,15 @@ pub type Mat3 = nalgebra::Matrix3<f64>;
 /// A unit quaternion (w, x, y, z), Hamilton product.
 pub type Quat = nalgebra::UnitQuaternion<f64>;
 
+/// A difference to divide by where it is not zero: another number where it is. A compiler may divide before the branch that
+/// keeps zeros out, and a quotient by zero is a floating-point exception though nobody looks at it.
+///
+/// For what is known to be positive there, `x.max(f64::MIN_POSITIVE)` is shorter.
+#[inline(always)]
+pub fn divisor(difference: f64) -> f64 {
+    if difference == 0.0 { 2.0 } else { difference }
+}
+
 /// Some unit vector across a unit vector, the same for the same vector.
 pub(crate) fn any_perpendicular(axis: &Vec3) -> Vec3 {
     let least = axis.iamin();

@@ -197,7 +197,7 @@ pub fn carry_by_smallest_rotation(p: &Vec3, from: &Vec3, to: &Vec3) -> Vec3 {
     if denominator <= 0.0 {
         return Vec3::zeros();
     }
-    p * cosine + axis.cross(p) + axis * (axis.dot(p) / denominator)
+    p * cosine + axis.cross(p) + axis * (axis.dot(p) / denominator.max(f64::MIN_POSITIVE))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 
 #![deny(unsafe_code)]
 
+pub mod exceptions;
 pub mod heap;
 pub mod meshes;
 pub mod random;

@@ -3,7 +3,7 @@
 use super::Feature;
 use super::round_surface::{Nearest, nearest_on_segment, of_capsule, of_frustum};
 use crate::primitive::{Capsule, Frustum};
-use crate::{Vec3, any_perpendicular};
+use crate::{Vec3, any_perpendicular, divisor};
 
 /// Where a segment is nearest to a solid, or how it leaves it.
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +58,7 @@ impl RoundSolid for Capsule {
         let arm = place - center;
         let distance = arm.norm();
         let normal = if distance > 0.0 {
-            (arm / distance).normalize()
+            (arm / distance.max(f64::MIN_POSITIVE)).normalize()
         } else {
             any_perpendicular(&(segment[1] - segment[0]).normalize())
         };
@@ -202,7 +202,7 @@ impl<'a> WayOut<'a> {
             let aside = across.norm();
             if aside > 0.0 {
                 let [wall_along, wall_aside] = self.frustum.wall;
-                let normal = axis * wall_along + across * (wall_aside / aside);
+                let normal = axis * wall_along + across * (wall_aside / aside.max(f64::MIN_POSITIVE));
                 self.offer(&normal.normalize(), Feature::face(0));
             }
         }
@@ -266,7 +266,7 @@ impl<'a> WayOut<'a> {
     fn farthest(&self, normal: &Vec3) -> [Vec3; 2] {
         let across = normal - self.frustum.axis * self.frustum.axis.dot(normal);
         let aside = across.norm();
-        let way = if aside > 0.0 { across / aside } else { across };
+        let way = if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { across };
         [0, 1].map(|end| self.frustum.ends[end] + way * self.frustum.radii[end])
     }
 
@@ -284,7 +284,7 @@ impl<'a> WayOut<'a> {
         let turning = along.cross(normal);
         let [first, last] = [one, other].map(|place| turning.dot(&(place - self.segment[0])));
         if first * last < 0.0 {
-            return one + (other - one) * (first / (first - last));
+            return one + (other - one) * (first / divisor(first - last));
         }
         if normal.dot(&one) >= normal.dot(&other) { one } else { other }
     }

@@ -32,7 +32,7 @@
 //!
 //! Only `d` and `w` enter, both free of units: scaling the scene changes nothing but rounding.
 
-use crate::Vec3;
+use crate::{Vec3, divisor};
 
 /// Far more than the quadratic phase needs; the slowest approach, a point within rounding of the focal curve, grows
 /// by half per iteration from 1e-8 to 1.
@@ -159,7 +159,7 @@ impl<const N: usize> Secular<N> {
                 if i != self.shortest && denominator <= 0.0 {
                     return None;
                 }
-                let reciprocal = 1.0 / denominator;
+                let reciprocal = 1.0 / divisor(denominator);
                 let q = w * reciprocal;
                 square += q * q;
                 cube -= q * q * reciprocal;
@@ -187,7 +187,7 @@ impl<const N: usize> Secular<N> {
                 if *d <= 0.0 {
                     return None;
                 }
-                q[i] = w / d;
+                q[i] = w / d.max(f64::MIN_POSITIVE);
                 rest += q[i] * q[i];
             }
         }

@@ -133,6 +133,11 @@ pub(crate) fn ball_over_point(
         return None;
     }
     let has_direction = distance > ROUNDING * sphere.center.amax();
-    let normal = if has_direction { (arm / distance).normalize() } else { mean_normal().normalize() };
+    let normal = if has_direction {
+        // A compiler may divide before it asks.
+        (arm / distance.max(f64::MIN_POSITIVE)).normalize()
+    } else {
+        mean_normal().normalize()
+    };
     Some(Interference { depth, normal_b: normal, deepest_b: sphere.center - normal * sphere.radius, feature })
 }

@@ -8,11 +8,11 @@
 
 use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
-use crate::Vec3;
 #[cfg(doc)]
 use crate::primitive::FacePlanes;
 use crate::primitive::Polyhedron;
 use crate::simd::{Simd, run_at_level};
+use crate::{Vec3, divisor};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
 /// across anything sharper it stays (docs/theory.md, 2.4).
@@ -73,12 +73,12 @@ pub fn entry_of_line(from: &Vec3, to: &Vec3, polyhedron: &Polyhedron) -> Option<
             return None;
         }
         if start > end {
-            let at = start / (start - end);
+            let at = start / divisor(start - end);
             if start >= 0.0 && entry.is_none_or(|best| at > best.at) {
                 entry = Some(Entry { face: index, at });
             }
         } else if start < end {
-            leave = leave.min(start / (start - end));
+            leave = leave.min(start / divisor(start - end));
         }
     }
     entry.filter(|entry| entry.at < leave)

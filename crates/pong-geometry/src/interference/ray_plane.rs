@@ -29,7 +29,8 @@ pub(super) fn hit_plane(ray: &Ray, normal: &Vec3, rise: f64, reach: f64, feature
     if closing >= 0.0 {
         return None;
     }
-    let distance = rise / closing;
+    // A compiler may divide before the branch.
+    let distance = rise / closing.min(-f64::MIN_POSITIVE);
     (-reach < distance && distance < ray.length).then_some(RayHit { distance, normal_b: *normal, feature })
 }
 

@@ -44,7 +44,8 @@ fn wall_normal(place: &Vec3, frustum: &Frustum) -> Vec3 {
     let arm = place - frustum.ends[0];
     let across = arm - frustum.axis * frustum.axis.dot(&arm);
     let aside = across.norm();
-    let away = if aside > 0.0 { across / aside } else { any_perpendicular(&frustum.axis) };
+    let away =
+        if aside > 0.0 { across / aside.max(f64::MIN_POSITIVE) } else { any_perpendicular(&frustum.axis) };
     let [wall_along, wall_aside] = frustum.wall;
     (frustum.axis * wall_along + away * wall_aside).normalize()
 }
@@ -99,7 +100,7 @@ impl Line {
         let along = arm.dot(&self.direction);
         let aside = arm - self.direction * along;
         let square = (radius - aside.norm()) * (radius + aside.norm());
-        let half = if square > 0.0 { square.sqrt() } else { return None };
+        let half = if square > 0.0 { square.max(f64::MIN_POSITIVE).sqrt() } else { return None };
         Some(Inside { from: -along - half, to: half - along })
     }
 
@@ -149,6 +150,8 @@ impl Line {
 /// The two roots of a·t² + 2b·t + c, with b² − a·c given: neither as a difference of equal numbers.
 fn roots(a: f64, b: f64, c: f64, square: f64) -> Inside {
     let sum = -(b + square.sqrt().copysign(b));
-    let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / sum });
+    // A compiler may divide before it asks.
+    let divisor = sum.abs().max(f64::MIN_POSITIVE).copysign(sum);
+    let (one, other) = (sum / a, if sum == 0.0 { 0.0 } else { c / divisor });
     Inside { from: one.min(other), to: one.max(other) }
 }

@@ -39,7 +39,7 @@ fn down_the_discs(frustum: &Frustum, plane: &Plane) -> Vec3 {
     let sine = level.norm();
     // A product of two products, as a difference of two lengths near 1 would lose the digits of a small sine.
     if sine > UPRIGHT {
-        (level / sine).cross(&frustum.axis).normalize()
+        (level / sine.max(f64::MIN_POSITIVE)).cross(&frustum.axis).normalize()
     } else {
         any_perpendicular(&plane.normal)
     }

@@ -9,8 +9,8 @@
 
 use super::Interference;
 use super::segment_ends::{InsideEnd, Wedge};
-use crate::Vec3;
 use crate::primitive::{LineSegment, Polyhedron};
+use crate::{Vec3, divisor};
 
 /// The part of a segment inside a piece whose inner walls stand out by what is within rounding of them.
 pub(super) fn inside_of_wide_walls(segment: &LineSegment, polyhedron: &Polyhedron) -> Option<[InsideEnd; 2]> {
@@ -27,7 +27,7 @@ fn inside_of(segment: &LineSegment, polyhedron: &Polyhedron, room: f64) -> Optio
             return None;
         }
         let leaving = |end: &InsideEnd, is_nearer: fn(f64, f64) -> bool| {
-            let at = first / (first - second);
+            let at = first / divisor(first - second);
             is_nearer(at, end.at).then_some(InsideEnd { at, leaves_by: Some(index) })
         };
         if second < first {
@@ -126,7 +126,7 @@ pub(super) fn leaves_at_wall(
             && before < 0.0
             && -polyhedron.height(other, &place) * length <= slack * (beyond - before);
         is_there.then(|| {
-            let share = before / (before - beyond);
+            let share = before / divisor(before - beyond);
             InsideEnd { at: if end == 1 { share } else { 1.0 - share }, leaves_by: Some(other) }
         })
     };

@@ -2,8 +2,8 @@
 //! (see [`line_segment_polyhedron`](super::line_segment_polyhedron)).
 
 use super::{Feature, Interference};
-use crate::Vec3;
 use crate::primitive::{LineSegment, Polyhedron, PolyhedronFace, RimEdge};
+use crate::{Vec3, divisor};
 
 /// One end of the part of the segment inside the solid.
 #[derive(Clone, Copy)]
@@ -93,7 +93,7 @@ impl Wedge {
         if !(second < first && other_first < other_second || first < second && other_second < other_first) {
             return end;
         }
-        let at = first / (first - second) + other_first / (other_first - other_second);
+        let at = first / divisor(first - second) + other_first / divisor(other_first - other_second);
         // Before the one and behind the other lies as much as the two parameters are apart from 0 and from 1.
         usize::from(at < 1.0 - Self::TIE)
     }

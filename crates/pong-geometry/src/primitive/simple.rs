@@ -67,6 +67,21 @@ impl LineSegment {
 }
 
 impl Ray {
+    /// From one place to another; `None` if they are one, or farther apart than numbers reach.
+    ///
+    /// The length is cut to what can be divided by, though no more and no less comes here: a compiler may divide before the
+    /// branch, and before a loop around it.
+    #[inline]
+    pub fn between(from: &Vec3, to: &Vec3) -> Option<Self> {
+        let path = to - from;
+        let length = path.norm();
+        if !(length > 0.0 && length.is_finite()) {
+            return None;
+        }
+        let direction = path / length.clamp(f64::MIN_POSITIVE, f64::MAX);
+        Some(Self { origin: *from, direction, length, reach: None, response: RayResponse::Normal })
+    }
+
     /// The free tip, m.
     #[inline]
     pub fn tip(&self) -> Vec3 {

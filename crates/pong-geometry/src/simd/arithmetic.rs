@@ -20,10 +20,14 @@ pub trait Simd: BoxSimd {
     fn sub(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn mul(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
     fn div(self, a: Self::Eight, b: Self::Eight) -> Self::Eight;
-    /// `a / b`, and `a` where `b` is zero: a quotient that nobody looks at must not raise a floating-point exception.
+    /// `a / b`, and a number of no meaning where `b` is zero: a quotient that nobody looks at must not raise a floating-point
+    /// exception.
+    ///
+    /// By two, as by one a quotient is its numerator: for AVX-512 a compiler then divides by `b` in every lane, and chooses
+    /// afterwards.
     #[inline(always)]
     fn ratio(self, a: Self::Eight, b: Self::Eight) -> Self::Eight {
-        self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(1.0), b))
+        self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))
     }
     fn sqrt(self, values: Self::Eight) -> Self::Eight;
     /// `a < b`.

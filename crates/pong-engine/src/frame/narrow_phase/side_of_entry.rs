@@ -12,7 +12,7 @@ use pong_geometry::interference::triangle_features::{
     Standing, TriangleContact, TriangleView, is_in_front_of_a_face, place_on_feature,
 };
 use pong_geometry::interference::{Feature, Interference};
-use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray, RayResponse};
+use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 
 /// Which face of a polyhedron memory reaches, and which one pushes.
@@ -253,20 +253,11 @@ impl TriangleEntry<'_> {
 
     /// The last crossings that lie more than `since` (m) before the end of the line.
     fn last_crossings_before(&self, earlier: &Vec3, shell: u32, since: f64) -> LastCrossings {
-        let path = self.center_b - earlier;
-        let length = path.norm();
         let mut last = LastCrossings { from_behind: f64::INFINITY, from_front: f64::INFINITY };
-        if length == 0.0 {
-            return last;
-        }
+        let Some(line) = Ray::between(earlier, &self.center_b) else { return last };
+        let length = line.length;
         // Where the line begins and ends is told by heights: along the line, what grazes a face meets it anywhere.
-        let ray = Ray {
-            origin: *earlier,
-            direction: path / length,
-            length: f64::MAX,
-            reach: None,
-            response: RayResponse::Normal,
-        };
+        let ray = Ray { length: f64::MAX, ..line };
         visit_triangles(self.body, &earlier.inf(&self.center_b), &earlier.sup(&self.center_b), &mut |item| {
             let (set, triangle) = (&self.body.triangles, item.element);
             if set.triangles[triangle as usize].shell != shell {

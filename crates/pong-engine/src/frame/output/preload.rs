@@ -143,7 +143,8 @@ impl Held<'_> {
     fn sliding(&self) -> Option<(Vec3, bool)> {
         let velocity = &self.contact.slip_velocity_b;
         let speed = velocity.norm();
-        (speed > 0.0).then(|| (velocity * (self.kinetic_limit / self.stiffness / speed), false))
+        (speed > 0.0)
+            .then(|| (velocity * (self.kinetic_limit / self.stiffness / speed.max(f64::MIN_POSITIVE)), false))
     }
 
     fn holding(&self, on_a: Vec3, whole: f64) -> Vec3 {

@@ -1,7 +1,6 @@
 //! Lines through spheres and ellipsoids (of two balls, through the larger, whichever it is) and out of bores.
 
 use super::line::{Line, Met};
-use super::sheets::along;
 use crate::frame::input::PairContext;
 use pong_geometry::interference::ray_bore::ray_bore;
 use pong_geometry::primitive::{Bore, PrimitiveKind, Ray};
@@ -38,7 +37,7 @@ pub(super) fn meet(context: &PairContext<'_>, item_a: Item, item_b: Item, line: 
 
 /// Whether a line goes from the hole through the wall.
 fn out_of_bore(bore: &Bore, line: &Line) -> Option<Met> {
-    let ray = Ray { reach: Some(0.0), ..along(&line.from_b, &line.to_b)? };
+    let ray = Ray { reach: Some(0.0), ..Ray::between(&line.from_b, &line.to_b)? };
     ray_bore(&ray, bore).map(|hit| Met::Through(hit.normal_b))
 }
 
@@ -53,6 +52,6 @@ fn through_unit_ball(from: &Vec3, to: &Vec3) -> Option<Vec3> {
     if !outside || !enters {
         return None;
     }
-    let at = (-along - root.sqrt()) / square;
+    let at = (-along - root.max(0.0).sqrt()) / square.max(f64::MIN_POSITIVE);
     (at < 1.0).then(|| from + path * at)
 }

@@ -4,18 +4,17 @@
 use super::events::TunnellingEvents;
 use super::followed::{SAME_SIDE_COSINE_MIN, Seen, pushing};
 use super::line::Line;
-use super::sheets::along;
 use super::solids;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
 use crate::state::{ContactRecord, ContactRole};
-use pong_geometry::Vec3;
 use pong_geometry::interference::ball_bore::is_behind_wall;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::TriangleView;
-use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
+use pong_geometry::{Vec3, divisor};
 use pong_model::box_tree::{Child, lanes};
 
 /// Two faces are the two sides of a wall where the cosine between their normals is less than this (150°). At a wider angle
@@ -122,7 +121,7 @@ impl Seen<'_> {
         let mut sheets = body.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
         let sheet = sheets.find(|info| info.elements.contains(&record.element_b));
         let thickness = sheet.and_then(|info| info.thickness).unwrap_or_else(|| self.smallest_of(record));
-        let lost = ((thickness - before) / (now - before)).clamp(0.0, 1.0);
+        let lost = ((thickness - before) / divisor(now - before)).clamp(0.0, 1.0);
         let place = line.from_b + (line.to_b - line.from_b) * lost;
         let above = place + record.normal_b * (2.0 * now.min(thickness));
         self.sheet_between(&above, &place, record.key.shell_b)
@@ -143,7 +142,7 @@ impl Seen<'_> {
     /// Whether a line goes from the front through a shell of triangles.
     fn sheet_between(&self, from: &Vec3, to: &Vec3, shell: u32) -> bool {
         let body = self.context.body_b;
-        let Some(ray) = along(from, to) else { return false };
+        let Some(ray) = Ray::between(from, to) else { return false };
         let mut hit = false;
         for batch in body.tree.batches.iter().filter(|batch| batch.kind == PrimitiveKind::Triangle) {
             let query = batch.boxes.narrowed(&from.inf(to), &from.sup(to));

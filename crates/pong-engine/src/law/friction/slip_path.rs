@@ -32,7 +32,7 @@ pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) ->
     if length <= 0.0 {
         return unit_or(&input.carried_b, Vec3::zeros()) * radius;
     }
-    let along = input.slip_b / length;
+    let along = input.slip_b / length.max(f64::MIN_POSITIVE);
     let way = Traversal::after_leaving(&input.carried_b, &along, length, left_at);
     if way.left <= 0.0 {
         return way.direction * radius;
@@ -81,7 +81,7 @@ impl Traversal {
 /// The unit vector along `v`; `other` where `v` is too short to have a direction.
 fn unit_or(v: &Vec3, other: Vec3) -> Vec3 {
     let length = v.norm();
-    if length > 0.0 { v / length } else { other }
+    if length > 0.0 { v / length.max(f64::MIN_POSITIVE) } else { other }
 }
 
 /// `direction` after ψ has become 2·atan(tan(ψ/2)·decay), ψ its angle to `along`, at most 90°; all unit vectors.

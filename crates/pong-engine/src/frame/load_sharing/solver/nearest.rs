@@ -184,7 +184,7 @@ impl HullPoint {
                 if square <= 0.0 {
                     return None;
                 }
-                let second = gained(1, &edge) / square;
+                let second = gained(1, &edge) / square.max(f64::MIN_POSITIVE);
                 [1.0 - second, second, 0.0]
             }
             _ => {
@@ -195,6 +195,7 @@ impl HullPoint {
                 if determinant <= 0.0 {
                     return None;
                 }
+                let determinant = determinant.max(f64::MIN_POSITIVE);
                 let second = (gained[0] * edges[1].norm_squared() - gained[1] * across) / determinant;
                 let third = (gained[1] * edges[0].norm_squared() - gained[0] * across) / determinant;
                 [1.0 - second - third, second, third]
