@@ -405,26 +405,92 @@ fn a_rod_that_lies_flat_in_a_hole_carries_its_spring() {
 fn rods_pass_mouths_without_a_jump() {
     let mut random = Random::new(7, 0, 0);
     let (mut touched, mut jumps) = (0, 0);
-    for case in 0..400 {
+    for case in 0..150 {
         let bore = straight_hole(0.2, 1.0);
         let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][case % 3];
         let radius = if kind == Kind::Segment { 0.0 } else { 0.05 };
         let depth = 1e-3;
-        let lean = random.between(-0.02, 0.02);
-        let skew = random.between(-0.02, 0.02);
+        // A rim that is tilted across the wall as well does step, by as much as the tilt squared (docs/theory.md, 2.8).
+        let most_skew = if kind == Kind::Cylinder { 0.01 } else { 0.15 };
+        let (lean, skew) = (random.between(-0.15, 0.15), random.between(-most_skew, most_skew));
         let axis = Vec3::new(lean, skew, 1.0).normalize();
         let pose = |share: f64| {
             // The end goes from 10 mm inside to 10 mm outside of the mouth, at the wall.
             let tip = Vec3::new(0.1 - radius + depth, 0.0, 0.5 - 0.01 + 0.02 * share);
             Rod { kind, ends: [tip - axis * 0.7, tip], radius }
         };
-        const STEPS: u32 = 4000;
-        let energies: Vec<f64> =
-            (0..=STEPS).map(|i| energy(&pose(f64::from(i) / f64::from(STEPS)).touch(&bore))).collect();
+        // Of the end that passes alone: leaning, the other one is much deeper.
+        let of_end = |rod: Rod| energy(&[[None; 2], rod.touch(&bore)[1]]);
+        const STEPS: u32 = 20_000;
+        let energies: Vec<f64> = (0..=STEPS).map(|i| of_end(pose(f64::from(i) / f64::from(STEPS)))).collect();
         let most = energies.iter().copied().fold(0.0, f64::max);
         touched += usize::from(most > 0.0);
         let jump = energies.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
         jumps += usize::from(jump > 1e-3 * most);
     }
-    assert!(touched > 300 && jumps == 0, "{jumps} of {touched}");
+    assert!(touched > 140 && jumps == 0, "{jumps} of {touched}");
+}
+
+/// Nor does the energy while they are pulled out of the hole, however deep in the wall: at last they are as deep as they are in.
+#[test]
+fn rods_leave_the_hole_without_a_jump() {
+    let mut random = Random::new(8, 0, 0);
+    let mut touched = 0;
+    for case in 0..60 {
+        let bore = straight_hole(0.2, 1.0);
+        let kind = [Kind::Segment, Kind::Capsule, Kind::Cylinder][case % 3];
+        let radius = if kind == Kind::Segment { 0.0 } else { 0.05 };
+        let depth = 1e-3;
+        let lean = if kind == Kind::Cylinder { 0.0 } else { random.between(-0.02, 0.02) };
+        let axis = Vec3::new(lean, 0.0, 1.0).normalize();
+        let outward = if random.below(2) == 0 { 1.0 } else { -1.0 };
+        let pose = |share: f64| {
+            let tip = Vec3::new(0.1 - radius + depth, 0.0, outward * (0.5 - 0.01 + 0.02 * share));
+            let ends = [tip, tip + axis * (0.7 * outward)];
+            Rod { kind, ends: if case % 2 == 0 { ends } else { [ends[1], ends[0]] }, radius }
+        };
+        const STEPS: u32 = 20_000;
+        let energies: Vec<f64> =
+            (0..=STEPS).map(|i| energy(&pose(f64::from(i) / f64::from(STEPS)).touch(&bore))).collect();
+        let most = energies.iter().copied().fold(0.0, f64::max);
+        let jump = energies.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+        touched += usize::from(most > 0.0);
+        assert!(jump <= 5e-3 * most, "{kind:?} {lean}: {jump:e} of {most:e}");
+        // A capsule ends in a ball, which stays at the edge for longer.
+        assert!(kind == Kind::Capsule || energies[STEPS as usize] == 0.0);
+    }
+    assert!(touched > 50, "{touched}");
+}
+
+/// A hole that is cut in two where it goes on holds a rod like the whole: in it, through the seam, with a rim exactly in the seam.
+#[test]
+fn a_hole_in_two_pieces_is_one() {
+    let mut random = Random::new(9, 0, 0);
+    let mut touched = 0;
+    for case in 0..2000 {
+        let ends = [Vec3::zeros(), Vec3::z()];
+        let last = [0.25, 0.3][case % 2];
+        let cut = 0.5;
+        let middle = 0.25 + (last - 0.25) * cut;
+        let piece = |ends: [Vec3; 2], radii: [f64; 2], mouths: [bool; 2]| Bore {
+            hole: Frustum::new(ends, radii),
+            thickness: 0.2,
+            mouths,
+        };
+        let whole = piece(ends, [0.25, last], [true; 2]);
+        let pieces = [
+            piece([ends[0], Vec3::z() * cut], [0.25, middle], [true, false]),
+            piece([Vec3::z() * cut, ends[1]], [middle, last], [false, true]),
+        ];
+        let mut rod = Rod::random(&mut random, &whole, 0.1);
+        if case % 4 == 0 && last == 0.25 && rod.kind != Kind::Cylinder {
+            rod.ends[0].z = cut;
+        }
+        let (force, moment) = wrench(&rod.touch(&whole), &Vec3::zeros());
+        let sum = pieces.map(|piece| wrench(&rod.touch(&piece), &Vec3::zeros()));
+        let off = (sum[0].0 + sum[1].0 - force).norm() + (sum[0].1 + sum[1].1 - moment).norm();
+        assert!(off < 1e-12, "case {case}: {off:e} {whole:?} {rod:?}");
+        touched += usize::from(force.norm() > 0.0);
+    }
+    assert!(touched > 150, "{touched}");
 }

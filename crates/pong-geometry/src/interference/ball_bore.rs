@@ -58,11 +58,8 @@ impl Beside<'_> {
         let [first, last] = self.hole().radii;
         let (length, widening) = (self.hole().length, last - first);
         let travelled = self.along * length + (self.aside - first) * widening;
-        if travelled < 0.0 {
-            Some(0)
-        } else {
-            (travelled > length * length + widening * widening).then_some(1)
-        }
+        let inside = [travelled, length * length + widening * widening - travelled];
+        [0, 1].into_iter().find(|&end| self.bore.is_past(end, inside[end]))
     }
 
     fn touched(&self, ball: &Sphere) -> Option<Interference> {

@@ -86,7 +86,11 @@ struct AtWall {
 
 impl RodEnd<'_> {
     fn touched(&self) -> BallContacts {
-        if self.rod.skin == 0.0 && self.way_out(1 - self.mouth).min(self.way_out(self.mouth)) <= 0.0 {
+        let is_out = |mouth: usize| {
+            let way_out = self.way_out(mouth);
+            way_out < 0.0 || (way_out == 0.0 && self.bore.mouths[mouth])
+        };
+        if self.rod.skin == 0.0 && (is_out(0) || is_out(1)) {
             return NOTHING;
         }
         let wall = self.at_wall();
@@ -102,14 +106,15 @@ impl RodEnd<'_> {
     /// deeper.
     fn with_corner(&self, wall: &AtWall) -> BallContacts {
         let [own, other] = wall.inside;
-        if other < 0.0 {
+        if self.bore.is_past(1 - self.mouth, other) {
             return NOTHING;
         }
-        if own >= 0.0 && !(wall.outward && own < wall.depth) {
+        let is_inside = !self.bore.is_past(self.mouth, own);
+        if is_inside && !(wall.outward && own < wall.depth) {
             return wall.contacts;
         }
         let line = self.line_at_mouth();
-        if own >= 0.0 {
+        if is_inside {
             return if line == NOTHING { wall.contacts } else { shallower(wall.contacts, line) };
         }
         if line == NOTHING || wall.outward || -own > wall.depth { line } else { deeper(line, wall.contacts) }

@@ -38,6 +38,15 @@ pub struct Bore {
     pub mouths: [bool; 2],
 }
 
+impl Bore {
+    /// Whether what is so far inside of one end is past it, in any unit. Where two bores meet that run the same way, what is in
+    /// the seam belongs to the second alone.
+    #[inline]
+    pub(crate) fn is_past(&self, end: usize, inside: f64) -> bool {
+        inside < 0.0 || (inside == 0.0 && end == 1 && !self.mouths[end])
+    }
+}
+
 impl Capsule {
     /// The same capsule in another frame.
     #[inline]
