@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pong_viz import marks, shapes, timeline
+from pong_viz.core.model import Primitive
 from pong_viz.log import Log, LogError
 
 from . import sample
@@ -254,6 +255,28 @@ class Shapes(WithLog):
     def test_volume_of_a_fine_ball(self):
         vertices, faces = shapes.ball(128, 64)
         self.assertAlmostEqual(_volume(vertices, faces), 4.0 / 3.0 * np.pi, delta=6e-3)
+
+
+    def test_round_parts_lie_where_their_fields_say(self):
+        ends, sizes = ((1.0, 2.0, 3.0), (1.0, 2.0, 5.0)), shapes.Sizes(0.0, 0.0, 0.0)
+        full = np.pi * 2.0
+        for kind, fields, low, high, volume in (
+            ("Capsule", {"radius": 0.5}, 2.5, 5.5, full * 0.25 + full * 0.25 / 3.0),
+            ("Cylinder", {"radius": 0.5}, 3.0, 5.0, full * 0.25),
+            ("Cone", {"radii": (0.5, 0.0)}, 3.0, 5.0, full * 0.25 / 3.0),
+            ("Bore", {"radii": (0.5, 0.25)}, 3.0, 5.0, None),
+        ):
+            part = Primitive(kind, "part", {"ends": ends, **fields}, None)
+            drawn = shapes.shape("m/part", part, np.eye(3), np.zeros(3), sizes)
+            away = drawn.vertices - np.array([1.0, 2.0, 0.0])
+            np.testing.assert_allclose([away[:, 2].min(), away[:, 2].max()], [low, high], atol=1e-12)
+            self.assertAlmostEqual(float(np.hypot(away[:, 0], away[:, 1]).max()), 0.5)
+            if volume is not None:
+                self.assertAlmostEqual(_volume(away - [0.0, 0.0, 4.0], drawn.faces) / volume, 1.0, delta=0.03)
+            else:  # the wall of a hole is seen from within
+                normals = [np.cross(away[f[1]] - away[f[0]], away[f[2]] - away[f[0]]) for f in drawn.faces]
+                inward = [normal @ (away[list(f)].mean(axis=0) * [1.0, 1.0, 0.0]) for normal, f in zip(normals, drawn.faces)]
+                self.assertLess(max(inward), 0.0)
 
 
 def _volume(vertices, faces):
