@@ -240,13 +240,13 @@ def n_finding_chosen():
 @step
 def o_overlays():
     in_view(bpy.ops.pong.findings_fix)
-    for name in ("show_bounds", "show_normals", "show_rays", "show_groups"):
+    for name in ("show_bounds", "show_normals", "show_rays", "show_round", "show_groups"):
         setattr(pong(), name, True)
 
 
 @step
 def prepare_without_overlays():
-    for name in ("show_bounds", "show_normals", "show_rays", "show_groups"):
+    for name in ("show_bounds", "show_normals", "show_rays", "show_round", "show_groups"):
         setattr(pong(), name, False)
 
 

@@ -123,7 +123,7 @@ def _is_round(vertices: np.ndarray, faces: list[np.ndarray], kind: str, numbers:
     near = np.abs(centered[:, 2] - (end - 0.5) * length) <= FIT_TOLERANCE * size
     ring = centered[near & (np.sqrt((centered[:, :2] ** 2).sum(axis=1)) >= (1.0 - FIT_TOLERANCE) * radii[end])]
     turns = np.sort(np.arctan2(ring[:, 1], ring[:, 0]))
-    if len(turns) < ROUND_SIDES:
+    if not len(turns):
         return False
     gaps = np.diff(np.append(turns, turns[0] + 2.0 * np.pi))
     return bool(gaps.max() <= 2.0 * np.pi / (ROUND_SIDES - 0.5))

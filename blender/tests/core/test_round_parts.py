@@ -150,6 +150,7 @@ class BackAgain(unittest.TestCase):
             mark = s.primitive(kind, kind, **numbers).mark
             data = mark_to_json(mark)
             self.assertEqual(mark_from_json(data), mark)
+            self.assertEqual(list(map(type, mark_from_json(data).mouths)), [bool, bool])
             self.assertEqual("mouths" in data, kind == "Bore")
 
 

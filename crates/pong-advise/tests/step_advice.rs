@@ -77,6 +77,27 @@ fn plan(step: f64) -> StepPlan {
     StepPlan { accuracy: None, ..StepPlan::new(step, WrenchCoupling::SemiImplicit) }
 }
 
+/// A capsule, cylinder or cone on a plane has one whole spring, however it lies: n of them on one body are one of n·k.
+#[test]
+fn round_parts_on_a_floor_are_judged_as_whole_springs() {
+    let masses = [GroupMass::point(3.0), GroupMass::immovable()];
+    let part = |kind: &str, i: u32| match kind {
+        "Cone" => format!("Cone(name: \"p{i}\", ends: (({i},0,0),({i},1,0)), radii: (0.1, 0)),"),
+        _ => format!("{kind}(name: \"p{i}\", ends: (({i},0,0),({i},1,0)), radius: 0.1),"),
+    };
+    for kind in ["Capsule", "Cylinder", "Cone"] {
+        for n in 1..=3_u32 {
+            let parts: String = (0..n).map(|i| part(kind, i)).collect();
+            let step = longest(f64::from(n) * K / 3.0);
+            let report = meet([&model("m", &parts, K, "None"), &floor()], masses, &plan(0.999 * step));
+            let [group] = &report.groups[..] else { panic!("{kind}: {:?}", report.groups) };
+            assert_eq!(group.contacts, n as usize, "{kind}");
+            assert!(close(group.stable_step, step) && report.not_judged.is_empty(), "{kind}: {group:?}");
+            assert!(close(report.stable_step(), longest(K / 3.0)), "{kind}");
+        }
+    }
+}
+
 /// n springs of k on one mass are one of n·k, however many of them; warned of by none, noted beyond 2√(m/(n·k)).
 #[test]
 fn equal_springs_on_one_body_add() {

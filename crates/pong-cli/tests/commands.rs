@@ -265,6 +265,33 @@ fn check_describes_models_and_their_meetings() {
     assert!(!out.contains("`frame` and `ground`"), "{out}");
 }
 
+/// Round parts are counted, met and summed like the others; what has no tester is told.
+#[test]
+fn check_knows_round_parts() {
+    let folder = folder("check_round");
+    let part = r#"(format: "pong-model", version: 1, name: "cable", surfaces: { "soft": (stiffness: 1e5) },
+        root: (name: "cable", surface: "soft", primitives: [
+            Capsule(name: "a", ends: ((0, 0, 0), (1, 0, 0)), radius: 0.1),
+            Capsule(name: "b", ends: ((1, 0, 0), (2, 0, 0)), radius: 0.1),
+            Cylinder(name: "c", ends: ((0, 0, 0), (0, 1, 0)), radius: 0.1),
+            Cone(name: "d", ends: ((0, 1, 0), (0, 2, 0)), radii: (0.1, 0)),
+            Bore(name: "e", ends: ((0, 0, 1), (0, 0, 2)), radii: (0.2, 0.1)),
+        ]))"#;
+    std::fs::write(folder.join("cable.ron"), part).unwrap();
+    let (code, out, err) = pong(&folder, &["check", "cable.ron", "ground.ron"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let parts = [
+        "cable (Aabb movable): 2 Capsule, 1 Cylinder, 1 Cone, 1 Bore",
+        "extent of cable: (-0.299504 -0.299504 -0.1) … (2.1 2 2.00995) m",
+        "Capsule–Plane: 2 pairs of primitives",
+        "Cylinder–Plane: 1 pair of primitives",
+        "Cone–Plane: 1 pair of primitives",
+        "Bore and Plane have no tester",
+        "up to 400000 N/m on one face: all 2 capsules and 1 cylinder and 1 cone of cable:cable on a Plane (`rigid`)",
+    ];
+    assert_holds(&out, &parts);
+}
+
 #[test]
 fn check_tells_every_fault_and_ends_with_one() {
     let folder = folder("check_faults");

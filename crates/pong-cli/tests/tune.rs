@@ -108,3 +108,21 @@ fn groups_without_volumes_and_cut_leaves_are_drawn() {
         rest = &rest[at + line.len()..];
     }
 }
+
+/// A cable of capsules, which is one leaf of its author's, may be tuned as any other model: every frame answers the same.
+#[test]
+fn a_cable_of_capsules_is_tuned() {
+    let link = |i: usize| {
+        let [x, y] = [0.1 * i as f64, 0.1 * (i + 1) as f64];
+        format!("Capsule(name: \"link_{i}\", ends: (({x:?}, 0, 0), ({y:?}, 0, 0)), radius: 0.1),")
+    };
+    let links: String = (0..12).map(link).collect();
+    let cable = format!(
+        "(format: \"pong-model\", version: 1, name: \"ball\", surfaces: {{ \"soft\": (stiffness: 1e5) }},
+         root: (name: \"ball\", surface: \"soft\", primitives: [{links}]))"
+    );
+    let folder = common::resting_ball("tune/cable", &cable, 0.2);
+    let (code, page, err) = pong(&folder, &["tune", "rest.ron", "--rounds", "2", "--frames", "64"]);
+    assert_eq!(code, 0, "{page}{err}");
+    assert!(page.contains("201 frames, every one compared"), "{page}");
+}

@@ -2,7 +2,7 @@
 
 use super::named::Named;
 use crate::text::{count, number};
-use pong_engine::{Laws, NormalProps, combine_surfaces};
+use pong_engine::{Laws, NormalProps, combine_surfaces, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
 use pong_model::{Exponent, Model, MovableGroup, Surface, pair_entries, printable};
 use std::collections::BTreeMap;
@@ -10,11 +10,26 @@ use std::collections::BTreeMap;
 /// How many are told; the softer ones are only counted.
 const LISTED: usize = 10;
 
-/// Points and segments of one body that have one surface.
+/// What lies on a face with whole springs, as it is called.
+const PRESSING: [(PrimitiveKind, &str, &str); 5] = [
+    (PrimitiveKind::Point, "point", "points"),
+    (PrimitiveKind::LineSegment, "segment", "segments"),
+    (PrimitiveKind::Capsule, "capsule", "capsules"),
+    (PrimitiveKind::Cylinder, "cylinder", "cylinders"),
+    (PrimitiveKind::Cone, "cone", "cones"),
+];
+
+/// How many primitives of each kind that presses have one surface.
 struct Group {
     surface: u32,
-    points: usize,
-    segments: usize,
+    counts: [usize; PRESSING.len()],
+}
+
+impl Group {
+    /// Those that can touch a kind of face, by kind.
+    fn on(&self, face: PrimitiveKind) -> [usize; PRESSING.len()] {
+        std::array::from_fn(|i| if has_tester(PRESSING[i].0, face) { self.counts[i] } else { 0 })
+    }
 }
 
 /// A kind of face and the sum of all springs that can press on one of them at once.
@@ -41,26 +56,28 @@ pub(super) fn lines(mut faces: Vec<FacePressed>) -> String {
     text
 }
 
-/// Points and segments of body A that press on the faces of body B: one entry for each surface of faces.
+/// What of body A presses on the faces of body B: one entry for each surface of faces.
 pub(super) fn faces_pressed(
     (a, body_a): (&Named, &MovableGroup),
     (b, body_b): (&Named, &MovableGroup),
 ) -> Vec<FacePressed> {
     let pressing = pressing(body_a);
-    if pressing.is_empty() {
-        return Vec::new();
-    }
-    let points: usize = pressing.iter().map(|group| group.points).sum();
-    let segments: usize = pressing.iter().map(|group| group.segments).sum();
     let mut found = Vec::new();
     for (surface, kind) in faces(body_b) {
+        let mut all = [0; PRESSING.len()];
+        let counts = pressing.iter().flat_map(|group| group.on(kind).into_iter().enumerate());
+        counts.for_each(|(index, count)| all[index] += count);
+        if all == [0; PRESSING.len()] {
+            continue;
+        }
         let face_surface = &b.model.surfaces[surface as usize];
-        let (stiffness, unit) = sum(&pressing, &a.model, &b.model, face_surface);
+        let (stiffness, unit) = sum(&pressing, &a.model, &b.model, (kind, face_surface));
         let told = format!(
-            "all {} of {}:{} on a {kind} (`{}`) of {}:{}",
-            told(points, segments),
+            "all {} of {}:{} on a {} (`{}`) of {}:{}",
+            told(&all),
             a.name,
             body_a.path,
+            kind.name(),
             face_surface.name,
             b.name,
             body_b.path,
@@ -70,49 +87,46 @@ pub(super) fn faces_pressed(
     found
 }
 
-fn sum(pressing: &[Group], model_a: &Model, model_b: &Model, face: &Surface) -> (f64, &'static str) {
+fn sum(
+    pressing: &[Group],
+    model_a: &Model,
+    model_b: &Model,
+    (kind, face): (PrimitiveKind, &Surface),
+) -> (f64, &'static str) {
     let mut sum = 0.0;
     let mut unit = "N/m";
     for group in pressing {
         let surface = &model_a.surfaces[group.surface as usize];
         let Some((stiffness, hertz)) = pair_stiffness(model_a, surface, model_b, face) else { continue };
-        // Lying flat, both halves of a segment press.
-        sum += stiffness * (group.points + group.segments) as f64;
+        // Lying flat, both halves of a segment press, and all of a round part.
+        sum += stiffness * group.on(kind).iter().sum::<usize>() as f64;
         unit = if hertz { "N/m^1.5" } else { unit };
     }
     (sum, unit)
 }
 
-fn told(points: usize, segments: usize) -> String {
-    let points = (points > 0).then(|| count(points, "point", "points"));
-    let segments = (segments > 0).then(|| count(segments, "segment", "segments"));
-    points.into_iter().chain(segments).collect::<Vec<_>>().join(" and ")
+fn told(counts: &[usize]) -> String {
+    let of_kind = |(&number, (_, one, more)): (&usize, &(_, &str, &str))| {
+        (number > 0).then(|| count(number, one, more))
+    };
+    counts.iter().zip(&PRESSING).filter_map(of_kind).collect::<Vec<_>>().join(" and ")
 }
 
 fn pressing(body: &MovableGroup) -> Vec<Group> {
     let mut by_surface: BTreeMap<u32, Group> = BTreeMap::new();
     for info in &body.primitives {
+        let Some(index) = PRESSING.iter().position(|(kind, ..)| *kind == info.kind) else { continue };
         let surface = info.surface;
-        let (points, segments) = match info.kind {
-            PrimitiveKind::Point => (1, 0),
-            PrimitiveKind::LineSegment => (0, 1),
-            _ => continue,
-        };
-        let group = by_surface.entry(surface).or_insert(Group { surface, points: 0, segments: 0 });
-        group.points += points;
-        group.segments += segments;
+        let new = Group { surface, counts: [0; PRESSING.len()] };
+        by_surface.entry(surface).or_insert(new).counts[index] += 1;
     }
     by_surface.into_values().collect()
 }
 
 /// Surfaces of planes and polyhedra, each once.
-fn faces(body: &MovableGroup) -> BTreeMap<u32, &'static str> {
+fn faces(body: &MovableGroup) -> BTreeMap<u32, PrimitiveKind> {
     let flat = |kind| matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Polyhedron);
-    body.primitives
-        .iter()
-        .filter(|info| flat(info.kind))
-        .map(|info| (info.surface, info.kind.name()))
-        .collect()
+    body.primitives.iter().filter(|info| flat(info.kind)).map(|info| (info.surface, info.kind)).collect()
 }
 
 /// Stiffness of a pair, and whether it goes with the power 3/2. `None` cannot be combined, which sealing tells.
