@@ -21,7 +21,7 @@ use std::time::Duration;
 
 /// The answers and the contact state of every scene, summed up. They may change only with a change of the physics
 /// that the CHANGELOG tells.
-const KNOWN: [(&str, u64, u64); 8] = [
+const KNOWN: [(&str, u64, u64); 9] = [
     ("stations", 0x86016d68ff1d5f28, 0xc302f928f8ccf9fd),
     ("arms", 0x7cf744b1dc93f96a, 0x91ec73c297f00263),
     ("sheets", 0x8016244fd3b1479e, 0xfc3c2864d9ad51a4),
@@ -30,6 +30,7 @@ const KNOWN: [(&str, u64, u64); 8] = [
     ("crowd", 0xea6c694a9ff398c3, 0xc31752094573b407),
     ("bowl", 0x2aedf441666a2cc0, 0x033338db790799c7),
     ("swarm", 0x8d26eb9db5e7d29e, 0x91adf350cf84ba84),
+    ("round", 0x701c2ef9dce4664e, 0xfa7aaeb9b3a56e8d),
 ];
 
 /// A scene run by the caller alone, with what is needed to go on from any frame.

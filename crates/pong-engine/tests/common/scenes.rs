@@ -8,7 +8,7 @@ use pong_testkit::Random;
 
 /// All scenes of the series.
 pub fn all() -> Vec<Scene> {
-    vec![stations(), arms(), sheets(), pieces(), own_kinds(), crowd(), bowl(), swarm()]
+    vec![stations(), arms(), sheets(), pieces(), own_kinds(), crowd(), bowl(), swarm(), round()]
 }
 
 fn rough(stiffness: f64) -> String {
@@ -376,4 +376,56 @@ fn swarm() -> Scene {
 
 fn random_triple(random: &mut Random, size: f64) -> [f64; 3] {
     [0; 3].map(|_| random.between(-size, size))
+}
+
+/// Everything over a log, a roller and a plug that lie, and in a hole: rods and pins too large for it, in it and through a mouth.
+/// Round parts on a floor.
+fn round() -> Scene {
+    let mut movers = Parts::new(11);
+    for station in 0..3 {
+        let x = 3.0 * f64::from(station);
+        movers.every_mover([x, 0.0, 0.0], [0.35, 0.35, 0.02]);
+        for turn in [0.0, 0.25, 0.5] {
+            movers.add("Capsule", &format!("ends: (({x:?},-0.5,0.1),({x:?},{turn:?},0.08)), radius: 0.1"));
+        }
+    }
+    movers.every_mover([9.0, 0.0, 0.0], [0.32, 0.32, 0.3]);
+    for (index, side) in ["(8.8,0.1,0)", "(9.1,-0.2,0.1)", "(9.25,0.1,-0.2)"].into_iter().enumerate() {
+        movers.add("Ray", &format!("origin: {side}, direction: (1,{index},0.1), length: 0.2"));
+    }
+    let in_hole = [
+        "Capsule(name: \"rod\", ends: ((9.2,0.02,-0.5),(9.18,0,0.1)), radius: 0.1)",
+        "Cylinder(name: \"pin\", ends: ((9,0,-0.2),(9.01,0,0.2)), radius: 0.29)",
+        "Cylinder(name: \"tight\", ends: ((9,0,-0.2),(9,0.01,0.6)), radius: 0.302)",
+        "Cylinder(name: \"through\", ends: ((9,0,0.9),(9.03,0,-0.8)), radius: 0.28)",
+    ];
+    let on_floor = [
+        "Capsule(name: \"log\", ends: ((12,0,-0.41),(12.3,0,-0.4)), radius: 0.1)",
+        "Cylinder(name: \"roller\", ends: ((12,1,-0.41),(12.3,1,-0.4)), radius: 0.1)",
+        "Cone(name: \"plug\", ends: ((12,2,-0.41),(12.3,2,-0.43)), radii: (0.1,0.08))",
+    ];
+    movers.text.extend(in_hole.iter().chain(&on_floor).map(|text| (*text).to_owned()));
+    let targets = [
+        "Capsule(name: \"log\", ends: ((-0.5,0,-0.3),(0.5,0,-0.31)), radius: 0.3)",
+        "Cylinder(name: \"roller\", ends: ((2.5,0,-0.3),(3.5,0,-0.3)), radius: 0.3)",
+        "Cone(name: \"plug\", ends: ((5.5,0,-0.3),(6.5,0,-0.3)), radii: (0.32,0.28))",
+        "Bore(name: \"hole\", ends: ((9,0,-0.3),(9,0,0.3)), radii: (0.3,0.31), thickness: 0.1)",
+        "Plane(name: \"floor\", normal: (0,0,1), offset: -0.5)",
+    ];
+    let models = vec![
+        model("movers", &rough(2e5), &movers.joined()),
+        model("targets", &rough(1e6), &targets.join(", ")),
+    ];
+    let mut scene = Scene::new("round", 200, models);
+    scene.paths = vec![
+        Path {
+            center: [0.0, 0.0, 0.0],
+            swing: [0.03, 0.04, 0.05],
+            period: [90.0, 130.0, 70.0],
+            turn: [0.004, 0.003, 0.002],
+            turn_period: 110.0,
+        },
+        Path { turn: [0.004, 0.0, 0.002], ..Path::still([0.0, 0.0, 0.0]) },
+    ];
+    scene
 }
