@@ -298,3 +298,26 @@ fn rays_hit_the_wall_from_within_the_hole() {
     }
     assert!(hits > 300 && misses > 300, "{hits} {misses}");
 }
+
+/// Along the axis of a straight hole, and along a straight line of a cone, a ray goes out nowhere.
+#[test]
+fn rays_along_the_wall_go_out_nowhere() {
+    let ray = |origin: Vec3, direction: Vec3| Ray {
+        origin,
+        direction: direction.normalize(),
+        length: 10.0,
+        reach: Some(10.0),
+        response: RayResponse::Normal,
+    };
+    let straight =
+        Bore { hole: Frustum::new([Vec3::zeros(), Vec3::z()], [0.5; 2]), thickness: 0.1, mouths: [true; 2] };
+    let cone = Bore { hole: Frustum::new([Vec3::zeros(), Vec3::z()], [1.0, 2.0]), ..straight };
+    for direction in [1.0, -1.0] {
+        for aside in [0.0, 0.25, 0.5, 0.75] {
+            assert_eq!(ray_bore(&ray(Vec3::x() * aside, Vec3::z() * direction), &straight), None);
+        }
+        // Beside a straight line of the cone and along it: the wall is never met between the ends.
+        let found = ray_bore(&ray(Vec3::x() * 0.5, Vec3::new(1.0, 0.0, 1.0) * direction), &cone);
+        assert_eq!(found, None, "{direction}");
+    }
+}

@@ -43,6 +43,13 @@ pub(crate) fn way_out(origin: &Vec3, direction: &Vec3, bore: &Bore) -> Option<f6
     let start = (across.norm() - radius) * (across.norm() + radius);
     let root = half * half - square * start;
     let slope = if root > 0.0 { root.sqrt() } else { return None };
-    let distance = if half > 0.0 { -start / (half + slope) } else { (slope - half) / square };
+    let distance = if half > 0.0 {
+        -start / (half + slope)
+    } else if square != 0.0 {
+        (slope - half) / square
+    } else {
+        // Along a straight line of the cone: in, and never out again.
+        return None;
+    };
     (distance.is_finite() && radius + growth * distance > 0.0).then_some(distance)
 }

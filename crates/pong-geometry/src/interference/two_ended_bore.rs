@@ -239,9 +239,11 @@ impl RodEnd<'_> {
 
     /// Whether the axis itself goes through the wall around the mouth.
     fn is_crossed_behind(&self, counts: impl Fn(f64) -> bool) -> bool {
+        /// A rod so square to the hole, as a cosine, goes through no mouth.
+        const SQUARE: f64 = 1e-9;
         let (rod, circle) = (self.rod, self.mouth_circle());
         let rate = rod.axis_b.dot(&circle.axis_b);
-        if rate == 0.0 {
+        if rate.abs() < SQUARE {
             return false;
         }
         let along = circle.axis_b.dot(&(circle.center_b - rod.ends[0])) / rate;
