@@ -54,20 +54,17 @@ impl Invariance {
     }
 }
 
+/// One that is tried on every scene, to tolerance.
+const fn claim(name: &'static str, says: &'static str, check: Check) -> Invariance {
+    Invariance { name, says, every: 1, make: None, is_bits: false, is_general: true, check }
+}
+
 const fn twin(
     name: &'static str,
     says: &'static str,
     make: fn(&Scene, &mut Random) -> Option<Twin>,
 ) -> Invariance {
-    Invariance {
-        name,
-        says,
-        every: 1,
-        make: None,
-        is_bits: false,
-        is_general: true,
-        check: Check::Twin(make),
-    }
+    claim(name, says, Check::Twin(make))
 }
 
 const fn bits(
@@ -76,7 +73,7 @@ const fn bits(
     every: u64,
     make: fn(&Scene, &mut Random) -> Option<Twin>,
 ) -> Invariance {
-    Invariance { name, says, every, make: None, is_bits: true, is_general: true, check: Check::Twin(make) }
+    Invariance { every, is_bits: true, ..twin(name, says, make) }
 }
 
 const fn property(
@@ -86,7 +83,7 @@ const fn property(
     make: Option<fn(&mut Random) -> Scene>,
     check: fn(&mut Base, &mut Random) -> Verdict,
 ) -> Invariance {
-    Invariance { name, says, every, make, is_bits: false, is_general: true, check: Check::Property(check) }
+    Invariance { every, make, ..claim(name, says, Check::Property(check)) }
 }
 
 /// All of them.
@@ -96,15 +93,11 @@ pub const INVARIANCES: &[Invariance] = &[
     twin("far", "the whole scene turned, 6.8e6 or 1e8 m away, drifting at 7.7 km/s", place::far),
     twin("group_frame", "other axes and origins of the groups", place::group_frame),
     twin("scaled", "lengths times 1e-6 to 1e6", place::scaled),
-    Invariance {
-        name: "cut",
-        says: "faces, plates and solids cut into more triangles and pieces, half of them under the foot",
-        every: 1,
-        make: None,
-        is_bits: false,
-        is_general: true,
-        check: Check::AimedTwin(shape::cut),
-    },
+    claim(
+        "cut",
+        "faces, plates and solids cut into more triangles and pieces, half of them under the foot",
+        Check::AimedTwin(shape::cut),
+    ),
     twin("reordered", "primitives, triangles, faces and corners in another order, renamed", shape::reordered),
     bits("swapped", "the Objects of a pair of different kinds swapped", 2, shape::swapped),
     bits("regrouped", "primitives hung into groups of groups", 4, shape::regrouped),

@@ -37,6 +37,13 @@ pub struct Finding {
     pub twin: Option<Scene>,
 }
 
+impl Verdict {
+    /// A disagreement of a scene with itself.
+    pub fn differs(frame: usize, relative: f64, says: String) -> Self {
+        Self::Differs(Finding { frame, relative, says, is_refusal: false, twin: None })
+    }
+}
+
 /// What folds leave uncertain of a force. Normal force and friction turn with the normal, and damping sees another part of
 /// the velocity. A bristle remembers the contact plane in which it was stretched.
 fn of_folds(base: &Base, twin: &Twin, answers: &[Answer], largest: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use crate::case::Failure;
 use pong_engine::{Config, Contact, InterfaceId, ModelId, ObjectId, World, WorldBuilder};
-use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Vec3};
+use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 use pong_geometry::extension::Extensions;
 use pong_model::{FrictionLaw, NormalLaw, Surface};
 use std::sync::Arc;
@@ -161,6 +161,11 @@ impl Duo {
         Ok((self.scene.seal()?, interfaces))
     }
 
+    /// A simulation of a mover above ground that stands still.
+    pub fn on_ground(self, method: (Integrator, f64), mover: RigidBody) -> Result<Run, Failure> {
+        self.simulate(method, mover, RigidBody::fixed("ground"))
+    }
+
     /// A simulation of both bodies, which need not know their Interfaces.
     pub fn simulate(
         self,
@@ -174,6 +179,16 @@ impl Duo {
         let ground = sim.add_body(ground.touching(interfaces[1]))?;
         Ok(Run { sim, body, ground })
     }
+}
+
+/// There, along the common axes.
+pub fn at(position: Vec3) -> Pose {
+    Pose { position, ..Pose::identity() }
+}
+
+/// Without a turn.
+pub fn moving(linear: Vec3) -> Twist {
+    Twist { linear, angular: Vec3::zeros() }
 }
 
 /// A simulation of a mover and a ground.
@@ -215,6 +230,12 @@ impl Run {
             }
         }
     }
+}
+
+/// Sets the stiffness, N/m, and the damping of the linear law, N·s/m.
+pub fn set_spring(surface: &mut Surface, stiffness: f64, damping: f64) {
+    surface.stiffness = stiffness;
+    set_damping(surface, damping);
 }
 
 /// Sets the damping of the linear law, N·s/m.

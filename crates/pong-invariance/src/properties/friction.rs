@@ -3,7 +3,7 @@
 use super::differs;
 use crate::allowance::distance;
 use crate::base::Base;
-use crate::judge::{Finding, Verdict};
+use crate::judge::Verdict;
 use crate::make;
 use crate::random::{Random, rotation_about};
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
@@ -201,13 +201,7 @@ pub fn refined(base: &mut Base, _: &mut Random) -> Verdict {
         let says =
             format!("friction with every fourth, second and each frame: {coarse:e}, {middle:e}, {fine:e} N");
         let relative = fine / base.largest(base.answers.len() - 1);
-        return Verdict::Differs(Finding {
-            frame: frames.len() - 1,
-            relative,
-            says,
-            is_refusal: false,
-            twin: None,
-        });
+        return Verdict::differs(frames.len() - 1, relative, says);
     }
     Verdict::Agrees
 }

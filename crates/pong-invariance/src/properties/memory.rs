@@ -1,7 +1,7 @@
 //! The side of entry: pushed back to where it came in, and never suddenly deeper.
 
 use crate::base::Base;
-use crate::judge::{Finding, Verdict};
+use crate::judge::Verdict;
 use crate::make::solids;
 use crate::random::Random;
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
@@ -53,13 +53,7 @@ pub fn depth_steps(base: &mut Base, _: &mut Random) -> Verdict {
         let beyond = now - before - way;
         if beyond > 1e-12 * base.scene.size {
             let says = format!("depth {before} m, then {now} m, though the point moved by {way} m alone");
-            return Verdict::Differs(Finding {
-                frame,
-                relative: beyond / now,
-                says,
-                is_refusal: false,
-                twin: None,
-            });
+            return Verdict::differs(frame, beyond / now, says);
         }
     }
     Verdict::Agrees

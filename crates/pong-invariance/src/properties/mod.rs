@@ -5,11 +5,11 @@ pub mod memory;
 pub mod sides;
 
 use crate::base::Base;
-use crate::judge::{Finding, Verdict, told};
+use crate::judge::{Verdict, told};
 use crate::play::Answer;
 
 /// A disagreement of two answers to one scene.
 fn differs(base: &Base, frame: usize, relative: f64, what: &str, other: &Answer) -> Verdict {
     let says = format!("{what}\nfirst:{}\nthen: {}", told(&base.answers[frame]), told(other));
-    Verdict::Differs(Finding { frame, relative, says, is_refusal: false, twin: None })
+    Verdict::differs(frame, relative, says)
 }

@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Outcome};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
+use crate::scene::{Bristle, Duo, G, at, moving, set_damping, with_friction};
+use pong_executive::{Integrator, MassProperties, RigidBody, Vec3};
 
 pub const V9: Case = Case {
     id: "V9",
@@ -21,10 +21,9 @@ fn rows() -> Outcome {
     let duo = Duo::new("block_rough", "ground_rough")?.mover(|s| set_damping(s, 200.0))?;
     let duo = with_friction(duo, &Bristle { mu: MU, excess: 0.0, stiffness: 6e4, damping: 120.0 })?;
     let body = RigidBody::free("block", MassProperties::cuboid(MASS, [0.2, 0.2, 0.1]))
-        .at(Pose { position: Vec3::z() * (0.05 - MASS * G / 4e5), ..Pose::identity() })
-        .moving(Twist { linear: Vec3::new(0.6 * SPEED, 0.8 * SPEED, 0.0), angular: Vec3::zeros() });
-    let mut run =
-        duo.simulate((Integrator::RungeKutta4, 1e-3), body, RigidBody::fixed("ground"))?.with_gravity();
+        .at(at(Vec3::z() * (0.05 - MASS * G / 4e5)))
+        .moving(moving(Vec3::new(0.6 * SPEED, 0.8 * SPEED, 0.0)));
+    let mut run = duo.on_ground((Integrator::RungeKutta4, 1e-3), body)?.with_gravity();
     let mut stop = f64::NAN;
     while run.sim.time() < 1.5 {
         run.sim.step()?;

@@ -3,8 +3,8 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::bisect;
 use crate::row::Row;
-use crate::scene::{Duo, point_mass, set_damping, set_dissipation};
-use pong_executive::{Integrator, Pose, RigidBody, Twist, Vec3};
+use crate::scene::{Duo, at, moving, point_mass, set_dissipation, set_spring};
+use pong_executive::{Integrator, Vec3};
 
 pub const V3: Case = Case {
     id: "V3",
@@ -52,10 +52,8 @@ fn restitutions(
     (0..phases)
         .map(|phase| {
             let gap = SPEED * method.1 * (phase as f64 + 0.5) / phases as f64;
-            let start = point_mass(MASS)
-                .at(Pose { position: Vec3::z() * gap, ..Pose::identity() })
-                .moving(Twist { linear: Vec3::z() * -SPEED, angular: Vec3::zeros() });
-            let mut run = duo()?.simulate(method, start, RigidBody::fixed("ground"))?;
+            let start = point_mass(MASS).at(at(Vec3::z() * gap)).moving(moving(Vec3::z() * -SPEED));
+            let mut run = duo()?.on_ground(method, start)?;
             run.sim.step()?;
             while run.position().z <= 0.0 || run.velocity().z <= 0.0 {
                 run.sim.step()?;
@@ -82,12 +80,7 @@ fn linear() -> Outcome {
     for (zeta, name) in [(0.05, "0.05"), (0.25528, "0.25528"), (0.7, "0.7"), (1.0, "1")] {
         let expected = clamped_restitution(zeta);
         let damping = 2.0 * zeta * (STIFFNESS * MASS).sqrt();
-        let duo = || {
-            Duo::new("point", "ground")?.mover(|s| {
-                s.stiffness = STIFFNESS;
-                set_damping(s, damping);
-            })
-        };
+        let duo = || Duo::new("point", "ground")?.mover(|s| set_spring(s, STIFFNESS, damping));
         let got = restitutions(duo, (Integrator::RungeKutta4, 0.01 / omega), 16)?;
         rows.push(Row::absolute(format!("ζ = {name}: e, mean"), "", expected, mean(&got), 1e-4));
         let off = worst(&got, expected);

@@ -3,7 +3,7 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{order, rotation};
 use crate::row::Row;
-use crate::scene::Duo;
+use crate::scene::{Duo, at};
 use pong_engine::State;
 use pong_executive::{Pose, Twist, Vec3};
 
@@ -44,7 +44,7 @@ fn net(mover: &str, ground: &str, path: PathOfPose, steps: u32) -> Result<f64, F
 
 fn round_corner(angle: f64) -> Pose {
     let (sine, cosine) = libm::sincos(angle);
-    Pose { position: Vec3::new(0.8 + 0.01 * sine, 0.08 * cosine, 0.07 * sine), ..Pose::identity() }
+    at(Vec3::new(0.8 + 0.01 * sine, 0.08 * cosine, 0.07 * sine))
 }
 
 fn turning_round_corner(angle: f64) -> Pose {

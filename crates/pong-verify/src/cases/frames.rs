@@ -3,7 +3,7 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::rotation;
 use crate::row::Row;
-use crate::scene::{Duo, point_mass};
+use crate::scene::{Duo, at, moving, point_mass};
 use pong_engine::{InterfaceId, State, World};
 use pong_executive::{Integrator, Path, Pose, RigidBody, Twist, Vec3, Wrench};
 use pong_testkit::Random;
@@ -128,12 +128,11 @@ fn without_rounding() -> Result<Row, Failure> {
 
 /// One undamped bounce on ground that orbits 6.8e6 m away at 7.7 km/s.
 fn far_bounce() -> Result<Row, Failure> {
-    let origin = Pose { position: Vec3::new(5.1e6, -2.0e6, 4.0e6), ..Pose::identity() };
-    let orbit = Twist { linear: Vec3::new(7000.0, -3000.0, 1000.0), angular: Vec3::zeros() };
+    let origin = at(Vec3::new(5.1e6, -2.0e6, 4.0e6));
+    let orbit = moving(Vec3::new(7000.0, -3000.0, 1000.0));
     let ground = RigidBody::prescribed("ground", Path::ConstantTwist { pose: origin, twist: orbit });
     let start = Pose { position: origin.position + Vec3::z() * 1e-3, ..origin };
-    let mass =
-        point_mass(1.0).at(start).moving(Twist { linear: orbit.linear - Vec3::z(), angular: Vec3::zeros() });
+    let mass = point_mass(1.0).at(start).moving(moving(orbit.linear - Vec3::z()));
     let duo = Duo::new("point", "ground")?.mover(|s| s.stiffness = 1e5)?;
     let mut run = duo.simulate((Integrator::RungeKutta4, 1e-5), mass, ground)?;
     run.sim.run_for(0.02)?;

@@ -3,9 +3,9 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{bisect, radians};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, point_mass, with_friction};
+use crate::scene::{Bristle, Duo, at, point_mass, with_friction};
 use pong_engine::{Contact, InterfaceId, State, World};
-use pong_executive::{Integrator, Load, Pose, RigidBody, Vec3};
+use pong_executive::{Integrator, Load, Vec3};
 
 pub const V18: Case = Case {
     id: "V18",
@@ -123,12 +123,8 @@ fn pulled() -> Result<Vec<Row>, Failure> {
     let [mut held, mut slid] = [0, 0];
     for degrees in 0..360 {
         for (share, count) in [(0.999, &mut held), (1.001, &mut slid)] {
-            let body = point_mass(1.0).at(Pose { position: Vec3::z() * -DEPTH, ..Pose::identity() });
-            let mut run = duo(440.0)?.simulate(
-                (Integrator::SemiImplicitEuler, 1e-3),
-                body,
-                RigidBody::fixed("ground"),
-            )?;
+            let body = point_mass(1.0).at(at(Vec3::z() * -DEPTH));
+            let mut run = duo(440.0)?.on_ground((Integrator::SemiImplicitEuler, 1e-3), body)?;
             let pull = heading(degrees) * (share * MU_S * PRESS);
             let press = Vec3::z() * -PRESS;
             run.sim.add_load(Load::force_over_time(run.body, move |time| {

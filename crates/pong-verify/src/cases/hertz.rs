@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Outcome};
 use crate::row::Row;
-use crate::scene::{Duo, G, point_mass, set_dissipation};
-use pong_executive::{Integrator, RigidBody, Twist, Vec3};
+use crate::scene::{Duo, G, moving, point_mass, set_dissipation};
+use pong_executive::{Integrator, RigidBody, Vec3};
 
 pub const W1: Case = Case {
     id: "W1",
@@ -32,7 +32,7 @@ fn rows() -> Outcome {
     let mut rest =
         duo(70.0)?.simulate((Integrator::RungeKutta4, 1e-3), body.clone(), ground())?.with_gravity();
     rest.sim.run_for(1.0)?;
-    let falling = body.moving(Twist { linear: Vec3::z() * -SPEED, angular: Vec3::zeros() });
+    let falling = body.moving(moving(Vec3::z() * -SPEED));
     let mut run = duo(0.0)?.simulate((Integrator::RungeKutta4, 1e-6), falling, ground())?;
     let mut deepest = 0.0_f64;
     loop {

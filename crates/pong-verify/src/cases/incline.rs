@@ -3,7 +3,7 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
+use crate::scene::{Bristle, Duo, G, Run, at, point_mass, set_damping, with_friction};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V8: Case = Case {
@@ -36,7 +36,7 @@ fn block(ground: RigidBody, start: Pose) -> Result<Run, Failure> {
 }
 
 fn on_level() -> Pose {
-    Pose { position: Vec3::z() * (0.05 - MASS * G / 4e5), ..Pose::identity() }
+    at(Vec3::z() * (0.05 - MASS * G / 4e5))
 }
 
 /// Gravity as on a slope that falls towards +x.
@@ -128,7 +128,7 @@ fn creep() -> Outcome {
         let duo = Duo::new("point_coulomb", "ground_coulomb")?;
         let ground = RigidBody::fixed("ground").at(Pose { position: Vec3::zeros(), orientation: turn });
         let depth = MASS * G * libm::cos(slope) / 1e5;
-        let body = point_mass(MASS).at(Pose { position: turn * (Vec3::z() * -depth), ..Pose::identity() });
+        let body = point_mass(MASS).at(at(turn * (Vec3::z() * -depth)));
         // The law is a stiff damper: μ·N·dt/(m·v_ε) must stay below 2.8.
         let mut run = duo.simulate((Integrator::RungeKutta4, 2e-4), body, ground)?.with_gravity();
         run.sim.run_for(0.5)?;

@@ -3,8 +3,8 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
 use crate::row::Row;
-use crate::scene::{Duo, G, point_mass};
-use pong_executive::{Integrator, Pose, RigidBody, Vec3};
+use crate::scene::{Duo, G, at, point_mass};
+use pong_executive::{Integrator, Vec3};
 
 pub const W12: Case = Case {
     id: "W12",
@@ -24,10 +24,10 @@ fn error(integrator: Integrator, steps: u32) -> Result<f64, Failure> {
     // Five periods and a quarter: there an error of phase shows in full.
     let omega = (STIFFNESS / MASS).sqrt();
     let duration = 10.5 * core::f64::consts::PI / omega;
-    let body = point_mass(MASS).at(Pose { position: Vec3::z() * (-0.5 * DEPTH), ..Pose::identity() });
+    let body = point_mass(MASS).at(at(Vec3::z() * (-0.5 * DEPTH)));
     let duo = Duo::new("point", "ground")?.mover(|s| s.stiffness = STIFFNESS)?;
     let step = duration / f64::from(steps);
-    let mut run = duo.simulate((integrator, step), body, RigidBody::fixed("ground"))?.with_gravity();
+    let mut run = duo.on_ground((integrator, step), body)?.with_gravity();
     for _ in 0..steps {
         run.sim.step()?;
     }

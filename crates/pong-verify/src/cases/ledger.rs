@@ -4,8 +4,8 @@ use super::bounce::clamped_restitution;
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, point_mass, set_damping, with_friction};
-use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Twist, Vec3};
+use crate::scene::{Bristle, Duo, G, at, moving, point_mass, set_damping, set_spring, with_friction};
+use pong_executive::{Integrator, Load, MassProperties, RigidBody, Vec3};
 
 pub const W11: Case = Case {
     id: "W11",
@@ -25,11 +25,10 @@ fn balance(step: f64) -> Result<[f64; 3], Failure> {
     let duo = Duo::with_ledger("block_rough", "ground_rough", true)?.mover(|s| set_damping(s, 40.0))?;
     let rest = 0.05 - MASS * G / 4e5;
     let body = RigidBody::free("block", MassProperties::cuboid(MASS, [0.2, 0.2, 0.1]))
-        .at(Pose { position: Vec3::z() * (rest - 2e-5), ..Pose::identity() })
-        .moving(Twist { linear: Vec3::x(), angular: Vec3::zeros() });
-    let mut run = with_friction(duo, &bristle)?
-        .simulate((Integrator::RungeKutta4, step), body, RigidBody::fixed("ground"))?
-        .with_gravity();
+        .at(at(Vec3::z() * (rest - 2e-5)))
+        .moving(moving(Vec3::x()));
+    let mut run =
+        with_friction(duo, &bristle)?.on_ground((Integrator::RungeKutta4, step), body)?.with_gravity();
     run.sim.commit_initial_states()?;
     let balances = |run: &crate::scene::Run| {
         let energy = run.sim.energy();
@@ -68,7 +67,7 @@ fn held() -> Result<Row, Failure> {
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 400.0 };
     let duo = Duo::with_ledger("point_rough", "ground_rough", true)?.mover(|s| set_damping(s, 600.0))?;
     let mut run = with_friction(duo, &bristle)?
-        .simulate((Integrator::RungeKutta4, 1e-3), point_mass(MASS), RigidBody::fixed("ground"))?
+        .on_ground((Integrator::RungeKutta4, 1e-3), point_mass(MASS))?
         .with_gravity();
     // The pull comes when the mass has settled.
     run.sim.add_load(Load::force_over_time(run.body, move |time| {
@@ -90,13 +89,11 @@ fn held() -> Result<Row, Failure> {
 fn bounced() -> Result<Row, Failure> {
     let (stiffness, zeta) = (1e5_f64, 0.2);
     let omega = (stiffness / MASS).sqrt();
-    let duo = Duo::with_ledger("point", "ground", true)?.mover(|s| {
-        s.stiffness = stiffness;
-        set_damping(s, 2.0 * zeta * omega * MASS);
-    })?;
-    let falling = point_mass(MASS).moving(Twist { linear: -Vec3::z(), angular: Vec3::zeros() });
+    let duo = Duo::with_ledger("point", "ground", true)?
+        .mover(|s| set_spring(s, stiffness, 2.0 * zeta * omega * MASS))?;
+    let falling = point_mass(MASS).moving(moving(-Vec3::z()));
     let step = 1e-3 / omega;
-    let mut run = duo.simulate((Integrator::RungeKutta4, step), falling, RigidBody::fixed("ground"))?;
+    let mut run = duo.on_ground((Integrator::RungeKutta4, step), falling)?;
     run.sim.run_for(4.0 / omega)?;
     let e = clamped_restitution(zeta);
     let heat = run.sim.energy().contact_loss;

@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Failure, Outcome};
 use crate::row::Row;
-use crate::scene::{Duo, G, Run, set_damping};
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
+use crate::scene::{Duo, G, Run, at, set_spring};
+use pong_executive::{Integrator, MassProperties, RigidBody, Vec3};
 
 pub const W5: Case = Case {
     id: "W5",
@@ -20,15 +20,11 @@ const STIFFNESS: f64 = 1e5;
 
 fn settle(mover: &str, ground: &str, middle: Vec3, start: Vec3) -> Result<Run, Failure> {
     let duo = Duo::new(mover, ground)?
-        .mover(|s| {
-            s.stiffness = STIFFNESS;
-            set_damping(s, 400.0);
-        })?
+        .mover(|s| set_spring(s, STIFFNESS, 400.0))?
         .ground(|s| s.stiffness = f64::INFINITY)?;
     let mass = MassProperties::principal(MASS, [0.02, 0.03, 0.03]).with_mass_center(middle);
-    let body = RigidBody::free("body", mass).at(Pose { position: start, ..Pose::identity() });
-    let mut run =
-        duo.simulate((Integrator::RungeKutta4, 5e-4), body, RigidBody::fixed("ground"))?.with_gravity();
+    let body = RigidBody::free("body", mass).at(at(start));
+    let mut run = duo.on_ground((Integrator::RungeKutta4, 5e-4), body)?.with_gravity();
     run.sim.run_for(1.0)?;
     Ok(run)
 }

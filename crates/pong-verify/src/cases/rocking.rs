@@ -47,7 +47,7 @@ fn rows() -> Outcome {
     let inertia = 0.2 * MASS * (a * a + c * c);
     let smooth = Duo::new("ellipsoid", "ground")?
         .mover(|s| s.stiffness = STIFFNESS)?
-        .simulate((Integrator::RungeKutta4, 5e-4), egg(), RigidBody::fixed("ground"))?
+        .on_ground((Integrator::RungeKutta4, 5e-4), egg())?
         .with_gravity();
     let free = (MASS * G * (a * a - c * c) / (c * inertia)).sqrt();
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 1e7, damping: 5000.0 };

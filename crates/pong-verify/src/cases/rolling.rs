@@ -3,8 +3,8 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Twist, Vec3};
+use crate::scene::{Bristle, Duo, G, Run, moving, set_spring, with_friction};
+use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V10: Case = Case {
     id: "V10",
@@ -46,15 +46,13 @@ pub fn ball_on(
     };
     // The ball's surface is rigid, so the ground's values are those of the pair.
     let duo = Duo::new(ground, "ball_rough")?;
-    let duo = with_friction(duo, &bristle)?.mover(|s| {
-        s.stiffness = stiffness;
-        set_damping(s, 1.4 * (stiffness * MASS).sqrt());
-    })?;
+    let duo =
+        with_friction(duo, &bristle)?.mover(|s| set_spring(s, stiffness, 1.4 * (stiffness * MASS).sqrt()))?;
     let turn = rotation(Vec3::y() * slope);
     let depth = MASS * G * libm::cos(slope) / stiffness;
     let ball = RigidBody::free("ball", MassProperties::sphere(MASS, RADIUS))
         .at(Pose { position: turn * Vec3::new(x, 0.0, RADIUS - depth), orientation: turn })
-        .moving(Twist { linear: turn * (Vec3::x() * speed), angular: Vec3::zeros() });
+        .moving(moving(turn * (Vec3::x() * speed)));
     let fixed = RigidBody::fixed("ground").at(Pose { position: Vec3::zeros(), orientation: turn });
     // The ground is the first Object here, the ball the second.
     let run = duo.simulate(method, fixed, ball)?;

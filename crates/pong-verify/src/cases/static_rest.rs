@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Outcome};
 use crate::row::Row;
-use crate::scene::{Duo, G, point_mass, set_damping};
-use pong_executive::{Integrator, RigidBody};
+use crate::scene::{Duo, G, point_mass, set_spring};
+use pong_executive::Integrator;
 
 pub const V1: Case = Case {
     id: "V1",
@@ -18,13 +18,9 @@ const STIFFNESS: f64 = 1e5;
 
 fn rows() -> Outcome {
     let critical = 2.0 * (STIFFNESS * MASS).sqrt();
-    let duo = Duo::new("point", "ground")?.mover(|s| {
-        s.stiffness = STIFFNESS;
-        set_damping(s, 0.9 * critical);
-    })?;
+    let duo = Duo::new("point", "ground")?.mover(|s| set_spring(s, STIFFNESS, 0.9 * critical))?;
     let body = point_mass(MASS);
-    let mut run =
-        duo.simulate((Integrator::RungeKutta4, 1e-3), body, RigidBody::fixed("ground"))?.with_gravity();
+    let mut run = duo.on_ground((Integrator::RungeKutta4, 1e-3), body)?.with_gravity();
     run.sim.run_for(1.0)?;
     let contact = run.contact()?;
     let depth = MASS * G / STIFFNESS;

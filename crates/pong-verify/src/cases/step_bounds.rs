@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Failure, Outcome};
 use crate::row::Row;
-use crate::scene::{Duo, G, point_mass, set_damping};
-use pong_executive::{Integrator, Pose, RigidBody, Vec3};
+use crate::scene::{Duo, G, at, point_mass, set_spring};
+use pong_executive::{Integrator, Vec3};
 
 pub const W13: Case = Case {
     id: "W13",
@@ -22,13 +22,10 @@ const STEP: f64 = 1e-3;
 fn grows(integrator: Integrator, kappa: f64, gamma: f64) -> Result<bool, Failure> {
     let stiffness = kappa * MASS / (STEP * STEP);
     let depth = MASS * G / stiffness;
-    let duo = Duo::new("point", "ground")?.mover(|s| {
-        s.stiffness = stiffness;
-        set_damping(s, gamma * MASS / STEP);
-    })?;
+    let duo = Duo::new("point", "ground")?.mover(|s| set_spring(s, stiffness, gamma * MASS / STEP))?;
     let start = 1e-6 * depth;
-    let body = point_mass(MASS).at(Pose { position: Vec3::z() * (start - depth), ..Pose::identity() });
-    let mut run = duo.simulate((integrator, STEP), body, RigidBody::fixed("ground"))?.with_gravity();
+    let body = point_mass(MASS).at(at(Vec3::z() * (start - depth)));
+    let mut run = duo.on_ground((integrator, STEP), body)?.with_gravity();
     let mut largest = 0.0_f64;
     for step in 0..4000 {
         run.sim.step()?;

@@ -3,8 +3,8 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{radians, rotation};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
-use pong_executive::{Integrator, Load, Path, Pose, RigidBody, Spring, SpringEnd, Twist, Vec3};
+use crate::scene::{Bristle, Duo, G, Run, at, moving, point_mass, set_damping, with_friction};
+use pong_executive::{Integrator, Load, Path, Pose, RigidBody, Spring, SpringEnd, Vec3};
 
 pub const V16: Case = Case {
     id: "V16",
@@ -31,10 +31,9 @@ fn belt() -> Outcome {
     let (mu_k, excess) = (0.1, 0.5);
     let bristle = Bristle { mu: mu_k, excess, stiffness: 1e5, damping: 2.0 * (1e5 * MASS).sqrt() };
     let duo = Duo::new("point_rough", "ground_rough")?.mover(|s| set_damping(s, 600.0))?;
-    let along = Twist { linear: Vec3::x() * speed, angular: Vec3::zeros() };
+    let along = moving(Vec3::x() * speed);
     let belt = RigidBody::prescribed("belt", Path::ConstantTwist { pose: Pose::identity(), twist: along });
-    let body =
-        point_mass(MASS).at(Pose { position: Vec3::z() * (-press / 1e5), ..Pose::identity() }).moving(along);
+    let body = point_mass(MASS).at(at(Vec3::z() * (-press / 1e5))).moving(along);
     let mut run = with_friction(duo, &bristle)?.simulate((Integrator::RungeKutta4, 1e-3), body, belt)?;
     run.sim.add_load(Load::force(run.body, Vec3::z() * -press))?;
     let pull = [stiffness, 0.0, 0.0, 0.0, 0.0, 0.0];

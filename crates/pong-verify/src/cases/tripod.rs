@@ -6,7 +6,7 @@
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::{Crossings, radians, rotation};
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, Run, set_damping, with_friction};
+use crate::scene::{Bristle, Duo, G, Run, at, set_damping, with_friction};
 use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
 
 pub const V2: Case = Case {
@@ -62,9 +62,8 @@ fn load_rows(what: &str, run: &Run, expected: [f64; 3]) -> Vec<Row> {
 /// `offset` lies in the plane, seen from the middle of the feet.
 fn level(offset: Vec3, what: &str) -> Result<Vec<Row>, Failure> {
     let duo = Duo::new("tripod", "ground")?.mover(|s| set_damping(s, 2000.0))?;
-    let start = body(offset).at(Pose { position: Vec3::z() * (HEIGHT - REST_DEPTH), ..Pose::identity() });
-    let mut run =
-        duo.simulate((Integrator::RungeKutta4, 2e-4), start, RigidBody::fixed("ground"))?.with_gravity();
+    let start = body(offset).at(at(Vec3::z() * (HEIGHT - REST_DEPTH)));
+    let mut run = duo.on_ground((Integrator::RungeKutta4, 2e-4), start)?.with_gravity();
     run.sim.run_for(0.3)?;
     // The tilt carries the mass centre, h above the feet, further out.
     let tilt = offset * (MASS * G / (TURNING - MASS * G * HEIGHT));
@@ -98,8 +97,7 @@ fn tilted(degrees: f64) -> Result<Vec<Row>, Failure> {
 fn frequency(start: RigidBody, omega: f64, sample: impl Fn(&Run) -> (f64, f64)) -> Result<f64, Failure> {
     let step = 0.05 / omega;
     let duo = Duo::new("tripod", "ground")?;
-    let mut run =
-        duo.simulate((Integrator::RungeKutta4, step), start, RigidBody::fixed("ground"))?.with_gravity();
+    let mut run = duo.on_ground((Integrator::RungeKutta4, step), start)?.with_gravity();
     let mut crossings = Crossings::default();
     while crossings.times.len() < 21 && run.sim.time() < 200.0 / omega {
         run.sim.step()?;
@@ -112,8 +110,7 @@ fn frequency(start: RigidBody, omega: f64, sample: impl Fn(&Run) -> (f64, f64)) 
 fn heave() -> Result<Row, Failure> {
     let omega = (3.0 * STIFFNESS / MASS).sqrt();
     let rest = HEIGHT - REST_DEPTH;
-    let start =
-        body(Vec3::zeros()).at(Pose { position: Vec3::z() * (rest + 0.5 * REST_DEPTH), ..Pose::identity() });
+    let start = body(Vec3::zeros()).at(at(Vec3::z() * (rest + 0.5 * REST_DEPTH)));
     let got = frequency(start, omega, |run| (run.position().z - rest, run.velocity().z))?;
     Ok(Row::relative("heave: circular frequency", "rad/s", omega, got, 1e-6))
 }

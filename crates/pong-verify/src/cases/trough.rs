@@ -2,8 +2,8 @@
 
 use crate::case::{Case, Outcome};
 use crate::row::Row;
-use crate::scene::{Duo, G, set_damping};
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Vec3};
+use crate::scene::{Duo, G, at, set_spring};
+use pong_executive::{Integrator, MassProperties, RigidBody, Vec3};
 
 pub const W6: Case = Case {
     id: "W6",
@@ -22,14 +22,11 @@ const STIFFNESS: f64 = 1e5;
 fn rows() -> Outcome {
     let mut rows = Vec::new();
     for degrees in [60.0, 90.0, 120.0_f64] {
-        let duo = Duo::new(&format!("trough_{degrees}"), "ball_rough")?.mover(|s| {
-            s.stiffness = STIFFNESS;
-            set_damping(s, 400.0);
-        })?;
+        let duo = Duo::new(&format!("trough_{degrees}"), "ball_rough")?
+            .mover(|s| set_spring(s, STIFFNESS, 400.0))?;
         let sine = libm::sin(crate::measure::radians(0.5 * degrees));
         let touch = RADIUS / sine;
-        let ball = RigidBody::free("ball", MassProperties::sphere(MASS, RADIUS))
-            .at(Pose { position: Vec3::z() * touch, ..Pose::identity() });
+        let ball = RigidBody::free("ball", MassProperties::sphere(MASS, RADIUS)).at(at(Vec3::z() * touch));
         let fixed = RigidBody::fixed("trough");
         let mut run = duo.simulate((Integrator::RungeKutta4, 5e-4), fixed, ball)?.with_gravity();
         run.sim.run_for(1.0)?;

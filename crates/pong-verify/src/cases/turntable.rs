@@ -4,7 +4,7 @@ use super::rolling::{MASS, RADIUS};
 use crate::case::{Case, Outcome};
 use crate::measure::Crossings;
 use crate::row::Row;
-use crate::scene::{Bristle, Duo, G, set_damping, with_friction};
+use crate::scene::{Bristle, Duo, G, at, set_spring, with_friction};
 use pong_executive::{Integrator, MassProperties, Path, Pose, RigidBody, Twist, Vec3};
 
 pub const W14: Case = Case {
@@ -23,17 +23,15 @@ const SPEED: f64 = 0.1;
 fn rows() -> Outcome {
     let stiffness = 1e5;
     let bristle = Bristle { mu: 0.5, excess: 0.0, stiffness: 6e4, damping: 260.0 };
-    let duo = with_friction(Duo::new("ground_rough", "ball_rough")?, &bristle)?.mover(|s| {
-        s.stiffness = stiffness;
-        set_damping(s, 440.0);
-    })?;
+    let duo = with_friction(Duo::new("ground_rough", "ball_rough")?, &bristle)?
+        .mover(|s| set_spring(s, stiffness, 440.0))?;
     let twist = Twist { linear: Vec3::zeros(), angular: Vec3::z() * TURNING };
     let table = RigidBody::prescribed("table", Path::ConstantTwist { pose: Pose::identity(), twist });
     let start = Vec3::new(0.3, 0.0, RADIUS - MASS * G / stiffness);
     // Its lowest point moves with the table: v − R·(ω_y, −ω_x) = Ω·(−y, x).
     let spin = Vec3::new(TURNING * start.x / RADIUS, SPEED / RADIUS, 0.0);
     let ball = RigidBody::free("ball", MassProperties::sphere(MASS, RADIUS))
-        .at(Pose { position: start, ..Pose::identity() })
+        .at(at(start))
         .moving(Twist { linear: Vec3::x() * SPEED, angular: spin });
     let mut run = duo.simulate((Integrator::RungeKutta4, 1e-3), table, ball)?.with_gravity();
     let rate = 2.0 / 7.0 * TURNING;

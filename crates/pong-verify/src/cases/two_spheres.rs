@@ -4,8 +4,8 @@ use super::bounce::clamped_restitution;
 use crate::case::{Case, Failure, Outcome};
 use crate::measure::order;
 use crate::row::Row;
-use crate::scene::{Bristle, Scene, set_bristle, set_damping};
-use pong_executive::{BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
+use crate::scene::{Bristle, Scene, at, set_bristle, set_damping};
+use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Twist, Vec3};
 
 pub const V7: Case = Case {
     id: "V7",
@@ -53,7 +53,7 @@ fn pair(file: &str, step: f64, aside: f64, spins: [Vec3; 2]) -> Result<Pair, Fai
     let mut add = |i: usize| {
         let side = [-1.0, 1.0][i];
         let ball = RigidBody::free(["first", "second"][i], MassProperties::principal(MASS, [40.0; 3]))
-            .at(Pose { position: Vec3::new(6.0 * side, [0.0, aside][i], 0.0), ..Pose::identity() })
+            .at(at(Vec3::new(6.0 * side, [0.0, aside][i], 0.0)))
             .moving(Twist { linear: Vec3::x() * -side, angular: spins[i] });
         sim.add_body(ball.touching(interfaces[i]))
     };

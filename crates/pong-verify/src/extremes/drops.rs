@@ -5,10 +5,9 @@ use super::rig::{Rig, model};
 use crate::case::{Failure, Outcome};
 use crate::measure::order;
 use crate::row::Row;
+use crate::scene::at;
 use pong_engine::Config;
-use pong_executive::{
-    BodyId, Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3, longest_stable_step,
-};
+use pong_executive::{BodyId, Integrator, MassProperties, RigidBody, Simulation, Vec3, longest_stable_step};
 use pong_testkit::Random;
 
 pub const DROPS: Extreme = Extreme {
@@ -99,7 +98,7 @@ impl Drop {
             &model(&rigid, "Plane(name: \"y\", normal: (0,0,1), offset: 0.0)"),
         )?;
         let mut sim = Simulation::new(rig.world, integrator, self.step)?;
-        let start = Pose { position: Vec3::z() * self.height(), ..Pose::identity() };
+        let start = at(Vec3::z() * self.height());
         let mass = MassProperties::principal(self.mass, [1e9; 3]);
         let body = sim.add_body(RigidBody::free("mass", mass).at(start).touching(rig.sides[0]))?;
         sim.add_body(RigidBody::fixed("ground").touching(rig.sides[1]))?;

@@ -4,8 +4,9 @@ use super::extreme::{Answer, Extreme, Length};
 use super::rig::{Rig, block, model, sheet, spring};
 use crate::case::{Failure, Outcome};
 use crate::row::Row;
+use crate::scene::at;
 use pong_engine::Config;
-use pong_executive::{Integrator, MassProperties, Pose, RigidBody, Simulation, Vec3};
+use pong_executive::{Integrator, MassProperties, RigidBody, Simulation, Vec3};
 
 pub const DEEP: Extreme = Extreme {
     id: "E10",
@@ -42,7 +43,7 @@ fn let_go(ground: &str, depth: f64) -> Result<(f64, f64), Failure> {
     let rig = Rig::with(Config { ledger: true, ..Config::default() }, &ball, &rigid)?;
     let omega = STIFFNESS.sqrt();
     let mut sim = Simulation::new(rig.world, Integrator::RungeKutta4, 0.01 / omega)?;
-    let start = Pose { position: Vec3::new(0.013, 0.007, RADIUS - depth), ..Pose::identity() };
+    let start = at(Vec3::new(0.013, 0.007, RADIUS - depth));
     let mass = MassProperties::principal(1.0, [1e9; 3]);
     let body = sim.add_body(RigidBody::free("ball", mass).at(start).touching(rig.sides[0]))?;
     sim.add_body(RigidBody::fixed("ground").touching(rig.sides[1]))?;

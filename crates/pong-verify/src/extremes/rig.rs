@@ -1,8 +1,9 @@
 //! Small scenes of two Objects, written as an author would write them.
 
 use crate::case::Failure;
+use crate::scene::moving;
 use pong_engine::{Config, Contact, InterfaceId, State, World, WorldBuilder};
-use pong_executive::{Pose, Quat, Twist, Vec3, Wrench};
+use pong_executive::{Pose, Quat, Vec3, Wrench};
 use pong_geometry::extension::Extensions;
 use pong_testkit::ron;
 use std::sync::Arc;
@@ -36,7 +37,7 @@ impl Rig {
     /// Sets the state of A; B stays where it is, at first at rest at the origin.
     pub fn put(&mut self, position: Vec3, turn: Quat, velocity: Vec3) -> Result<(), Failure> {
         let pose = Pose { position, orientation: turn };
-        let twist = Twist { linear: velocity, angular: Vec3::zeros() };
+        let twist = moving(velocity);
         Ok(self.world.set_state(self.sides[0], &State::from_motion(&pose, &twist))?)
     }
 

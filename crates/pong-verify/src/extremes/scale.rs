@@ -5,8 +5,8 @@ use super::rig::{Rig, block, model, sheet};
 use crate::case::{Failure, Outcome};
 use crate::measure::rotation;
 use crate::row::Row;
-use crate::scene::{Duo, Run};
-use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Twist, Vec3, Wrench};
+use crate::scene::{Duo, Run, moving};
+use pong_executive::{Integrator, MassProperties, Pose, Quat, RigidBody, Vec3, Wrench};
 use pong_testkit::Random;
 use pong_testkit::ron::place_of;
 
@@ -136,7 +136,7 @@ fn collision(light: f64, heavy: f64) -> Result<Run, Failure> {
     let ball = |name: &str, mass: f64, x: f64, speed: f64| {
         RigidBody::free(name, MassProperties::sphere(mass, 1.0))
             .at(Pose { position: Vec3::x() * x, orientation: Quat::identity() })
-            .moving(Twist { linear: Vec3::x() * speed, angular: Vec3::zeros() })
+            .moving(moving(Vec3::x() * speed))
     };
     let duo = Duo::new("ball", "ball")?;
     duo.simulate(

@@ -2,7 +2,7 @@
 
 use crate::case::Failure;
 use crate::measure::{radians, rotation};
-use crate::scene::{Bristle, Duo, G, Run, point_mass, set_damping, with_friction};
+use crate::scene::{Bristle, Duo, G, Run, at, moving, point_mass, set_spring, with_friction};
 use pong_engine::State;
 use pong_executive::{Integrator, Load, MassProperties, Pose, RigidBody, Simulation, Twist, Vec3};
 
@@ -106,10 +106,7 @@ const DEPTH: f64 = MASS * G / STIFFNESS;
 
 /// Soft against a rigid partner, of some normal damping.
 fn duo(soft: &str, rigid: &str, damping: f64, bristle: &Bristle) -> Result<Duo, Failure> {
-    let duo = Duo::new(soft, rigid)?.mover(|s| {
-        s.stiffness = STIFFNESS;
-        set_damping(s, damping);
-    })?;
+    let duo = Duo::new(soft, rigid)?.mover(|s| set_spring(s, STIFFNESS, damping))?;
     with_friction(duo, bristle)
 }
 
@@ -117,30 +114,19 @@ fn bristle(mu: f64, stiffness: f64) -> Bristle {
     Bristle { mu, excess: 0.0, stiffness, damping: 0.0 }
 }
 
-fn at(place: Vec3) -> Pose {
-    Pose { position: place, ..Pose::identity() }
-}
-
-fn moving(velocity: Vec3) -> Twist {
-    Twist { linear: velocity, angular: Vec3::zeros() }
-}
-
 /// A mass that falls on ground and is watched until it turns, so that one touch alone is in it; its phase is a part of the way
 /// of the longest step.
 fn drop(damping: f64, phase: f64, method: Method) -> Result<Run, Failure> {
-    let duo = Duo::new("point", "ground")?.mover(|s| {
-        s.stiffness = STIFFNESS;
-        set_damping(s, damping);
-    })?;
+    let duo = Duo::new("point", "ground")?.mover(|s| set_spring(s, STIFFNESS, damping))?;
     let body = point_mass(MASS).at(at(Vec3::z() * (0.01 - 6e-4 * phase))).moving(moving(Vec3::z() * -0.3));
-    Ok(duo.simulate(method, body, RigidBody::fixed("ground"))?.with_gravity())
+    Ok(duo.on_ground(method, body)?.with_gravity())
 }
 
 /// A mass at rest on a bristle, which a load pulls to and fro within its limit.
 fn sticks(_: f64, method: Method) -> Result<Run, Failure> {
     let duo = duo("point_rough", "ground_rough", 20.0, &bristle(0.5, STIFFNESS))?;
     let body = point_mass(MASS).at(at(Vec3::z() * -DEPTH));
-    let mut run = duo.simulate(method, body, RigidBody::fixed("ground"))?.with_gravity();
+    let mut run = duo.on_ground(method, body)?.with_gravity();
     let pull = |time: f64| Vec3::new(2.0 * libm::sin(40.0 * time), 1.5 * (1.0 - libm::cos(30.0 * time)), 0.0);
     run.sim.add_load(Load::force_over_time(run.body, pull))?;
     Ok(run)
@@ -170,7 +156,7 @@ fn slides(_: f64, method: Method) -> Result<Run, Failure> {
 fn begins_to_slide(_: f64, method: Method) -> Result<Run, Failure> {
     let duo = duo("point_rough", "ground_rough", 0.0, &bristle(0.2, 1e5))?;
     let body = point_mass(MASS).at(at(Vec3::z() * -DEPTH)).moving(moving(Vec3::x()));
-    Ok(duo.simulate(method, body, RigidBody::fixed("ground"))?.with_gravity())
+    Ok(duo.on_ground(method, body)?.with_gravity())
 }
 
 fn turns(_: f64, method: Method) -> Result<Run, Failure> {
@@ -249,7 +235,7 @@ fn stick_slip(excess: f64, phase: f64, method: Method) -> Result<Run, Failure> {
     let bristle = Bristle { mu: 0.2, excess, stiffness: STIFFNESS, damping: 20.0 };
     let duo = duo("point_rough", "ground_rough", 20.0, &bristle)?;
     let body = point_mass(MASS).at(at(Vec3::z() * -DEPTH));
-    let mut run = duo.simulate(method, body, RigidBody::fixed("ground"))?.with_gravity();
+    let mut run = duo.on_ground(method, body)?.with_gravity();
     let pull = move |time: f64| {
         let swell = libm::sin((30.0 + 2.0 * phase) * time);
         Vec3::x() * (3.0 * swell * swell)
