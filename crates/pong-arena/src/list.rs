@@ -51,11 +51,6 @@ impl<'a, T: Copy> List<'a, T> {
     pub fn truncate(&mut self, len: usize) {
         self.items.truncate(len);
     }
-
-    /// The elements for as long as the arena's frame lasts.
-    pub fn into_slice(self) -> &'a mut [T] {
-        self.items.into_bump_slice_mut()
-    }
 }
 
 impl<T: Copy> Deref for List<'_, T> {
@@ -89,7 +84,7 @@ mod tests {
         list[1] = 9;
         list.truncate(2);
         list.push(5).unwrap();
-        assert_eq!(list.into_slice(), [0, 9, 5]);
+        assert_eq!(*list, [0, 9, 5]);
     }
 
     #[test]

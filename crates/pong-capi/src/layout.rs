@@ -17,6 +17,7 @@ use crate::worker::pong_worker;
 use crate::wrenches::pong_wrench;
 use pong_model::Fnv;
 use std::mem::offset_of;
+use strum::VariantArray;
 
 /// Layout of one struct.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,9 +120,9 @@ pub fn layout_hash() -> u64 {
             hash.word(*offset as u64);
         }
     }
-    for status in pong_status::ALL {
+    for status in pong_status::VARIANTS {
         text(&mut hash, &format!("{status:?}"));
-        hash.word(status as u64);
+        hash.word(*status as u64);
     }
     hash.value()
 }

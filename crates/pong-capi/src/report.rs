@@ -40,6 +40,11 @@ pub const PONG_WORK_LOAD_SHARING: usize = 2;
 /// `work_ns` of normal and friction forces.
 pub const PONG_WORK_FORCES: usize = 3;
 
+/// At PONG_STAGE_....
+const STAGE_NAMES: [&CStr; 6] = [c"input", c"contacts", c"order", c"energy", c"output", c"commit"];
+/// At PONG_WORK_....
+const WORK_NAMES: [&CStr; 4] = [c"broad phase", c"narrow phase", c"load sharing", c"forces"];
+
 /// Room for stages in pong_report.
 const STAGES: usize = 8;
 
@@ -174,30 +179,14 @@ pub extern "C" fn pong_flag_name(flag: u32) -> *const c_char {
 /// of `stage_ns` that has no stage. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_stage_name(stage: usize) -> *const c_char {
-    let name: &CStr = match stage {
-        PONG_STAGE_INPUT => c"input",
-        PONG_STAGE_CONTACTS => c"contacts",
-        PONG_STAGE_ORDER => c"order",
-        PONG_STAGE_ENERGY => c"energy",
-        PONG_STAGE_OUTPUT => c"output",
-        PONG_STAGE_COMMIT => c"commit",
-        _ => c"",
-    };
-    name.as_ptr()
+    STAGE_NAMES.get(stage).unwrap_or(&c"").as_ptr()
 }
 
 /// Name of a part of the contacts' work, PONG_WORK_...: "broad phase", "narrow phase", "load sharing", "forces"; empty for a place of
 /// `work_ns` that there is not. Lives as long as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_work_name(work: usize) -> *const c_char {
-    let name: &CStr = match work {
-        PONG_WORK_BROAD_PHASE => c"broad phase",
-        PONG_WORK_NARROW_PHASE => c"narrow phase",
-        PONG_WORK_LOAD_SHARING => c"load sharing",
-        PONG_WORK_FORCES => c"forces",
-        _ => c"",
-    };
-    name.as_ptr()
+    WORK_NAMES.get(work).unwrap_or(&c"").as_ptr()
 }
 
 /// Energies of all contacts of a world, at the last commit.

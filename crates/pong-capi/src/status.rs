@@ -1,13 +1,16 @@
 //! Status numbers.
 
 use std::ffi::c_char;
+use strum::VariantArray;
 
 /// What became of a call. The numbers never change and are never used again for something else.
 ///
 /// A call that fails has changed nothing that a later frame can see; pong_last_message() tells the thing, the cause
 /// and what to do.
+// Their names end with a zero byte, for C.
 #[repr(i32)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(serialize_all = "SCREAMING_SNAKE_CASE", prefix = "PONG_STATUS_", suffix = "\0")]
 pub enum pong_status {
     /// Done.
     Ok = 0,
@@ -54,63 +57,12 @@ pub enum pong_status {
     OutOfMemory = 19,
 }
 
-impl pong_status {
-    /// All of them, in order of their numbers.
-    pub(crate) const ALL: [Self; 20] = [
-        Self::Ok,
-        Self::NullArgument,
-        Self::UnknownId,
-        Self::UnknownName,
-        Self::Duplicate,
-        Self::WrongPhase,
-        Self::SealFailed,
-        Self::BadState,
-        Self::UnsetState,
-        Self::BadValue,
-        Self::BadStateBlock,
-        Self::BufferTooSmall,
-        Self::ModelError,
-        Self::Config,
-        Self::Panic,
-        Self::Busy,
-        Self::LawFailed,
-        Self::LogFailed,
-        Self::WorkerLeft,
-        Self::OutOfMemory,
-    ];
-
-    fn name(self) -> &'static std::ffi::CStr {
-        match self {
-            Self::Ok => c"PONG_STATUS_OK",
-            Self::NullArgument => c"PONG_STATUS_NULL_ARGUMENT",
-            Self::UnknownId => c"PONG_STATUS_UNKNOWN_ID",
-            Self::UnknownName => c"PONG_STATUS_UNKNOWN_NAME",
-            Self::Duplicate => c"PONG_STATUS_DUPLICATE",
-            Self::WrongPhase => c"PONG_STATUS_WRONG_PHASE",
-            Self::SealFailed => c"PONG_STATUS_SEAL_FAILED",
-            Self::BadState => c"PONG_STATUS_BAD_STATE",
-            Self::UnsetState => c"PONG_STATUS_UNSET_STATE",
-            Self::BadValue => c"PONG_STATUS_BAD_VALUE",
-            Self::BadStateBlock => c"PONG_STATUS_BAD_STATE_BLOCK",
-            Self::BufferTooSmall => c"PONG_STATUS_BUFFER_TOO_SMALL",
-            Self::ModelError => c"PONG_STATUS_MODEL_ERROR",
-            Self::Config => c"PONG_STATUS_CONFIG",
-            Self::Panic => c"PONG_STATUS_PANIC",
-            Self::Busy => c"PONG_STATUS_BUSY",
-            Self::LawFailed => c"PONG_STATUS_LAW_FAILED",
-            Self::LogFailed => c"PONG_STATUS_LOG_FAILED",
-            Self::WorkerLeft => c"PONG_STATUS_WORKER_LEFT",
-            Self::OutOfMemory => c"PONG_STATUS_OUT_OF_MEMORY",
-        }
-    }
-}
-
 /// Name of a status number as this header spells it; "unknown status" for a number that is none. Lives as long
 /// as the library.
 #[unsafe(no_mangle)]
 pub extern "C" fn pong_status_name(status: i32) -> *const c_char {
-    let known = pong_status::ALL.into_iter().find(|known| *known as i32 == status);
-    known.map_or(c"unknown status", pong_status::name).as_ptr()
+    let known = pong_status::VARIANTS.iter().find(|known| **known as i32 == status);
+    known.map_or("unknown status\0", <&str>::from).as_ptr().cast()
 }
 
 /// What the last call of this thread had to say: empty after a success, never NULL.

@@ -35,7 +35,7 @@ pub const PONG_FRICTION_INHERITED: i32 = 4;
 /// The values of a surface. Get them, change some, set them: laws may not change. Values that the surface's laws
 /// do not use are 0 when got and ignored when set. None but a rigid stiffness is beyond 1e100.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct pong_surface_values {
     /// Which normal law the surface has: PONG_NORMAL_...
     pub normal_law: i32,
@@ -122,14 +122,7 @@ impl From<&Surface> for pong_surface_values {
             normal_law: normal_number(&surface.normal),
             friction_law: friction_number(&surface.friction),
             stiffness: surface.stiffness,
-            damping: 0.0,
-            ramp: 0.0,
-            dissipation: 0.0,
-            friction: 0.0,
-            friction_static_excess: 0.0,
-            friction_stiffness: 0.0,
-            friction_damping: 0.0,
-            friction_slip_speed: 0.0,
+            ..Self::default()
         };
         match surface.normal {
             NormalLaw::Linear { damping, ramp } => (values.damping, values.ramp) = (damping, ramp),

@@ -6,7 +6,7 @@ mod limits;
 
 pub(crate) use arguments::Arguments;
 
-use crate::terminal::{print, tell_lines};
+use crate::terminal::{Outcome, print};
 use crate::text::number;
 use pong_advise::{StepPlan, WrenchCoupling, judge_contact};
 use pong_engine::{Laws, combine_surfaces};
@@ -15,22 +15,14 @@ use pong_model::{FrictionLaw, Model, NormalLaw, Surface, printable};
 use std::path::Path;
 use std::process::ExitCode;
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let told = match &arguments.file {
         None => wish_alone(arguments),
         Some(path) if is_scene(path) => scene(arguments, path),
         Some(path) => model(arguments, path),
     };
-    match told {
-        Ok(text) => {
-            print(&text);
-            ExitCode::SUCCESS
-        }
-        Err(reason) => {
-            tell_lines(&reason);
-            ExitCode::FAILURE
-        }
-    }
+    print(&told?);
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Whether a file says that it is a scene; what cannot be read is told by the reader of models.

@@ -1,7 +1,7 @@
 //! `pong decompose`: a closed mesh becomes convex pieces.
 
-use crate::import::{Mesh, length_m, spinner};
-use crate::terminal::{print, show, tell, tell_lines};
+use crate::import::{Mesh, length_m, nothing_written};
+use crate::terminal::{Outcome, SPINNER, print, progress, show, tell};
 use crate::text::{count, number};
 use pong_decompose::{DecomposeOptions, Decomposed, Method, Report};
 use pong_report::table;
@@ -52,7 +52,7 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     }
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let options = DecomposeOptions {
         import: arguments.mesh.options(),
         method: match arguments.method {
@@ -65,7 +65,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         within_m: arguments.within,
         samples: arguments.samples,
     };
-    let bar = spinner();
+    let bar = progress(None, SPINNER, false);
     let done =
         pong_decompose::decompose(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
             show(&bar, what)
@@ -75,15 +75,12 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if let Some(report) = &report {
         print(&summary(report));
     }
-    if findings.faults.is_empty() {
-        findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
-        files.iter().for_each(|file| print(&format!("written: {}\n", file.display())));
-        ExitCode::SUCCESS
-    } else {
-        tell_lines(&findings);
-        tell(format!("{}; nothing was written", count(findings.faults.len(), "fault", "faults")));
-        ExitCode::FAILURE
+    if !findings.faults.is_empty() {
+        return Err(nothing_written(&findings));
     }
+    findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
+    files.iter().for_each(|file| print(&format!("written: {}\n", file.display())));
+    Ok(ExitCode::SUCCESS)
 }
 
 fn summary(report: &Report) -> String {

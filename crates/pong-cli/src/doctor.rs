@@ -1,6 +1,6 @@
 //! `pong doctor`: what the machine grants a real-time program.
 
-use crate::terminal::{print, tell};
+use crate::terminal::{Outcome, failure, print};
 use crate::text::number;
 use pong_doctor::{BIN_BOUNDS_US, Finding, Latency, State, ThisMachine, examine, measure, try_fifo};
 use serde::Serialize;
@@ -48,12 +48,10 @@ struct Report {
     latencies: Vec<Latency>,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     if !cfg!(target_os = "linux") {
-        tell(
-            "pong doctor reads /proc and /sys, which only Linux has: run it on the machine of the simulation",
-        );
-        return ExitCode::FAILURE;
+        let reads = "pong doctor reads /proc and /sys, which only Linux has";
+        return Err(failure(format!("{reads}: run it on the machine of the simulation")));
     }
     let fifo = try_fifo();
     let fifo_is_granted = fifo.is_ok();
@@ -66,27 +64,18 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         latencies: Vec::new(),
     };
     if arguments.seconds > 0.0 {
-        match measure(Duration::from_secs_f64(arguments.seconds), fifo_is_granted) {
-            Ok(latencies) => report.latencies = latencies,
-            Err(reason) => {
-                tell(format!("nothing was measured: {reason}"));
-                return ExitCode::FAILURE;
-            }
-        }
+        let measured = measure(Duration::from_secs_f64(arguments.seconds), fifo_is_granted);
+        report.latencies = measured.map_err(|reason| failure(format!("nothing was measured: {reason}")))?;
     }
     let advice = report.findings.iter().filter(|finding| finding.state == State::Advice).count();
     if arguments.json {
-        match serde_json::to_string_pretty(&report) {
-            Ok(json) => print(&format!("{json}\n")),
-            Err(reason) => {
-                tell(format!("the report cannot be written as JSON: {reason}"));
-                return ExitCode::FAILURE;
-            }
-        }
+        let json = serde_json::to_string_pretty(&report)
+            .map_err(|reason| failure(format!("the report cannot be written as JSON: {reason}")))?;
+        print(&format!("{json}\n"));
     } else {
         print(&text(&report, advice));
     }
-    if arguments.strict && advice > 0 { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+    Ok(if arguments.strict && advice > 0 { ExitCode::FAILURE } else { ExitCode::SUCCESS })
 }
 
 fn text(report: &Report, advice: usize) -> String {

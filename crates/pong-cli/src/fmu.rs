@@ -1,7 +1,7 @@
 //! `pong fmu`: a scene as a Functional Mock-up Unit.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, tell, tell_lines};
+use crate::terminal::{Outcome, print, tell, unwritable};
 use crate::text::{count, number};
 use pong_fmu::{Fmi, LIBRARY_FILE, Options, Package};
 use std::path::{Path, PathBuf};
@@ -36,26 +36,17 @@ pub(crate) struct Arguments {
     allowed: AllowedFolders,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let output = arguments.output.clone().unwrap_or_else(|| arguments.scene.with_extension("fmu"));
-    let package = match package(arguments) {
-        Ok(package) => package,
-        Err(lines) => {
-            tell_lines(lines);
-            return ExitCode::FAILURE;
-        }
-    };
-    if let Err(reason) = write_whole(&output, &package.bytes) {
-        tell(format!("{}: cannot be written: {reason}; name a file in a folder with room", output.display()));
-        return ExitCode::FAILURE;
-    }
+    let package = package(arguments)?;
+    write_whole(&output, &package.bytes).map_err(|reason| unwritable(&output, &reason))?;
     for warning in &package.warnings {
         tell(format!("warning: {warning}"));
     }
     if !arguments.quiet {
         print(&summary(arguments, &output, &package));
     }
-    ExitCode::SUCCESS
+    Ok(ExitCode::SUCCESS)
 }
 
 fn package(arguments: &Arguments) -> Result<Package, String> {

@@ -1,13 +1,11 @@
 //! `pong import`: a mesh file becomes a model file.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, show, tell, tell_lines};
+use crate::terminal::{Failure, Outcome, SPINNER, print, progress, show, tell};
 use crate::text::count;
-use indicatif::{ProgressBar, ProgressStyle};
-use pong_import::{DefaultSurface, Imported, Options, Up};
+use pong_import::{DefaultSurface, Findings, Imported, Options, Up};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Duration;
 
 /// Makes a model file of a mesh file: glTF (.glb, .gltf), OBJ or STL.
 ///
@@ -161,7 +159,7 @@ impl Mesh {
     }
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let options = Options {
         root: arguments.root.clone(),
         faces_max: arguments.faces_max,
@@ -170,33 +168,21 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         hull: arguments.hull.then_some(pong_decompose::hull_of_mesh),
         ..arguments.mesh.options()
     };
-    let bar = spinner();
+    let bar = progress(None, SPINNER, false);
     let result = pong_import::import(&arguments.mesh.input, &arguments.mesh.output, &options, &mut |what| {
         show(&bar, what)
     });
     bar.finish_and_clear();
-    match result {
-        Ok(imported) => {
-            imported.findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
-            print(&summary(&imported));
-            ExitCode::SUCCESS
-        }
-        Err(findings) => {
-            tell_lines(&findings);
-            tell(format!("{}; nothing was written", count(findings.faults.len(), "fault", "faults")));
-            ExitCode::FAILURE
-        }
-    }
+    let imported = result.map_err(|findings| nothing_written(&findings))?;
+    imported.findings.notes.iter().for_each(|note| tell(format!("note: {note}")));
+    print(&summary(&imported));
+    Ok(ExitCode::SUCCESS)
 }
 
-/// Shows what is being done, on terminals only.
-pub(crate) fn spinner() -> ProgressBar {
-    let bar = ProgressBar::new_spinner();
-    if let Ok(style) = ProgressStyle::with_template("{spinner} {elapsed} {msg}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(100));
-    bar
+/// Why a mesh was refused.
+pub(crate) fn nothing_written(findings: &Findings) -> Failure {
+    let faults = count(findings.faults.len(), "fault", "faults");
+    format!("{findings}\n{faults}; nothing was written").into()
 }
 
 fn summary(imported: &Imported) -> String {

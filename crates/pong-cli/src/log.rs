@@ -1,6 +1,6 @@
 //! `pong log`: what is in a response log, and the log as CSV.
 
-use crate::terminal::{print, tell_lines};
+use crate::terminal::{Outcome, print};
 use crate::text::{count, number};
 use pong_model::printable;
 use pong_record::{CsvTables, Frame, Log, LogError};
@@ -22,22 +22,15 @@ pub(crate) struct Arguments {
     quiet: bool,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    match describe_and_export(arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            tell_lines(&error);
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn describe_and_export(arguments: &Arguments) -> Result<(), LogError> {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let mut log = Log::open(&arguments.log)?;
     if !arguments.quiet {
         print(&description(&mut log)?);
     }
-    arguments.csv.as_ref().map_or(Ok(()), |folder| export(&mut log, folder))
+    if let Some(folder) = &arguments.csv {
+        export(&mut log, folder)?;
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 fn description(log: &mut Log) -> Result<String, LogError> {

@@ -57,9 +57,9 @@ enum Command {
 fn main() -> ExitCode {
     let arguments = match Cli::try_parse() {
         Ok(arguments) => arguments,
-        Err(asked) => return terminal::exit_code_of(usage(&asked)),
+        Err(asked) => return terminal::exit_code_of(Ok(usage(&asked))),
     };
-    let code = match arguments.command {
+    let outcome = match arguments.command {
         Command::Advise(arguments) => advise::main(&arguments),
         Command::Check(arguments) => check::main(&arguments),
         Command::Decompose(arguments) => decompose::main(&arguments),
@@ -75,7 +75,7 @@ fn main() -> ExitCode {
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),
     };
-    terminal::exit_code_of(code)
+    terminal::exit_code_of(outcome)
 }
 
 /// Help and version are answers; wrong usage is told.

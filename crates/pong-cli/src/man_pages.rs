@@ -1,6 +1,6 @@
 //! `pong man-pages`: the manual pages of the program, from the same definitions as `--help`. Installing calls it.
 
-use crate::terminal::tell;
+use crate::terminal::{Outcome, failure};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 use std::io;
@@ -15,20 +15,15 @@ pub(crate) struct Arguments {
     folder: PathBuf,
 }
 
-pub(crate) fn main(arguments: &Arguments, program: clap::Command) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments, program: clap::Command) -> Outcome {
     // `pong help` is `pong --help` again.
     let mut program = program.disable_help_subcommand(true);
     program.build();
-    match write_pages(&program, &arguments.folder) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err((path, reason)) => {
-            tell(format!(
-                "{}: cannot be written: {reason}; name a folder that exists and may be written",
-                path.display()
-            ));
-            ExitCode::FAILURE
-        }
-    }
+    write_pages(&program, &arguments.folder).map_err(|(path, reason)| {
+        let cure = "name a folder that exists and may be written";
+        failure(format!("{}: cannot be written: {reason}; {cure}", path.display()))
+    })?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn write_pages(program: &clap::Command, folder: &Path) -> Result<(), (PathBuf, io::Error)> {

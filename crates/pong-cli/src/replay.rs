@@ -1,15 +1,13 @@
 //! `pong replay`: a response log goes through the engine again.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, tell, tell_lines};
+use crate::terminal::{Outcome, print, progress, tell};
 use crate::text::count;
-use indicatif::{ProgressBar, ProgressStyle};
 use pong_engine::WorkerSettings;
 use pong_record::{Log, LogError, ReplayOptions, ReplayReport, replay};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Duration;
 
 /// Runs the recorded states of a response log through the engine again and compares wrenches and contacts bit for bit.
 ///
@@ -39,14 +37,8 @@ fn tolerance(text: &str) -> Result<f64, String> {
     if (0.0..1.0).contains(&value) { Ok(value) } else { Err("give a number from 0 up to 1".to_owned()) }
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    let report = match run(arguments) {
-        Ok(report) => report,
-        Err(error) => {
-            tell_lines(&error);
-            return ExitCode::FAILURE;
-        }
-    };
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
+    let report = run(arguments)?;
     if !arguments.quiet {
         print(&summary(&report, arguments.tolerance));
     }
@@ -56,7 +48,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     if let Some(obstacle) = &report.obstacle {
         tell(format!("not exact from frame {} on: {obstacle}", obstacle.frame()));
     }
-    if report.agrees() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(if report.agrees() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
@@ -71,10 +63,8 @@ fn run(arguments: &Arguments) -> Result<ReplayReport, LogError> {
         extensions: arguments.allowed.extensions(),
         ..ReplayOptions::default()
     };
-    let bar = if arguments.quiet { ProgressBar::hidden() } else { ProgressBar::new(log.frame_count()) };
     let template = "{bar:40} {percent:>3} %  frame {pos} of {len}, {eta} left";
-    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = progress(Some(log.frame_count()), template, arguments.quiet);
     let report = replay(&mut log, &options, &mut |done| {
         if done % 256 == 0 {
             bar.set_position(done);

@@ -4,12 +4,26 @@
 //! written as escapes. Messages that cannot be written never end the work. If it is the answer on standard output that is
 //! lost, the program says so and its exit code tells; only a reader that has seen enough (`pong … | head`) is no error.
 
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
 use pong_model::{printable, printable_lines};
+use std::error::Error;
 use std::fmt::Display;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Mutex;
+use std::time::Duration;
+
+/// Why a command failed: a text for standard error, of several lines, in which names are [`printable`].
+pub(crate) type Failure = Box<dyn Error>;
+
+/// How a command ended: with an exit code of its own, or with what is to be told.
+pub(crate) type Outcome = Result<ExitCode, Failure>;
+
+/// A failure told in one line, whatever line ends the names in it hold.
+pub(crate) fn failure(line: impl Display) -> Failure {
+    printable(&line.to_string()).into_owned().into()
+}
 
 /// Why the answer could not be written; the first reason.
 static LOST: Mutex<Option<String>> = Mutex::new(None);
@@ -46,13 +60,38 @@ fn write_to_standard_error(text: &str) {
     let _ = std::io::stderr().lock().write_all(line.as_bytes());
 }
 
+/// That a file of a command's output could not be written.
+pub(crate) fn unwritable(path: &Path, reason: &std::io::Error) -> Failure {
+    failure(format!("{}: cannot be written: {reason}; name a file in a folder with room", path.display()))
+}
+
+/// How far the work is, or a spinner if nobody knows how much there is, on standard error, if that is a terminal.
+pub(crate) fn progress(of: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
+    if quiet {
+        return ProgressBar::hidden();
+    }
+    let bar = of.map_or_else(ProgressBar::new_spinner, ProgressBar::new);
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+/// The template of a spinner.
+pub(crate) const SPINNER: &str = "{spinner} {elapsed} {msg}";
+
 /// Shows what is being done beside a bar.
 pub(crate) fn show(bar: &ProgressBar, doing: &str) {
     bar.set_message(printable(doing).into_owned());
 }
 
-/// The exit code of a command: success only if the answer could be written.
-pub(crate) fn exit_code_of(code: ExitCode) -> ExitCode {
+/// The exit code of a command, after what it failed of is told: success only if the answer could be written.
+pub(crate) fn exit_code_of(outcome: Outcome) -> ExitCode {
+    let code = outcome.unwrap_or_else(|failure| {
+        tell_lines(failure);
+        ExitCode::FAILURE
+    });
     match LOST.lock().ok().and_then(|mut lost| lost.take()) {
         None => code,
         Some(reason) => {

@@ -1,8 +1,7 @@
 //! `pong trade`: what speed costs in accuracy, measured on the user's scene.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, show, tell, tell_lines};
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::terminal::{Outcome, print, progress, show, tell};
 use pong_engine::WorkerSettings;
 use pong_study::sweep::{
     Lever, LogAlternative, PlanSettings, Progress, Quantity, Settings, Study, report, study, study_log,
@@ -80,15 +79,17 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 fn quantity(text: &str) -> Result<Quantity, String> {
-    let known: Vec<&str> = Quantity::ALL.iter().map(|quantity| quantity.name()).collect();
-    let found = Quantity::ALL.into_iter().find(|quantity| quantity.name() == text.trim());
-    found.ok_or_else(|| format!("give any of {}", known.join(", ")))
+    one_of(text, &Quantity::ALL, Quantity::name)
 }
 
 fn lever(text: &str) -> Result<Lever, String> {
-    let known: Vec<&str> = Lever::ALL.iter().map(|lever| lever.name()).collect();
-    let found = Lever::ALL.into_iter().find(|lever| lever.name() == text.trim());
-    found.ok_or_else(|| format!("give any of {}", known.join(", ")))
+    one_of(text, Lever::ALL, Lever::name)
+}
+
+fn one_of<T: Copy>(text: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, String> {
+    let known: Vec<&str> = all.iter().map(|one| name(*one)).collect();
+    let found = known.iter().position(|name| *name == text.trim());
+    found.map(|place| all[place]).ok_or_else(|| format!("give any of {}", known.join(", ")))
 }
 
 fn alternative(text: &str) -> Result<LogAlternative, String> {
@@ -101,17 +102,8 @@ fn alternative(text: &str) -> Result<LogAlternative, String> {
     Ok(LogAlternative { name: name.to_owned(), models: models.collect::<Result<_, String>>()? })
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    match run(arguments) {
-        Ok(study) => finish(arguments, &study),
-        Err(error) => {
-            tell_lines(&error);
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
+    let study = &run(arguments)?;
     if !arguments.quiet {
         print(&report::markdown(study));
         print(&format!(
@@ -133,7 +125,7 @@ fn finish(arguments: &Arguments, study: &Study) -> ExitCode {
     if !study.converged {
         tell("warning: the reference has not converged; no level is named");
     }
-    if changed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(if changed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 fn output(arguments: &Arguments) -> PathBuf {
@@ -144,11 +136,11 @@ fn output(arguments: &Arguments) -> PathBuf {
 }
 
 fn run(arguments: &Arguments) -> Result<Study, pong_study::StudyError> {
-    let bar = progress_bar(arguments.quiet);
-    let mut watch = |progress: &Progress<'_>| {
-        bar.set_length(progress.of);
-        bar.set_position(progress.done);
-        show(&bar, progress.doing);
+    let bar = progress(Some(1), "{bar:30} {percent:>3} %, {eta} left: {msg}", arguments.quiet);
+    let mut watch = |now: &Progress<'_>| {
+        bar.set_length(now.of);
+        bar.set_position(now.done);
+        show(&bar, now.doing);
         ControlFlow::Continue(())
     };
     let (subject, output) = (&arguments.subject, output(arguments));
@@ -202,16 +194,4 @@ fn granted(wanted: &[usize]) -> Vec<usize> {
         ));
     }
     granted
-}
-
-/// A bar on standard error, if that is a terminal.
-fn progress_bar(quiet: bool) -> ProgressBar {
-    if quiet {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(1);
-    let template = "{bar:30} {percent:>3} %, {eta} left: {msg}";
-    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    bar
 }

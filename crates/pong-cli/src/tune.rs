@@ -1,14 +1,12 @@
 //! `pong tune`: bounds and leaves that lower the frame time of a run, for the same bits.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, show, tell, tell_lines};
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::terminal::{Outcome, SPINNER, print, progress, show, tell};
 use pong_study::StudyError;
 use pong_study::tree_tuning::{Output, Progress, Settings, Tuned, report, tune};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::time::Duration;
 
 /// Looks for bounding volumes and leaves with which the frames of a run take less time, and writes new model files
 /// (docs/tune.md).
@@ -46,22 +44,15 @@ pub(crate) struct Arguments {
     allowed: AllowedFolders,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
-    match run(arguments) {
-        Ok(tuned) => {
-            if !arguments.quiet {
-                print(&report::page(&tuned));
-            }
-            for line in tuned.refused.iter().filter(|_| arguments.quiet) {
-                tell(format!("warning: a proposal was thrown away: {line}"));
-            }
-            ExitCode::SUCCESS
-        }
-        Err(error) => {
-            tell_lines(&error);
-            ExitCode::FAILURE
-        }
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
+    let tuned = run(arguments)?;
+    if !arguments.quiet {
+        print(&report::page(&tuned));
     }
+    for line in tuned.refused.iter().filter(|_| arguments.quiet) {
+        tell(format!("warning: a proposal was thrown away: {line}"));
+    }
+    Ok(ExitCode::SUCCESS)
 }
 
 fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
@@ -74,7 +65,7 @@ fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
         output: Output { folder: folder(arguments), force: arguments.force },
         extensions: arguments.allowed.extensions(),
     };
-    let bar = progress_bar(arguments.quiet);
+    let bar = progress(None, SPINNER, arguments.quiet);
     let mut watch = |progress: &Progress| {
         match progress {
             Progress::Running { doing, done, of } => show(&bar, &format!("{doing}: frame {done} of {of}")),
@@ -94,18 +85,4 @@ fn folder(arguments: &Arguments) -> Option<PathBuf> {
         arguments.subject.is_dir().then(|| PathBuf::from(format!("{name}_tuned")))
     };
     arguments.output.clone().or_else(log)
-}
-
-/// What is done now, on standard error, if that is a terminal.
-fn progress_bar(quiet: bool) -> ProgressBar {
-    if quiet {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new_spinner();
-    let template = "{spinner} {elapsed} {msg}";
-    bar.set_style(
-        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_spinner()),
-    );
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

@@ -1,6 +1,6 @@
 //! `pong verify`: the cases with known answers and the extremes, and their reports; the invariances.
 
-use crate::terminal::{print, tell};
+use crate::terminal::{Outcome, failure, print, tell};
 use pong_invariance::{Order, Survey, invariances};
 use pong_verify::extremes::{self, Extreme, Length};
 use pong_verify::{Case, cases, orders, report};
@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
     list: bool,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     if arguments.extremes {
         return main_of_extremes(arguments);
     }
@@ -57,14 +57,11 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let chosen = match choose(&arguments.only) {
         Ok(chosen) => chosen,
         Err(unknown) => {
-            tell(format!("there is no case `{unknown}`; `pong verify --list` names them"));
-            return ExitCode::from(2);
+            return wrong_usage(format!("there is no case `{unknown}`; `pong verify --list` names them"));
         }
     };
     if arguments.list {
-        let lines = chosen.iter().map(|case| format!("{:<4} {}\n", case.id, case.title));
-        print(&lines.collect::<String>());
-        return ExitCode::SUCCESS;
+        return list(chosen.iter().map(|case| format!("{:<4} {}\n", case.id, case.title)));
     }
     let verdicts = on_all_cores(&chosen, |case: &Case| {
         let verdict = case.run();
@@ -74,8 +71,7 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     let failed = verdicts.iter().filter(|verdict| !verdict.passes()).count();
     print(&format!("\n{} of {} cases pass\n", verdicts.len() - failed, verdicts.len()));
     if let Some(reason) = write_picture(arguments) {
-        tell(reason);
-        return ExitCode::FAILURE;
+        return Err(failure(reason));
     }
     finish(arguments, &report::markdown(&verdicts), failed)
 }
@@ -91,32 +87,39 @@ fn write_picture(arguments: &Arguments) -> Option<String> {
 }
 
 /// Writes the report, if one is wanted.
-fn finish(arguments: &Arguments, report: &str, failed: usize) -> ExitCode {
-    if let Some(path) = &arguments.output
-        && let Err(reason) = std::fs::write(path, report)
-    {
-        tell(format!("{}: {reason}", path.display()));
-        return ExitCode::FAILURE;
+fn finish(arguments: &Arguments, report: &str, failed: usize) -> Outcome {
+    if let Some(path) = &arguments.output {
+        let written = std::fs::write(path, report);
+        written.map_err(|reason| failure(format!("{}: {reason}", path.display())))?;
     }
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-fn main_of_extremes(arguments: &Arguments) -> ExitCode {
+fn wrong_usage(line: String) -> Outcome {
+    tell(line);
+    Ok(ExitCode::from(2))
+}
+
+fn list(lines: impl Iterator<Item = String>) -> Outcome {
+    print(&lines.collect::<String>());
+    Ok(ExitCode::SUCCESS)
+}
+
+fn main_of_extremes(arguments: &Arguments) -> Outcome {
     let all = extremes::extremes();
     let is_asked = |extreme: &&Extreme| arguments.only.iter().any(|id| id.eq_ignore_ascii_case(extreme.id));
     let unknown = |id: &&String| !all.iter().any(|extreme| id.eq_ignore_ascii_case(extreme.id));
     if let Some(unknown) = arguments.only.iter().find(unknown) {
-        tell(format!("there is no extreme `{unknown}`; `pong verify --extremes --list` names them"));
-        return ExitCode::from(2);
+        return wrong_usage(format!(
+            "there is no extreme `{unknown}`; `pong verify --extremes --list` names them"
+        ));
     }
     let chosen: Vec<_> = match arguments.only.as_slice() {
         [] => all,
         _ => all.iter().filter(is_asked).copied().collect(),
     };
     if arguments.list {
-        let lines = chosen.iter().map(|extreme| format!("{:<4} {}\n", extreme.id, extreme.asked));
-        print(&lines.collect::<String>());
-        return ExitCode::SUCCESS;
+        return list(chosen.iter().map(|extreme| format!("{:<4} {}\n", extreme.id, extreme.asked)));
     }
     let length = Length { long: arguments.long };
     let findings = on_all_cores(&chosen, |extreme| {
@@ -129,21 +132,22 @@ fn main_of_extremes(arguments: &Arguments) -> ExitCode {
     finish(arguments, &extremes::markdown(&findings), failed)
 }
 
-fn main_of_invariances(arguments: &Arguments) -> ExitCode {
+fn main_of_invariances(arguments: &Arguments) -> Outcome {
     if let Some(unknown) = arguments.only.iter().find(|name| invariances::find(name).is_none()) {
-        tell(format!("there is no invariance `{unknown}`; `pong verify --invariances --list` names them"));
-        return ExitCode::from(2);
+        return wrong_usage(format!(
+            "there is no invariance `{unknown}`; `pong verify --invariances --list` names them"
+        ));
     }
     if arguments.list {
-        let lines = invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says));
-        print(&lines.collect::<String>());
-        return ExitCode::SUCCESS;
+        return list(invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says)));
     }
     let families = || pong_invariance::make::touched::FAMILIES.iter().map(|(name, _)| *name);
     if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
         let known: Vec<_> = families().collect();
-        tell(format!("there is no family of scenes `{unknown}`; there are {}", known.join(", ")));
-        return ExitCode::from(2);
+        return wrong_usage(format!(
+            "there is no family of scenes `{unknown}`; there are {}",
+            known.join(", ")
+        ));
     }
     let order = Order {
         family: arguments.family.clone(),
@@ -166,7 +170,7 @@ fn main_of_invariances(arguments: &Arguments) -> ExitCode {
         print(&survey.list());
     }
     print(&survey.text());
-    if survey.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    Ok(if survey.holds() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// The cases of these ids, all if there are none, or the first id that no case has.

@@ -1,7 +1,7 @@
 //! `pong view`: a response log as one web page.
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, tell, tell_lines};
+use crate::terminal::{Outcome, print, tell, unwritable};
 use crate::text::{count, number};
 use pong_record::Log;
 use pong_view::{Options, Page, ViewError};
@@ -31,26 +31,17 @@ pub(crate) struct Arguments {
     allowed: AllowedFolders,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let output = arguments.output.clone().unwrap_or_else(|| beside(&arguments.log));
-    let page = match page(arguments) {
-        Ok(page) => page,
-        Err(error) => {
-            tell_lines(&error);
-            return ExitCode::FAILURE;
-        }
-    };
-    if let Err(reason) = std::fs::write(&output, &page.html) {
-        tell(format!("{}: cannot be written: {reason}; name a file in a folder with room", output.display()));
-        return ExitCode::FAILURE;
-    }
+    let page = page(arguments)?;
+    std::fs::write(&output, &page.html).map_err(|reason| unwritable(&output, &reason))?;
     for note in &page.notes {
         tell(format!("note: {note}"));
     }
     if !arguments.quiet {
         print(&summary(&output, &page));
     }
-    ExitCode::SUCCESS
+    Ok(ExitCode::SUCCESS)
 }
 
 fn page(arguments: &Arguments) -> Result<Page, ViewError> {

@@ -52,13 +52,12 @@ pub(crate) fn hulls(
         Ok(done) => done,
         Err(reason) => {
             let cause = format!("`{}` cannot be run: {reason}", calling.python);
-            findings.fault(
+            return findings.refuse(
                 file,
                 "coacd-missing",
                 cause,
                 "install Python 3, or name it with --python; VHACD needs neither",
             );
-            return None;
         }
     };
     let last = err.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it said nothing").to_owned();
@@ -67,29 +66,26 @@ pub(crate) fn hulls(
         Some(3) => {
             let cause = format!("the Python package CoACD is not there: {last}");
             let cure = format!("`{} -m pip install coacd`, or leave --method away for VHACD", calling.python);
-            findings.fault(file, "coacd-missing", cause, cure);
-            return None;
+            return findings.refuse(file, "coacd-missing", cause, cure);
         }
         _ => {
-            findings.fault(
+            return findings.refuse(
                 file,
                 "decomposer-failed",
                 format!("CoACD failed: {last}"),
                 "leave --method away for VHACD",
             );
-            return None;
         }
     }
     let hulls = read(&out);
     if hulls.as_ref().is_none_or(Vec::is_empty) {
         let cause = "CoACD gave nothing that can be read";
-        findings.fault(
+        return findings.refuse(
             file,
             "decomposer-failed",
             cause,
             "install version 1.0 of the package coacd, or use VHACD",
         );
-        return None;
     }
     hulls
 }

@@ -167,12 +167,7 @@ fn tell_protrusion(figures: &Report, options: &DecomposeOptions, file: &str, fin
 
 fn whole(solids: &[SolidMesh]) -> Mesh {
     let mut whole = Mesh::default();
-    for SolidMesh { mesh, .. } in solids {
-        let first = whole.vertices.len() as u32;
-        whole.vertices.extend(&mesh.vertices);
-        whole.triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
-        whole.look_of.extend(&mesh.look_of);
-    }
+    solids.iter().for_each(|solid| whole.append(&solid.mesh));
     whole
 }
 

@@ -67,13 +67,7 @@ impl<'a> Union<'a> {
             .map(|piece| Aabb::new(vector(piece.low - margin), vector(piece.high + margin)))
             .collect();
         let mut mesh = Mesh::default();
-        for piece in pieces {
-            let first = mesh.vertices.len() as u32;
-            let part = piece.triangles();
-            mesh.vertices.extend(part.vertices);
-            mesh.triangles
-                .extend(part.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
-        }
+        pieces.iter().for_each(|piece| mesh.append(&piece.triangles()));
         let boxes = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
         Some(Self { pieces, boxes, surface: Solid::new(&mesh)?, nothing_m })
     }

@@ -58,21 +58,19 @@ pub(crate) fn solids(
 ) -> Option<Vec<SolidMesh>> {
     let file = &building.file;
     if shape.triangles.is_empty() {
-        findings.fault(file, "empty-mesh", "it has no triangles", "export a mesh that has some");
-        return None;
+        return findings.refuse(file, "empty-mesh", "it has no triangles", "export a mesh that has some");
     }
     let largest = shape.vertices.iter().map(|place| place.amax()).fold(0.0, f64::max);
     meshes::place(&mut shape, &Affine::identity(), Grid::of_size(largest));
     let placed = meshes::triangles(shape, building, file, findings);
     if placed.two_sided || placed.mesh.triangles.is_empty() {
         let cause = "its triangles have no inside: they lie back to back or have no area";
-        findings.fault(
+        return findings.refuse(
             file,
             "open-mesh",
             cause,
             "give it a thickness, or use a TriangleMesh (`pong import`)",
         );
-        return None;
     }
     closed(&placed.mesh, file, findings)?;
     let parts = mesh::parts(&placed.mesh);
@@ -143,7 +141,7 @@ fn sorted(parts: Vec<Mesh>, file: &str, findings: &mut Findings) -> Option<Vec<S
         match around.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((_, solid)) => {
                 solid.hollow = true;
-                append(&mut solid.mesh, &cavity);
+                solid.mesh.append(&cavity);
             }
             None => {
                 let cause = format!(
@@ -155,13 +153,6 @@ fn sorted(parts: Vec<Mesh>, file: &str, findings: &mut Findings) -> Option<Vec<S
         }
     }
     findings.faults.is_empty().then(|| outsides.into_iter().map(|(_, solid)| solid).collect())
-}
-
-fn append(mesh: &mut Mesh, part: &Mesh) {
-    let first = mesh.vertices.len() as u32;
-    mesh.vertices.extend(&part.vertices);
-    mesh.triangles.extend(part.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
-    mesh.look_of.extend(&part.look_of);
 }
 
 /// Tells of triangles that pass through each other.

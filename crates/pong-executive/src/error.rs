@@ -31,6 +31,9 @@ pub enum ExecutiveError {
     },
 }
 
+/// What the executive answers.
+pub type Result<T, E = ExecutiveError> = std::result::Result<T, E>;
+
 impl ExecutiveError {
     pub(crate) fn invalid(
         what: impl Into<String>,

@@ -11,9 +11,11 @@ pub(crate) use runge_kutta::{Contact, runge_kutta};
 pub(crate) use stages::{Pushed, Stages};
 
 use pong_engine::WrenchCoupling;
+use serde::Deserialize;
 
 /// How the motion of the free bodies is integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename = "IntegratorEntry")]
 pub enum Integrator {
     /// Velocities from the loads at the start of the step, then places from the new velocities. First order; one
     /// contact evaluation a step.
@@ -25,10 +27,16 @@ pub enum Integrator {
     /// motion are integrated in between by Runge-Kutta.
     ZeroOrderHold {
         /// Runge-Kutta steps in a frame, at least 1. With no other loads than gravity one is exact in translation.
+        #[serde(default = "one_substep")]
         substeps: u32,
         /// How many whole frames the wrench comes late.
+        #[serde(default, alias = "delay")]
         delay_frames: u32,
     },
+}
+
+fn one_substep() -> u32 {
+    1
 }
 
 /// As the scene format and logs spell it.

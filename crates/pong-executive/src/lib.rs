@@ -53,7 +53,7 @@ mod watch;
 
 pub use body::{BodyId, Motion, RigidBody};
 pub use energy::Energy;
-pub use error::ExecutiveError;
+pub use error::{ExecutiveError, Result};
 pub use integrate::Integrator;
 pub use load::{Axes, Load, LoadHistory, LoadRow};
 pub use mass::MassProperties;

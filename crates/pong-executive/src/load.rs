@@ -3,12 +3,15 @@
 use crate::body::BodyId;
 use crate::math::first_not_rising;
 use pong_geometry::{Pose, Vec3, Wrench};
+use serde::Deserialize;
 use std::sync::Arc;
 
 /// Which axes a load is given along.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename = "AxesEntry")]
 pub enum Axes {
     /// Those of the common frame.
+    #[default]
     Common,
     /// Those of the body: the load turns with it.
     Body,

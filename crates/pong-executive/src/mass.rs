@@ -1,6 +1,6 @@
 //! Mass, inertia and place of the mass centre.
 
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use pong_geometry::{Mat3, Vec3};
 
 /// Relative error of a moment of inertia that is forgiven when shapes are judged possible.
@@ -75,7 +75,7 @@ impl MassProperties {
     }
 
     /// Refuses values that no rigid body can have.
-    pub(crate) fn check(&self, body: &str) -> Result<(), ExecutiveError> {
+    pub(crate) fn check(&self, body: &str) -> Result<()> {
         match self.faults().into_iter().next() {
             None => Ok(()),
             Some((cause, cure)) => Err(ExecutiveError::invalid(format!("body `{body}`"), cause, cure)),

@@ -7,7 +7,7 @@ use pong_geometry::{Vec3, Wrench};
 use std::collections::BTreeMap;
 
 /// One body over the whole run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyStatistics {
     /// Largest contact force, N.
     pub peak_force: f64,
@@ -23,7 +23,7 @@ pub struct BodyStatistics {
 }
 
 /// All bodies and the run itself.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct RunStatistics {
     /// The bodies in their order in the simulation.
     pub bodies: Vec<BodyStatistics>,
@@ -48,24 +48,10 @@ impl RunStatistics {
     /// Of a simulation whose [initial states](Simulation::commit_initial_states) are committed: its first instant.
     pub fn new(simulation: &Simulation) -> Self {
         let bodies = simulation.bodies();
-        let none = BodyStatistics {
-            peak_force: 0.0,
-            peak_moment: 0.0,
-            peak_depth: 0.0,
-            most_contacts: 0,
-            impulse: Vec3::zeros(),
-            last_force: Vec3::zeros(),
-        };
         let mut statistics = Self {
-            bodies: vec![none; bodies.len()],
+            bodies: vec![BodyStatistics::default(); bodies.len()],
             by_interface: bodies.filter_map(|(id, body)| Some((body.interface?, id.index()))).collect(),
-            most_contacts: 0,
-            first_energy: Energy::default(),
-            last_energy: Energy::default(),
-            worst_balance: 0.0,
-            contacts_wanted: None,
-            tunnelled: 0,
-            first_tunnelled: String::new(),
+            ..Self::default()
         };
         statistics.observe(simulation);
         statistics.bodies.iter_mut().for_each(|body| body.impulse = Vec3::zeros());

@@ -1,7 +1,7 @@
 //! Bodies and everything that acts on them, at one instant.
 
 use crate::body::{Motion, RigidBody};
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use crate::load::Load;
 use crate::spring::{Spring, SpringAction, SpringEnd};
 use crate::state::{FreeState, Inertia, Rates};
@@ -74,40 +74,35 @@ impl System {
     }
 
     /// Hands the states to the world and takes the contact wrenches.
-    pub fn touch(&mut self, time: f64) -> Result<(), ExecutiveError> {
+    pub fn touch(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.evaluate()?;
         self.take_wrenches()
     }
 
     /// As [`touch`](Self::touch), and the world accepts the states.
-    pub fn touch_and_commit(&mut self, time: f64) -> Result<(), ExecutiveError> {
+    pub fn touch_and_commit(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.step()?;
         self.take_wrenches()
     }
 
     /// As [`touch_and_commit`](Self::touch_and_commit), without a second evaluation of states that were just touched.
-    pub fn commit(&mut self, time: f64) -> Result<(), ExecutiveError> {
+    pub fn commit(&mut self, time: f64) -> Result<()> {
         self.hand_in(time)?;
         self.world.commit()?;
         self.take_wrenches()
     }
 
     /// The world accepts the states, with friction preloaded between two Objects; wrenches stay as they were.
-    pub fn preload_friction(
-        &mut self,
-        time: f64,
-        pair: PairId,
-        preload: &FrictionPreload,
-    ) -> Result<usize, ExecutiveError> {
+    pub fn preload_friction(&mut self, time: f64, pair: PairId, preload: &FrictionPreload) -> Result<usize> {
         self.hand_in(time)?;
         Ok(self.world.preload_friction(pair, preload)?)
     }
 
     /// # Errors
     /// A motion that is no longer finite, or beyond what the engine accepts, within a step too.
-    fn hand_in(&mut self, time: f64) -> Result<(), ExecutiveError> {
+    fn hand_in(&mut self, time: f64) -> Result<()> {
         self.states_in.clear();
         for (body, (pose, twist)) in self.bodies.iter().zip(&self.motions) {
             let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
@@ -121,7 +116,7 @@ impl System {
         Ok(self.world.set_states(&self.states_in)?)
     }
 
-    fn take_wrenches(&mut self) -> Result<(), ExecutiveError> {
+    fn take_wrenches(&mut self) -> Result<()> {
         for (body, wrench) in self.bodies.iter().zip(&mut self.contact) {
             if let Some(interface) = body.interface {
                 *wrench = self.world.wrench_common(interface)?;

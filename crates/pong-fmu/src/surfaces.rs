@@ -4,7 +4,8 @@ use pong_engine::{EngineError, ModelId, World};
 use pong_model::{FrictionLaw, NormalLaw, Surface};
 
 /// What a factor is of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase", suffix = "_scale")]
 pub(crate) enum Factor {
     /// The normal stiffness, and with it that of a bristle that takes a share of it.
     Stiffness,
@@ -15,14 +16,6 @@ pub(crate) enum Factor {
 }
 
 impl Factor {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Stiffness => "stiffness_scale",
-            Self::Damping => "damping_scale",
-            Self::Friction => "friction_scale",
-        }
-    }
-
     /// The value of a surface that it multiplies, with what it is called; `None` if the surface has none.
     fn value(self, surface: &Surface) -> Option<(&'static str, f64)> {
         let found = match (self, &surface.normal, &surface.friction) {

@@ -11,7 +11,8 @@ pub(crate) const MOTION_NUMBERS: usize = 13;
 pub(crate) const WRENCH_NUMBERS: usize = 6;
 
 /// What a variable is for the importer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub(crate) enum Causality {
     Independent,
     Parameter,
@@ -151,7 +152,7 @@ impl Variables {
         variables.add_states(simulation);
         for (place, surface) in surfaces.iter().enumerate() {
             for (number, (factor, what, value)) in surface.factors.iter().enumerate() {
-                let name = format!("surface.{}.{}", structured(&surface.path), factor.name());
+                let name = format!("surface.{}.{}", structured(&surface.path), <&str>::from(factor));
                 let description = format!(
                     "Factor on the {what}, of surface `{}`, which is {value} in the model",
                     surface.path

@@ -114,11 +114,6 @@ impl Extensions {
         self.volumes.get(kind)
     }
 
-    /// The test of an ordered pair of volume kinds.
-    pub fn volume_test(&self, kind_a: &str, kind_b: &str) -> Option<&VolumeTest> {
-        self.volume_tests.get(&(kind_a.to_owned(), kind_b.to_owned()))
-    }
-
     /// All registered volume tests with the ordered pair of kinds of each.
     pub fn volume_tests(&self) -> impl Iterator<Item = (&str, &str, &VolumeTest)> {
         self.volume_tests.iter().map(|((kind_a, kind_b), test)| (kind_a.as_str(), kind_b.as_str(), test))
@@ -127,11 +122,6 @@ impl Extensions {
     /// The contact test of an ordered pair of primitive kinds.
     pub fn contact_test(&self, kind_a: &str, kind_b: &str) -> Option<&ContactTest> {
         self.contact_tests.get(kind_a)?.get(kind_b)
-    }
-
-    /// Whether there are no contact tests to look up.
-    pub fn has_no_contact_tests(&self) -> bool {
-        self.contact_tests.is_empty()
     }
 }
 

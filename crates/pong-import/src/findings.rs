@@ -48,6 +48,18 @@ impl Findings {
         self.faults.push(Finding { path: path.to_owned(), rule, cause: cause.into(), cure: cure.into() });
     }
 
+    /// Adds what keeps the file from being imported, where a value cannot be given for it.
+    pub fn refuse<T>(
+        &mut self,
+        path: &str,
+        rule: &'static str,
+        cause: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Option<T> {
+        self.fault(path, rule, cause, cure);
+        None
+    }
+
     /// Adds what the author should know.
     pub fn note(
         &mut self,

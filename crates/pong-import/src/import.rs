@@ -131,8 +131,12 @@ fn convert(
 ) -> Option<build::Built> {
     let file = input.display().to_string();
     if !(options.unit_m > 0.0 && options.unit_m.is_finite()) {
-        findings.fault(&file, "unit", format!("a unit of {} m", options.unit_m), "give metres above zero");
-        return None;
+        return findings.refuse(
+            &file,
+            "unit",
+            format!("a unit of {} m", options.unit_m),
+            "give metres above zero",
+        );
     }
     progress("reading");
     let source = source::read(input, &options.reading(), findings)?;

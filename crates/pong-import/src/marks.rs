@@ -77,10 +77,17 @@ struct Fields<'a> {
     map: &'a Map<String, Value>,
     path: &'a str,
     findings: &'a mut Findings,
+    /// The fields asked for so far: those that are known.
+    known: Vec<&'static str>,
 }
 
-impl Fields<'_> {
-    fn take<T>(&mut self, key: &str, what: &str, read: impl Fn(&Value) -> Option<T>) -> Option<T> {
+impl<'a> Fields<'a> {
+    fn of(map: &'a Map<String, Value>, path: &'a str, findings: &'a mut Findings) -> Self {
+        Self { map, path, findings, known: vec!["version"] }
+    }
+
+    fn take<T>(&mut self, key: &'static str, what: &str, read: impl Fn(&Value) -> Option<T>) -> Option<T> {
+        self.known.push(key);
         let value = self.map.get(key).filter(|value| !value.is_null())?;
         let read = read(value);
         if read.is_none() {
@@ -90,21 +97,21 @@ impl Fields<'_> {
         read
     }
 
-    fn text(&mut self, key: &str) -> String {
+    fn text(&mut self, key: &'static str) -> String {
         self.take(key, "text", |value| value.as_str().map(str::to_owned)).unwrap_or_default()
     }
 
-    fn word(&mut self, key: &str, allowed: &[&str], default: &str) -> String {
+    fn word(&mut self, key: &'static str, allowed: &[&str], default: &str) -> String {
         let what = format!("one of {}", allowed.join(", "));
         let read = |value: &Value| value.as_str().filter(|word| allowed.contains(word)).map(str::to_owned);
         self.take(key, &what, read).unwrap_or_else(|| default.to_owned())
     }
 
-    fn number(&mut self, key: &str) -> Option<f64> {
+    fn number(&mut self, key: &'static str) -> Option<f64> {
         self.take(key, "a number that is not negative", |value| value.as_f64().filter(|x| *x >= 0.0))
     }
 
-    fn flag(&mut self, key: &str) -> Option<bool> {
+    fn flag(&mut self, key: &'static str) -> Option<bool> {
         self.take(key, "true or false", flag_of)
     }
 
@@ -133,8 +140,8 @@ impl Fields<'_> {
         }
     }
 
-    fn unknown(&mut self, known: &[&str]) {
-        for key in self.map.keys().filter(|key| !known.contains(&key.as_str())) {
+    fn unknown(&mut self) {
+        for key in self.map.keys().filter(|key| !self.known.contains(&key.as_str())) {
             let cause = format!("`{key}` of its mark is not known and counts for nothing");
             self.findings.note(self.path, "unknown-field", cause, "");
         }
@@ -182,7 +189,7 @@ impl Mark {
         let mut parsed = Value::Null;
         let map = object(value, &mut parsed, path, findings)?;
         let before = findings.faults.len();
-        let mut fields = Fields { map, path, findings };
+        let mut fields = Fields::of(map, path, findings);
         let numbers = |value: &Value| -> Option<[f64; 3]> { numbers_of(value)?.try_into().ok() };
         let mark = Self {
             role: fields.word("role", &ROLES, if map.contains_key("kind") { "primitive" } else { "none" }),
@@ -210,33 +217,8 @@ impl Mark {
                 .into_iter()
                 .find(|key| map.get(*key).and_then(Value::as_array).is_some_and(|list| !list.is_empty())),
         };
-        fields.unknown(&[
-            "role",
-            "version",
-            "name",
-            "surface",
-            "order",
-            "movable",
-            "bound",
-            "custom_bound",
-            "kind",
-            "radius",
-            "semi_axes",
-            "length",
-            "radii",
-            "mouths",
-            "reach",
-            "response",
-            "thickness",
-            "two_sided",
-            "inactive_faces",
-            "file",
-            "file_scale",
-            "custom_kind",
-            "parameters",
-            "parts",
-            "settings",
-        ]);
+        fields.known.extend(["settings", "inactive_faces", "parts"]);
+        fields.unknown();
         (mark.role != "none" && findings.faults.len() == before).then_some(mark)
     }
 }
@@ -245,7 +227,7 @@ impl Settings {
     pub(crate) fn read(value: &Value, path: &str, findings: &mut Findings) -> Self {
         let mut parsed = Value::Null;
         let Some(map) = object(value, &mut parsed, path, findings) else { return Self::default() };
-        let mut fields = Fields { map, path, findings };
+        let mut fields = Fields::of(map, path, findings);
         let settings = Self {
             name: fields.text("name"),
             entry_memory: fields.flag("entry_memory"),
@@ -254,7 +236,7 @@ impl Settings {
                 .unwrap_or_default(),
             pairs: fields.take("pairs", "a list", |value| value.as_array().cloned()).unwrap_or_default(),
         };
-        fields.unknown(&["version", "name", "entry_memory", "surfaces", "pairs"]);
+        fields.unknown();
         settings
     }
 }

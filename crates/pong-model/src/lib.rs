@@ -21,6 +21,8 @@ pub mod grouping;
 mod hash;
 mod hull;
 mod limits;
+#[doc(hidden)]
+pub mod mesh_formats;
 pub mod model;
 mod pair_table;
 mod pieces;

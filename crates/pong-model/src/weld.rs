@@ -1,8 +1,8 @@
 //! Bit-equal positions are one vertex. Public for `pong-import`, which welds by the same rule; no stable interface.
 
 use pong_geometry::Vec3;
+use rustc_hash::FxBuildHasher;
 use std::collections::HashMap;
-use std::hash::{BuildHasherDefault, Hasher};
 
 /// Bits of a position; −0 and 0 are the same.
 pub type PositionKey = [u64; 3];
@@ -17,37 +17,8 @@ pub fn without_negative_zero(p: Vec3) -> Vec3 {
     p.map(|x| x + 0.0)
 }
 
-/// Mixes words; quick, and the same on every machine. Nothing depends on the order of a map's entries.
-#[derive(Clone, Copy, Default)]
-pub struct WordHasher(u64);
-
-impl Hasher for WordHasher {
-    fn finish(&self) -> u64 {
-        self.0 ^ (self.0 >> 32)
-    }
-
-    fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u64(u64::from(byte));
-        }
-    }
-
-    fn write_u32(&mut self, word: u32) {
-        self.write_u64(u64::from(word));
-    }
-
-    fn write_usize(&mut self, word: usize) {
-        self.write_u64(word as u64);
-    }
-
-    fn write_u64(&mut self, word: u64) {
-        let mixed = (self.0.rotate_left(26) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.0 = mixed ^ (mixed >> 29);
-    }
-}
-
-/// A map that hashes with [`WordHasher`].
-pub type WordMap<K, V> = HashMap<K, V, BuildHasherDefault<WordHasher>>;
+/// A map with a quick hash, the same on every machine. Nothing depends on the order of its entries.
+pub type WordMap<K, V> = HashMap<K, V, FxBuildHasher>;
 
 /// Gives every distinct position a number, in the order of first use.
 #[derive(Default)]

@@ -71,21 +71,35 @@ pub struct SurfaceValues {
     /// N/m, or N/m^1.5; may be infinite.
     #[serde(with = "number")]
     stiffness: f64,
-    normal: Normal,
-    friction: Friction,
+    #[serde(with = "Normal")]
+    normal: NormalLaw,
+    #[serde(with = "Friction")]
+    friction: FrictionLaw,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "law")]
+/// A normal law as logs write it.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "NormalLaw", tag = "law")]
 enum Normal {
-    Linear { damping: f64, ramp: f64 },
-    HuntCrossley { dissipation: f64, hertz: bool },
-    Custom { name: String, parameters: Vec<f64> },
+    Linear {
+        damping: f64,
+        ramp: f64,
+    },
+    HuntCrossley {
+        dissipation: f64,
+        #[serde(rename = "hertz", with = "hertz")]
+        exponent: Exponent,
+    },
+    Custom {
+        name: String,
+        parameters: Vec<f64>,
+    },
     Inherited,
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(tag = "law")]
+/// A friction law as logs write it.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "FrictionLaw", tag = "law")]
 enum Friction {
     None,
     Bristle { mu: f64, static_excess: f64, stiffness: Option<f64>, damping: f64 },
@@ -96,53 +110,30 @@ enum Friction {
 
 impl From<&Surface> for SurfaceValues {
     fn from(surface: &Surface) -> Self {
-        let normal = match &surface.normal {
-            NormalLaw::Linear { damping, ramp } => Normal::Linear { damping: *damping, ramp: *ramp },
-            NormalLaw::HuntCrossley { dissipation, exponent } => {
-                Normal::HuntCrossley { dissipation: *dissipation, hertz: *exponent == Exponent::ThreeHalves }
-            }
-            NormalLaw::Custom { name, parameters } => {
-                Normal::Custom { name: name.clone(), parameters: parameters.clone() }
-            }
-            NormalLaw::Inherited => Normal::Inherited,
-        };
-        let friction = match &surface.friction {
-            FrictionLaw::None => Friction::None,
-            &FrictionLaw::Bristle { mu, static_excess, stiffness, damping } => {
-                Friction::Bristle { mu, static_excess, stiffness, damping }
-            }
-            &FrictionLaw::Coulomb { mu, slip_speed } => Friction::Coulomb { mu, slip_speed },
-            FrictionLaw::Custom { name, parameters } => {
-                Friction::Custom { name: name.clone(), parameters: parameters.clone() }
-            }
-            FrictionLaw::Inherited => Friction::Inherited,
-        };
-        Self { stiffness: surface.stiffness, normal, friction }
+        let Surface { stiffness, normal, friction, .. } = surface.clone();
+        Self { stiffness, normal, friction }
     }
 }
 
 impl SurfaceValues {
     /// The surface with these values.
     pub fn surface(&self, name: &str) -> Surface {
-        let normal = match self.normal.clone() {
-            Normal::Linear { damping, ramp } => NormalLaw::Linear { damping, ramp },
-            Normal::HuntCrossley { dissipation, hertz } => {
-                let exponent = if hertz { Exponent::ThreeHalves } else { Exponent::One };
-                NormalLaw::HuntCrossley { dissipation, exponent }
-            }
-            Normal::Custom { name, parameters } => NormalLaw::Custom { name, parameters },
-            Normal::Inherited => NormalLaw::Inherited,
-        };
-        let friction = match self.friction.clone() {
-            Friction::None => FrictionLaw::None,
-            Friction::Bristle { mu, static_excess, stiffness, damping } => {
-                FrictionLaw::Bristle { mu, static_excess, stiffness, damping }
-            }
-            Friction::Coulomb { mu, slip_speed } => FrictionLaw::Coulomb { mu, slip_speed },
-            Friction::Custom { name, parameters } => FrictionLaw::Custom { name, parameters },
-            Friction::Inherited => FrictionLaw::Inherited,
-        };
-        Surface { name: name.to_owned(), stiffness: self.stiffness, normal, friction }
+        let Self { stiffness, normal, friction } = self.clone();
+        Surface { name: name.to_owned(), stiffness, normal, friction }
+    }
+}
+
+/// Whether the exponent is that of Hertz.
+mod hertz {
+    use pong_model::Exponent;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(exponent: &Exponent, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_bool(*exponent == Exponent::ThreeHalves)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Exponent, D::Error> {
+        Ok(if bool::deserialize(deserializer)? { Exponent::ThreeHalves } else { Exponent::One })
     }
 }
 

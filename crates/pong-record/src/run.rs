@@ -69,41 +69,23 @@ pub struct Run {
     pub lost: u64,
 }
 
-/// What a host does with wrenches: [`WrenchCoupling`](pong_engine::WrenchCoupling) in a log.
+/// What a host does with wrenches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RunAccounts {
-    /// Evaluates within every step.
+pub struct RunAccounts(#[serde(with = "Coupling")] pub WrenchCoupling);
+
+/// As a log writes it.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "WrenchCoupling", rename_all = "snake_case")]
+enum Coupling {
     Stages,
-    /// Gives the velocity with which the bodies then move.
     SemiImplicit,
-    /// Holds them from one commit to the next (`held` in version 1).
+    /// `held` in version 1.
     #[serde(alias = "held")]
     ZeroOrderHold {
-        /// How many whole frames later than the first possible one they act (`late` in version 1).
+        /// `late` in version 1.
         #[serde(alias = "late")]
         delay_frames: u32,
     },
-}
-
-impl From<WrenchCoupling> for RunAccounts {
-    fn from(coupling: WrenchCoupling) -> Self {
-        match coupling {
-            WrenchCoupling::Stages => Self::Stages,
-            WrenchCoupling::SemiImplicit => Self::SemiImplicit,
-            WrenchCoupling::ZeroOrderHold { delay_frames } => Self::ZeroOrderHold { delay_frames },
-        }
-    }
-}
-
-impl From<RunAccounts> for WrenchCoupling {
-    fn from(accounts: RunAccounts) -> Self {
-        match accounts {
-            RunAccounts::Stages => Self::Stages,
-            RunAccounts::SemiImplicit => Self::SemiImplicit,
-            RunAccounts::ZeroOrderHold { delay_frames } => Self::ZeroOrderHold { delay_frames },
-        }
-    }
 }
 
 /// A model of a log.

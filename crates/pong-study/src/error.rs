@@ -11,6 +11,9 @@ use std::path::Path;
 #[error("{0}")]
 pub struct StudyError(pub String);
 
+/// What a study answers.
+pub type Result<T, E = StudyError> = std::result::Result<T, E>;
+
 impl StudyError {
     /// From the thing and a line that holds cause and cure.
     pub(crate) fn new(thing: &str, line: impl Display) -> Self {

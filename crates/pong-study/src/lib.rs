@@ -9,4 +9,4 @@ mod error;
 pub mod sweep;
 pub mod tree_tuning;
 
-pub use error::StudyError;
+pub use error::{Result, StudyError};

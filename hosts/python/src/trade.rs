@@ -152,7 +152,7 @@ pub(crate) fn trade(
             frame_s: frame,
             halvings,
             duration_s: duration,
-            levers: named("levers", levers, &Lever::ALL, Lever::name)?,
+            levers: named("levers", levers, Lever::ALL, Lever::name)?,
             leaves,
             workers: granted(py, workers)?,
         },

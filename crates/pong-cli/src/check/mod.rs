@@ -7,7 +7,7 @@ mod stiffness;
 mod tree;
 
 use crate::folders::AllowedFolders;
-use crate::terminal::{print, tell, tell_lines};
+use crate::terminal::{Outcome, failure, print, tell_lines};
 use named::{Named, name};
 use pong_model::printable;
 use std::path::PathBuf;
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     allowed: AllowedFolders,
 }
 
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let mut named: Vec<Named> = Vec::new();
     let mut faults = 0;
     let extensions = arguments.allowed.extensions();
@@ -62,11 +62,10 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
         }
     }
     print(&text);
-    if faults == 0 {
-        return ExitCode::SUCCESS;
+    match faults {
+        0 => Ok(ExitCode::SUCCESS),
+        _ => Err(failure(crate::text::count(faults, "fault", "faults"))),
     }
-    tell(crate::text::count(faults, "fault", "faults").to_string());
-    ExitCode::FAILURE
 }
 
 /// Every two models, and each model of several movable groups with itself.

@@ -8,41 +8,19 @@ mod summary;
 
 pub(crate) use arguments::Arguments;
 
-use crate::terminal::{print, tell, tell_lines};
+use crate::terminal::{Failure, Outcome, failure, print, progress, tell};
 use crate::text::number;
-use indicatif::{ProgressBar, ProgressStyle};
 use outputs::Outputs;
+use pong_executive::StepWatch;
 use pong_executive::scene::{BuiltScene, Scene};
-use pong_executive::{ExecutiveError, StepWatch};
 use statistics::Statistics;
 use std::process::ExitCode;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-/// Why a run ended early.
-enum Failure {
-    Dynamics(ExecutiveError),
-    Output(String),
-}
-
-impl std::fmt::Display for Failure {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Dynamics(error) => error.fmt(f),
-            Self::Output(reason) => f.write_str(reason),
-        }
-    }
-}
-
-pub(crate) fn main(arguments: &Arguments) -> ExitCode {
+pub(crate) fn main(arguments: &Arguments) -> Outcome {
     let scene =
         Scene::load(&arguments.scene).map(|scene| scene.with_extensions(arguments.allowed.extensions()));
-    let mut built = match scene.and_then(|scene| scene.build()) {
-        Ok(built) => built,
-        Err(errors) => {
-            tell_lines(&errors);
-            return ExitCode::FAILURE;
-        }
-    };
+    let mut built = scene.and_then(|scene| scene.build())?;
     for warning in built.warnings.iter().cloned().chain(built.seal.warnings.iter().map(ToString::to_string)) {
         tell(format!("warning: {warning}"));
     }
@@ -65,13 +43,8 @@ pub(crate) fn main(arguments: &Arguments) -> ExitCode {
     {
         tell(format!("warning: {advice}"));
     }
-    match ended {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            tell(format!("{}: {failure}", arguments.scene.display()));
-            ExitCode::FAILURE
-        }
-    }
+    ended.map_err(|reason| failure(format!("{}: {reason}", arguments.scene.display())))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn run(
@@ -80,10 +53,10 @@ fn run(
     statistics: &mut Statistics,
     watch: StepWatch,
 ) -> Result<(), Failure> {
-    let mut outputs = Outputs::create(arguments, built).map_err(Failure::Output)?;
+    let mut outputs = Outputs::create(arguments, built)?;
     let ended = advance(arguments, built, (statistics, watch), &mut outputs);
     // What was recorded before a failure is what its cause is sought in.
-    let written = outputs.finish().map_err(Failure::Output);
+    let written = outputs.finish().map_err(Failure::from);
     ended.and(written)
 }
 
@@ -93,13 +66,14 @@ fn advance(
     (statistics, mut watch): (&mut Statistics, StepWatch),
     outputs: &mut Outputs,
 ) -> Result<(), Failure> {
-    let bar = progress_bar(built.steps, arguments.quiet);
-    built.simulation.commit_initial_states().map_err(Failure::Dynamics)?;
+    let template = "{bar:40} {percent:>3} %  step {pos} of {len}, {eta} left";
+    let bar = progress(Some(built.steps), template, arguments.quiet);
+    built.simulation.commit_initial_states()?;
     statistics.start(&built.simulation);
     for done in 0..=built.steps {
         if done > 0 {
             let begin = Instant::now();
-            built.simulation.step().map_err(Failure::Dynamics)?;
+            built.simulation.step()?;
             statistics.took(begin.elapsed());
             statistics.observe(&built.simulation);
             bar.inc(1);
@@ -109,20 +83,8 @@ fn advance(
             bar.suspend(|| tell(format!("warning: from t = {time} s on: {warning}")));
         }
         let last = done == built.steps;
-        outputs.observe(&built.simulation, done, last).map_err(Failure::Output)?;
+        outputs.observe(&built.simulation, done, last)?;
     }
     bar.finish_and_clear();
     Ok(())
-}
-
-/// A bar on standard error, if that is a terminal.
-fn progress_bar(steps: u64, quiet: bool) -> ProgressBar {
-    if quiet {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(steps);
-    let template = "{bar:40} {percent:>3} %  step {pos} of {len}, {eta} left";
-    bar.set_style(ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

@@ -2,7 +2,7 @@
 
 use super::runge_kutta::{Contact, runge_kutta};
 use super::stages::Stages;
-use crate::error::ExecutiveError;
+use crate::error::Result;
 use crate::state::FreeState;
 use crate::system::System;
 use pong_geometry::Wrench;
@@ -33,7 +33,7 @@ pub(crate) fn hold(
     (substeps, delay_frames): (u32, u32),
     time: f64,
     frame: f64,
-) -> Result<(), ExecutiveError> {
+) -> Result<()> {
     let wrenches = held.exchange(&system.contact, delay_frames);
     let h = frame / f64::from(substeps);
     for substep in 0..substeps {

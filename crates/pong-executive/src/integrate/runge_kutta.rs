@@ -8,7 +8,7 @@
 //! Orientations are integrated as rotation vectors since the start of the step (`state.rs`).
 
 use super::stages::{Pushed, Stages};
-use crate::error::ExecutiveError;
+use crate::error::Result;
 use crate::state::{FreeState, Rates};
 use crate::system::System;
 use pong_geometry::Wrench;
@@ -29,7 +29,7 @@ pub(crate) fn runge_kutta(
     contact: &Contact<'_>,
     time: f64,
     h: f64,
-) -> Result<(), ExecutiveError> {
+) -> Result<()> {
     let mut trial = states.to_vec();
     stages.pushed.begin(states.len());
     rates(system, &trial, contact, time, &mut stages.rates[0]);

@@ -1,7 +1,7 @@
 //! The bodies of a scene: one for every movable group of every object.
 
-use super::document::{BodyEntry, Document, InertiaEntry, MotionEntry, ObjectEntry, PathEntry};
-use super::error::Faults;
+use super::document::{BodyEntry, InertiaEntry, MotionEntry, ObjectEntry, PathEntry};
+use super::error::{At, Faults};
 use super::poses::pose;
 use super::setting::Setting;
 use crate::body::{Motion, RigidBody};
@@ -11,14 +11,14 @@ use pong_engine::InterfaceId;
 use pong_geometry::{Mat3, Pose, Twist, Vec3};
 
 /// All bodies that could be made; faults are told.
-pub(crate) fn bodies(document: &Document, setting: &Setting, faults: &mut Faults<'_>) -> Vec<RigidBody> {
+pub(crate) fn bodies(setting: &Setting<'_>, faults: &mut Faults<'_>) -> Vec<RigidBody> {
     let mut bodies: Vec<RigidBody> = Vec::new();
-    for (index, entry) in document.objects.iter().enumerate() {
-        let mut maker = ObjectBodies { document, setting, object: entry, root: root_pose(entry) };
+    for (index, entry) in setting.document.objects.iter().enumerate() {
+        let mut maker = ObjectBodies { setting, object: entry, root: root_pose(entry) };
         let first = bodies.len();
         for (number, body) in entry.bodies.iter().enumerate() {
             let thing = format!("objects/{}/bodies[{number}]", entry.name);
-            bodies.extend(maker.body(body, &thing, faults));
+            bodies.extend(maker.body(body, &mut faults.at(&thing)));
             if repeats_last(&bodies) {
                 bodies.pop();
                 faults.note(&thing, "this group already has a body", "list each movable group once");
@@ -37,7 +37,7 @@ fn repeats_last(bodies: &[RigidBody]) -> bool {
 fn tell_missing(
     entry: &ObjectEntry,
     index: usize,
-    setting: &Setting,
+    setting: &Setting<'_>,
     bodies: &[RigidBody],
     faults: &mut Faults<'_>,
 ) {
@@ -61,41 +61,34 @@ fn root_pose(entry: &ObjectEntry) -> Pose {
     let root = entry.bodies.iter().find(|body| body.group.is_empty());
     let mut unheard = Faults::new("");
     root.map_or(Pose::identity(), |root| {
-        pose(&root.position.unwrap_or_default(), &root.orientation, "", &mut unheard)
+        pose(&root.position.unwrap_or_default(), &root.orientation, &mut unheard.at(""))
     })
 }
 
 struct ObjectBodies<'a> {
-    document: &'a Document,
-    setting: &'a Setting,
+    setting: &'a Setting<'a>,
     object: &'a ObjectEntry,
     root: Pose,
 }
 
 impl ObjectBodies<'_> {
-    fn body(&mut self, entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Option<RigidBody> {
+    fn body(&mut self, entry: &BodyEntry, at: &mut At<'_, '_>) -> Option<RigidBody> {
         let name = match entry.group.as_str() {
             "" => self.object.name.clone(),
             group => format!("{}/{group}", self.object.name),
         };
-        let interface = self.setting.interface(self.document, &name, thing, faults);
+        let interface = self.setting.interface(&name, at);
         // One name for one body, however the scene writes its group.
         let name = interface.and_then(|id| self.setting.world.scene().group_name(id).ok()).unwrap_or(name);
-        let start = self.start(entry, interface, thing, faults);
-        let twist = start_twist(entry, thing, faults);
-        let motion = motion(entry, &start, &twist, thing, faults);
+        let start = self.start(entry, interface, at);
+        let twist = start_twist(entry, at);
+        let motion = motion(entry, &start, &twist, at);
         Some(RigidBody { name, motion: motion?, pose: start, twist, interface: Some(interface?) })
     }
 
     /// The pose given, or that which the model's author gave the group.
-    fn start(
-        &self,
-        entry: &BodyEntry,
-        interface: Option<InterfaceId>,
-        thing: &str,
-        faults: &mut Faults<'_>,
-    ) -> Pose {
-        let given = pose(&entry.position.unwrap_or_default(), &entry.orientation, thing, faults);
+    fn start(&self, entry: &BodyEntry, interface: Option<InterfaceId>, at: &mut At<'_, '_>) -> Pose {
+        let given = pose(&entry.position.unwrap_or_default(), &entry.orientation, at);
         let authored = interface.and_then(|id| self.setting.world.scene().authored_pose(id).ok());
         let authored = authored.map_or(Pose::identity(), |x_rg| self.root.compose(&x_rg));
         let by_author = !entry.group.is_empty();
@@ -110,39 +103,31 @@ impl ObjectBodies<'_> {
     }
 }
 
-fn start_twist(entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Twist {
+fn start_twist(entry: &BodyEntry, at: &mut At<'_, '_>) -> Twist {
     let linear = entry.linear_velocity.unwrap_or_default();
     let angular = entry.angular_velocity.unwrap_or_default();
-    faults.finite(thing, "linear_velocity", &linear);
-    faults.finite(thing, "angular_velocity", &angular);
+    at.finite("linear_velocity", &linear);
+    at.finite("angular_velocity", &angular);
     Twist { linear: linear.into(), angular: angular.into() }
 }
 
-fn motion(
-    entry: &BodyEntry,
-    start: &Pose,
-    twist: &Twist,
-    thing: &str,
-    faults: &mut Faults<'_>,
-) -> Option<Motion> {
+fn motion(entry: &BodyEntry, start: &Pose, twist: &Twist, at: &mut At<'_, '_>) -> Option<Motion> {
     let keeps_velocity =
         matches!(entry.motion, MotionEntry::Free | MotionEntry::Prescribed(PathEntry::ConstantTwist));
     if !keeps_velocity && (entry.linear_velocity.is_some() || entry.angular_velocity.is_some()) {
         let cause = "a velocity is given, but the motion does not have one";
-        faults.note(thing, cause, "leave it out, or use motion: Prescribed(ConstantTwist)");
+        at.note(cause, "leave it out, or use motion: Prescribed(ConstantTwist)");
     }
     match &entry.motion {
         MotionEntry::Fixed => Some(Motion::Fixed),
-        MotionEntry::Free => mass(entry, thing, faults).map(Motion::Free),
-        MotionEntry::Prescribed(path) => {
-            path_of(path, entry, start, twist, thing, faults).map(Motion::Prescribed)
-        }
+        MotionEntry::Free => mass(entry, at).map(Motion::Free),
+        MotionEntry::Prescribed(path) => path_of(path, entry, start, twist, at).map(Motion::Prescribed),
     }
 }
 
-fn mass(entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Option<MassProperties> {
+fn mass(entry: &BodyEntry, at: &mut At<'_, '_>) -> Option<MassProperties> {
     let (Some(mass), Some(inertia)) = (entry.mass, entry.inertia) else {
-        faults.note(thing, "a free body needs `mass` and `inertia`", "give both, or another motion");
+        at.note("a free body needs `mass` and `inertia`", "give both, or another motion");
         return None;
     };
     let inertia = match inertia {
@@ -151,7 +136,7 @@ fn mass(entry: &BodyEntry, thing: &str, faults: &mut Faults<'_>) -> Option<MassP
     };
     let mass = MassProperties { mass, inertia, mass_center: entry.mass_center.into() };
     let wrong = mass.faults();
-    wrong.iter().for_each(|(cause, cure)| faults.note(thing, cause, cure));
+    wrong.iter().for_each(|(cause, cure)| at.note(cause, cure));
     wrong.is_empty().then_some(mass)
 }
 
@@ -160,42 +145,38 @@ fn path_of(
     entry: &BodyEntry,
     start: &Pose,
     twist: &Twist,
-    thing: &str,
-    faults: &mut Faults<'_>,
+    at: &mut At<'_, '_>,
 ) -> Option<Path> {
     match path {
         PathEntry::ConstantTwist => Some(Path::ConstantTwist { pose: *start, twist: *twist }),
         PathEntry::Sinusoid { axis, travel, angle, frequency, phase } => {
             let values = [*travel, *angle, *frequency, *phase];
-            let finite = faults.finite(thing, "Sinusoid", &values);
-            let axis = direction(axis, thing, faults).filter(|_| finite)?;
+            let finite = at.finite("Sinusoid", &values);
+            let axis = direction(axis, at).filter(|_| finite)?;
             let [travel, angle, frequency, phase] = values;
             Some(Path::Oscillation(Oscillation { pose: *start, axis, travel, angle, frequency, phase }))
         }
         PathEntry::Table(rows) => {
             if entry.position.is_some() || entry.orientation.is_some() {
                 let cause = "a pose is given beside a table of poses";
-                faults.note(thing, cause, "leave `position` and `orientation` to the rows");
+                at.note(cause, "leave `position` and `orientation` to the rows");
             }
             let rows: Vec<PathRow> = rows
                 .iter()
-                .map(|row| PathRow {
-                    time: row.time,
-                    pose: pose(&row.position, &row.orientation, thing, faults),
-                })
+                .map(|row| PathRow { time: row.time, pose: pose(&row.position, &row.orientation, at) })
                 .collect();
-            PathTable::new(&rows).map_err(|line| faults.note_line(thing, &line)).ok().map(Path::Table)
+            PathTable::new(&rows).map_err(|line| at.note_line(&line)).ok().map(Path::Table)
         }
     }
 }
 
-fn direction(axis: &[f64; 3], thing: &str, faults: &mut Faults<'_>) -> Option<Vec3> {
-    if !faults.finite(thing, "axis", axis) {
+fn direction(axis: &[f64; 3], at: &mut At<'_, '_>) -> Option<Vec3> {
+    if !at.finite("axis", axis) {
         return None;
     }
     let unit = Vec3::from(*axis).try_normalize(0.0);
     if unit.is_none() {
-        faults.note(thing, "the axis is zero", "give a direction");
+        at.note("the axis is zero", "give a direction");
     }
     unit
 }

@@ -1,6 +1,7 @@
 //! What a scene file says, field by field (docs/scene_format.md).
 
 use crate::integrate::Integrator;
+use crate::load::Axes;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
@@ -27,7 +28,7 @@ pub(crate) struct Document {
     pub loads: Vec<LoadEntry>,
     #[serde(default)]
     pub springs: Vec<SpringEntry>,
-    pub integrator: IntegratorEntry,
+    pub integrator: Integrator,
     /// Step of the integrator, s.
     pub step: f64,
     /// End of the run, s.
@@ -171,17 +172,10 @@ pub(crate) struct LoadEntry {
     #[serde(default)]
     pub point: Triple,
     #[serde(default)]
-    pub axes: AxesEntry,
+    pub axes: Axes,
     pub force: Option<Triple>,
     pub moment: Option<Triple>,
     pub table: Option<Vec<LoadRowEntry>>,
-}
-
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
-pub(crate) enum AxesEntry {
-    #[default]
-    Common,
-    Body,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize)]
@@ -231,47 +225,6 @@ pub(crate) struct PoseEntry {
     #[serde(default)]
     pub position: Triple,
     pub orientation: Option<Quaternion>,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) enum IntegratorEntry {
-    SemiImplicitEuler,
-    RungeKutta4,
-    ZeroOrderHold {
-        #[serde(default = "one_substep")]
-        substeps: u32,
-        #[serde(default, alias = "delay")]
-        delay_frames: u32,
-    },
-}
-
-impl From<IntegratorEntry> for Integrator {
-    fn from(entry: IntegratorEntry) -> Self {
-        match entry {
-            IntegratorEntry::SemiImplicitEuler => Self::SemiImplicitEuler,
-            IntegratorEntry::RungeKutta4 => Self::RungeKutta4,
-            IntegratorEntry::ZeroOrderHold { substeps, delay_frames } => {
-                Self::ZeroOrderHold { substeps, delay_frames }
-            }
-        }
-    }
-}
-
-impl From<Integrator> for IntegratorEntry {
-    fn from(integrator: Integrator) -> Self {
-        match integrator {
-            Integrator::SemiImplicitEuler => Self::SemiImplicitEuler,
-            Integrator::RungeKutta4 => Self::RungeKutta4,
-            Integrator::ZeroOrderHold { substeps, delay_frames } => {
-                Self::ZeroOrderHold { substeps, delay_frames }
-            }
-        }
-    }
-}
-
-fn one_substep() -> u32 {
-    1
 }
 
 /// A map in the order of the file, with repeated keys: they are told later, by name.

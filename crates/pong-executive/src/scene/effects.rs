@@ -1,11 +1,11 @@
 //! Loads, springs and preloads of a scene.
 
-use super::document::{AxesEntry, Document, EndEntry, FrictionEntry, LoadEntry, PreloadEntry, SpringEntry};
-use super::error::Faults;
-use super::poses::{pose, pose_entry};
+use super::document::{Document, EndEntry, FrictionEntry, LoadEntry, PreloadEntry, SpringEntry};
+use super::error::{At, Faults};
+use super::poses::pose;
 use super::setting::Setting;
 use crate::body::{BodyId, RigidBody};
-use crate::load::{Axes, Load, LoadHistory, LoadRow};
+use crate::load::{Load, LoadHistory, LoadRow};
 use crate::simulation::Simulation;
 use crate::spring::{Spring, SpringEnd};
 use pong_engine::{FrictionPreload, PairId};
@@ -13,50 +13,40 @@ use pong_geometry::Wrench;
 
 /// Finds a body by its name in the scene.
 fn body_named(
-    document: &Document,
-    setting: &Setting,
+    setting: &Setting<'_>,
     bodies: &[RigidBody],
     name: &str,
-    thing: &str,
-    faults: &mut Faults<'_>,
+    at: &mut At<'_, '_>,
 ) -> Option<BodyId> {
-    let interface = setting.interface(document, name, thing, faults)?;
+    let interface = setting.interface(name, at)?;
     // A body at fault is missing here, but told already.
     bodies.iter().position(|body| body.interface == Some(interface)).map(BodyId)
 }
 
-pub(crate) fn loads(
-    document: &Document,
-    setting: &Setting,
-    bodies: &[RigidBody],
-    faults: &mut Faults<'_>,
-) -> Vec<Load> {
+pub(crate) fn loads(setting: &Setting<'_>, bodies: &[RigidBody], faults: &mut Faults<'_>) -> Vec<Load> {
     let mut loads = Vec::new();
-    for (number, entry) in document.loads.iter().enumerate() {
-        let thing = format!("loads[{number}]");
-        let body = body_named(document, setting, bodies, &entry.body, &thing, faults);
-        faults.finite(&thing, "point", &entry.point);
-        let history = history(entry, &thing, faults);
+    for (number, entry) in setting.document.loads.iter().enumerate() {
+        let at = &mut faults.at(format!("loads[{number}]"));
+        let body = body_named(setting, bodies, &entry.body, at);
+        at.finite("point", &entry.point);
+        let history = history(entry, at);
         if let Some(line) = history.fault() {
-            faults.note_line(&thing, &line);
+            at.note_line(&line);
         }
-        let axes = match entry.axes {
-            AxesEntry::Common => Axes::Common,
-            AxesEntry::Body => Axes::Body,
-        };
-        loads.extend(body.map(|body| Load { body, point: entry.point.into(), axes, history }));
+        let (point, axes) = (entry.point.into(), entry.axes);
+        loads.extend(body.map(|body| Load { body, point, axes, history }));
     }
     loads
 }
 
-fn history(entry: &LoadEntry, thing: &str, faults: &mut Faults<'_>) -> LoadHistory {
+fn history(entry: &LoadEntry, at: &mut At<'_, '_>) -> LoadHistory {
     if entry.table.is_some() == (entry.force.is_some() || entry.moment.is_some()) {
         let cause = "it is neither a constant nor a table";
-        faults.note(thing, cause, "give `force` and/or `moment`, or `table`, not both");
+        at.note(cause, "give `force` and/or `moment`, or `table`, not both");
     }
     let mut wrench = |force: [f64; 3], moment: [f64; 3]| {
-        faults.finite(thing, "force", &force);
-        faults.finite(thing, "moment", &moment);
+        at.finite("force", &force);
+        at.finite("moment", &moment);
         Wrench { force: force.into(), moment: moment.into() }
     };
     match &entry.table {
@@ -71,50 +61,39 @@ fn history(entry: &LoadEntry, thing: &str, faults: &mut Faults<'_>) -> LoadHisto
     }
 }
 
-pub(crate) fn springs(
-    document: &Document,
-    setting: &Setting,
-    bodies: &[RigidBody],
-    faults: &mut Faults<'_>,
-) -> Vec<Spring> {
+pub(crate) fn springs(setting: &Setting<'_>, bodies: &[RigidBody], faults: &mut Faults<'_>) -> Vec<Spring> {
     let mut springs = Vec::new();
-    for (number, entry) in document.springs.iter().enumerate() {
-        let thing = format!("springs[{number}]");
+    for (number, entry) in setting.document.springs.iter().enumerate() {
+        let at = &mut faults.at(format!("springs[{number}]"));
         let mut end = |end: &EndEntry| match end {
             EndEntry::Ground { position, orientation } => {
-                Some(SpringEnd::ground(pose(position, orientation, &thing, faults)))
+                Some(SpringEnd::ground(pose(position, orientation, at)))
             }
             EndEntry::On { body, position, orientation } => {
-                let frame = pose(position, orientation, &thing, faults);
-                let body = body_named(document, setting, bodies, body, &thing, faults);
+                let frame = pose(position, orientation, at);
+                let body = body_named(setting, bodies, body, at);
                 body.map(|body| SpringEnd::on(body, frame))
             }
         };
         let ends = (end(&entry.first), end(&entry.second));
         if let (Some(first), Some(second)) = ends {
-            springs.push(spring(entry, first, second, &thing, faults));
+            springs.push(spring(entry, first, second, at));
         }
     }
     springs
 }
 
-fn spring(
-    entry: &SpringEntry,
-    first: SpringEnd,
-    second: SpringEnd,
-    thing: &str,
-    faults: &mut Faults<'_>,
-) -> Spring {
+fn spring(entry: &SpringEntry, first: SpringEnd, second: SpringEnd, at: &mut At<'_, '_>) -> Spring {
     let spring = Spring {
         first,
         second,
         stiffness: entry.stiffness,
         damping: entry.damping,
         preload: entry.preload,
-        rest: pose_entry(&entry.rest, thing, faults),
+        rest: pose(&entry.rest.position, &entry.rest.orientation, at),
     };
     if let Some(line) = spring.fault() {
-        faults.note_line(thing, &line);
+        at.note_line(&line);
     }
     spring
 }
@@ -129,11 +108,12 @@ pub(super) fn preload(
     let mut preloads = Vec::new();
     for PreloadEntry { pair: (a, b), friction } in &document.preload {
         let thing = format!("preload/({a}, {b})");
+        let at = &mut faults.at(&thing);
         let Some(place) = document.pairs.iter().position(|(one, other)| one == a && other == b) else {
             let turned = document.pairs.iter().any(|(one, other)| one == b && other == a);
             let cause =
                 if turned { "`pairs` has these two the other way round" } else { "`pairs` has no such pair" };
-            faults.note(&thing, cause, "name a pair of `pairs`, in its order");
+            at.note(cause, "name a pair of `pairs`, in its order");
             continue;
         };
         let (pair, _) =
@@ -143,7 +123,7 @@ pub(super) fn preload(
             FrictionEntry::Holding(force) => FrictionPreload::Holding((*force).into()),
         };
         match simulation.preload_friction(pair, &preload) {
-            Err(error) => faults.note_line(&thing, &error.to_string()),
+            Err(error) => at.note_line(&error.to_string()),
             Ok(0) => warnings.push(format!(
                 "{thing}: no bristle is there to be preloaded at the start; place the two so that they touch (for `Sliding`: and \
                  move), with `Bristle` friction, or leave it out"

@@ -58,6 +58,11 @@ impl<'a> Faults<'a> {
         self.note(thing, cause, cure);
     }
 
+    /// Faults of one thing.
+    pub fn at(&mut self, thing: impl Into<String>) -> At<'_, 'a> {
+        At { thing: thing.into(), faults: self }
+    }
+
     /// The value if nothing was at fault.
     ///
     /// # Errors
@@ -68,11 +73,28 @@ impl<'a> Faults<'a> {
             _ => Err(SceneErrors(self.list)),
         }
     }
+}
 
-    pub fn finite(&mut self, thing: &str, name: &str, values: &[f64]) -> bool {
+/// Collects faults of one thing in a file.
+pub(crate) struct At<'f, 'a> {
+    thing: String,
+    pub faults: &'f mut Faults<'a>,
+}
+
+impl At<'_, '_> {
+    pub fn note(&mut self, cause: impl Into<String>, cure: impl Into<String>) {
+        self.faults.note(&self.thing, cause, cure);
+    }
+
+    /// From a line that holds cause and cure.
+    pub fn note_line(&mut self, line: &str) {
+        self.faults.note_line(&self.thing, line);
+    }
+
+    pub fn finite(&mut self, name: &str, values: &[f64]) -> bool {
         let found = values.iter().find(|value| !value.is_finite());
         if let Some(value) = found {
-            self.note(thing, format!("`{name}` holds {value}"), "give finite numbers");
+            self.note(format!("`{name}` holds {value}"), "give finite numbers");
         }
         found.is_none()
     }

@@ -134,7 +134,7 @@ impl Scene {
 
     /// The integrator.
     pub fn integrator(&self) -> Integrator {
-        self.document.integrator.into()
+        self.document.integrator
     }
 
     /// Names of the alternatives, in the order of the file.
@@ -173,10 +173,10 @@ impl Scene {
         variation::check_alternatives(document, &mut faults);
         let place = (self.folder.as_path(), &self.extensions);
         let mut setting = setting::Setting::new(document, place, variation, &mut faults);
-        let bodies = bodies::bodies(document, &setting, &mut faults);
-        let loads = effects::loads(document, &setting, &bodies, &mut faults);
-        let springs = effects::springs(document, &setting, &bodies, &mut faults);
-        setting.pair(document, &mut faults);
+        let bodies = bodies::bodies(&setting, &mut faults);
+        let loads = effects::loads(&setting, &bodies, &mut faults);
+        let springs = effects::springs(&setting, &bodies, &mut faults);
+        setting.pair(&mut faults);
         let (sealed, mut made) = setting.seal(&mut faults);
         let Some((world, seal)) = sealed.filter(|_| faults.list.is_empty()) else {
             return faults.unless_any(None);
@@ -210,7 +210,7 @@ fn assemble(
     loads: Vec<crate::Load>,
     springs: Vec<crate::Spring>,
 ) -> Result<Simulation, crate::ExecutiveError> {
-    let mut simulation = Simulation::new(world, document.integrator.into(), document.step)?;
+    let mut simulation = Simulation::new(world, document.integrator, document.step)?;
     simulation.set_gravity(document.gravity.into());
     for body in bodies {
         simulation.add_body(body)?;
@@ -269,8 +269,8 @@ fn check_head(document: &Document, faults: &mut Faults<'_>) {
     if document.record_every == 0 {
         faults.note("record_every", "it is 0", "give the number of steps between records, at least 1");
     }
-    if let document::IntegratorEntry::ZeroOrderHold { substeps: 0, .. } = document.integrator {
+    if let Integrator::ZeroOrderHold { substeps: 0, .. } = document.integrator {
         faults.note("integrator", "0 substeps leave nothing to integrate", "give at least one substep");
     }
-    faults.finite("gravity", "gravity", &document.gravity);
+    faults.at("gravity").finite("gravity", &document.gravity);
 }

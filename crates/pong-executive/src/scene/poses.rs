@@ -1,7 +1,7 @@
 //! Poses as a scene file gives them.
 
-use super::document::{PoseEntry, Quaternion, Triple};
-use super::error::Faults;
+use super::document::{Quaternion, Triple};
+use super::error::At;
 use pong_geometry::Pose;
 
 /// How far a quaternion's norm may be from 1.
@@ -10,24 +10,15 @@ const NORM_ERROR_MAX: f64 = 1e-3;
 const IDENTITY: Quaternion = [1.0, 0.0, 0.0, 0.0];
 
 /// A checked pose; the identity where something is at fault.
-pub(crate) fn pose(
-    position: &Triple,
-    orientation: &Option<Quaternion>,
-    thing: &str,
-    faults: &mut Faults<'_>,
-) -> Pose {
+pub(crate) fn pose(position: &Triple, orientation: &Option<Quaternion>, at: &mut At<'_, '_>) -> Pose {
     let orientation = orientation.unwrap_or(IDENTITY);
-    let mut good = faults.finite(thing, "position", position);
+    let mut good = at.finite("position", position);
     let norm = orientation.iter().map(|x| x * x).sum::<f64>().sqrt();
     let unit = (norm - 1.0).abs() <= NORM_ERROR_MAX;
     if !unit {
         let cause = format!("`orientation` has norm {norm}");
-        faults.note(thing, cause, "give a unit quaternion (w, x, y, z)");
+        at.note(cause, "give a unit quaternion (w, x, y, z)");
         good = false;
     }
     if good { Pose::new((*position).into(), orientation) } else { Pose::identity() }
-}
-
-pub(crate) fn pose_entry(entry: &PoseEntry, thing: &str, faults: &mut Faults<'_>) -> Pose {
-    pose(&entry.position, &entry.orientation, thing, faults)
 }

@@ -1,16 +1,16 @@
 //! Models, objects and pairs of a scene, as a world.
 
 use super::document::Document;
-use super::error::Faults;
+use super::error::{At, Faults};
 use super::variation::Variation;
-use crate::integrate::Integrator;
 use pong_engine::{Config, EngineError, InterfaceId, Laws, ObjectId, SealReport, World, WorldBuilder};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-pub(crate) struct Setting {
+pub(crate) struct Setting<'a> {
+    pub document: &'a Document,
     pub world: WorldBuilder,
     /// For each object of the file; `None` where it could not be made, which has been told.
     pub objects: Vec<Option<ObjectId>>,
@@ -33,9 +33,9 @@ pub(crate) struct Made {
 /// A model under the name that the scene gives it; `None` if its file is at fault.
 type Named<'a> = (&'a str, Option<Arc<Model>>);
 
-impl Setting {
+impl<'a> Setting<'a> {
     pub fn new(
-        document: &Document,
+        document: &'a Document,
         (folder, extensions): (&Path, &Extensions),
         variation: &Variation<'_>,
         faults: &mut Faults<'_>,
@@ -44,9 +44,10 @@ impl Setting {
             contact_capacity: document.contact_capacity,
             ledger: document.ledger,
             workers: variation.workers.clone(),
-            accounts: Integrator::from(document.integrator).wrench_coupling().filter(|_| document.ledger),
+            accounts: document.integrator.wrench_coupling().filter(|_| document.ledger),
         };
         let mut setting = Self {
+            document,
             world: WorldBuilder::with_extensions(config, extensions.clone(), Laws::default()),
             objects: Vec::new(),
             models: Vec::new(),
@@ -56,7 +57,7 @@ impl Setting {
         let named = load_models(document, folder, extensions, variation, faults);
         setting.warnings =
             named.iter().flat_map(|(_, model)| model.iter().flat_map(|m| m.warnings.clone())).collect();
-        setting.create_objects(document, &named, faults);
+        setting.create_objects(&named, faults);
         let files = setting.world.scene().models().map(|(_, added)| {
             let name = named.iter().find(|(_, model)| model.as_ref().is_some_and(|m| Arc::ptr_eq(m, added)));
             let file = name.and_then(|(name, _)| document.models.iter().find(|(other, _)| other == name));
@@ -66,9 +67,9 @@ impl Setting {
         setting
     }
 
-    fn create_objects(&mut self, document: &Document, named: &[Named<'_>], faults: &mut Faults<'_>) {
+    fn create_objects(&mut self, named: &[Named<'_>], faults: &mut Faults<'_>) {
         let mut ids = vec![None; named.len()];
-        for entry in &document.objects {
+        for entry in &self.document.objects {
             let thing = format!("objects/{}", entry.name);
             if entry.name.is_empty() || entry.name.contains('/') {
                 let cause = format!("the name {:?} cannot be told from a path", entry.name);
@@ -92,35 +93,25 @@ impl Setting {
     }
 
     /// The Interface that `object` or `object/path` names; a fault is told.
-    pub fn interface(
-        &self,
-        document: &Document,
-        name: &str,
-        thing: &str,
-        faults: &mut Faults<'_>,
-    ) -> Option<InterfaceId> {
+    pub fn interface(&self, name: &str, at: &mut At<'_, '_>) -> Option<InterfaceId> {
         let (object, path) = name.split_once('/').unwrap_or((name, ""));
-        let Some(index) = document.objects.iter().position(|entry| entry.name == object) else {
-            let known: Vec<&str> = document.objects.iter().map(|entry| entry.name.as_str()).collect();
+        let Some(index) = self.document.objects.iter().position(|entry| entry.name == object) else {
+            let known: Vec<&str> = self.document.objects.iter().map(|entry| entry.name.as_str()).collect();
             let cure = format!("write `object` or `object/path of the group`; known: {}", known.join(", "));
-            faults.note(thing, format!("there is no object `{object}`"), cure);
+            at.note(format!("there is no object `{object}`"), cure);
             return None;
         };
         // An object that could not be made has been told.
         let id = self.objects[index]?;
-        match self.world.scene().interface(id, path) {
-            Ok(interface) => Some(interface),
-            Err(error) => {
-                faults.note_line(thing, &error.to_string());
-                None
-            }
-        }
+        let found = self.world.scene().interface(id, path);
+        found.map_err(|error| at.note_line(&error.to_string())).ok()
     }
 
-    pub fn pair(&mut self, document: &Document, faults: &mut Faults<'_>) {
-        for (a, b) in &document.pairs {
+    pub fn pair(&mut self, faults: &mut Faults<'_>) {
+        for (a, b) in &self.document.pairs {
             let thing = format!("pairs/({a}, {b})");
-            let find = |name: &str| document.objects.iter().position(|entry| entry.name == name);
+            let objects = &self.document.objects;
+            let find = |name: &str| objects.iter().position(|entry| entry.name == name);
             for name in [a, b].into_iter().filter(|name| find(name).is_none()) {
                 faults.note(&thing, format!("there is no object `{name}`"), "pair names from `objects`");
             }

@@ -36,7 +36,7 @@ impl Variation<'_> {
     pub(super) fn document(&self, document: &Document, faults: &mut Faults<'_>) -> Document {
         let mut varied = document.clone();
         varied.step = self.step.unwrap_or(document.step);
-        varied.integrator = self.integrator.map_or(document.integrator, Into::into);
+        varied.integrator = self.integrator.unwrap_or(document.integrator);
         if let Some(wanted) = self.alternative {
             match document.alternatives.iter().find(|alternative| alternative.name == wanted) {
                 Some(found) => take_models(&mut varied, &found.models),

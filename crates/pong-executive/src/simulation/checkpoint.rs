@@ -14,7 +14,7 @@
 use super::Simulation;
 use crate::body::Motion;
 use crate::energy::Powers;
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use crate::path::Path;
 use crate::state::FreeState;
 use pong_geometry::{Pose, Quat, Twist, Vec3, Wrench};
@@ -63,7 +63,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Bytes that are damaged, or of a simulation that was set up otherwise. The present instant stays then.
-    pub fn restore(&mut self, bytes: &[u8]) -> Result<(), ExecutiveError> {
+    pub fn restore(&mut self, bytes: &[u8]) -> Result<()> {
         let instant = self
             .read(bytes)
             .map_err(|(cause, cure)| ExecutiveError::invalid("saved instant", cause, cure))?;

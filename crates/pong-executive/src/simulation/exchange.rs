@@ -5,7 +5,7 @@
 
 use super::Simulation;
 use crate::body::BodyId;
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use crate::state::{FreeState, STATE_NUMBERS};
 use pong_geometry::Wrench;
 
@@ -29,12 +29,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Another count of numbers than the free bodies have; states that no engine accepts: shorten the step.
-    pub fn try_states(
-        &mut self,
-        time: f64,
-        numbers: &[f64],
-        rates: &mut [f64],
-    ) -> Result<(), ExecutiveError> {
+    pub fn try_states(&mut self, time: f64, numbers: &[f64], rates: &mut [f64]) -> Result<()> {
         self.place_trial(time, numbers, rates.len())?;
         self.system.touch(time)?;
         self.write_rates(time, numbers, rates);
@@ -46,12 +41,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`try_states`](Self::try_states); the instant before stays the present one.
-    pub fn accept_states(
-        &mut self,
-        time: f64,
-        numbers: &[f64],
-        rates: &mut [f64],
-    ) -> Result<(), ExecutiveError> {
+    pub fn accept_states(&mut self, time: f64, numbers: &[f64], rates: &mut [f64]) -> Result<()> {
         self.place_trial(time, numbers, rates.len())?;
         self.system.commit(time)?;
         self.states.clone_from(&self.trial);
@@ -66,7 +56,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A time that is not finite.
-    pub fn set_time(&mut self, time: f64) -> Result<(), ExecutiveError> {
+    pub fn set_time(&mut self, time: f64) -> Result<()> {
         if !time.is_finite() {
             return Err(ExecutiveError::invalid("time", format!("it is {time} s"), "give a finite time"));
         }
@@ -80,7 +70,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there; a value that is not finite.
-    pub fn set_external_wrench(&mut self, body: BodyId, wrench: Wrench) -> Result<(), ExecutiveError> {
+    pub fn set_external_wrench(&mut self, body: BodyId, wrench: Wrench) -> Result<()> {
         self.check_body("external wrench", body)?;
         if !wrench.force.iter().chain(&wrench.moment).all(|x| x.is_finite()) {
             let what = format!("external wrench on `{}`", self.system.bodies[body.index()].name);
@@ -93,7 +83,7 @@ impl Simulation {
     }
 
     /// Moves the bodies to states that were given as numbers; these are the trial from here on.
-    fn place_trial(&mut self, time: f64, numbers: &[f64], rates: usize) -> Result<(), ExecutiveError> {
+    fn place_trial(&mut self, time: f64, numbers: &[f64], rates: usize) -> Result<()> {
         let wanted = STATE_NUMBERS * self.states.len();
         if numbers.len() != wanted || rates != wanted {
             let cause = format!(

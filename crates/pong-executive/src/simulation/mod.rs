@@ -6,7 +6,7 @@ mod setup;
 mod view;
 
 use crate::energy::Powers;
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use crate::integrate::{Contact, Held, Integrator, Stages, euler, hold, runge_kutta};
 use crate::state::FreeState;
 use crate::system::System;
@@ -18,11 +18,11 @@ pub trait Observer {
     ///
     /// # Errors
     /// An error ends the run.
-    fn observe(&mut self, simulation: &Simulation) -> Result<(), ExecutiveError>;
+    fn observe(&mut self, simulation: &Simulation) -> Result<()>;
 }
 
 impl<F: FnMut(&Simulation)> Observer for F {
-    fn observe(&mut self, simulation: &Simulation) -> Result<(), ExecutiveError> {
+    fn observe(&mut self, simulation: &Simulation) -> Result<()> {
         self(simulation);
         Ok(())
     }
@@ -57,7 +57,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A step that is not positive and finite; a zero-order hold without substeps.
-    pub fn new(world: World, integrator: Integrator, step: f64) -> Result<Self, ExecutiveError> {
+    pub fn new(world: World, integrator: Integrator, step: f64) -> Result<Self> {
         check_step(step)?;
         if let Integrator::ZeroOrderHold { substeps: 0, .. } = integrator {
             let cure = "give at least one substep";
@@ -91,7 +91,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A state that the world refuses; a frame whose forces leave the range of numbers.
-    pub fn commit_initial_states(&mut self) -> Result<(), ExecutiveError> {
+    pub fn commit_initial_states(&mut self) -> Result<()> {
         if !self.settled {
             self.system.place(self.time(), &self.states);
             self.system.touch_and_commit(self.time())?;
@@ -105,11 +105,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A pair of another world; states or forces that the world refuses.
-    pub fn preload_friction(
-        &mut self,
-        pair: PairId,
-        preload: &FrictionPreload,
-    ) -> Result<usize, ExecutiveError> {
+    pub fn preload_friction(&mut self, pair: PairId, preload: &FrictionPreload) -> Result<usize> {
         let time = self.time();
         self.system.place(time, &self.states);
         let set = self.system.preload_friction(time, pair, preload)?;
@@ -121,7 +117,7 @@ impl Simulation {
     ///
     /// # Errors
     /// The engine's, or a state that is no longer finite.
-    pub fn step(&mut self) -> Result<(), ExecutiveError> {
+    pub fn step(&mut self) -> Result<()> {
         self.commit_initial_states()?;
         let (time, h) = (self.time(), self.step);
         self.earlier.clone_from(&self.states);
@@ -154,7 +150,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As a step: see [`commit_initial_states`](Self::commit_initial_states).
-    pub fn run_for(&mut self, duration: f64) -> Result<(), ExecutiveError> {
+    pub fn run_for(&mut self, duration: f64) -> Result<()> {
         let steps = libm::round(duration / self.step).max(0.0) as u64;
         for _ in 0..steps {
             self.step()?;
@@ -166,12 +162,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As a step: see [`commit_initial_states`](Self::commit_initial_states); also what the observer refuses.
-    pub fn observe(
-        &mut self,
-        steps: u64,
-        every: u64,
-        observer: &mut dyn Observer,
-    ) -> Result<(), ExecutiveError> {
+    pub fn observe(&mut self, steps: u64, every: u64, observer: &mut dyn Observer) -> Result<()> {
         self.commit_initial_states()?;
         observer.observe(self)?;
         for done in 1..=steps {
@@ -184,7 +175,7 @@ impl Simulation {
     }
 }
 
-fn check_step(step: f64) -> Result<(), ExecutiveError> {
+fn check_step(step: f64) -> Result<()> {
     if step > 0.0 && step.is_finite() {
         return Ok(());
     }

@@ -2,7 +2,7 @@
 
 use super::{Simulation, check_step};
 use crate::body::{BodyId, Motion, RigidBody};
-use crate::error::ExecutiveError;
+use crate::error::{ExecutiveError, Result};
 use crate::load::Load;
 use crate::mass::MassProperties;
 use crate::path::Path;
@@ -15,7 +15,7 @@ impl Simulation {
     ///
     /// # Errors
     /// An Interface of another world, or one that already has a body; mass properties that no body can have.
-    pub fn add_body(&mut self, mut body: RigidBody) -> Result<BodyId, ExecutiveError> {
+    pub fn add_body(&mut self, mut body: RigidBody) -> Result<BodyId> {
         let what = format!("body `{}`", body.name);
         if let Some(interface) = body.interface {
             if self.system.bodies.iter().any(|other| other.interface == Some(interface)) {
@@ -45,7 +45,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there; a value that is not finite.
-    pub fn add_load(&mut self, load: Load) -> Result<(), ExecutiveError> {
+    pub fn add_load(&mut self, load: Load) -> Result<()> {
         self.check_body("load", load.body)?;
         if let Some(cause) = load.history.fault() {
             return Err(fault("load", &cause));
@@ -59,7 +59,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there; stiffness or damping below zero or not finite.
-    pub fn add_spring(&mut self, spring: Spring) -> Result<(), ExecutiveError> {
+    pub fn add_spring(&mut self, spring: Spring) -> Result<()> {
         for body in [spring.first.body, spring.second.body].into_iter().flatten() {
             self.check_body("spring", body)?;
         }
@@ -87,7 +87,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A number that no spring has; as [`add_spring`](Self::add_spring). The spring is then as it was.
-    pub fn set_spring(&mut self, number: usize, spring: Spring) -> Result<(), ExecutiveError> {
+    pub fn set_spring(&mut self, number: usize, spring: Spring) -> Result<()> {
         let what = format!("spring {number}");
         let count = self.system.springs.len();
         if number >= count {
@@ -109,7 +109,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there or is not free; mass properties that no body can have. The body is then as it was.
-    pub fn set_mass(&mut self, body: BodyId, mass: MassProperties) -> Result<(), ExecutiveError> {
+    pub fn set_mass(&mut self, body: BodyId, mass: MassProperties) -> Result<()> {
         self.check_body("set_mass", body)?;
         let index = body.index();
         let name = &self.system.bodies[index].name;
@@ -137,7 +137,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there or is on a prescribed path; a pose or twist that is not finite.
-    pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
+    pub fn set_motion(&mut self, body: BodyId, pose: Pose, twist: Twist) -> Result<()> {
         self.check_body("set_motion", body)?;
         let index = body.index();
         let name = &self.system.bodies[index].name;
@@ -167,7 +167,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A body that is not there; a time, pose or twist that is not finite.
-    pub fn lead(&mut self, body: BodyId, since: f64, pose: Pose, twist: Twist) -> Result<(), ExecutiveError> {
+    pub fn lead(&mut self, body: BodyId, since: f64, pose: Pose, twist: Twist) -> Result<()> {
         self.check_body("lead", body)?;
         let index = body.index();
         let values = [pose.position, twist.linear, twist.angular, pose.orientation.imag()];
@@ -190,14 +190,14 @@ impl Simulation {
     ///
     /// # Errors
     /// A step that is not positive and finite.
-    pub fn set_step(&mut self, step: f64) -> Result<(), ExecutiveError> {
+    pub fn set_step(&mut self, step: f64) -> Result<()> {
         check_step(step)?;
         (self.epoch, self.steps) = (self.time(), 0);
         self.step = step;
         Ok(())
     }
 
-    pub(super) fn check_body(&self, what: &str, body: BodyId) -> Result<(), ExecutiveError> {
+    pub(super) fn check_body(&self, what: &str, body: BodyId) -> Result<()> {
         if body.index() < self.system.bodies.len() {
             return Ok(());
         }

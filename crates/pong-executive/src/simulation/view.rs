@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::body::{BodyId, RigidBody};
 use crate::energy::Energy;
-use crate::error::ExecutiveError;
+use crate::error::Result;
 use crate::integrate::Integrator;
 use crate::spring::Spring;
 use crate::stability::group_mass;
@@ -74,7 +74,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A world that cannot be sealed; a plan out of range.
-    pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport, ExecutiveError> {
+    pub fn step_report(&self, plan: &StepPlan) -> Result<StepReport> {
         Ok(pong_advise::step_report(self.world(), plan, &self.group_masses())?)
     }
 
@@ -83,7 +83,7 @@ impl Simulation {
     ///
     /// # Errors
     /// A world without a frame; a plan out of range.
-    pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport, ExecutiveError> {
+    pub fn acting_report(&self, plan: &StepPlan) -> Result<ActingReport> {
         Ok(pong_advise::acting_report(self.world(), plan, &self.group_masses())?)
     }
 

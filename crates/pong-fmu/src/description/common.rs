@@ -82,7 +82,7 @@ pub(super) fn write_variables(
             ("name", variable.name.as_str()),
             ("valueReference", &reference),
             ("description", &variable.description),
-            ("causality", causality_name(variable.causality)),
+            ("causality", variable.causality.into()),
             ("variability", varies),
         ];
         general.extend(initial.map(|initial| ("initial", initial)));
@@ -99,17 +99,6 @@ pub(super) fn write_variables(
 
 /// Attributes of an element: names and values.
 type Attributes<'a> = &'a [(&'a str, &'a str)];
-
-/// Value of `causality`.
-pub(super) fn causality_name(causality: Causality) -> &'static str {
-    match causality {
-        Causality::Independent => "independent",
-        Causality::Parameter => "parameter",
-        Causality::Input => "input",
-        Causality::Output => "output",
-        Causality::Local => "local",
-    }
-}
 
 /// Values of `variability` and, where it must be given, `initial`.
 fn variability(causality: Causality, is_flag: bool) -> (&'static str, Option<&'static str>) {

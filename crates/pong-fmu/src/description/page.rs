@@ -1,6 +1,5 @@
 //! The page that importers show of an FMU: what it is, and its variables.
 
-use super::common::causality_name;
 use super::xml::escaped;
 use crate::unit::Unit;
 
@@ -31,7 +30,7 @@ pub(crate) fn page(unit: &Unit) -> String {
         text += &format!(
             "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
             escaped(&variable.name),
-            causality_name(variable.causality),
+            <&str>::from(variable.causality),
             variable.unit,
             variable.start.map_or_else(String::new, |start| format!("{start:?}")),
             escaped(&variable.description),

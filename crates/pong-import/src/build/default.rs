@@ -23,8 +23,12 @@ pub(super) fn tree(
         source.nodes.iter().filter(|node| node.mesh.as_ref().is_some_and(|shape| !shape.is_empty())).count();
     if count == 0 {
         let cause = "no node has a mesh";
-        findings.fault(&building.file, "empty-mesh", cause, "export meshes, or mark nodes with extras.pong");
-        return None;
+        return findings.refuse(
+            &building.file,
+            "empty-mesh",
+            cause,
+            "export meshes, or mark nodes with extras.pong",
+        );
     }
     let mut below: Vec<Vec<usize>> = vec![Vec::new(); source.nodes.len()];
     let mut tops = Vec::new();
@@ -167,12 +171,14 @@ impl Build<'_, '_> {
         let all_rest = found.iter().all(Result::is_err);
         for (part, found) in parts.iter().zip(found) {
             match found {
-                Ok(solid) if one_surface(part, looks) && !is_hollow(part, &cavities) => solids.push(solid),
+                Ok(solid) if kinds::one_surface(part, looks) && !is_hollow(part, &cavities) => {
+                    solids.push(solid)
+                }
                 other => {
                     dented += usize::from(matches!(other, Err(Flaw::Dented { .. } | Flaw::Tangled)));
                     large += usize::from(matches!(other, Err(Flaw::TooManyFaces(_))));
                     if !all_rest {
-                        append(&mut rest, part);
+                        rest.append(part);
                     }
                 }
             }
@@ -235,21 +241,10 @@ impl Hulled {
     }
 }
 
-fn one_surface(part: &Mesh, looks: &[Look]) -> bool {
-    kinds::one_surface(part, looks)
-}
-
 /// Whether a cavity lies within the part's box: then it is no solid.
 fn is_hollow(part: &Mesh, cavities: &[(nalgebra::Vector3<f64>, nalgebra::Vector3<f64>)]) -> bool {
     let (low, high) = bounds(&part.vertices);
     cavities.iter().any(|(inner_low, inner_high)| low.inf(inner_low) == low && high.sup(inner_high) == high)
-}
-
-fn append(mesh: &mut Mesh, part: &Mesh) {
-    let first = mesh.vertices.len() as u32;
-    mesh.vertices.extend(&part.vertices);
-    mesh.triangles.extend(part.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
-    mesh.look_of.extend(&part.look_of);
 }
 
 /// Points, lines and solids of one node may have the same name.

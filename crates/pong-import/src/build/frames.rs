@@ -25,21 +25,23 @@ pub(super) fn body_frame(
         Ok(stretch) => stretch,
         Err(Skew::Flat) => {
             let cause = "a scale of zero leaves no frame for this movable group";
-            findings.fault(path, "flat-frame", cause, "correct its scale and those of its parents");
-            return None;
+            return findings.refuse(path, "flat-frame", cause, "correct its scale and those of its parents");
         }
         Err(Skew::Sheared(cosine)) => {
             let cause = format!("its frame is sheared: the cosine between two axes is {cosine:.1e}");
             let cure =
                 "apply the scale of its parents: a turned child of an unevenly scaled parent is sheared";
-            findings.fault(path, "sheared-frame", cause, cure);
-            return None;
+            return findings.refuse(path, "sheared-frame", cause, cure);
         }
     };
     if stretch.mirrored {
         let cause = "its frame is mirrored: a movable group needs a right-handed one";
-        findings.fault(path, "mirrored-frame", cause, "apply its negative scale, or that of its parents");
-        return None;
+        return findings.refuse(
+            path,
+            "mirrored-frame",
+            cause,
+            "apply its negative scale, or that of its parents",
+        );
     }
     let scale = stretch.scale.map(|s| if (s - 1.0).abs() < 1e-12 { 1.0 } else { s });
     if scale.iter().any(|s| *s != 1.0) {

@@ -115,15 +115,13 @@ pub(super) fn straight(to_body: &Affine, path: &str, findings: &mut Findings) ->
     match to_body.stretch() {
         Ok(stretch) => Some(stretch),
         Err(Skew::Flat) => {
-            findings.fault(path, "flat-shape", "a scale of zero leaves nothing of it", "correct its scale");
-            None
+            findings.refuse(path, "flat-shape", "a scale of zero leaves nothing of it", "correct its scale")
         }
         Err(Skew::Sheared(cosine)) => {
             let cause = format!("it is sheared: the cosine between two of its axes is {cosine:.1e}");
             let cure =
                 "apply the scale of its parents: a turned child of an unevenly scaled parent is sheared";
-            findings.fault(path, "sheared-shape", cause, cure);
-            None
+            findings.refuse(path, "sheared-shape", cause, cure)
         }
     }
 }
@@ -157,13 +155,12 @@ pub(super) fn plane_of(mesh: &Mesh, path: &str, findings: &mut Findings) -> Opti
         Some(normal) if height(&normal) <= 1e-6 * mesh.size_m() => Some([normal, centre]),
         _ => {
             let cause = "its triangles do not lie in one plane";
-            findings.fault(
+            findings.refuse(
                 path,
                 "no-plane",
                 cause,
                 "give a plane one flat face, or an empty node without a mesh",
-            );
-            None
+            )
         }
     }
 }

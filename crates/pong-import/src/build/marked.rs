@@ -80,8 +80,7 @@ fn root_of(
         let found = roots.iter().zip(&called).find(|(_, called)| *called == name).map(|(root, _)| *root);
         if found.is_none() {
             let cause = format!("no node `{name}` is marked as a root; roots are {called:?}");
-            findings.fault(&building.file, "no-root", cause, "name one of them with --root");
-            return None;
+            return findings.refuse(&building.file, "no-root", cause, "name one of them with --root");
         }
         return Some(found);
     }
@@ -90,8 +89,7 @@ fn root_of(
         [root] => Some(Some(*root)),
         _ => {
             let cause = format!("several nodes are marked as roots: {called:?}");
-            findings.fault(&building.file, "several-roots", cause, "--root chooses one");
-            None
+            findings.refuse(&building.file, "several-roots", cause, "--root chooses one")
         }
     }
 }
@@ -302,8 +300,7 @@ impl Build<'_, '_> {
         };
         if semi_axes.min() <= 0.0 {
             let cause = format!("its mark gives no {what} above zero");
-            self.findings.fault(naming.path, "not-positive", cause, "give one in its mark");
-            return None;
+            return self.findings.refuse(naming.path, "not-positive", cause, "give one in its mark");
         }
         kinds::ball(naming, semi_axes, to_body, self.grid, self.findings)
     }

@@ -116,7 +116,7 @@ fn stl(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Result<Vec<u8>, String>
             let corners: [u32; 3] = face.as_slice().try_into().ok()?;
             let [a, b, c] = corners.map(|vertex| vertices[vertex as usize]);
             let normal = (b - a).cross(&(c - a)).normalize();
-            let vertices = corners.map(|vertex| single(&vertices_at(vertices, vertex)));
+            let vertices = corners.map(|vertex| single(&vertices[vertex as usize]));
             Some(stl_io::Triangle { normal: single(&normal), vertices })
         })
         .collect();
@@ -124,8 +124,4 @@ fn stl(vertices: &[Vector3<f64>], faces: &[Vec<u32>]) -> Result<Vec<u8>, String>
     let mut bytes = Vec::new();
     stl_io::write_stl(&mut bytes, triangles.iter()).map_err(|reason| reason.to_string())?;
     Ok(bytes)
-}
-
-fn vertices_at(vertices: &[Vector3<f64>], index: u32) -> Vector3<f64> {
-    vertices[index as usize]
 }

@@ -18,6 +18,14 @@ impl Mesh {
         self.triangles[triangle].map(|vertex| self.vertices[vertex as usize])
     }
 
+    /// Adds the triangles of another mesh.
+    pub fn append(&mut self, part: &Self) {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(&part.vertices);
+        self.triangles.extend(part.triangles.iter().map(|triangle| triangle.map(|vertex| first + vertex)));
+        self.look_of.extend(&part.look_of);
+    }
+
     /// Diagonal of the bounding box, m.
     pub fn size_m(&self) -> f64 {
         let (low, high) = bounds(&self.vertices);

@@ -20,8 +20,7 @@ pub fn read(path: &Path, reading: &Reading, findings: &mut Findings) -> Option<S
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !matches!(ending.as_str(), "glb" | "gltf" | "obj" | "stl") {
         let cause = "the name ends in none of .glb, .gltf, .obj and .stl";
-        findings.fault(&file, "unknown-format", cause, "export the mesh in one of these formats");
-        return None;
+        return findings.refuse(&file, "unknown-format", cause, "export the mesh in one of these formats");
     }
     let bytes = findings.ok(bytes_of(path, &file))?;
     let source = match ending.as_str() {

@@ -5,9 +5,9 @@ use super::tree::{Node, Shape, Source, all_in_range};
 use crate::affine::{Affine, Up};
 use crate::findings::Findings;
 use nalgebra::Vector3;
+use pong_model::mesh_formats;
 use pong_model::weld::Welder;
 use std::collections::HashMap;
-use std::io::Cursor;
 use std::path::Path;
 
 /// Faces of more corners are refused: cutting one takes up to the square of their number.
@@ -20,21 +20,19 @@ pub(super) fn read(bytes: &[u8], path: &Path, reading: &Reading, findings: &mut 
     let loose = match loose_elements(bytes) {
         Ok(loose) => loose,
         Err((line, rule, cause)) => {
-            findings.fault(&format!("{file}:{line}"), rule, cause, "export plain faces, lines and points");
-            return None;
+            return findings.refuse(
+                &format!("{file}:{line}"),
+                rule,
+                cause,
+                "export plain faces, lines and points",
+            );
         }
     };
     // Of polylines and lists of points the crate would make faces.
     let without_loose = loose.as_ref().map(|loose| loose.rest.as_slice()).unwrap_or(bytes);
-    let options =
-        tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
-    let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let models = match tobj::load_obj_buf(&mut Cursor::new(without_loose), &options, no_materials) {
-        Ok((models, _)) => models,
-        Err(reason) => {
-            findings.fault(&file, "damaged", reason.to_string(), "export it again");
-            return None;
-        }
+    let models = match mesh_formats::obj(without_loose) {
+        Ok(models) => models,
+        Err(reason) => return findings.refuse(&file, "damaged", reason, "export it again"),
     };
     let place =
         |x: &[f64]| reading.up.unwrap_or(Up::Z).turned(Vector3::new(x[0], x[1], x[2])) * reading.unit_m;

@@ -19,29 +19,24 @@ pub(super) fn custom(reader: &mut Reader<'_>, p: &mut Primitive<'_, '_>) -> Opti
     let Some(factory) = reader.ext.primitive(&kind).cloned() else {
         let cause = format!("no primitive of the kind \"{kind}\" is registered");
         let cure = "register it with Extensions::add_primitive before loading";
-        reader.fault(p.at, &p.path, "unknown-primitive", cause, cure);
-        return None;
+        return reader.refuse(p.at, &p.path, "unknown-primitive", cause, cure);
     };
     if p.x != pong_geometry::Transform::identity() {
         let cause = "a custom primitive below a posed group that does not move on its own";
         let cure = "its parameters are in the frame of the movable group: put it into a group without a pose";
-        reader.fault(p.at, &p.path, "custom-under-pose", cause, cure);
-        return None;
+        return reader.refuse(p.at, &p.path, "custom-under-pose", cause, cure);
     }
     match factory(&parameters) {
         Ok(primitive) => {
             p.draft.custom_parameters.push((kind, parameters));
             Some(primitive)
         }
-        Err(reason) => {
-            reader.fault(
-                p.at,
-                &p.path,
-                "custom-parameters",
-                reason,
-                format!("see the description of \"{kind}\""),
-            );
-            None
-        }
+        Err(reason) => reader.refuse(
+            p.at,
+            &p.path,
+            "custom-parameters",
+            reason,
+            format!("see the description of \"{kind}\""),
+        ),
     }
 }

@@ -28,14 +28,13 @@ impl<'n> Fields<'n> {
             Value::Name(_) => &[],
             other => {
                 let cause = format!("expected named fields in parentheses, found {}", other.describe());
-                reader.fault(
+                return reader.refuse(
                     node.at,
                     path,
                     "wrong-type",
                     cause,
                     format!("write ({}: …)", allowed.join(": …, ")),
                 );
-                return None;
             }
         };
         check_names(reader, fields, path, allowed);

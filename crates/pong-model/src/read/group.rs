@@ -186,8 +186,7 @@ fn read_bound(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, movable:
         Some("Above") if movable => {
             let cause = "a movable group moves by itself and cannot do without a bounding volume";
             let cure = "give it `Aabb`, `Sphere` or `Obb`, or leave `bound` out";
-            reader.fault(node.at, path, "bound-above", cause, cure);
-            None
+            reader.refuse(node.at, path, "bound-above", cause, cure)
         }
         Some("Above") => None,
         _ => Some(BoundKind::Aabb),
@@ -202,8 +201,7 @@ fn read_leaf_size(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str) -> O
         return Some(size.min(f64::from(u32::MAX)) as usize);
     }
     let cause = format!("the size of a leaf is {size}");
-    reader.fault(node.at, path, "leaf-size", cause, "give a whole number of elements, at least 1");
-    None
+    reader.refuse(node.at, path, "leaf-size", cause, "give a whole number of elements, at least 1")
 }
 
 fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {
@@ -211,8 +209,7 @@ fn custom_bound(reader: &mut Reader<'_>, node: &Node, path: &str) -> BoundKind {
         Value::Tuple(_, items) if items.len() == 1 => reader.text(&items[0], path),
         _ => {
             let cause = "a custom volume without the name of its kind";
-            reader.fault(node.at, path, "wrong-type", cause, "write Custom(\"kind\")");
-            None
+            reader.refuse(node.at, path, "wrong-type", cause, "write Custom(\"kind\")")
         }
     };
     let Some(name) = name else { return BoundKind::Aabb };

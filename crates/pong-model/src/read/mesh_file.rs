@@ -1,10 +1,10 @@
 //! Shapes from OBJ and STL files that lie beside the model file.
 
 use super::reader::Reader;
-use crate::files;
 use crate::ron_tree::Node;
+use crate::{files, mesh_formats};
 use pong_geometry::Vec3;
-use std::io::{Cursor, ErrorKind};
+use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
 /// Vertices and faces, as written.
@@ -34,10 +34,6 @@ impl Mesh {
     }
 }
 
-/// Bytes of a binary STL file before its first triangle, and per triangle.
-const STL_HEAD: usize = 84;
-const STL_TRIANGLE: usize = 50;
-
 /// Reads the file named by `node`, every coordinate multiplied by the scale.
 pub(super) fn from_file(
     reader: &mut Reader<'_>,
@@ -60,13 +56,17 @@ pub(super) fn from_file(
         Err(reason) if reason.kind() == ErrorKind::PermissionDenied && file.exists() => {
             let cause = format!("\"{name}\" cannot be read: {reason}");
             let cure = "put the file itself beside the model file, or have the host allow the folder that it lies in";
-            reader.fault(node.at, path, "mesh-file-outside", cause, cure);
-            return None;
+            return reader.refuse(node.at, path, "mesh-file-outside", cause, cure);
         }
         Err(reason) => {
             let cause = format!("\"{name}\" cannot be read: {reason}");
-            reader.fault(node.at, path, "mesh-file-unreadable", cause, "put the file beside the model file");
-            return None;
+            return reader.refuse(
+                node.at,
+                path,
+                "mesh-file-unreadable",
+                cause,
+                "put the file beside the model file",
+            );
         }
     };
     let mesh = match extension(&name).as_str() {
@@ -74,8 +74,7 @@ pub(super) fn from_file(
         "stl" => stl(bytes),
         _ => {
             let cause = format!("\"{name}\" is neither .obj nor .stl");
-            reader.fault(node.at, path, "mesh-file-kind", cause, "export it as OBJ or STL");
-            return None;
+            return reader.refuse(node.at, path, "mesh-file-kind", cause, "export it as OBJ or STL");
         }
     };
     match mesh {
@@ -88,8 +87,7 @@ pub(super) fn from_file(
         }
         Err(reason) => {
             let cause = format!("\"{name}\" is damaged: {reason}");
-            reader.fault(node.at, path, "mesh-file-damaged", cause, "export it again");
-            None
+            reader.refuse(node.at, path, "mesh-file-damaged", cause, "export it again")
         }
     }
 }
@@ -103,25 +101,23 @@ fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) ->
     let inside = |part: Component<'_>| matches!(part, Component::Normal(_) | Component::CurDir);
     if name.contains(['\\', ':', '\0']) || !Path::new(name).components().all(inside) {
         let cause = format!("\"{name}\" leads out of the model's folder");
-        reader.fault(
+        return reader.refuse(
             node.at,
             path,
             "mesh-file-outside",
             cause,
             "name a file beside the model file, with `/` alone",
         );
-        return None;
     }
     let Some(folder) = reader.mesh_dir else {
         let cause = format!("\"{name}\" cannot be found: the model was not read from a file");
-        reader.fault(
+        return reader.refuse(
             node.at,
             path,
             "mesh-file-no-folder",
             cause,
             "load the model by path, or name a folder for meshes",
         );
-        return None;
     };
     Some(folder.join(name))
 }
@@ -130,13 +126,8 @@ fn allowed_path(reader: &mut Reader<'_>, node: &Node, path: &str, name: &str) ->
 fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     // The mark that some editors put before UTF-8 would hide the keyword of the first line.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let options =
-        tobj::LoadOptions { ignore_points: true, ignore_lines: true, ..tobj::LoadOptions::default() };
-    let no_materials = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let (models, _) =
-        tobj::load_obj_buf(&mut Cursor::new(bytes), &options, no_materials).map_err(|e| e.to_string())?;
     let mut mesh = Mesh::default();
-    for model in models {
+    for model in mesh_formats::obj(bytes)? {
         let first = mesh.vertices.len() as u32;
         let positions = model.mesh.positions.chunks_exact(3);
         mesh.vertices.extend(positions.map(|p| Vec3::new(p[0], p[1], p[2])));
@@ -154,35 +145,14 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-fn stl(mut bytes: Vec<u8>) -> Result<Mesh, String> {
-    blank_misleading_head(&mut bytes);
-    let mut cursor = Cursor::new(bytes);
-    let triangles = stl_io::create_stl_reader(&mut cursor).map_err(stl_reason)?;
+fn stl(bytes: Vec<u8>) -> Result<Mesh, String> {
     let mut mesh = Mesh::default();
-    for triangle in triangles {
-        let triangle = triangle.map_err(stl_reason)?;
-        for vertex in triangle.vertices {
-            let [x, y, z] = vertex.0.map(f64::from);
+    mesh_formats::stl(bytes, |corners| {
+        for [x, y, z] in corners.map(|corner| corner.map(f64::from)) {
             mesh.corners.push(mesh.vertices.len() as u32);
             mesh.vertices.push(Vec3::new(x, y, z));
         }
         mesh.ends.push(mesh.corners.len() as u32);
-    }
+    })?;
     Ok(mesh)
-}
-
-fn stl_reason(error: std::io::Error) -> String {
-    match error.kind() {
-        std::io::ErrorKind::UnexpectedEof => "it ends before its last triangle".to_owned(),
-        _ => error.to_string(),
-    }
-}
-
-/// Some programs begin binary files with "solid", the mark of text files; the length tells them apart.
-fn blank_misleading_head(bytes: &mut [u8]) {
-    let Some(count) = bytes.get(80..84).and_then(|count| count.try_into().ok()) else { return };
-    let count = u32::from_le_bytes(count) as usize;
-    if count.checked_mul(STL_TRIANGLE).and_then(|size| size.checked_add(STL_HEAD)) == Some(bytes.len()) {
-        bytes[..5].fill(0);
-    }
 }

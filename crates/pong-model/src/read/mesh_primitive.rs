@@ -42,8 +42,13 @@ pub(super) fn triangle_mesh(
         return None;
     }
     if mesh.face_count() == 0 {
-        reader.fault(p.at, &p.path, "empty-mesh", "the mesh has no triangles", "give it some, or remove it");
-        return None;
+        return reader.refuse(
+            p.at,
+            &p.path,
+            "empty-mesh",
+            "the mesh has no triangles",
+            "give it some, or remove it",
+        );
     }
     add_triangles(reader, p, info, &mesh, Some)
 }
@@ -270,21 +275,19 @@ fn mesh(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, faces: &'static str) -> 
     if let Some(node) = file {
         if inline.iter().any(Option::is_some) {
             let cause = format!("`file` and `vertices`/`{faces}` both give the shape");
-            reader.fault(node.at, &p.path, "either-or", cause, "keep one of them");
-            return None;
+            return reader.refuse(node.at, &p.path, "either-or", cause, "keep one of them");
         }
         return mesh_file::from_file(reader, node, p.fields.optional("scale"), &p.path);
     }
     if inline.iter().all(Option::is_none) {
         let cause = "the shape is missing";
-        reader.fault(
+        return reader.refuse(
             p.at,
             &p.path,
             "missing-field",
             cause,
             format!("add `file: \"…\"`, or `vertices` and `{faces}`"),
         );
-        return None;
     }
     let scale = match p.fields.optional("scale") {
         Some(node) => reader.positive(node, &p.path, "the scale"),
@@ -327,8 +330,7 @@ fn row_numbers(reader: &mut Reader<'_>, item: &Node, path: &str, form: &str) -> 
         Value::Tuple(None, numbers) | Value::List(numbers) => numbers,
         other => {
             let cause = format!("expected {form}, found {}", other.describe());
-            reader.fault(item.at, path, "wrong-type", cause, format!("write {form}"));
-            return None;
+            return reader.refuse(item.at, path, "wrong-type", cause, format!("write {form}"));
         }
     };
     let numbers: Vec<_> = numbers.iter().map(|number| reader.any_number(number, path)).collect();

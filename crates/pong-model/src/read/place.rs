@@ -44,8 +44,7 @@ pub(super) fn read_name(
     let node = fields.required(reader, "name")?;
     let name = reader.text(node, path)?;
     if name.is_empty() {
-        reader.fault(node.at, path, "empty-name", "the name is empty", "name it");
-        return None;
+        return reader.refuse(node.at, path, "empty-name", "the name is empty", "name it");
     }
     if name.contains('/') {
         let cause = format!("the name \"{name}\" contains a `/`");

@@ -197,8 +197,7 @@ fn segment(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<LineSegment
     let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
     if reader.judges_shapes && ends[0] == ends[1] {
         let cause = "both ends of the segment are the same place";
-        reader.fault(node.at, &p.path, "zero-length", cause, "move one end, or use a Point");
-        return None;
+        return reader.refuse(node.at, &p.path, "zero-length", cause, "move one end, or use a Point");
     }
     Some(LineSegment { ends })
 }
@@ -240,8 +239,7 @@ fn ellipsoid(reader: &mut Reader<'_>, p: &Primitive<'_, '_>) -> Option<Ellipsoid
             return Some(axes);
         }
         let cause = format!("a semi-axis is {}", axes.min());
-        reader.fault(node.at, &p.path, "not-positive", cause, "all three must be above zero");
-        None
+        reader.refuse(node.at, &p.path, "not-positive", cause, "all three must be above zero")
     });
     let orientation = match p.fields.optional("orientation") {
         Some(node) => reader.rotation(node, &p.path)?,

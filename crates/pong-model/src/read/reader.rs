@@ -65,6 +65,19 @@ impl<'a> Reader<'a> {
         self.faults.push((at, error));
     }
 
+    /// Notes a fault, where a value cannot be given for it.
+    pub(crate) fn refuse<T>(
+        &mut self,
+        at: u32,
+        path: &str,
+        rule: &'static str,
+        cause: impl Into<String>,
+        cure: impl Into<String>,
+    ) -> Option<T> {
+        self.fault(at, path, rule, cause, cure);
+        None
+    }
+
     pub(crate) fn syntax_fault(&mut self, error: SyntaxError) {
         let cure = match error.rule {
             "too-deep" => "flatten the tree of groups",

@@ -56,8 +56,7 @@ fn ends(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[V
     let ends = reader.vectors::<2>(node, &p.path)?.map(|end| p.x.point(&end));
     if reader.judges_shapes && ends[0] == ends[1] {
         let cause = "both ends of the axis are the same place";
-        reader.fault(node.at, &p.path, "zero-length", cause, cure);
-        return None;
+        return reader.refuse(node.at, &p.path, "zero-length", cause, cure);
     }
     Some(ends)
 }
@@ -72,8 +71,7 @@ fn radii(reader: &mut Reader<'_>, p: &Primitive<'_, '_>, cure: &str) -> Option<[
     let radii = reader.not_negative_pair(node, &p.path, "a radius")?;
     if reader.judges_shapes && radii == [0.0; 2] {
         let cause = "both radii are zero";
-        reader.fault(node.at, &p.path, "not-positive", cause, cure);
-        return None;
+        return reader.refuse(node.at, &p.path, "not-positive", cause, cure);
     }
     Some(radii)
 }

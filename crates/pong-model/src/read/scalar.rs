@@ -9,19 +9,16 @@ use pong_geometry::{Quat, Vec3};
 const QUATERNION_NORM_TOLERANCE: f64 = 1e-3;
 
 impl Reader<'_> {
-    fn wrong_type(&mut self, node: &Node, path: &str, expected: &str) {
+    fn wrong_type<T>(&mut self, node: &Node, path: &str, expected: &str) -> Option<T> {
         let cause = format!("expected {expected}, found {}", node.value.describe());
-        self.fault(node.at, path, "wrong-type", cause, format!("write {expected}"));
+        self.refuse(node.at, path, "wrong-type", cause, format!("write {expected}"))
     }
 
     /// Any number, infinite ones and NaN included.
     pub(crate) fn any_number(&mut self, node: &Node, path: &str) -> Option<f64> {
         match node.value {
             Value::Number(value) => Some(value),
-            _ => {
-                self.wrong_type(node, path, "a number");
-                None
-            }
+            _ => self.wrong_type(node, path, "a number"),
         }
     }
 
@@ -55,8 +52,7 @@ impl Reader<'_> {
             return Some(value);
         }
         let cause = format!("{what} is {value}");
-        self.fault(node.at, path, "not-positive", cause, format!("{what} must be above zero"));
-        None
+        self.refuse(node.at, path, "not-positive", cause, format!("{what} must be above zero"))
     }
 
     /// A finite number, zero or above.
@@ -66,27 +62,20 @@ impl Reader<'_> {
             return Some(value);
         }
         let cause = format!("{what} is {value}");
-        self.fault(node.at, path, "negative", cause, format!("{what} must be zero or above"));
-        None
+        self.refuse(node.at, path, "negative", cause, format!("{what} must be zero or above"))
     }
 
     pub(crate) fn text(&mut self, node: &Node, path: &str) -> Option<String> {
         match &node.value {
             Value::Text(text) => Some(text.clone()),
-            _ => {
-                self.wrong_type(node, path, "a text in quotes");
-                None
-            }
+            _ => self.wrong_type(node, path, "a text in quotes"),
         }
     }
 
     pub(crate) fn boolean(&mut self, node: &Node, path: &str) -> Option<bool> {
         match node.value {
             Value::Bool(value) => Some(value),
-            _ => {
-                self.wrong_type(node, path, "true or false");
-                None
-            }
+            _ => self.wrong_type(node, path, "true or false"),
         }
     }
 
@@ -98,10 +87,7 @@ impl Reader<'_> {
                 values.into_iter().collect()
             }
             Value::Rows(rows) if rows.len() == 0 => Some(Vec::new()),
-            _ => {
-                self.wrong_type(node, path, "a list of numbers");
-                None
-            }
+            _ => self.wrong_type(node, path, "a list of numbers"),
         }
     }
 
@@ -119,10 +105,7 @@ impl Reader<'_> {
                 }
                 Some(values.map(Option::unwrap_or_default))
             }
-            _ => {
-                self.wrong_type(node, path, form);
-                None
-            }
+            _ => self.wrong_type(node, path, form),
         }
     }
 
@@ -138,19 +121,16 @@ impl Reader<'_> {
             return Some(pair);
         }
         let cause = format!("{what} is {}", pair[0].min(pair[1]));
-        self.fault(node.at, path, "negative", cause, "it must be zero or above");
-        None
+        self.refuse(node.at, path, "negative", cause, "it must be zero or above")
     }
 
     /// `(true, false)`.
     pub(crate) fn boolean_pair(&mut self, node: &Node, path: &str) -> Option<[bool; 2]> {
         let Value::Tuple(None, items) = &node.value else {
-            self.wrong_type(node, path, "a tuple of two of true and false");
-            return None;
+            return self.wrong_type(node, path, "a tuple of two of true and false");
         };
         let [one, other] = &items[..] else {
-            self.wrong_type(node, path, "a tuple of two of true and false");
-            return None;
+            return self.wrong_type(node, path, "a tuple of two of true and false");
         };
         let (one, other) = (self.boolean(one, path), self.boolean(other, path));
         Some([one?, other?])
@@ -166,10 +146,7 @@ impl Reader<'_> {
                 }
                 Some(values.map(Option::unwrap_or_default))
             }
-            _ => {
-                self.wrong_type(node, path, &format!("a tuple of {N} places ((x, y, z), …)"));
-                None
-            }
+            _ => self.wrong_type(node, path, &format!("a tuple of {N} places ((x, y, z), …)")),
         }
     }
 
@@ -181,14 +158,13 @@ impl Reader<'_> {
             // Scaled first, so that neither tiny nor huge components spoil the norm.
             return Some((vector / largest).normalize());
         }
-        self.fault(
+        self.refuse(
             node.at,
             path,
             "zero-direction",
             format!("{what} is zero"),
             "give it a length; any will do",
-        );
-        None
+        )
     }
 
     /// `(w, x, y, z)`, normalised.
@@ -200,8 +176,7 @@ impl Reader<'_> {
             return Some(Quat::new_normalize(quaternion));
         }
         let cause = format!("the norm of the quaternion is {norm}");
-        self.fault(node.at, path, "quaternion-norm", cause, "give w, x, y, z with w² + x² + y² + z² = 1");
-        None
+        self.refuse(node.at, path, "quaternion-norm", cause, "give w, x, y, z with w² + x² + y² + z² = 1")
     }
 
     /// The tuple's or struct's name, and the node itself, for values like `Bristle(…)` or `None`.
@@ -215,13 +190,9 @@ impl Reader<'_> {
             Some(name) if expected.contains(&name) => Some(name),
             Some(name) => {
                 let cause = format!("`{name}` is not known here");
-                self.fault(node.at, path, "unknown-kind", cause, super::suggest::cure(name, expected));
-                None
+                self.refuse(node.at, path, "unknown-kind", cause, super::suggest::cure(name, expected))
             }
-            None => {
-                self.wrong_type(node, path, &format!("one of {}", expected.join(", ")));
-                None
-            }
+            None => self.wrong_type(node, path, &format!("one of {}", expected.join(", "))),
         }
     }
 
@@ -230,10 +201,7 @@ impl Reader<'_> {
         match &node.value {
             Value::List(items) => Some(items),
             Value::Rows(rows) if rows.len() == 0 => Some(&[]),
-            _ => {
-                self.wrong_type(node, path, "a list in brackets");
-                None
-            }
+            _ => self.wrong_type(node, path, "a list in brackets"),
         }
     }
 }

@@ -68,14 +68,13 @@ fn stiffness(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
         return in_range(reader, node, path, value, "the stiffness", "; `inf` is rigid");
     }
     let rule = if value.is_nan() { "not-finite" } else { "not-positive" };
-    reader.fault(
+    reader.refuse(
         node.at,
         path,
         rule,
         format!("the stiffness is {value}"),
         "it must be above zero; `inf` is rigid",
-    );
-    None
+    )
 }
 
 /// So stiff that no sum or product of the laws leaves the range of numbers.
@@ -92,8 +91,7 @@ fn in_range(
     }
     let (least, most) = (Surface::SOFTEST, Surface::STIFFEST);
     let cure = format!("give {least:e} to {most:e} N/m{otherwise}");
-    reader.fault(node.at, path, "stiffness-range", format!("{what} is {value:e}"), cure);
-    None
+    reader.refuse(node.at, path, "stiffness-range", format!("{what} is {value:e}"), cure)
 }
 
 /// Finite, above zero and within the range of stiffnesses.
@@ -141,8 +139,7 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
     if stiffness.is_infinite() {
         let cause = "a rigid surface has no damping that a restitution could set";
         let cure = "give the damping, or the restitution on the softer surface or in `pairs`";
-        reader.fault(node.at, path, "restitution-of-rigid", cause, cure);
-        return None;
+        return reader.refuse(node.at, path, "restitution-of-rigid", cause, cure);
     }
     let damping = 2.0 * zeta_for_restitution(e) * (stiffness * mass).sqrt();
     if damping <= LARGEST {
@@ -150,8 +147,7 @@ fn linear_damping(reader: &mut Reader<'_>, node: &Node, path: &str, stiffness: O
     }
     let cause =
         format!("a mass of {mass:e} kg on {stiffness:e} N/m makes a damping beyond {LARGEST:e} N·s/m");
-    reader.fault(node.at, path, "restitution-range", cause, "give a smaller mass or stiffness");
-    None
+    reader.refuse(node.at, path, "restitution-range", cause, "give a smaller mass or stiffness")
 }
 
 fn hunt_crossley(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<NormalLaw> {
@@ -171,10 +167,7 @@ fn exponent(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<Exponent
     match value {
         1.0 => Some(Exponent::One),
         1.5 => Some(Exponent::ThreeHalves),
-        _ => {
-            reader.fault(node.at, path, "exponent", format!("the exponent is {value}"), "it is 1.0 or 1.5");
-            None
-        }
+        _ => reader.refuse(node.at, path, "exponent", format!("the exponent is {value}"), "it is 1.0 or 1.5"),
     }
 }
 
@@ -188,8 +181,7 @@ fn chi(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
         return Some(chi);
     }
     let cause = format!("a restitution of {e:e} at {speed:e} m/s makes a dissipation beyond {LARGEST:e} s/m");
-    reader.fault(node.at, path, "restitution-range", cause, "give a larger restitution or speed");
-    None
+    reader.refuse(node.at, path, "restitution-range", cause, "give a larger restitution or speed")
 }
 
 fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> {
@@ -198,8 +190,7 @@ fn restitution(reader: &mut Reader<'_>, node: &Node, path: &str) -> Option<f64> 
         return Some(e);
     }
     let cause = format!("the restitution e is {e}");
-    reader.fault(node.at, path, "restitution-range", cause, "it lies above 0 and is at most 1");
-    None
+    reader.refuse(node.at, path, "restitution-range", cause, "it lies above 0 and is at most 1")
 }
 
 fn either_or(reader: &mut Reader<'_>, fields: &Fields<'_>, path: &str, one: &str, other: &str) {
@@ -322,14 +313,13 @@ fn pair_normal(
 ) -> Option<NormalLaw> {
     if stiffness.is_none() && wants_linear_restitution(node) {
         let cause = "a restitution of the pair needs the stiffness of the pair";
-        reader.fault(
+        return reader.refuse(
             node.at,
             path,
             "restitution-without-stiffness",
             cause,
             "add `stiffness: …` to this entry",
         );
-        return None;
     }
     normal_law(reader, node, path, stiffness)
 }
@@ -351,13 +341,11 @@ fn pair_names(
 ) -> Option<[String; 2]> {
     let Value::Tuple(None, items) = &node.value else {
         let cause = format!("expected two names, found {}", node.value.describe());
-        reader.fault(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
-        return None;
+        return reader.refuse(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
     };
     let [first, second] = items.as_slice() else {
         let cause = format!("expected two names, found {}", items.len());
-        reader.fault(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
-        return None;
+        return reader.refuse(node.at, path, "wrong-type", cause, "write (\"steel\", \"rubber\")");
     };
     let names = [reader.text(first, path)?, reader.text(second, path)?];
     let is_defined = |name: &String| defined.iter().any(|surface| surface.is_called(name, model));

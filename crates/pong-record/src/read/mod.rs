@@ -23,7 +23,7 @@ pub struct Log {
 }
 
 /// One frame of a log.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Number, time, limits.
     pub row: FrameRow,
@@ -176,27 +176,6 @@ impl Log {
             }
         }
         Ok(())
-    }
-}
-
-impl Default for Frame {
-    fn default() -> Self {
-        Self {
-            row: FrameRow {
-                frame: 0,
-                time: 0.0,
-                first_contact: 0,
-                contacts: 0,
-                flags: 0,
-                evaluate_ns: 0,
-                committed: FrameRow::EVALUATED,
-                commits_missed: 0,
-            },
-            states: Vec::new(),
-            wrenches: Vec::new(),
-            contacts: Vec::new(),
-            energies: None,
-        }
     }
 }
 

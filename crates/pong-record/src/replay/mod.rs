@@ -10,7 +10,7 @@ mod rerun;
 pub use compare::Difference;
 pub use options::ReplayOptions;
 pub use report::{Obstacle, ReplayReport};
-pub use rerun::{RerunFrame, RerunOptions, rerun, world_of_log};
+pub use rerun::{RerunFrame, rerun, world_of_log};
 
 use crate::error::LogError;
 use crate::read::{Frame, Log};
@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 /// A log that cannot be read, or whose world cannot be built again: a model that was changed, a law of the host's.
 pub fn replay(
     log: &mut Log,
-    options: &ReplayOptions,
+    options: &ReplayOptions<'_>,
     progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
 ) -> Result<ReplayReport, LogError> {
     let mut replay = Replay::new(log, options)?;

@@ -7,27 +7,14 @@ use pong_engine::{Config, ModelId, Scene, World, WorldBuilder};
 use pong_model::Model;
 use std::sync::Arc;
 
-/// Other models than the log's.
-#[derive(Default)]
-pub(super) struct Models<'a> {
-    /// What becomes of a model, by its index.
-    pub rewrite: Option<&'a dyn Fn(usize, Model) -> Result<Model, String>>,
-    /// A model that is at hand for one of the log.
-    pub instead: Option<&'a dyn Fn(usize) -> Option<Arc<Model>>>,
-}
-
 /// The sealed world and the ids of its models.
-pub(super) fn world(
-    log: &Log,
-    options: &ReplayOptions,
-    other: &Models<'_>,
-) -> Result<(World, Vec<ModelId>), LogError> {
+pub(super) fn world(log: &Log, options: &ReplayOptions<'_>) -> Result<(World, Vec<ModelId>), LogError> {
     let run = log.run();
     let config = Config {
         contact_capacity: run.contact_capacity.map(|capacity| capacity as usize),
         ledger: run.ledger,
         workers: options.workers.clone(),
-        accounts: run.energy_accounts.map(Into::into),
+        accounts: run.energy_accounts.map(|accounts| accounts.0),
     };
     let mut builder = WorldBuilder::with_extensions(config, options.extensions.clone(), options.laws.clone());
     if let Some(law) =
@@ -41,12 +28,12 @@ pub(super) fn world(
     }
     let mut models = Vec::new();
     for (index, model) in run.models.iter().enumerate() {
-        if let Some(at_hand) = other.instead.and_then(|instead| instead(index)) {
+        if let Some(at_hand) = options.instead.and_then(|instead| instead(index)) {
             models.push(builder.add_model(at_hand));
             continue;
         }
         let loaded = load_model(builder.scene(), log, index, &model.name, model.hash)?;
-        let wanted = match other.rewrite {
+        let wanted = match options.rewrite {
             None => Ok(loaded),
             Some(rewrite) => rewrite(index, loaded),
         };
@@ -85,7 +72,7 @@ fn load_model(scene: &Scene, log: &Log, index: usize, name: &str, hash: u64) -> 
     Ok(model)
 }
 
-fn check(world: &World, log: &Log, options: &ReplayOptions) -> Result<(), LogError> {
+fn check(world: &World, log: &Log, options: &ReplayOptions<'_>) -> Result<(), LogError> {
     let (run, hash) = (log.run(), world.scene_hash());
     let mut columns = 0;
     for object in world.scene().objects() {

@@ -30,17 +30,8 @@ pub(super) struct Replay {
 }
 
 impl Replay {
-    pub(super) fn new(log: &Log, options: &ReplayOptions) -> Result<Self, LogError> {
-        let (world, models) = rebuild::world(log, options, &rebuild::Models::default())?;
-        Self::of_world(log, options, world, models)
-    }
-
-    pub(super) fn of_world(
-        log: &Log,
-        options: &ReplayOptions,
-        world: World,
-        models: Vec<ModelId>,
-    ) -> Result<Self, LogError> {
+    pub(super) fn new(log: &Log, options: &ReplayOptions<'_>) -> Result<Self, LogError> {
+        let (world, models) = rebuild::world(log, options)?;
         let objects: Vec<ObjectId> = world.scene().objects().collect();
         let mut bodies = Vec::new();
         for object in &objects {

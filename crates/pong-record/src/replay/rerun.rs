@@ -5,33 +5,7 @@ use super::rebuild;
 use super::replayed_world::Replay;
 use crate::error::LogError;
 use crate::read::{Frame, Log};
-use pong_engine::{InterfaceId, Laws, WorkerSettings, World};
-use pong_geometry::extension::Extensions;
-use pong_model::Model;
-use std::sync::Arc;
-
-/// What becomes of a model of the log, by its index; an error is a line of cause and cure.
-type Rewrite<'a> = &'a dyn Fn(usize, Model) -> Result<Model, String>;
-
-/// A model that is at hand for one of the log, by its index.
-type Instead<'a> = &'a dyn Fn(usize) -> Option<Arc<Model>>;
-
-/// What is to differ from the log.
-#[derive(Default)]
-pub struct RerunOptions<'a> {
-    /// Workers of the world; the results are the same bits.
-    pub workers: Option<WorkerSettings>,
-    /// Every model, once loaded and checked against the log, is replaced by what this makes of it.
-    pub rewrite: Option<Rewrite<'a>>,
-    /// Where this has a model for one of the log, that is taken as it is, and the log's is not read.
-    pub instead: Option<Instead<'a>>,
-    /// Only every so many frames, beginning with the first, are handed to the engine; 0 counts as 1.
-    pub every: u64,
-    /// The force laws that the host of the log had registered.
-    pub laws: Laws,
-    /// The kinds of primitives that it knew.
-    pub extensions: Extensions,
-}
+use pong_engine::{InterfaceId, World};
 
 /// A frame of a rerun.
 pub struct RerunFrame<'a> {
@@ -51,13 +25,13 @@ pub struct RerunFrame<'a> {
 ///
 /// # Errors
 /// A world that cannot be built: a model that was changed, a law of the host's.
-pub fn world_of_log(log: &Log, options: RerunOptions<'_>) -> Result<World, LogError> {
-    let other = rebuild::Models { rewrite: options.rewrite, instead: options.instead };
-    Ok(rebuild::world(log, &replay_options(options), &other)?.0)
+pub fn world_of_log(log: &Log, options: ReplayOptions<'_>) -> Result<World, LogError> {
+    Ok(rebuild::world(log, &of_any_hash(options))?.0)
 }
 
 /// Runs a log through the engine with something else than it says, open loop: the motions stay those of the log. Calls
-/// back with every frame, of which there are at most so many.
+/// back with every frame, of which there are at most so many. Only each `every`-th, beginning with the first, is handed to
+/// the engine; 0 counts as 1.
 ///
 /// An event that gives a surface friction is obeyed without it where the model has none now.
 ///
@@ -66,20 +40,16 @@ pub fn world_of_log(log: &Log, options: RerunOptions<'_>) -> Result<World, LogEr
 /// what differs; what the callback returns.
 pub fn rerun<E: From<LogError>>(
     log: &mut Log,
-    options: RerunOptions<'_>,
-    frames: u64,
+    options: ReplayOptions<'_>,
+    (frames, every): (u64, u64),
     each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), E>,
 ) -> Result<(), E> {
-    let every = options.every.max(1);
-    let other = rebuild::Models { rewrite: options.rewrite, instead: options.instead };
-    let replay = replay_options(options);
-    let (world, models) = rebuild::world(log, &replay, &other)?;
-    let mut replay = Replay::of_world(log, &replay, world, models)?;
+    let mut replay = Replay::new(log, &of_any_hash(options))?;
     let mut frame = Frame::default();
     for index in 0..log.frame_count().min(frames) {
         log.read(index, &mut frame)?;
         let mut took_ns = 0;
-        if index.is_multiple_of(every) {
+        if index.is_multiple_of(every.max(1)) {
             let begin = std::time::Instant::now();
             replay.run(log, &frame)?;
             replay.accept(&frame.row)?;
@@ -92,11 +62,6 @@ pub fn rerun<E: From<LogError>>(
 }
 
 /// With a tolerance the hash of the world need not be that of the log.
-fn replay_options(options: RerunOptions<'_>) -> ReplayOptions {
-    ReplayOptions {
-        workers: options.workers,
-        tolerance: Some(0.0),
-        laws: options.laws,
-        extensions: options.extensions,
-    }
+fn of_any_hash(options: ReplayOptions<'_>) -> ReplayOptions<'_> {
+    ReplayOptions { tolerance: Some(0.0), ..options }
 }

@@ -2,7 +2,7 @@
 
 use super::options::RecordOptions;
 use crate::format::{FORMAT, VERSION};
-use crate::run::{Run, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
+use crate::run::{Run, RunAccounts, RunBody, RunModel, RunObject, RunPrimitive, RunTable};
 use crate::table::{ContactRow, EnergyRow, FrameRow, Row, StateRow, WrenchRow};
 use pong_engine::{EngineError, World};
 
@@ -48,7 +48,7 @@ pub(crate) fn describe(
         integrator: options.integrator.clone(),
         contact_capacity: Some(world.contact_capacity() as u64),
         ledger: world.scene().keeps_ledger(),
-        energy_accounts: world.scene().wrench_coupling().map(Into::into),
+        energy_accounts: world.scene().wrench_coupling().map(RunAccounts),
         laws: world.scene().law_names().map(str::to_owned).collect(),
         models,
         objects,

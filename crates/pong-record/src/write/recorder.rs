@@ -216,34 +216,18 @@ impl Recorder {
 
     /// A pair was switched on or off.
     pub fn pair_switched(&mut self, pair: PairId, enabled: bool) {
-        let (frame, pair) = (self.next, pair.index());
-        self.line.clear();
-        let _ = write!(
-            self.line,
-            "{{\"frame\":{frame},\"event\":\"pair\",\"pair\":{pair},\"enabled\":{enabled}}}"
-        );
-        self.event();
+        self.tell(Event::Pair { pair: pair.index() as u32, enabled });
     }
 
     /// The contact state of an Object was dropped.
     pub fn forgot(&mut self, object: ObjectId) {
-        let (frame, object) = (self.next, object.index());
-        self.line.clear();
-        let _ = write!(
-            self.line,
-            "{{\"frame\":{frame},\"event\":\"clear_contact_history\",\"object\":{object}}}"
-        );
-        self.event();
+        self.tell(Event::ClearContactHistory { object: object.index() as u32 });
     }
 
     /// The values of a surface were replaced. Takes memory.
     pub fn surface_set(&mut self, model: ModelId, surface: &Surface) {
         let (model, name) = (model.index() as u32, surface.name.clone());
-        let event = Event::Surface { model, name, values: surface.into() };
-        self.line.clear();
-        let event = LoggedEvent { frame: self.next, event };
-        serde_json::to_writer(&mut self.line, &event).expect("an event can be written");
-        self.event();
+        self.tell(Event::Surface { model, name, values: surface.into() });
     }
 
     /// A contact state was restored: its block, with nothing behind it.
@@ -402,6 +386,14 @@ impl Recorder {
     }
 
     /// Hands the line of an event to the thread, after word of those that were lost before it.
+    /// Hands over what came before the next frame.
+    fn tell(&mut self, event: Event) {
+        self.line.clear();
+        let event = LoggedEvent { frame: self.next, event };
+        serde_json::to_writer(&mut self.line, &event).expect("an event can be written");
+        self.event();
+    }
+
     fn event(&mut self) {
         let line = std::mem::take(&mut self.line);
         if !self.tell_lost() || !self.push(Kind::Event, &[&line]) {

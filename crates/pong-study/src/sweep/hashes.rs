@@ -1,6 +1,6 @@
 //! Hashes of what decides a study's answers: a run that was kept is taken again only while they are the same.
 
-use crate::StudyError;
+use crate::{Result, StudyError};
 use pong_executive::scene::Scene;
 use pong_geometry::extension::Extensions;
 use pong_model::Fnv;
@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::Path;
 
 /// A hash of a scene's text and of every model that it names.
-pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, StudyError> {
+pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv> {
     let mut hash = Fnv::default();
     hash.text(env!("CARGO_PKG_VERSION"));
     hash.text(text);
@@ -20,7 +20,7 @@ pub(crate) fn hash_of_scene(scene: &Scene, text: &str) -> Result<Fnv, StudyError
 
 /// The text of a model and the model's own hash: meshes lie in files of their own. What is wrong with a model is told
 /// when it is run.
-pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<(), StudyError> {
+pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -> Result<()> {
     let unreadable = |reason| StudyError::file(file, reason);
     hash.text(&pong_model::files::read_text(file).map_err(unreadable)?);
     let model = pong_model::load(file, extensions);
@@ -29,7 +29,7 @@ pub(crate) fn hash_model(hash: &mut Fnv, file: &Path, extensions: &Extensions) -
 }
 
 /// The bytes of a file, a piece at a time.
-pub(crate) fn hash_file(hash: &mut Fnv, path: &Path) -> Result<(), StudyError> {
+pub(crate) fn hash_file(hash: &mut Fnv, path: &Path) -> Result<()> {
     let unreadable = |reason: std::io::Error| StudyError::file(path, reason);
     let mut file = std::fs::File::open(path).map_err(unreadable)?;
     let mut piece = vec![0; 1 << 20];

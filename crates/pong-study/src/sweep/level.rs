@@ -3,6 +3,7 @@
 use pong_executive::Integrator;
 use pong_geometry::bounding::BoundKind;
 use std::fmt::Write as _;
+use strum::VariantArray;
 
 /// What moves the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +34,8 @@ pub struct Level {
 }
 
 /// What can be set.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, strum::IntoStaticStr, strum::VariantArray)]
+#[strum(serialize_all = "snake_case")]
 pub enum Lever {
     /// The length of a step; of a log, over how many frames a wrench is held.
     Step,
@@ -53,27 +55,11 @@ pub enum Lever {
 
 impl Lever {
     /// All levers.
-    pub const ALL: [Self; 7] = [
-        Self::Step,
-        Self::Integrator,
-        Self::Friction,
-        Self::Alternatives,
-        Self::Bounds,
-        Self::Leaves,
-        Self::Workers,
-    ];
+    pub const ALL: &'static [Self] = Self::VARIANTS;
 
     /// Its name in tables and on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Step => "step",
-            Self::Integrator => "integrator",
-            Self::Friction => "friction",
-            Self::Alternatives => "alternatives",
-            Self::Bounds => "bounds",
-            Self::Leaves => "leaves",
-            Self::Workers => "workers",
-        }
+        self.into()
     }
 
     /// Whether it may change the answer; the others change the time alone, which is checked.

@@ -1,17 +1,17 @@
 //! A log as the subject of a study: its motions through the engine, again and again.
 
-use crate::StudyError;
 use crate::sweep::hashes::{hash_file, hash_model};
 use crate::sweep::level::Level;
 use crate::sweep::record::{Record, vector};
 use crate::sweep::rewrite;
 use crate::sweep::run::Frames;
+use crate::{Result, StudyError};
 use pong_engine::{EngineError, WorkerSettings};
 use pong_geometry::Wrench;
 use pong_geometry::extension::Extensions;
 use pong_model::Fnv;
 use pong_model::Model;
-use pong_record::{Event, Log, LogError, RerunFrame, RerunOptions, rerun};
+use pong_record::{Event, Log, LogError, ReplayOptions, RerunFrame, rerun};
 use std::path::{Path, PathBuf};
 
 /// Other files for some models of a log.
@@ -34,11 +34,7 @@ pub(crate) struct LoggedRun {
 
 impl LoggedRun {
     /// Opens a log.
-    pub fn open(
-        folder: &Path,
-        alternatives: &[LogAlternative],
-        extensions: &Extensions,
-    ) -> Result<Self, StudyError> {
+    pub fn open(folder: &Path, alternatives: &[LogAlternative], extensions: &Extensions) -> Result<Self> {
         let log = Log::open(folder)?;
         for alternative in alternatives {
             for (name, _) in &alternative.models {
@@ -73,7 +69,7 @@ impl LoggedRun {
     }
 
     /// Frames of so many frames of the log each; those left over are not run.
-    pub fn frames(&mut self, logged: u32) -> Result<Frames, StudyError> {
+    pub fn frames(&mut self, logged: u32) -> Result<Frames> {
         let count = self.log.frame_count() / u64::from(logged);
         if count == 0 {
             let line =
@@ -96,7 +92,7 @@ impl LoggedRun {
     }
 
     /// A hash of everything that decides the answers.
-    pub fn hash(&self) -> Result<Fnv, StudyError> {
+    pub fn hash(&self) -> Result<Fnv> {
         let mut hash = Fnv::default();
         hash.text(env!("CARGO_PKG_VERSION"));
         let folder = self.log.folder();
@@ -117,7 +113,7 @@ impl LoggedRun {
     }
 
     /// Records a level; frames that it passes over have the wrench of the last that it did not.
-    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Record, StudyError> {
+    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Record> {
         let bodies = self.bodies();
         let mut gathered = Gathered::new(bodies, frames);
         self.run(level, frames, &mut |frame| gathered.take(frame))?;
@@ -128,7 +124,7 @@ impl LoggedRun {
     }
 
     /// Times a level: of each frame, all that was handed to the engine in it.
-    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>, StudyError> {
+    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
         let mut times = vec![0; frames.count as usize];
         let logged = u64::from(frames.instants);
         self.run(level, frames, &mut |frame| {
@@ -143,7 +139,7 @@ impl LoggedRun {
         level: &Level,
         frames: &Frames,
         each: &mut dyn FnMut(&RerunFrame<'_>) -> Result<(), LogError>,
-    ) -> Result<(), StudyError> {
+    ) -> Result<()> {
         let run = self.log.run();
         let names: Vec<String> = run.models.iter().map(|model| model.name.clone()).collect();
         let wanted = level.alternative.as_ref();
@@ -161,16 +157,16 @@ impl LoggedRun {
             rewrite::model(model, level)
         };
         let workers = WorkerSettings { workers: level.workers, ..WorkerSettings::default() };
-        let options = RerunOptions {
+        let options = ReplayOptions {
             workers: (level.workers > 0).then_some(workers),
             rewrite: Some(&rewrite),
-            every: u64::from(frames.instants / level.steps_per_frame),
             extensions: extensions.clone(),
-            ..RerunOptions::default()
+            ..ReplayOptions::default()
         };
         let wanted = frames.count * u64::from(frames.instants);
+        let every = u64::from(frames.instants / level.steps_per_frame);
         let name = level.name(frames.frame_s);
-        let result = rerun(&mut self.log, options, wanted, each);
+        let result = rerun(&mut self.log, options, (wanted, every), each);
         result.map_err(|error| StudyError::new(&name, error))
     }
 }
@@ -186,14 +182,7 @@ struct Gathered {
 
 impl Gathered {
     fn new(bodies: usize, frames: &Frames) -> Self {
-        let record = Record {
-            bodies,
-            per_frame: frames.instants,
-            impulses: vec![[0.0; 6]; bodies],
-            efforts: vec![[0.0; 2]; bodies],
-            peaks: vec![[0.0; 2]; bodies],
-            ..Record::default()
-        };
+        let record = Record::empty(bodies, frames.instants);
         Self { record, time: f64::NAN, off: [0.0; 2], size: [0.0; 2] }
     }
 
@@ -206,7 +195,8 @@ impl Gathered {
             let wrench = frame.world.wrench_common(*interface).map_err(refused)?;
             let now = six(&wrench);
             let before = if half == 0.0 { now } else { self.before(last, body) };
-            self.sums(body, &before, &now, half);
+            self.record.add(body, &before, &now, half);
+            self.record.peak(body, &now);
             self.record.rows.extend(now);
             let state = &frame.logged.states[body];
             self.record.rows.extend(state.position);
@@ -232,17 +222,6 @@ impl Gathered {
         let mut six = [0.0; 6];
         six.copy_from_slice(&self.record.rows[start..start + 6]);
         six
-    }
-
-    fn sums(&mut self, body: usize, before: &[f64; 6], now: &[f64; 6], half: f64) {
-        for (sum, (a, b)) in self.record.impulses[body].iter_mut().zip(before.iter().zip(now)) {
-            *sum += half * (a + b);
-        }
-        let size = |six: &[f64; 6], place: usize| vector(&six[3 * place..]).norm();
-        for place in 0..2 {
-            self.record.efforts[body][place] += half * (size(before, place) + size(now, place));
-            self.record.peaks[body][place] = self.record.peaks[body][place].max(size(now, place));
-        }
     }
 
     fn apart(&self) -> f64 {

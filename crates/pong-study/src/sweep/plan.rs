@@ -1,9 +1,9 @@
 //! Which levels are run.
 
-use crate::StudyError;
 use crate::sweep::level::{Level, Lever, Motion};
 use crate::sweep::open_loop::LoggedRun;
 use crate::sweep::run::Frames;
+use crate::{Result, StudyError};
 use pong_executive::Integrator;
 use pong_executive::scene::Scene;
 use pong_geometry::bounding::BoundKind;
@@ -63,7 +63,7 @@ impl Plan {
     /// # Errors
     ///
     /// `--duration` or `--frame` that is no finite time above zero, no frame in the duration, or too many steps in a frame.
-    pub fn new(scene: &Scene, bodies: usize, settings: &PlanSettings) -> Result<Self, StudyError> {
+    pub fn new(scene: &Scene, bodies: usize, settings: &PlanSettings) -> Result<Self> {
         let duration = settings.duration_s.unwrap_or(scene.duration());
         check("--duration", duration)?;
         let frame_s = settings.frame_s.unwrap_or_else(|| frame(scene.step(), duration));
@@ -100,7 +100,7 @@ impl Plan {
     }
 
     /// The plan for a log: the engine sees every frame, every other … .
-    pub(crate) fn of_log(log: &mut LoggedRun, settings: &PlanSettings) -> Result<Self, StudyError> {
+    pub(crate) fn of_log(log: &mut LoggedRun, settings: &PlanSettings) -> Result<Self> {
         let halvings = settings.halvings.unwrap_or(3).min(16);
         let finest = 1_u32 << halvings;
         let frames = log.frames(finest)?;
@@ -143,7 +143,7 @@ impl Plan {
     }
 }
 
-fn check(name: &str, time_s: f64) -> Result<(), StudyError> {
+fn check(name: &str, time_s: f64) -> Result<()> {
     if time_s > 0.0 && time_s.is_finite() {
         return Ok(());
     }

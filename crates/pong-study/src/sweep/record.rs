@@ -28,6 +28,34 @@ pub(crate) struct Record {
 }
 
 impl Record {
+    /// Of so many bodies, without a row.
+    pub fn empty(bodies: usize, per_frame: u32) -> Self {
+        Self {
+            bodies,
+            per_frame,
+            impulses: vec![[0.0; 6]; bodies],
+            efforts: vec![[0.0; 2]; bodies],
+            peaks: vec![[0.0; 2]; bodies],
+            ..Self::default()
+        }
+    }
+
+    /// Adds the wrenches of a body at the ends of an interval, of which this is the half, s, to its sums.
+    pub fn add(&mut self, body: usize, before: &[f64; 6], now: &[f64; 6], half: f64) {
+        for (sum, (a, b)) in self.impulses[body].iter_mut().zip(before.iter().zip(now)) {
+            *sum += half * (a + b);
+        }
+        for (place, sum) in self.efforts[body].iter_mut().enumerate() {
+            *sum += half * (size(before, place) + size(now, place));
+        }
+    }
+
+    /// Keeps the peaks of a body.
+    pub fn peak(&mut self, body: usize, now: &[f64; 6]) {
+        let peaks = self.peaks[body].iter_mut().enumerate();
+        peaks.for_each(|(place, peak)| *peak = peak.max(size(now, place)));
+    }
+
     /// Instants of the grid.
     pub fn instants(&self) -> usize {
         self.rows.len() / (VALUES * self.bodies).max(1)
@@ -69,14 +97,7 @@ impl Recorder {
     /// Takes in the first instant.
     pub fn new(simulation: &Simulation, per_frame: u32) -> Self {
         let bodies = simulation.bodies().len();
-        let record = Record {
-            bodies,
-            per_frame,
-            impulses: vec![[0.0; 6]; bodies],
-            efforts: vec![[0.0; 2]; bodies],
-            peaks: vec![[0.0; 2]; bodies],
-            ..Record::default()
-        };
+        let record = Record::empty(bodies, per_frame);
         let step = simulation.step_length();
         let mut recorder = Self { record, step, last: Vec::new(), energy: energy(simulation) };
         recorder.last = simulation.bodies().map(|(id, _)| six(simulation, id)).collect();
@@ -91,20 +112,15 @@ impl Recorder {
         for (id, _) in simulation.bodies() {
             let (body, now) = (id.index(), six(simulation, id));
             let before = std::mem::replace(&mut self.last[body], now);
-            for (sum, (a, b)) in self.record.impulses[body].iter_mut().zip(before.iter().zip(&now)) {
-                *sum += half * (a + b);
-            }
-            for (place, sum) in self.record.efforts[body].iter_mut().enumerate() {
-                *sum += half * (size(&before, place) + size(&now, place));
-            }
+            self.record.add(body, &before, &now, half);
         }
         self.peaks();
         self.record.incomplete += u64::from(!simulation.world().report().status.is_complete());
     }
 
     fn peaks(&mut self) {
-        for (peaks, now) in self.record.peaks.iter_mut().zip(&self.last) {
-            peaks.iter_mut().enumerate().for_each(|(place, peak)| *peak = peak.max(size(now, place)));
+        for (body, now) in self.last.iter().enumerate() {
+            self.record.peak(body, now);
         }
     }
 

@@ -1,9 +1,9 @@
 //! One run of a level.
 
-use crate::StudyError;
 use crate::sweep::level::{Level, Motion};
 use crate::sweep::record::{Record, Recorder};
 use crate::sweep::rewrite;
+use crate::{Result, StudyError};
 use pong_engine::WorkerSettings;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
 use pong_executive::{ExecutiveError, Simulation};
@@ -28,7 +28,7 @@ pub(crate) enum Ended {
 }
 
 /// Runs a level and records it.
-pub(crate) fn record(scene: &Scene, level: &Level, frames: &Frames) -> Result<Ended, StudyError> {
+pub(crate) fn record(scene: &Scene, level: &Level, frames: &Frames) -> Result<Ended> {
     let mut simulation = build(scene, level, frames)?.simulation;
     let per_frame = level.steps_per_frame.min(frames.instants);
     let every = u64::from(level.steps_per_frame / per_frame);
@@ -58,7 +58,7 @@ fn follow(
 }
 
 /// Runs a level that is known to reach the end, and times every frame, ns.
-pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<u64>, StudyError> {
+pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
     let fails = |error: ExecutiveError| StudyError::new(&level.name(frames.frame_s), error);
     let mut simulation = build(scene, level, frames)?.simulation;
     simulation.commit_initial_states().map_err(fails)?;
@@ -73,7 +73,7 @@ pub(crate) fn time(scene: &Scene, level: &Level, frames: &Frames) -> Result<Vec<
     Ok(times)
 }
 
-pub(crate) fn build(scene: &Scene, level: &Level, frames: &Frames) -> Result<BuiltScene, StudyError> {
+pub(crate) fn build(scene: &Scene, level: &Level, frames: &Frames) -> Result<BuiltScene> {
     let rewrite = |model| rewrite::model(model, level);
     let workers = WorkerSettings { workers: level.workers, ..WorkerSettings::default() };
     let integrator = match level.motion {

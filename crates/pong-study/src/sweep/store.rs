@@ -2,8 +2,8 @@
 //!
 //! Every file is named by a hash of all that decides what is in it, and is put in place whole.
 
-use crate::StudyError;
 use crate::sweep::record::Record;
+use crate::{Result, StudyError};
 use serde::{Serialize, de::DeserializeOwned};
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ pub(crate) struct Store {
 
 impl Store {
     /// Opens the folder `kept` of an output folder, and makes both if they are not there.
-    pub fn open(output: &Path, fresh: bool) -> Result<Self, StudyError> {
+    pub fn open(output: &Path, fresh: bool) -> Result<Self> {
         let folder = output.join("kept");
         if fresh && folder.exists() {
             std::fs::remove_dir_all(&folder).map_err(|reason| StudyError::output(&folder, reason))?;
@@ -34,7 +34,7 @@ impl Store {
     }
 
     /// Keeps something under a key.
-    pub fn put<T: Serialize>(&self, kind: &str, key: u64, value: &T) -> Result<(), StudyError> {
+    pub fn put<T: Serialize>(&self, kind: &str, key: u64, value: &T) -> Result<()> {
         let path = self.path(kind, key, "json");
         let text = serde_json::to_string(value).map_err(|reason| StudyError::output(&path, reason))?;
         write_whole(&path, text.as_bytes())
@@ -46,13 +46,13 @@ impl Store {
     }
 
     /// Keeps a record under a key.
-    pub fn put_record(&self, key: u64, record: &Record) -> Result<(), StudyError> {
+    pub fn put_record(&self, key: u64, record: &Record) -> Result<()> {
         write_whole(&self.path("record", key, "bin"), &record_bytes(record))
     }
 }
 
 /// Writes a file beside its place and moves it there.
-pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), StudyError> {
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
     let beside = path.with_extension("part");
     let written = std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path));
     written.map_err(|reason| StudyError::output(path, reason))

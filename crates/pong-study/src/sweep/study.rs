@@ -1,6 +1,5 @@
 //! A study: the reference, every level once to be compared, then all of them in turn to be timed.
 
-use crate::StudyError;
 use crate::sweep::choice::{self, Point, percentile};
 use crate::sweep::errors::{Errors, Quantity, errors};
 use crate::sweep::hashes;
@@ -12,6 +11,7 @@ use crate::sweep::reference::Reference;
 use crate::sweep::run::Ended;
 use crate::sweep::store::Store;
 use crate::sweep::subject::Subject;
+use crate::{Result, StudyError};
 use pong_executive::scene::Scene;
 use pong_executive::{Integrator, Simulation};
 use pong_geometry::extension::Extensions;
@@ -219,12 +219,7 @@ impl Study {
 ///
 /// # Errors
 /// A scene or a model at fault, a folder that cannot be written, a study that was told to stop.
-pub fn study(
-    scene: &Path,
-    output: &Path,
-    settings: &Settings,
-    watch: Watch<'_>,
-) -> Result<Study, StudyError> {
+pub fn study(scene: &Path, output: &Path, settings: &Settings, watch: Watch<'_>) -> Result<Study> {
     let text = pong_model::files::read_text(scene).unwrap_or_default();
     let scene = Scene::load(scene)?;
     let scene = scene.with_extensions(settings.extensions.clone());
@@ -268,7 +263,7 @@ pub fn study_log(
     output: &Path,
     settings: &Settings,
     watch: Watch<'_>,
-) -> Result<Study, StudyError> {
+) -> Result<Study> {
     let mut log = LoggedRun::open(log, alternatives, &settings.extensions)?;
     let mut settings = settings.clone();
     settings.of.retain(|quantity| !matches!(quantity, Quantity::Energy | Quantity::Pose));
@@ -386,7 +381,7 @@ impl<'a> Job<'a> {
         reference_steps: u32,
         record: &Record,
         tolerance: f64,
-    ) -> Result<(Vec<Row>, Option<usize>), StudyError> {
+    ) -> Result<(Vec<Row>, Option<usize>)> {
         let plan = self.plan;
         let mut rows = Vec::new();
         for level in &plan.grid {
@@ -402,7 +397,7 @@ impl<'a> Job<'a> {
     }
 
     /// Tells what is run next; an error if it is to stop.
-    fn tell(&mut self, level: &Level, doing: &str) -> Result<(), StudyError> {
+    fn tell(&mut self, level: &Level, doing: &str) -> Result<()> {
         let doing = format!("{doing} {}", level.name(self.plan.frames.frame_s));
         let progress = Progress { done: self.done, of: self.all.max(self.done), doing: &doing };
         let flow = (self.watch)(&progress);
@@ -422,7 +417,7 @@ impl<'a> Job<'a> {
     }
 
     /// The reference and its record, kept or run.
-    fn reference(&mut self) -> Result<(Reference, Record), StudyError> {
+    fn reference(&mut self) -> Result<(Reference, Record)> {
         let (of, settings) = (&self.settings.of, self.settings);
         let mut parts = vec![self.plan.finest.into(), settings.refinements.into(), settings.within.to_bits()];
         parts.extend(of.iter().map(|quantity| *quantity as u64));
@@ -437,7 +432,7 @@ impl<'a> Job<'a> {
     }
 
     /// Halves the step until three runs in a row agree well enough, or no more halvings are left.
-    fn refine(&mut self) -> Result<(Reference, Record), StudyError> {
+    fn refine(&mut self) -> Result<(Reference, Record)> {
         let mut steps = self.plan.finest;
         let (mut last, mut difference): (Option<Record>, Option<Errors>) = (None, None);
         for run in 0..3 + self.settings.refinements {
@@ -463,13 +458,7 @@ impl<'a> Job<'a> {
         Err(StudyError::new("reference", line))
     }
 
-    fn row(
-        &mut self,
-        level: &Level,
-        place: Place,
-        reference_steps: u32,
-        record: &Record,
-    ) -> Result<Row, StudyError> {
+    fn row(&mut self, level: &Level, place: Place, reference_steps: u32, record: &Record) -> Result<Row> {
         let key = self.key(&[reference_steps.into()], Some(level));
         let answer = match self.store.get("level", key) {
             Some(kept) => kept,
@@ -484,7 +473,7 @@ impl<'a> Job<'a> {
         Ok(Row { level: level.clone(), name, place, answer, times: None, on_front: false })
     }
 
-    fn answer(&mut self, level: &Level, reference: &Record) -> Result<Answer, StudyError> {
+    fn answer(&mut self, level: &Level, reference: &Record) -> Result<Answer> {
         Ok(match self.subject.record(level, &self.plan.frames)? {
             Ended::Diverged(time_s) => Answer::Diverged { time_s },
             Ended::Whole(record) => Answer::Reached {
@@ -501,7 +490,7 @@ impl<'a> Job<'a> {
         rows: &mut Vec<Row>,
         reference_steps: u32,
         record: &Record,
-    ) -> Result<(), StudyError> {
+    ) -> Result<()> {
         let (level, alternatives) = (rows[anchor].level.clone(), self.subject.alternatives());
         for (lever, level) in self.plan.around(&level, &alternatives, &self.settings.plan) {
             rows.push(self.row(&level, Place::Around { anchor, lever }, reference_steps, record)?);
@@ -510,7 +499,7 @@ impl<'a> Job<'a> {
     }
 
     /// Times every level that reached the end, round after round, so that what disturbs hits all alike.
-    fn time(&mut self, rows: &mut [Row]) -> Result<(), StudyError> {
+    fn time(&mut self, rows: &mut [Row]) -> Result<()> {
         for round in 1..=self.settings.rounds {
             for row in rows.iter_mut().filter(|row| row.answer.errors().is_some()) {
                 let key = self.key(&[], Some(&row.level));

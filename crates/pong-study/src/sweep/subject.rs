@@ -1,6 +1,6 @@
 //! What is studied: a scene, whose motion follows from its wrenches, or a log, whose motion is what it is.
 
-use crate::StudyError;
+use crate::Result;
 use crate::sweep::level::Level;
 use crate::sweep::open_loop::LoggedRun;
 use crate::sweep::run::{self, Ended, Frames};
@@ -14,7 +14,7 @@ pub(crate) enum Subject {
 
 impl Subject {
     /// Runs a level and records it.
-    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Ended, StudyError> {
+    pub fn record(&mut self, level: &Level, frames: &Frames) -> Result<Ended> {
         match self {
             Self::Scene(scene) => run::record(scene, level, frames),
             Self::Log(log) => log.record(level, frames).map(Ended::Whole),
@@ -22,7 +22,7 @@ impl Subject {
     }
 
     /// Runs a level that is known to reach the end, and times every frame, ns.
-    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>, StudyError> {
+    pub fn time(&mut self, level: &Level, frames: &Frames) -> Result<Vec<u64>> {
         match self {
             Self::Scene(scene) => run::time(scene, level, frames),
             Self::Log(log) => log.time(level, frames),

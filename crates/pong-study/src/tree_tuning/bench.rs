@@ -1,6 +1,6 @@
 //! Proposals on the kept motions of all runs: made, compared, counted, timed.
 
-use crate::StudyError;
+use crate::Result;
 use crate::tree_tuning::counts::Counts;
 use crate::tree_tuning::motions::Motions;
 use crate::tree_tuning::play::{Compared, Player};
@@ -35,7 +35,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The models of a proposal, and the hash of all their trees.
-    pub fn models(&mut self, proposal: &Proposal) -> Result<(Vec<Arc<Model>>, u64), StudyError> {
+    pub fn models(&mut self, proposal: &Proposal) -> Result<(Vec<Arc<Model>>, u64)> {
         let mut trees = Fnv::default();
         let mut models = Vec::new();
         for ((subject, grouping), made) in self.subjects.iter().zip(proposal).zip(&mut self.made) {
@@ -50,18 +50,18 @@ impl<'a> Bench<'a> {
     }
 
     /// The hash of the trees of one subject in a proposal.
-    pub fn trees_of(&mut self, proposal: &Proposal, subject: usize) -> Result<u64, StudyError> {
+    pub fn trees_of(&mut self, proposal: &Proposal, subject: usize) -> Result<u64> {
         self.models(proposal)?;
         Ok(self.made[subject].as_ref().map_or(0, |(_, made)| made.trees))
     }
 
-    fn players(&mut self, proposal: &Proposal) -> Result<Vec<Player>, StudyError> {
+    fn players(&mut self, proposal: &Proposal) -> Result<Vec<Player>> {
         let models = self.models(proposal)?.0;
         self.runs.iter().map(|run| run.player(&models)).collect()
     }
 
     /// What each run counts with a proposal, or why it is refused.
-    pub fn compare(&mut self, proposal: &Proposal) -> Result<Result<Vec<Counts>, String>, StudyError> {
+    pub fn compare(&mut self, proposal: &Proposal) -> Result<Result<Vec<Counts>, String>> {
         let mut counts = Vec::new();
         let players = match self.players(proposal) {
             Ok(players) => players,
@@ -79,11 +79,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Times of each proposal in each run, all in turn.
-    pub fn times(
-        &mut self,
-        proposals: &[&Proposal],
-        rounds: u32,
-    ) -> Result<Vec<Vec<FrameTimes>>, StudyError> {
+    pub fn times(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<Vec<FrameTimes>>> {
         let mut players = Vec::new();
         for proposal in proposals {
             players.push(self.players(proposal)?);
@@ -115,11 +111,11 @@ impl Judge for Bench<'_> {
         self.models(proposal).map(|(_, trees)| trees).map_err(|error| error.to_string())
     }
 
-    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError> {
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>> {
         Ok(Bench::compare(self, proposal)?.map(|counts| Counts::of_all(&counts)))
     }
 
-    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, StudyError> {
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>> {
         let times = self.times(proposals, rounds)?;
         Ok(times.iter().map(|own| relative(own, &times[0])).collect())
     }

@@ -1,14 +1,14 @@
 //! A run that models are tuned for: a scene, or the motions of a log.
 
-use crate::StudyError;
 use crate::tree_tuning::motions::{Commit, Gatherer, Motions, rows};
 use crate::tree_tuning::play::{Held, Player, bodies};
 use crate::tree_tuning::subject::Subject;
+use crate::{Result, StudyError};
 use pong_engine::EngineError;
 use pong_executive::scene::{BuiltScene, Scene, Variation};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
-use pong_record::{Event, FrameRow, Log, LoggedEvent, RerunOptions, rerun, world_of_log};
+use pong_record::{Event, FrameRow, Log, LoggedEvent, ReplayOptions, rerun, world_of_log};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ enum Source {
 }
 
 /// Told of the frames done; its error ends the run.
-pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<(), StudyError>;
+pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<()>;
 
 impl Run {
     /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
@@ -38,7 +38,7 @@ impl Run {
         duration_s: Option<f64>,
         extensions: &Extensions,
         subjects: &mut Vec<Subject>,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self> {
         if path.is_dir() {
             Self::of_log(path, duration_s, extensions, subjects)
         } else {
@@ -51,7 +51,7 @@ impl Run {
         duration_s: Option<f64>,
         extensions: &Extensions,
         subjects: &mut Vec<Subject>,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self> {
         let scene = Scene::load(path)?;
         let scene = scene.with_extensions(extensions.clone());
         let built = scene.build()?;
@@ -71,7 +71,7 @@ impl Run {
         duration_s: Option<f64>,
         extensions: &Extensions,
         subjects: &mut Vec<Subject>,
-    ) -> Result<Self, StudyError> {
+    ) -> Result<Self> {
         let mut log = open(path)?;
         let mut models = Vec::new();
         for index in 0..log.run().models.len() {
@@ -89,7 +89,7 @@ impl Run {
     }
 
     /// Runs it as it is and keeps its motions: at most so many frames.
-    pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions, StudyError> {
+    pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions> {
         let motions = match &self.source {
             Source::Scene(scene) => self.follow(build(scene, None)?, rows(self.frames, wanted, &[]), tick),
             Source::Log(path) => {
@@ -105,12 +105,7 @@ impl Run {
     }
 
     /// Runs all of it again with other models, one for each subject, and tells the first frame whose answer is another.
-    pub fn differs(
-        &self,
-        made: &[Arc<Model>],
-        motions: &Motions,
-        tick: Tick<'_>,
-    ) -> Result<Option<String>, StudyError> {
+    pub fn differs(&self, made: &[Arc<Model>], motions: &Motions, tick: Tick<'_>) -> Result<Option<String>> {
         let again = match &self.source {
             Source::Scene(scene) => self.follow(build(scene, Some((self, made)))?, Vec::new(), tick),
             Source::Log(path) => self.rerun(open(path)?, made, Vec::new(), tick),
@@ -124,7 +119,7 @@ impl Run {
     }
 
     /// A world with a model for each subject, to play kept motions.
-    pub fn player(&self, made: &[Arc<Model>]) -> Result<Player, StudyError> {
+    pub fn player(&self, made: &[Arc<Model>]) -> Result<Player> {
         let held = match &self.source {
             Source::Scene(scene) => Held::Scene(Box::new(build(scene, Some((self, made)))?)),
             Source::Log(path) => {
@@ -137,9 +132,9 @@ impl Run {
     }
 
     /// A log run again, with these models in place of its own.
-    fn options<'a>(&self, instead: &'a dyn Fn(usize) -> Option<Arc<Model>>) -> RerunOptions<'a> {
+    fn options<'a>(&self, instead: &'a dyn Fn(usize) -> Option<Arc<Model>>) -> ReplayOptions<'a> {
         let extensions = self.extensions.clone();
-        RerunOptions { instead: Some(instead), extensions, ..RerunOptions::default() }
+        ReplayOptions { instead: Some(instead), extensions, ..ReplayOptions::default() }
     }
 
     pub fn refused(&self, error: &EngineError) -> StudyError {
@@ -147,12 +142,7 @@ impl Run {
     }
 
     /// The scene's own run; every answer is kept, and the frames of some rows.
-    fn follow(
-        &self,
-        mut built: BuiltScene,
-        rows: Vec<(u64, u64)>,
-        tick: Tick<'_>,
-    ) -> Result<Motions, StudyError> {
+    fn follow(&self, mut built: BuiltScene, rows: Vec<(u64, u64)>, tick: Tick<'_>) -> Result<Motions> {
         let refused = |error: EngineError| self.refused(&error);
         let bodies = bodies(built.simulation.world()).map_err(refused)?;
         let mut gatherer = Gatherer::new(rows);
@@ -174,7 +164,7 @@ impl Run {
         made: &[Arc<Model>],
         rows: Vec<(u64, u64)>,
         tick: Tick<'_>,
-    ) -> Result<Motions, StudyError> {
+    ) -> Result<Motions> {
         let instead = |index: usize| made.get(self.models[index].1).cloned();
         let options = || self.options(&instead);
         let mut gatherer = Gatherer::new(rows);
@@ -182,7 +172,7 @@ impl Run {
         gatherer.before(&fresh).map_err(|error| self.refused(&error))?;
         drop(fresh);
         let events = log.events().to_vec();
-        rerun(&mut log, options(), self.frames, &mut |frame| -> Result<(), StudyError> {
+        rerun(&mut log, options(), (self.frames, 1), &mut |frame| -> Result<()> {
             let commit = commit(&frame.logged.row, &events);
             let gathered = gatherer.after(frame.world, frame.bodies, commit);
             gathered.and_then(|()| gatherer.before(frame.world)).map_err(|error| self.refused(&error))?;
@@ -208,7 +198,7 @@ fn commit(row: &FrameRow, events: &[LoggedEvent]) -> Commit {
 }
 
 /// Places of the log's frames before which its host did something else than to hand in states, in order.
-fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>, StudyError> {
+fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>> {
     let changes = log.events().iter().filter(|event| !matches!(event.event, Event::Commit { .. }));
     let numbers: Vec<u64> = changes.map(|event| event.frame).collect();
     let rows = log.frame_rows(0, frames)?;
@@ -220,12 +210,7 @@ fn places_of_events(log: &mut Log, frames: u64) -> Result<Vec<u64>, StudyError> 
 }
 
 /// The subject of a model file: an earlier one if the file says the same.
-fn subject(
-    file: &Path,
-    in_log: bool,
-    extensions: &Extensions,
-    subjects: &mut Vec<Subject>,
-) -> Result<usize, StudyError> {
+fn subject(file: &Path, in_log: bool, extensions: &Extensions, subjects: &mut Vec<Subject>) -> Result<usize> {
     let new = Subject::load(file, in_log, extensions)?;
     let known = subjects.iter().position(|known| known.hash == new.hash && known.text == new.text);
     Ok(known.unwrap_or_else(|| {
@@ -234,7 +219,7 @@ fn subject(
     }))
 }
 
-fn build(scene: &Scene, made: Option<(&Run, &[Arc<Model>])>) -> Result<BuiltScene, StudyError> {
+fn build(scene: &Scene, made: Option<(&Run, &[Arc<Model>])>) -> Result<BuiltScene> {
     let instead = |file: &Path| {
         let (run, made) = made?;
         let (_, subject) = run.models.iter().find(|(other, _)| other == file)?;
@@ -244,6 +229,6 @@ fn build(scene: &Scene, made: Option<(&Run, &[Arc<Model>])>) -> Result<BuiltScen
     Ok(scene.build_varied(&variation)?)
 }
 
-fn open(path: &Path) -> Result<Log, StudyError> {
+fn open(path: &Path) -> Result<Log> {
     Ok(Log::open(path)?)
 }

@@ -1,7 +1,7 @@
 //! The search: proposals from large to small, those that cannot be faster left out by what the engine counts, the others
 //! timed in turn with what is best so far, twice, so that noise is known and no chance is taken for a gain.
 
-use crate::StudyError;
+use crate::Result;
 use crate::tree_tuning::counts::Counts;
 use crate::tree_tuning::moves::{Move, Reach, applied, moves};
 use crate::tree_tuning::subject::{Grouping, Shape};
@@ -15,9 +15,9 @@ pub(crate) trait Judge {
     /// A hash of all trees of a proposal; cause and cure if it cannot be made.
     fn trees(&mut self, proposal: &Proposal) -> Result<u64, String>;
     /// What the engine counts with it, or why it is refused: its answers are not the same bits.
-    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError>;
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>>;
     /// The time of each, in any unit, all in turn, so many rounds.
-    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, StudyError>;
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>>;
 }
 
 /// What a search found.
@@ -47,8 +47,8 @@ pub(crate) fn search(
     shapes: &[&Shape],
     start: Proposal,
     rounds: u32,
-    tell: &mut dyn FnMut(&str) -> Result<(), StudyError>,
-) -> Result<Found, StudyError> {
+    tell: &mut dyn FnMut(&str) -> Result<()>,
+) -> Result<Found> {
     let found = Found { best: start, refused: Vec::new(), compared: 0, timed: 0 };
     let mut search = Search { judge, shapes, rounds, tell, found };
     for cycle in 0..CYCLES {
@@ -67,12 +67,12 @@ struct Search<'a> {
     judge: &'a mut dyn Judge,
     shapes: &'a [&'a Shape],
     rounds: u32,
-    tell: &'a mut dyn FnMut(&str) -> Result<(), StudyError>,
+    tell: &'a mut dyn FnMut(&str) -> Result<()>,
     found: Found,
 }
 
 impl Search<'_> {
-    fn model(&mut self, model: usize, cycle: usize) -> Result<(), StudyError> {
+    fn model(&mut self, model: usize, cycle: usize) -> Result<()> {
         for reach in [Reach::Model, Reach::Family, Reach::Group] {
             for repeat in 0..REPEATS {
                 let words = match reach {
@@ -91,7 +91,7 @@ impl Search<'_> {
     }
 
     /// Tries all moves of a reach once; whether one was taken.
-    fn step(&mut self, model: usize, reach: Reach) -> Result<bool, StudyError> {
+    fn step(&mut self, model: usize, reach: Reach) -> Result<bool> {
         let shape = self.shapes[model];
         let best = self.found.best.clone();
         let (Ok(trees), Ok(counts)) = (self.judge.trees(&best), self.judge.compare(&best)?) else {
@@ -138,7 +138,7 @@ impl Search<'_> {
         proposal: &Proposal,
         seen: &mut BTreeSet<u64>,
         best: &Counts,
-    ) -> Result<bool, StudyError> {
+    ) -> Result<bool> {
         let mut refuse = |why| self.found.refused.push((model, proposal[model].clone(), why));
         match self.judge.trees(proposal) {
             Ok(trees) if !seen.insert(trees) => return Ok(false),
@@ -159,7 +159,7 @@ impl Search<'_> {
     }
 
     /// By what part of the time of the best so far each proposal is shorter; `None` where that is not more than noise.
-    fn gains(&mut self, proposals: Vec<&Proposal>, rounds: u32) -> Result<Vec<Option<f64>>, StudyError> {
+    fn gains(&mut self, proposals: Vec<&Proposal>, rounds: u32) -> Result<Vec<Option<f64>>> {
         let mut gains = Vec::new();
         for some in proposals.chunks(TOGETHER) {
             let best = &self.found.best;

@@ -1,6 +1,6 @@
 //! A model that is tuned: its text, and what its groups may be given.
 
-use crate::StudyError;
+use crate::{Result, StudyError};
 use pong_geometry::extension::Extensions;
 use pong_model::Fnv;
 use pong_model::Model;
@@ -74,7 +74,7 @@ impl Shape {
 
 impl Subject {
     /// Reads a model file.
-    pub fn load(file: &Path, in_log: bool, extensions: &Extensions) -> Result<Self, StudyError> {
+    pub fn load(file: &Path, in_log: bool, extensions: &Extensions) -> Result<Self> {
         let text = pong_model::files::read_text(file).map_err(|reason| {
             StudyError::file(file, format!("{reason}; name a run whose models can be read"))
         })?;
@@ -87,7 +87,7 @@ impl Subject {
     }
 
     /// The text of the file with a grouping.
-    pub fn text(&self, grouping: &Grouping) -> Result<String, StudyError> {
+    pub fn text(&self, grouping: &Grouping) -> Result<String> {
         let changes: Vec<Regrouped> = self
             .shape
             .groups
@@ -103,7 +103,7 @@ impl Subject {
     }
 
     /// The model with a grouping, read from its text as a file would be.
-    pub fn make(&self, grouping: &Grouping) -> Result<Made, StudyError> {
+    pub fn make(&self, grouping: &Grouping) -> Result<Made> {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let text = self.text(grouping)?;
         let model =

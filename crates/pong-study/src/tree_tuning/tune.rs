@@ -1,6 +1,5 @@
 //! All of it: runs in, motions kept, search, the whole run compared, before and after timed in turn, files out.
 
-use crate::StudyError;
 use crate::tree_tuning::bench::{Bench, FrameTimes, relative};
 use crate::tree_tuning::counts::Counts;
 use crate::tree_tuning::motions::Motions;
@@ -9,6 +8,7 @@ use crate::tree_tuning::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, 
 use crate::tree_tuning::subject::{Shape, Subject};
 use crate::tree_tuning::words;
 use crate::tree_tuning::write::{Output, headed};
+use crate::{Result, StudyError};
 use pong_geometry::extension::Extensions;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub enum Progress {
 type Watch<'a> = &'a mut dyn FnMut(&Progress) -> ControlFlow<()>;
 
 /// Tells how far the tuning is; an error if it is to stop.
-fn tell(watch: Watch<'_>, progress: &Progress) -> Result<(), StudyError> {
+fn tell(watch: Watch<'_>, progress: &Progress) -> Result<()> {
     match watch(progress) {
         ControlFlow::Continue(()) => Ok(()),
         ControlFlow::Break(()) => Err(StudyError::new("tuning", "stopped; run it again")),
@@ -118,7 +118,7 @@ pub struct ModelTuned {
 ///
 /// # Errors
 /// A run or a model at fault, a place that is taken or cannot be written, a tuning that was told to stop.
-pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tuned, StudyError> {
+pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tuned> {
     check(settings)?;
     let mut subjects = Vec::new();
     let mut runs = Vec::new();
@@ -133,7 +133,7 @@ pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tu
     Job { subjects, runs, motions, settings }.tune(watch)
 }
 
-fn check(settings: &Settings) -> Result<(), StudyError> {
+fn check(settings: &Settings) -> Result<()> {
     if let Some(duration) = settings.duration_s.filter(|duration| !(*duration > 0.0 && duration.is_finite()))
     {
         return Err(StudyError::new(
@@ -148,11 +148,7 @@ fn check(settings: &Settings) -> Result<(), StudyError> {
 }
 
 /// Tells the frames of a run that are done, now and then.
-fn ticker<'w>(
-    watch: Watch<'w>,
-    doing: &str,
-    run: &Run,
-) -> impl FnMut(u64) -> Result<(), StudyError> + use<'w> {
+fn ticker<'w>(watch: Watch<'w>, doing: &str, run: &Run) -> impl FnMut(u64) -> Result<()> + use<'w> {
     let (doing, of) = (format!("{doing} {}", run.name), run.frames);
     move |done| {
         if !done.is_multiple_of(256) && done != of {
@@ -173,7 +169,7 @@ struct Job<'a> {
 const STRIDE: usize = 4;
 
 impl Job<'_> {
-    fn tune(&self, watch: Watch<'_>) -> Result<Tuned, StudyError> {
+    fn tune(&self, watch: Watch<'_>) -> Result<Tuned> {
         let authored: Proposal = self.subjects.iter().map(|subject| subject.shape.authored()).collect();
         self.check_player(&authored)?;
         let shapes: Vec<&Shape> = self.subjects.iter().map(|subject| &subject.shape).collect();
@@ -202,7 +198,7 @@ impl Job<'_> {
     }
 
     /// The models as they are must give the run's own bits when its motions are played.
-    fn check_player(&self, authored: &Proposal) -> Result<(), StudyError> {
+    fn check_player(&self, authored: &Proposal) -> Result<()> {
         match self.bench(1).compare(authored)? {
             Ok(_) => Ok(()),
             Err(why) => Err(StudyError::new(
@@ -218,7 +214,7 @@ impl Job<'_> {
         bench: &mut Bench<'_>,
         proposal: &Proposal,
         watch: Watch<'_>,
-    ) -> Result<Option<String>, StudyError> {
+    ) -> Result<Option<String>> {
         let models = bench.models(proposal)?.0;
         for (run, motions) in self.runs.iter().zip(&self.motions) {
             let what = run.differs(&models, motions, &mut ticker(watch, "compares", run))?;
@@ -230,7 +226,7 @@ impl Job<'_> {
     }
 
     /// Before, before once more and after, in turn, and all that is told of them.
-    fn timed(&self, authored: &Proposal, found: &Found) -> Result<Tuned, StudyError> {
+    fn timed(&self, authored: &Proposal, found: &Found) -> Result<Tuned> {
         let mut bench = self.bench(1);
         let refused = |why: String| StudyError::new("compare", why);
         let before = bench.compare(authored)?.map_err(refused)?;
@@ -272,7 +268,7 @@ impl Job<'_> {
         })
     }
 
-    fn write(&self, bench: &mut Bench<'_>, best: &Proposal, tuned: &mut Tuned) -> Result<(), StudyError> {
+    fn write(&self, bench: &mut Bench<'_>, best: &Proposal, tuned: &mut Tuned) -> Result<()> {
         let names: Vec<&str> = self.runs.iter().map(|run| run.name.as_str()).collect();
         for (index, subject) in self.subjects.iter().enumerate() {
             if best[index] != subject.shape.authored() {

@@ -1,7 +1,7 @@
 //! Tuned model files: written beside their place, read back, and only then put there.
 
-use crate::StudyError;
 use crate::tree_tuning::subject::{Subject, hash_of_trees};
+use crate::{Result, StudyError};
 use pong_model::grouping;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ impl Output {
     }
 
     /// Refuses places that are taken, before anything is run.
-    pub(crate) fn check(&self, subjects: &[Subject]) -> Result<(), StudyError> {
+    pub(crate) fn check(&self, subjects: &[Subject]) -> Result<()> {
         let mut places: Vec<PathBuf> = Vec::new();
         for subject in subjects {
             let place = self.place(subject);
@@ -46,7 +46,7 @@ impl Output {
     }
 
     /// Writes a text as the tuned file of a model; `trees` is what its bounding trees must be.
-    pub(crate) fn write(&self, subject: &Subject, text: &str, trees: u64) -> Result<PathBuf, StudyError> {
+    pub(crate) fn write(&self, subject: &Subject, text: &str, trees: u64) -> Result<PathBuf> {
         let place = self.place(subject);
         let folder = match place.parent() {
             Some(folder) if folder != Path::new("") => folder.to_owned(),
@@ -69,7 +69,7 @@ impl Output {
     }
 
     /// Meshes are found beside a model or below: in another folder they are needed as well.
-    fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<(), StudyError> {
+    fn copy_meshes(&self, subject: &Subject, folder: &Path) -> Result<()> {
         let home = subject.file.parent().unwrap_or(Path::new(""));
         let files =
             grouping::mesh_files(&subject.text).map_err(|line| StudyError::file(&subject.file, line))?;
@@ -95,7 +95,7 @@ impl Output {
 }
 
 /// The file as it will be read: the same model in the trees that were measured.
-fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<(), StudyError> {
+fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<()> {
     let model = pong_model::load(staged, &subject.extensions)?;
     if model.hash == subject.hash && hash_of_trees(&model) == trees {
         return Ok(());

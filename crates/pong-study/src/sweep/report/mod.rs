@@ -10,7 +10,7 @@ pub use csv::{csv, errors_csv};
 pub use markdown::markdown;
 pub use plot::svg;
 
-use crate::StudyError;
+use crate::Result;
 use crate::sweep::store::write_whole;
 use crate::sweep::study::Study;
 use std::path::Path;
@@ -20,7 +20,7 @@ use std::path::Path;
 /// # Errors
 ///
 /// A file that cannot be written; the error names it.
-pub fn write(study: &Study, folder: &Path) -> Result<(), StudyError> {
+pub fn write(study: &Study, folder: &Path) -> Result<()> {
     let files = [
         ("trade.md", markdown(study)),
         ("trade.csv", csv(study)),

@@ -7,7 +7,7 @@ mod logs;
 mod refusals;
 mod searches;
 
-use crate::StudyError;
+use crate::Result;
 use crate::tree_tuning::bench::Bench;
 use crate::tree_tuning::counts::Counts;
 use crate::tree_tuning::motions::Motions;
@@ -125,11 +125,11 @@ impl Judge for Priced<'_> {
         Judge::trees(&mut self.bench, proposal)
     }
 
-    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError> {
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>> {
         Judge::compare(&mut self.bench, proposal)
     }
 
-    fn time(&mut self, proposals: &[&Proposal], _: u32) -> Result<Vec<f64>, StudyError> {
+    fn time(&mut self, proposals: &[&Proposal], _: u32) -> Result<Vec<f64>> {
         self.timings += proposals.len();
         let mut times = Vec::new();
         for proposal in proposals {

@@ -1,7 +1,7 @@
 //! Proposals that change an answer are refused, and named. Code is broken on purpose here.
 
 use super::{Folder, Priced, Ready, ball_on_sheet, scene};
-use crate::StudyError;
+use crate::Result;
 use crate::tree_tuning::counts::Counts;
 use crate::tree_tuning::play::Compared;
 use crate::tree_tuning::search::{Judge, Proposal, search};
@@ -71,14 +71,14 @@ impl Judge for Broken<'_> {
         self.0.trees(proposal)
     }
 
-    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError> {
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>> {
         if proposal[0].iter().any(|setting| setting.bound == pong_model::grouping::Bound::Above) {
             return Ok(Err("the contacts of frame 3".to_owned()));
         }
         self.0.compare(proposal)
     }
 
-    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>, StudyError> {
+    fn time(&mut self, proposals: &[&Proposal], rounds: u32) -> Result<Vec<f64>> {
         self.0.time(proposals, rounds)
     }
 }
@@ -107,11 +107,11 @@ impl Judge for Noisy<'_> {
         self.0.trees(proposal)
     }
 
-    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>, StudyError> {
+    fn compare(&mut self, proposal: &Proposal) -> Result<Result<Counts, String>> {
         self.0.compare(proposal)
     }
 
-    fn time(&mut self, proposals: &[&Proposal], _: u32) -> Result<Vec<f64>, StudyError> {
+    fn time(&mut self, proposals: &[&Proposal], _: u32) -> Result<Vec<f64>> {
         let mut times = vec![0.5; proposals.len()];
         times[0] = 1.0;
         times[proposals.len() - 1] = 1.0 + self.1;
