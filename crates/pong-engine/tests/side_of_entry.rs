@@ -305,6 +305,31 @@ fn behind_a_ridge_only_the_less_deep_face_pushes() {
     }
 }
 
+/// A centre whose line goes through the edge or a vertex of a ridge from outside has not come out of the ridge: it is pushed by
+/// the face beyond, whichever of the two faces rounding lets it cross last.
+#[test]
+fn a_line_over_a_ridge_has_crossed_nothing() {
+    let ridge = ridge(&[-1.0, 0.0, 1.0]);
+    let mut random = Random(61);
+    for round in 0..60 {
+        let orientation = Quat::from_matrix(&random.rotation_matrix());
+        let mut rig = Rig::new(&ball(0.1), &ridge);
+        let y = if round % 2 == 0 { 0.1 } else { random.between(-0.5, 0.5) };
+        for x in [-0.5, random.between(0.05, 0.12)] {
+            let place = orientation * Vec3::new(x, y, 0.0);
+            rig.place([at(place, orientation), at(Vec3::zeros(), orientation)]);
+            rig.world.step().unwrap();
+            let depth = (0.1 - x.abs() / 2.0_f64.sqrt()).max(0.0);
+            let force = orientation.inverse() * rig.wrench(0).force;
+            let expected = Vec3::new(1.0, 0.0, 1.0).normalize() * (0.5 * K * depth);
+            assert!(
+                (force - expected).norm() < 1e-9 * K,
+                "round {round}, x = {x}: {force:?}, not {expected:?}"
+            );
+        }
+    }
+}
+
 /// A cube from −0.5 to 0.5, every side in `n` × `n` squares of two triangles.
 fn cube_of_triangles(n: usize) -> String {
     let mut corners: Vec<[usize; 3]> = Vec::new();
