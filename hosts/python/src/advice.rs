@@ -35,7 +35,7 @@ pub(crate) fn advise_contact<'py>(
         step,
         accuracy: Accuracy { depth: depth_accuracy, rebound: rebound_accuracy },
     };
-    let advice = pong_advise::advise_contact(&wish).map_err(|error| of_engine(py, &error))?;
+    let advice = pong_advise::advise_contact(&wish).map_err(of_engine)?;
     let values = [
         ("stiffness", advice.stiffness),
         ("damping", advice.damping),

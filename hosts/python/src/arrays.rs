@@ -17,6 +17,9 @@ pub(crate) const WRENCH: usize = 6;
 /// An argument of numbers: an array of float64 is read where it lies, anything else is converted by NumPy.
 pub(crate) type Rows<'py> = PyArrayLike2<'py, f64, AllowTypeChange>;
 
+/// An array of rows, of the caller or given to it.
+pub(crate) type Matrix<'py> = Bound<'py, PyArray2<f64>>;
+
 /// Checks the shape of an argument: `rows` × `columns`.
 pub(crate) fn rows<'a>(
     thing: &str,
@@ -77,10 +80,10 @@ pub(crate) fn wrench_row(wrench: &Wrench) -> [f64; WRENCH] {
 /// Fills an array of the caller, or a new one, row by row.
 pub(crate) fn fill<'py, const N: usize>(
     py: Python<'py>,
-    out: Option<Bound<'py, PyArray2<f64>>>,
+    out: Option<Matrix<'py>>,
     count: usize,
     row: impl Fn(usize) -> PyResult<[f64; N]>,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+) -> PyResult<Matrix<'py>> {
     let array = match out {
         Some(array) => {
             check_shape("out", array.shape(), [count, N])?;

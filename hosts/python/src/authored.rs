@@ -13,7 +13,7 @@ use std::path::PathBuf;
 #[pyfunction]
 pub(crate) fn read_authored(py: Python<'_>, path: PathBuf) -> PyResult<Py<PyAny>> {
     let read = py.detach(|| authored::load(&path));
-    value(py, &read.map_err(|errors| of_model(py, &errors))?)
+    value(py, &read.map_err(of_model)?)
 }
 
 /// Reads a model from text as it is written. `name` is what errors call it.
@@ -21,7 +21,7 @@ pub(crate) fn read_authored(py: Python<'_>, path: PathBuf) -> PyResult<Py<PyAny>
 #[pyo3(signature = (text, *, name = "model"))]
 pub(crate) fn parse_authored(py: Python<'_>, text: &str, name: &str) -> PyResult<Py<PyAny>> {
     let read = py.detach(|| authored::parse(text, name));
-    value(py, &read.map_err(|errors| of_model(py, &errors))?)
+    value(py, &read.map_err(of_model)?)
 }
 
 /// `None` is None, another name its text, `Name(…)` a dictionary {"Name": …}, `Some(x)` is x.

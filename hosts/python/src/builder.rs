@@ -105,38 +105,31 @@ impl WorldBuilder {
     }
 
     /// Creates an Object from a model. Objects of one model are independent.
-    fn create_object(&self, py: Python<'_>, model: AddedRef<'_>, name: &str) -> PyResult<Object> {
+    fn create_object(&self, model: AddedRef<'_>, name: &str) -> PyResult<Object> {
         let model = model.resolve()?;
         self.with(|setup| {
-            let id = setup.builder.create_object(model.id, name).map_err(|error| of_engine(py, &error))?;
+            let id = setup.builder.create_object(model.id, name).map_err(of_engine)?;
             Ok(Object { id, name: name.to_owned() })
         })
     }
 
     /// Declares that two Objects, given themselves or by name, may touch.
-    fn pair(&self, py: Python<'_>, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
+    fn pair(&self, a: ObjectRef<'_>, b: ObjectRef<'_>) -> PyResult<Pair> {
         self.with(|setup| {
-            let (a, b) = (a.resolve(py, setup.builder.scene())?, b.resolve(py, setup.builder.scene())?);
-            let id = setup.builder.pair(a, b).map_err(|error| of_engine(py, &error))?;
-            let name = |id| {
-                setup
-                    .builder
-                    .scene()
-                    .object_name(id)
-                    .map(str::to_owned)
-                    .map_err(|error| of_engine(py, &error))
-            };
+            let (a, b) = (a.resolve(setup.builder.scene())?, b.resolve(setup.builder.scene())?);
+            let id = setup.builder.pair(a, b).map_err(of_engine)?;
+            let name = |id| setup.builder.scene().object_name(id).map(str::to_owned).map_err(of_engine);
             Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) })
         })
     }
 
     /// The Interface of a movable group by its path or name. An empty path is the root.
     #[pyo3(signature = (object, path = ""))]
-    fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
+    fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         self.with(|setup| {
-            let object = object.resolve(py, setup.builder.scene())?;
-            let id = setup.builder.scene().interface(object, path).map_err(|error| of_engine(py, &error))?;
-            ids::interface(py, setup.builder.scene(), id)
+            let object = object.resolve(setup.builder.scene())?;
+            let id = setup.builder.scene().interface(object, path).map_err(of_engine)?;
+            ids::interface(setup.builder.scene(), id)
         })
     }
 
@@ -145,11 +138,11 @@ impl WorldBuilder {
         let mut place = self.lock()?;
         let Setup { builder, sources, folders } = place.take().ok_or_else(sealed)?;
         match py.detach(|| builder.seal().map_err(Box::new)) {
-            Ok((world, report)) => World::new(py, world, sources, &report),
+            Ok((world, report)) => World::new(world, sources, &report),
             Err(refused) => {
                 let (builder, error) = refused.into_parts();
                 *place = Some(Setup { builder, sources, folders });
-                Err(of_engine(py, &error))
+                Err(of_engine(error))
             }
         }
     }

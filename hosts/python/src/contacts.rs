@@ -1,7 +1,6 @@
 //! Contacts as a structured NumPy array: one row a contact, written once, into the memory that NumPy then shows.
 
-use crate::arrays;
-use numpy::PyArray2;
+use crate::arrays::{self, Matrix};
 use pong_engine::{Contact, NormalTangent, World};
 use pong_geometry::Vec3;
 use pyo3::prelude::*;
@@ -127,7 +126,7 @@ fn write(index: usize, contact: &Contact, row: &mut [u8]) {
 }
 
 /// Stiffness (N/m) and damping (N·s/m) of each contact along its normal; not a number for a normal law of the host's.
-pub(crate) fn stiffness<'py>(py: Python<'py>, world: &World) -> PyResult<Bound<'py, PyArray2<f64>>> {
+pub(crate) fn stiffness<'py>(py: Python<'py>, world: &World) -> PyResult<Matrix<'py>> {
     let row = |tangent: Option<NormalTangent>| tangent.map_or([f64::NAN; 2], |t| [t.stiffness, t.damping]);
     let rows: Vec<[f64; 2]> = world.normal_tangents().map(row).collect();
     arrays::fill(py, None, rows.len(), |index| Ok(rows[index]))

@@ -33,7 +33,6 @@ fn mass_of(simulation: &Simulation, body: BodyId) -> PyResult<&MassProperties> {
 }
 
 pub(crate) fn set_mass(
-    py: Python<'_>,
     simulation: &mut Simulation,
     body: BodyId,
     values: &Bound<'_, PyDict>,
@@ -46,7 +45,7 @@ pub(crate) fn set_mass(
         inertia: Mat3::from_fn(|row, column| rows[row][column]),
         mass_center: Vec3::from(value::<[f64; 3]>("mass", values, "mass_center")?),
     };
-    simulation.set_mass(body, properties).map_err(|error| of_executive(py, &error))
+    simulation.set_mass(body, properties).map_err(of_executive)
 }
 
 /// Three translations (N/m, N·s/m, N), then three rotations (N·m/rad, N·m·s/rad, N·m).
@@ -71,7 +70,6 @@ fn spring_of(simulation: &Simulation, number: usize) -> PyResult<Spring> {
 }
 
 pub(crate) fn set_spring(
-    py: Python<'_>,
     simulation: &mut Simulation,
     number: usize,
     values: &Bound<'_, PyDict>,
@@ -80,7 +78,7 @@ pub(crate) fn set_spring(
     whole("spring", values, &SPRING)?;
     let [stiffness, damping, preload] = SPRING.map(|name| value::<[f64; 6]>("spring", values, name));
     let spring = Spring { stiffness: stiffness?, damping: damping?, preload: preload?, ..known };
-    simulation.set_spring(number, spring).map_err(|error| of_executive(py, &error))
+    simulation.set_spring(number, spring).map_err(of_executive)
 }
 
 /// Refuses a dictionary with a key too few or too many: what is misspelt must not stay as it was without a word.

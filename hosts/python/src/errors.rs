@@ -55,7 +55,7 @@ pub(crate) fn register(module: &Bound<'_, PyModule>) -> PyResult<()> {
 }
 
 /// The exception of an error of the engine.
-pub(crate) fn of_engine(py: Python<'_>, error: &Refused) -> PyErr {
+pub(crate) fn of_engine(error: Refused) -> PyErr {
     let text = error.to_string();
     match error {
         Refused::UnknownId { .. } | Refused::UnknownName { .. } => NotFoundError::new_err(text),
@@ -64,7 +64,7 @@ pub(crate) fn of_engine(py: Python<'_>, error: &Refused) -> PyErr {
         Refused::Seal { problems } => {
             let raised = SealError::new_err(text);
             // An attribute that cannot be set leaves the message, which says the same.
-            let _ = raised.value(py).setattr("problems", problems.clone());
+            let _ = Python::attach(|py| raised.value(py).setattr("problems", problems));
             raised
         }
         Refused::BadState { .. } | Refused::UnsetState { .. } => StateError::new_err(text),
@@ -76,55 +76,57 @@ pub(crate) fn of_engine(py: Python<'_>, error: &Refused) -> PyErr {
 }
 
 /// The exception of an error of the executive.
-pub(crate) fn of_executive(py: Python<'_>, error: &ExecutiveError) -> PyErr {
+pub(crate) fn of_executive(error: ExecutiveError) -> PyErr {
     match error {
-        ExecutiveError::Engine(error) => of_engine(py, error),
+        ExecutiveError::Engine(error) => of_engine(error),
         other => RunError::new_err(other.to_string()),
     }
 }
 
 /// The exception of an error of a log.
-pub(crate) fn of_log(py: Python<'_>, error: &RecordError) -> PyErr {
+pub(crate) fn of_log(error: RecordError) -> PyErr {
     match error {
-        RecordError::Engine(error) => of_engine(py, error),
+        RecordError::Engine(error) => of_engine(error),
         other => LogError::new_err(other.to_string()),
     }
 }
 
 /// The exception of the faults of a model.
-pub(crate) fn of_model(py: Python<'_>, errors: &ModelErrors) -> PyErr {
-    let raised = ModelError::new_err(errors.to_string());
-    let list = PyList::empty(py);
-    for error in &errors.0 {
-        let entry = PyDict::new(py);
-        let _ = entry.set_item("file", &error.file);
-        let _ = entry.set_item("line", error.line);
-        let _ = entry.set_item("column", error.column);
-        let _ = entry.set_item("path", &error.path);
-        let _ = entry.set_item("rule", error.rule);
-        let _ = entry.set_item("cause", &error.cause);
-        let _ = entry.set_item("cure", &error.cure);
-        let _ = list.append(entry);
-    }
-    let _ = raised.value(py).setattr("errors", list);
-    raised
+pub(crate) fn of_model(errors: ModelErrors) -> PyErr {
+    with_list(ModelError::new_err(errors.to_string()), &errors.0, |error, entry| {
+        entry.set_item("file", &error.file)?;
+        entry.set_item("line", error.line)?;
+        entry.set_item("column", error.column)?;
+        entry.set_item("path", &error.path)?;
+        entry.set_item("rule", error.rule)?;
+        entry.set_item("cause", &error.cause)?;
+        entry.set_item("cure", &error.cure)
+    })
 }
 
 /// The exception of the faults of a scene.
-pub(crate) fn of_scene(py: Python<'_>, errors: &SceneErrors) -> PyErr {
-    let raised = SceneError::new_err(errors.to_string());
-    let list = PyList::empty(py);
-    for error in &errors.0 {
-        let entry = PyDict::new(py);
-        let _ = entry.set_item("file", &error.file);
-        let _ = entry.set_item("line", error.at.map(|(line, _)| line));
-        let _ = entry.set_item("column", error.at.map(|(_, column)| column));
-        let _ = entry.set_item("thing", &error.thing);
-        let _ = entry.set_item("cause", &error.cause);
-        let _ = entry.set_item("cure", &error.cure);
-        let _ = list.append(entry);
-    }
-    let _ = raised.value(py).setattr("errors", list);
+pub(crate) fn of_scene(errors: SceneErrors) -> PyErr {
+    with_list(SceneError::new_err(errors.to_string()), &errors.0, |error, entry| {
+        entry.set_item("file", &error.file)?;
+        entry.set_item("line", error.at.map(|(line, _)| line))?;
+        entry.set_item("column", error.at.map(|(_, column)| column))?;
+        entry.set_item("thing", &error.thing)?;
+        entry.set_item("cause", &error.cause)?;
+        entry.set_item("cure", &error.cure)
+    })
+}
+
+/// The exception with `errors`: a dictionary for each fault. Without them if they cannot be made: the message says the same.
+fn with_list<T>(raised: PyErr, errors: &[T], fill: impl Fn(&T, &Bound<'_, PyDict>) -> PyResult<()>) -> PyErr {
+    let _ = Python::attach(|py| -> PyResult<()> {
+        let list = PyList::empty(py);
+        for error in errors {
+            let entry = PyDict::new(py);
+            fill(error, &entry)?;
+            list.append(entry)?;
+        }
+        raised.value(py).setattr("errors", list)
+    });
     raised
 }
 

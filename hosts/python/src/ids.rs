@@ -61,36 +61,34 @@ pub(crate) enum ObjectRef<'py> {
 
 impl ObjectRef<'_> {
     /// Its id in a world.
-    pub fn resolve(&self, py: Python<'_>, scene: &Scene) -> PyResult<ObjectId> {
+    pub fn resolve(&self, scene: &Scene) -> PyResult<ObjectId> {
         match self {
             Self::Id(object) => Ok(object.id),
-            Self::Name(name) => scene.object(name).map_err(|error| of_engine(py, &error)),
+            Self::Name(name) => scene.object(name).map_err(of_engine),
         }
     }
 }
 
 /// An Interface of a world, with its name.
-pub(crate) fn interface(py: Python<'_>, scene: &Scene, id: InterfaceId) -> PyResult<Interface> {
-    let name = scene.interface_name(id).map_err(|error| of_engine(py, &error))?;
+pub(crate) fn interface(scene: &Scene, id: InterfaceId) -> PyResult<Interface> {
+    let name = scene.interface_name(id).map_err(of_engine)?;
     Ok(Interface { id, name })
 }
 
 /// All Interfaces of a world, in the order in which arrays have them.
-pub(crate) fn interfaces(py: Python<'_>, scene: &Scene) -> PyResult<Vec<Interface>> {
+pub(crate) fn interfaces(scene: &Scene) -> PyResult<Vec<Interface>> {
     let mut all = Vec::new();
     for object in scene.objects() {
-        for id in scene.interfaces(object).map_err(|error| of_engine(py, &error))? {
-            all.push(interface(py, scene, id)?);
+        for id in scene.interfaces(object).map_err(of_engine)? {
+            all.push(interface(scene, id)?);
         }
     }
     Ok(all)
 }
 
 /// All pairs of a world, named `a, b`.
-pub(crate) fn pairs(py: Python<'_>, scene: &Scene) -> PyResult<Vec<Pair>> {
-    let name = |object: ObjectId| {
-        scene.object_name(object).map(str::to_owned).map_err(|error| of_engine(py, &error))
-    };
+pub(crate) fn pairs(scene: &Scene) -> PyResult<Vec<Pair>> {
+    let name = |object: ObjectId| scene.object_name(object).map(str::to_owned).map_err(of_engine);
     let pair =
         |(id, [a, b]): (PairId, [ObjectId; 2])| Ok(Pair { id, name: format!("{}, {}", name(a)?, name(b)?) });
     scene.pairs().map(pair).collect()

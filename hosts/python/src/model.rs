@@ -30,7 +30,7 @@ impl Model {
     pub fn load(py: Python<'_>, path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
         let extensions = extensions(allow_files_below);
         let read = py.detach(|| pong_model::load(&path, &extensions));
-        let model = read.map_err(|errors| of_model(py, &errors))?;
+        let model = read.map_err(of_model)?;
         Ok(Self { model: Arc::new(model), source: ModelSource::File(path) })
     }
 
@@ -46,7 +46,7 @@ impl Model {
     ) -> PyResult<Self> {
         let extensions = extensions(allow_files_below);
         let read = py.detach(|| pong_model::parse(&text, name, folder.as_deref(), &extensions));
-        let model = read.map_err(|errors| of_model(py, &errors))?;
+        let model = read.map_err(of_model)?;
         Ok(Self { model: Arc::new(model), source: ModelSource::Text { text, mesh_dir: folder } })
     }
 

@@ -84,7 +84,7 @@ pub(crate) fn replay(
         let mut log = Log::open(&log)?;
         pong_record::replay(&mut log, &options, &mut |_| interrupt.flow())
     });
-    let report = interrupt.or(report.map_err(|error| of_log(py, &error)))?;
+    let report = interrupt.or(report.map_err(of_log))?;
     let obstacle = report.obstacle.as_ref();
     Ok(Replay {
         agrees: report.agrees(),

@@ -5,7 +5,7 @@ use crate::errors::{of_executive, of_log};
 use crate::simulation::energies;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pong_executive::scene::BuiltScene;
-use pong_executive::{ExecutiveError, RunStatistics, Simulation};
+use pong_executive::{RunStatistics, Simulation};
 use pong_record::{EnergyRow, LogError, ModelSource, RecordOptions, Recorder};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -110,24 +110,6 @@ impl Stop {
     }
 }
 
-/// Why a run ended early.
-enum Failure {
-    Dynamics(ExecutiveError),
-    Log(LogError),
-    /// By an exception of the caller's program: Ctrl-C, or of his condition.
-    Interrupted(PyErr),
-}
-
-impl Failure {
-    fn raised(self, py: Python<'_>) -> PyErr {
-        match self {
-            Self::Dynamics(error) => of_executive(py, &error),
-            Self::Log(error) => of_log(py, &error),
-            Self::Interrupted(error) => error,
-        }
-    }
-}
-
 impl Run {
     /// Runs some steps.
     pub fn of(py: Python<'_>, built: &mut BuiltScene, wanted: &Wanted, bodies: &[String]) -> PyResult<Self> {
@@ -136,11 +118,11 @@ impl Run {
             let mut recorder = log.map(|log| start_log(built, log, wanted.every)).transpose()?;
             let done = advance(built, wanted, recorder.as_mut());
             // What was recorded before a failure is what its cause is sought in.
-            let closed = recorder.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(Failure::Log));
+            let closed = recorder.map_or(Ok(()), |log| log.finish().map(|_| ()).map_err(of_log));
             let done = done?;
             closed.map(|()| done)
         });
-        let (kept, statistics) = done.map_err(|failure| failure.raised(py))?;
+        let (kept, statistics) = done?;
         Self::told(py, kept, &statistics, bodies, built)
     }
 
@@ -187,41 +169,41 @@ fn advance(
     built: &mut BuiltScene,
     wanted: &Wanted,
     mut log: Option<&mut Recorder>,
-) -> Result<(Kept, RunStatistics), Failure> {
+) -> PyResult<(Kept, RunStatistics)> {
     let ledger = built.ledger;
     let simulation = &mut built.simulation;
-    simulation.commit_initial_states().map_err(Failure::Dynamics)?;
+    simulation.commit_initial_states().map_err(of_executive)?;
     let mut statistics = RunStatistics::new(simulation);
     let mut kept = Kept::default();
     let mut looked = Instant::now();
     for done in 0..=wanted.steps {
         if done > 0 {
-            simulation.step().map_err(Failure::Dynamics)?;
+            simulation.step().map_err(of_executive)?;
             statistics.observe(simulation);
         }
         let asked = wanted.stop.iter().filter(|stop| done.is_multiple_of(stop.every));
         for stop in asked {
-            kept.stopped = stop.ends(simulation).map_err(Failure::Interrupted)?;
+            kept.stopped = stop.ends(simulation)?;
         }
         let due = done.is_multiple_of(wanted.every);
         if due || done == wanted.steps || kept.stopped {
             kept.keep(simulation);
         }
         if let Some(log) = &mut log {
-            record(log, simulation, ledger, due).map_err(Failure::Log)?;
+            record(log, simulation, ledger, due).map_err(of_log)?;
         }
         if kept.stopped {
             break;
         }
         if looked.elapsed() > LOOK_EVERY {
-            Python::attach(|py| py.check_signals()).map_err(Failure::Interrupted)?;
+            Python::attach(|py| py.check_signals())?;
             looked = Instant::now();
         }
     }
     Ok((kept, statistics))
 }
 
-fn start_log(built: &BuiltScene, log: &RunLog, every: u64) -> Result<Recorder, Failure> {
+fn start_log(built: &BuiltScene, log: &RunLog, every: u64) -> PyResult<Recorder> {
     let options = RecordOptions {
         name: built.name.clone(),
         writer: concat!("pong for Python ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -233,7 +215,7 @@ fn start_log(built: &BuiltScene, log: &RunLog, every: u64) -> Result<Recorder, F
         ..RecordOptions::default()
     };
     let models: Vec<_> = built.model_files.iter().cloned().map(ModelSource::File).collect();
-    Recorder::start(built.simulation.world(), &log.folder, &models, &options).map_err(Failure::Log)
+    Recorder::start(built.simulation.world(), &log.folder, &models, &options).map_err(of_log)
 }
 
 fn record(log: &mut Recorder, simulation: &Simulation, ledger: bool, wanted: bool) -> Result<(), LogError> {

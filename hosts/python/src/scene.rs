@@ -20,24 +20,18 @@ impl Scene {
     /// Reads a scene file; models are looked for beside it.
     #[staticmethod]
     #[pyo3(signature = (path, *, allow_files_below = Vec::new()))]
-    fn load(py: Python<'_>, path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
+    fn load(path: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
         let read = pong_executive::scene::Scene::load(&path);
-        let scene = read.map_err(|errors| of_scene(py, &errors))?;
+        let scene = read.map_err(of_scene)?;
         Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
     }
 
     /// Reads a scene from text. `name` is what errors call it; models are looked for in `folder`.
     #[staticmethod]
     #[pyo3(signature = (text, *, name = "scene", folder = PathBuf::new(), allow_files_below = Vec::new()))]
-    fn parse(
-        py: Python<'_>,
-        text: &str,
-        name: &str,
-        folder: PathBuf,
-        allow_files_below: Vec<PathBuf>,
-    ) -> PyResult<Self> {
+    fn parse(text: &str, name: &str, folder: PathBuf, allow_files_below: Vec<PathBuf>) -> PyResult<Self> {
         let read = pong_executive::scene::Scene::parse(text, name, &folder);
-        let scene = read.map_err(|errors| of_scene(py, &errors))?;
+        let scene = read.map_err(of_scene)?;
         Ok(Self { scene: scene.with_extensions(extensions(allow_files_below)) })
     }
 
@@ -107,7 +101,7 @@ impl Scene {
             let variation = Variation { step, integrator, workers, alternative, ..Variation::default() };
             self.scene.build_varied(&variation)
         });
-        Ok(Simulation::new(built.map_err(|errors| of_scene(py, &errors))?))
+        Ok(Simulation::new(built.map_err(of_scene)?))
     }
 
     fn __repr__(&self) -> String {

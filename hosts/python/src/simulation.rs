@@ -1,13 +1,12 @@
 //! A scene in the built-in executive.
 
-use crate::arrays::{self, Rows, STATE};
+use crate::arrays::{self, Matrix, Rows, STATE};
 use crate::contacts;
 use crate::dynamics;
 use crate::errors::{bad_value, lock, of_engine, of_executive};
 use crate::model::{surface_from, surface_values};
 use crate::run::{Run, RunLog, Stop, Wanted};
 use crate::world::FrameReport;
-use numpy::PyArray2;
 use pong_executive::scene::BuiltScene;
 use pong_executive::{BodyId, Energy};
 use pong_geometry::{Pose, Twist, Vec3};
@@ -113,11 +112,7 @@ impl Simulation {
 
     /// States of the bodies: a row of 13 numbers for each.
     #[pyo3(signature = (out = None))]
-    fn states<'py>(
-        &self,
-        py: Python<'py>,
-        out: Option<Bound<'py, PyArray2<f64>>>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn states<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
         let simulation = &built.simulation;
         arrays::fill(py, out, self.ids.len(), |index| {
@@ -127,11 +122,7 @@ impl Simulation {
 
     /// Contact wrenches on the bodies along the common axes: a row (force, moment about the group's origin) for each.
     #[pyo3(signature = (out = None))]
-    fn wrenches<'py>(
-        &self,
-        py: Python<'py>,
-        out: Option<Bound<'py, PyArray2<f64>>>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn wrenches<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
         let built = self.lock()?;
         let wrench = |index: usize| built.simulation.contact_wrench(self.ids[index]);
         arrays::fill(py, out, self.ids.len(), |index| Ok(arrays::wrench_row(&wrench(index))))
@@ -143,7 +134,7 @@ impl Simulation {
     }
 
     /// Stiffness (N/m) and damping (N·s/m) of each contact along its normal, in the order of `contacts`.
-    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, self.lock()?.simulation.world())
     }
 
@@ -158,7 +149,7 @@ impl Simulation {
     }
 
     /// Puts free or fixed bodies elsewhere: a row of 13 numbers for each body named. The contacts' past stays.
-    fn set_states(&self, py: Python<'_>, states: Rows<'_>, bodies: Vec<String>) -> PyResult<()> {
+    fn set_states(&self, states: Rows<'_>, bodies: Vec<String>) -> PyResult<()> {
         let rows = arrays::rows("states", &states, bodies.len(), STATE)?;
         let ids: Vec<BodyId> = bodies.iter().map(|name| self.body(name)).collect::<PyResult<_>>()?;
         if let Some(value) = rows.iter().find(|value| !value.is_finite()) {
@@ -176,7 +167,7 @@ impl Simulation {
             }
             let twist = Twist { linear: vector(7), angular: vector(10) };
             let set = built.simulation.set_motion(*id, Pose::new(vector(0), orientation), twist);
-            set.map_err(|error| of_executive(py, &error))?;
+            set.map_err(of_executive)?;
         }
         Ok(())
     }
@@ -204,9 +195,9 @@ impl Simulation {
     }
 
     /// Replaces mass, inertia and mass centre of a free body. Its pose and velocities stay.
-    fn set_mass(&self, py: Python<'_>, body: &str, values: &Bound<'_, PyDict>) -> PyResult<()> {
+    fn set_mass(&self, body: &str, values: &Bound<'_, PyDict>) -> PyResult<()> {
         let id = self.body(body)?;
-        dynamics::set_mass(py, &mut self.lock()?.simulation, id, values)
+        dynamics::set_mass(&mut self.lock()?.simulation, id, values)
     }
 
     /// Number of springs; they are counted from 0 in the order of the scene.
@@ -221,8 +212,8 @@ impl Simulation {
     }
 
     /// Replaces stiffness, damping and preload of a spring. Its ends and its pose at rest stay.
-    fn set_spring(&self, py: Python<'_>, number: usize, values: &Bound<'_, PyDict>) -> PyResult<()> {
-        dynamics::set_spring(py, &mut self.lock()?.simulation, number, values)
+    fn set_spring(&self, number: usize, values: &Bound<'_, PyDict>) -> PyResult<()> {
+        dynamics::set_spring(&mut self.lock()?.simulation, number, values)
     }
 
     /// Names of the models.
@@ -236,7 +227,7 @@ impl Simulation {
         let built = self.lock()?;
         let world = built.simulation.world();
         let id = model_id(world, model)?;
-        surface_values(py, world.surface(id, name).map_err(|error| of_engine(py, &error))?)
+        surface_values(py, world.surface(id, name).map_err(of_engine)?)
     }
 
     /// Replaces the values of a surface. Laws may not change.
@@ -251,7 +242,7 @@ impl Simulation {
         let mut built = self.lock()?;
         let id = model_id(built.simulation.world(), model)?;
         let set = built.simulation.world_mut().set_surface(id, &surface);
-        set.map_err(|error| of_engine(py, &error))
+        set.map_err(of_engine)
     }
 
     /// Advances by some steps.
@@ -259,7 +250,7 @@ impl Simulation {
     fn step(&self, py: Python<'_>, count: u64) -> PyResult<()> {
         let mut built = self.lock()?;
         let simulation = &mut built.simulation;
-        py.detach(|| (0..count).try_for_each(|_| simulation.step())).map_err(|error| of_executive(py, &error))
+        py.detach(|| (0..count).try_for_each(|_| simulation.step())).map_err(of_executive)
     }
 
     /// Runs, by default to the end of the scene's duration, and keeps every `every`-th instant, by default as the scene

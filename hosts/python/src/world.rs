@@ -1,14 +1,13 @@
 //! A sealed world: frames.
 
-use crate::arrays::{self, Rows, STATE, WRENCH};
+use crate::arrays::{self, Matrix, Rows, STATE, WRENCH};
 use crate::contacts;
 use crate::errors::{PhaseError, bad_value, lock, of_engine};
 use crate::ids::{self, AddedModel, Interface, Object, ObjectRef, Pair};
 use crate::model::{surface_from, surface_values};
-use crate::recording::{LogOptions, Recording};
-use numpy::PyArray2;
+use crate::recording;
 use pong_engine::{EngineError, FrictionPreload, InterfaceId, SealReport, State};
-use pong_record::ModelSource;
+use pong_record::{ModelSource, RecordOptions, Recorder, WhenFull};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyBytes, PyDict};
 use std::path::PathBuf;
@@ -30,7 +29,7 @@ pub(crate) struct World {
 pub(crate) struct Inner {
     pub world: pong_engine::World,
     pub sources: Vec<ModelSource>,
-    pub recording: Option<Recording>,
+    pub recorder: Option<Recorder>,
     /// States on their way from an array into the world: its memory is used again.
     states: Vec<(InterfaceId, State)>,
 }
@@ -70,18 +69,17 @@ impl FrameReport {
 
 impl World {
     pub(crate) fn new(
-        py: Python<'_>,
         world: pong_engine::World,
         sources: Vec<ModelSource>,
         report: &SealReport,
     ) -> PyResult<Self> {
-        let interfaces = ids::interfaces(py, world.scene())?;
+        let interfaces = ids::interfaces(world.scene())?;
         Ok(Self {
             ids: interfaces.iter().map(|interface| interface.id).collect(),
             interfaces,
             warnings: report.warnings.iter().map(ToString::to_string).collect(),
             notes: report.notes.iter().map(ToString::to_string).collect(),
-            inner: Mutex::new(Box::new(Inner { world, sources, recording: None, states: Vec::new() })),
+            inner: Mutex::new(Box::new(Inner { world, sources, recorder: None, states: Vec::new() })),
         })
     }
 
@@ -117,10 +115,10 @@ impl World {
 
     /// All Objects.
     #[getter]
-    fn objects(&self, py: Python<'_>) -> PyResult<Vec<Object>> {
+    fn objects(&self) -> PyResult<Vec<Object>> {
         let inner = self.lock()?;
         let object = |id| {
-            let name = inner.world.scene().object_name(id).map_err(|error| of_engine(py, &error))?;
+            let name = inner.world.scene().object_name(id).map_err(of_engine)?;
             Ok(Object { id, name: name.to_owned() })
         };
         inner.world.scene().objects().map(object).collect()
@@ -128,8 +126,8 @@ impl World {
 
     /// All pairs.
     #[getter]
-    fn pairs(&self, py: Python<'_>) -> PyResult<Vec<Pair>> {
-        ids::pairs(py, self.lock()?.world.scene())
+    fn pairs(&self) -> PyResult<Vec<Pair>> {
+        ids::pairs(self.lock()?.world.scene())
     }
 
     /// All models.
@@ -154,22 +152,21 @@ impl World {
 
     /// The Interface of a movable group by its path or name. An empty path is the root.
     #[pyo3(signature = (object, path = ""))]
-    fn interface(&self, py: Python<'_>, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
+    fn interface(&self, object: ObjectRef<'_>, path: &str) -> PyResult<Interface> {
         let inner = self.lock()?;
-        let object = object.resolve(py, inner.world.scene())?;
-        let id = inner.world.scene().interface(object, path).map_err(|error| of_engine(py, &error))?;
-        ids::interface(py, inner.world.scene(), id)
+        let object = object.resolve(inner.world.scene())?;
+        let id = inner.world.scene().interface(object, path).map_err(of_engine)?;
+        ids::interface(inner.world.scene(), id)
     }
 
     /// `object/path` of a primitive, as contacts name it.
-    fn primitive_path(&self, py: Python<'_>, interface: usize, primitive: u32) -> PyResult<String> {
+    fn primitive_path(&self, interface: usize, primitive: u32) -> PyResult<String> {
         let Some(id) = self.ids.get(interface) else {
             let cause = format!("there is no Interface {interface}, the world has {}", self.ids.len());
             return Err(bad_value("interface", cause, "take the number from a contact"));
         };
         let inner = self.lock()?;
-        let path =
-            inner.world.scene().primitive_path(*id, primitive).map_err(|error| of_engine(py, &error))?;
+        let path = inner.world.scene().primitive_path(*id, primitive).map_err(of_engine)?;
         let object = self.interfaces[interface].name.split('/').next().unwrap_or_default();
         Ok(format!("{object}/{path}"))
     }
@@ -184,10 +181,8 @@ impl World {
         angular_velocity = None,
         interfaces = None,
     ))]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn set_states(
         &self,
-        py: Python<'_>,
         states: Option<Rows<'_>>,
         position: Option<Rows<'_>>,
         orientation: Option<Rows<'_>>,
@@ -233,19 +228,15 @@ impl World {
                 ));
             }
         }
-        world.set_states(room).map_err(|error| of_engine(py, &error))
+        world.set_states(room).map_err(of_engine)
     }
 
     /// The states as they were set, a row for each Interface; a row of NaN where none was.
     #[pyo3(signature = (out = None))]
-    fn states<'py>(
-        &self,
-        py: Python<'py>,
-        out: Option<Bound<'py, PyArray2<f64>>>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn states<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>) -> PyResult<Matrix<'py>> {
         let inner = self.lock()?;
         arrays::fill(py, out, self.ids.len(), |index| {
-            let state = inner.world.state_as_set(self.ids[index]).map_err(|error| of_engine(py, &error))?;
+            let state = inner.world.state_as_set(self.ids[index]).map_err(of_engine)?;
             let mut row = [f64::NAN; STATE];
             if let Some(state) = state {
                 row[..3].copy_from_slice(&state.position);
@@ -260,9 +251,9 @@ impl World {
     /// Computes wrenches from the states and the committed contact state, and changes nothing else.
     fn evaluate(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        let report = py.detach(|| world.evaluate()).map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(Recording::evaluated);
+        let Inner { world, recorder, .. } = &mut **inner;
+        let report = py.detach(|| world.evaluate()).map_err(of_engine)?;
+        recorder.iter_mut().for_each(Recorder::evaluated);
         Ok(report.into())
     }
 
@@ -271,36 +262,34 @@ impl World {
     fn commit(&self, py: Python<'_>, pairs: Option<Vec<PyRef<'_, Pair>>>) -> PyResult<()> {
         let pairs: Option<Vec<_>> = pairs.map(|pairs| pairs.iter().map(|pair| pair.id).collect());
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
+        let Inner { world, recorder, .. } = &mut **inner;
         let done = py.detach(|| match &pairs {
             None => world.commit(),
             Some(pairs) => world.commit_pairs(pairs),
         });
-        done.map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(|recording| recording.committed(pairs.as_deref()));
+        done.map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| match &pairs {
+            None => recorder.committed(),
+            Some(pairs) => recorder.committed_some(pairs),
+        });
         Ok(())
     }
 
     /// Evaluate and commit, for hosts that call once a frame.
     fn step(&self, py: Python<'_>) -> PyResult<FrameReport> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        let report = py.detach(|| world.step()).map_err(|error| of_engine(py, &error))?;
-        if let Some(recording) = recording {
-            recording.evaluated();
-            recording.committed(None);
+        let Inner { world, recorder, .. } = &mut **inner;
+        let report = py.detach(|| world.step()).map_err(of_engine)?;
+        if let Some(recorder) = recorder {
+            recorder.evaluated();
+            recorder.committed();
         }
         Ok(report.into())
     }
 
     /// Wrenches of the last frame, a row (force, moment) for each Interface, about the origin of its group.
     #[pyo3(signature = (out = None, *, axes = "common"))]
-    fn wrenches<'py>(
-        &self,
-        py: Python<'py>,
-        out: Option<Bound<'py, PyArray2<f64>>>,
-        axes: &str,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn wrenches<'py>(&self, py: Python<'py>, out: Option<Matrix<'py>>, axes: &str) -> PyResult<Matrix<'py>> {
         let common = match axes {
             "common" => true,
             "group" => false,
@@ -316,7 +305,7 @@ impl World {
         arrays::fill::<WRENCH>(py, out, self.ids.len(), |index| {
             let id = self.ids[index];
             let wrench = if common { inner.world.wrench_common(id) } else { inner.world.wrench(id) };
-            Ok(arrays::wrench_row(&wrench.map_err(|error| of_engine(py, &error))?))
+            Ok(arrays::wrench_row(&wrench.map_err(of_engine)?))
         })
     }
 
@@ -327,7 +316,7 @@ impl World {
 
     /// How the normal force of each contact changes with its depth (N/m) and with the rate of that (N·s/m): a row for each, in
     /// the order of `contacts`; not a number for a normal law of the host's.
-    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn contact_stiffness<'py>(&self, py: Python<'py>) -> PyResult<Matrix<'py>> {
         contacts::stiffness(py, &self.lock()?.world)
     }
 
@@ -337,7 +326,7 @@ impl World {
     }
 
     /// What went right through something else since the last commit, in words; `None` if nothing did.
-    fn tunnelling(&self, py: Python<'_>) -> PyResult<Option<String>> {
+    fn tunnelling(&self) -> PyResult<Option<String>> {
         let inner = self.lock()?;
         let Some(event) = inner.world.tunnelling() else { return Ok(None) };
         let told = || -> Result<String, EngineError> {
@@ -345,49 +334,49 @@ impl World {
             let through = inner.world.scene().interface_name(event.through)?;
             Ok(format!("`{path}` through `{through}` (1 of {})", event.count))
         };
-        told().map(Some).map_err(|error| of_engine(py, &error))
+        told().map(Some).map_err(of_engine)
     }
 
     /// The committed contact state.
     fn save_state<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let inner = self.lock()?;
         PyBytes::new_with(py, inner.world.state_used(), |room| {
-            inner.world.save_state(room).map_err(|error| of_engine(py, &error))
+            inner.world.save_state(room).map_err(of_engine)
         })
     }
 
     /// Restores a contact state that a world built by the same calls saved.
-    fn restore_state(&self, py: Python<'_>, block: &[u8]) -> PyResult<()> {
+    fn restore_state(&self, block: &[u8]) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        world.restore_state(block).map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(|recording| recording.restored(block));
+        let Inner { world, recorder, .. } = &mut **inner;
+        world.restore_state(block).map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| recorder.restored(block));
         Ok(())
     }
 
     /// Drops the contact state of an Object, after a teleport or a reset.
-    fn clear_contact_history(&self, py: Python<'_>, object: ObjectRef<'_>) -> PyResult<()> {
+    fn clear_contact_history(&self, object: ObjectRef<'_>) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        let object = object.resolve(py, world.scene())?;
-        world.clear_contact_history(object).map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(|recording| recording.forgot(object));
+        let Inner { world, recorder, .. } = &mut **inner;
+        let object = object.resolve(world.scene())?;
+        world.clear_contact_history(object).map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| recorder.forgot(object));
         Ok(())
     }
 
     /// Switches a pair on or off.
-    fn set_pair_enabled(&self, py: Python<'_>, pair: &Pair, enabled: bool) -> PyResult<()> {
+    fn set_pair_enabled(&self, pair: &Pair, enabled: bool) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        world.set_pair_enabled(pair.id, enabled).map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(|recording| recording.pair_switched(pair.id, enabled));
+        let Inner { world, recorder, .. } = &mut **inner;
+        world.set_pair_enabled(pair.id, enabled).map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| recorder.pair_switched(pair.id, enabled));
         Ok(())
     }
 
     /// The values of a surface of a model as they are now.
     fn surface<'py>(&self, py: Python<'py>, model: &AddedModel, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let inner = self.lock()?;
-        surface_values(py, inner.world.surface(model.id, name).map_err(|error| of_engine(py, &error))?)
+        surface_values(py, inner.world.surface(model.id, name).map_err(of_engine)?)
     }
 
     /// Replaces the values of a surface, for all Objects of the model. Laws may not change.
@@ -400,28 +389,28 @@ impl World {
     ) -> PyResult<()> {
         let surface = surface_from(py, name, values)?;
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        world.set_surface(model.id, &surface).map_err(|error| of_engine(py, &error))?;
-        recording.iter_mut().for_each(|recording| recording.surface_set(model.id, &surface));
+        let Inner { world, recorder, .. } = &mut **inner;
+        world.set_surface(model.id, &surface).map_err(of_engine)?;
+        recorder.iter_mut().for_each(|recorder| recorder.surface_set(model.id, &surface));
         Ok(())
     }
 
     /// Commits, and preloads the bristles of a pair: `holding` is the force on its first Object, N; without it, what
     /// moves is taken to slide. Answers how many bristles were set.
     #[pyo3(signature = (pair, holding = None))]
-    fn preload_friction(&self, py: Python<'_>, pair: &Pair, holding: Option<[f64; 3]>) -> PyResult<usize> {
+    fn preload_friction(&self, pair: &Pair, holding: Option<[f64; 3]>) -> PyResult<usize> {
         let preload = match holding {
             Some(force) => FrictionPreload::Holding(force.into()),
             None => FrictionPreload::Sliding,
         };
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        let set = world.preload_friction(pair.id, &preload).map_err(|error| of_engine(py, &error))?;
+        let Inner { world, recorder, .. } = &mut **inner;
+        let set = world.preload_friction(pair.id, &preload).map_err(of_engine)?;
         // For the log it is what a restored contact state is.
-        if let Some(recording) = recording {
+        if let Some(recorder) = recorder {
             let mut block = Vec::new();
             world.save_state_packed(&mut block);
-            recording.restored(&block);
+            recorder.restored(&block);
         }
         Ok(set)
     }
@@ -434,10 +423,8 @@ impl World {
 
     /// Begins a response log in a folder.
     #[pyo3(signature = (folder, *, name = "", step = None, commits_per_frame = None, overwrite = false, lose = false))]
-    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn start_log(
         &self,
-        py: Python<'_>,
         folder: PathBuf,
         name: &str,
         step: Option<f64>,
@@ -446,22 +433,29 @@ impl World {
         lose: bool,
     ) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let options = LogOptions { name: name.to_owned(), step, commits_per_frame, overwrite, lose };
-        inner.recording = Some(Recording::start(py, &inner, folder, options)?);
+        let options = RecordOptions {
+            name: name.to_owned(),
+            step,
+            commits_per_frame,
+            overwrite,
+            when_full: if lose { WhenFull::Lose } else { WhenFull::Wait },
+            ..RecordOptions::default()
+        };
+        inner.recorder = Some(recording::start(&inner, folder, options)?);
         Ok(())
     }
 
     /// Records the frame last computed, at a time (s).
     fn log_frame(&self, py: Python<'_>, time: f64) -> PyResult<()> {
         let mut inner = self.lock()?;
-        let Inner { world, recording, .. } = &mut **inner;
-        recording.as_mut().ok_or_else(no_log)?.record(py, world, time)
+        let Inner { world, recorder, .. } = &mut **inner;
+        recording::record(py, recorder.as_mut().ok_or_else(no_log)?, world, time)
     }
 
     /// Writes what is left and closes the log. Answers how many frames it has.
     fn stop_log(&self, py: Python<'_>) -> PyResult<u64> {
-        let recording = self.lock()?.recording.take().ok_or_else(no_log)?;
-        recording.finish(py)
+        let recorder = self.lock()?.recorder.take().ok_or_else(no_log)?;
+        recording::finish(py, recorder)
     }
 }
 
