@@ -73,14 +73,10 @@ pub(crate) fn replay(
     if let Some(tolerance) = tolerance {
         in_range("tolerance", tolerance, 0.0..1.0, "give a number from 0 up to 1, such as 1e-9")?;
     }
-    let options = ReplayOptions {
-        workers: worker_settings(workers)?,
-        tolerance,
-        extensions: extensions(allow_files_below),
-        ..ReplayOptions::default()
-    };
+    let (workers, extensions) = (worker_settings(workers)?, extensions(allow_files_below));
     let mut interrupt = Interrupt::default();
     let report = py.detach(|| {
+        let options = ReplayOptions { workers, tolerance, extensions, ..ReplayOptions::default() };
         let mut log = Log::open(&log)?;
         pong_record::replay(&mut log, &options, &mut |_| interrupt.flow())
     });
