@@ -403,6 +403,9 @@ fn round() -> Scene {
         "Capsule(name: \"log\", ends: ((12,0,-0.41),(12.3,0,-0.4)), radius: 0.1)",
         "Cylinder(name: \"roller\", ends: ((12,1,-0.41),(12.3,1,-0.4)), radius: 0.1)",
         "Cone(name: \"plug\", ends: ((12,2,-0.41),(12.3,2,-0.43)), radii: (0.1,0.08))",
+        "Capsule(name: \"on_box\", ends: ((14.7,0,0.08),(15.3,0.1,0.1)), radius: 0.1)",
+        "Capsule(name: \"over_box\", ends: ((15.1,0.2,0.3),(15.9,0.2,-0.4)), radius: 0.15)",
+        "Capsule(name: \"on_plate\", ends: ((17.8,0,0.08),(18.2,0.1,0.1)), radius: 0.1)",
     ];
     movers.text.extend(in_hole.iter().chain(&on_floor).map(|text| (*text).to_owned()));
     let targets = [
@@ -411,6 +414,8 @@ fn round() -> Scene {
         "Cone(name: \"plug\", ends: ((5.5,0,-0.3),(6.5,0,-0.3)), radii: (0.32,0.28))",
         "Bore(name: \"hole\", ends: ((9,0,-0.3),(9,0,0.3)), radii: (0.3,0.31), thickness: 0.1)",
         "Plane(name: \"floor\", normal: (0,0,1), offset: -0.5)",
+        &box_polyhedron("box", [15.0, 0.0, -0.2], [0.5, 0.4, 0.2], ""),
+        &plate_mesh("plate", 5, 1.0, |x, y| Vec3::new(18.0 + x, y, 0.01 * (x * 7.0).sin())),
     ];
     let models = vec![
         model("movers", &rough(2e5), &movers.joined()),

@@ -7,6 +7,7 @@ mod axis_approach;
 pub mod ball_bore;
 pub mod ball_round;
 mod behind_triangle;
+pub mod capsule_edge;
 mod circles;
 pub mod ellipsoid_math;
 pub mod ellipsoid_plane;

@@ -1,5 +1,6 @@
 //! Which of the interferences found for a chunk of A count, and with what weight.
 
+mod capsules;
 mod exits;
 mod pieces;
 mod ray_hits;
@@ -8,7 +9,9 @@ pub(crate) mod solver;
 
 use crate::frame::input::PairContext;
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use crate::frame::narrow_phase::element_pair::BETWEEN_ENDS;
 use crate::state::{ContactRole, NO_FACE};
+use capsules::couple;
 use exits::{is_exit_that_stands_in, keep_one_of_exits};
 use pieces::{
     are_convex, are_in_both_planes, are_one_place, drop_second_of_edges, drop_what_the_body_lacks,
@@ -37,7 +40,9 @@ pub(crate) fn assign_weights(
     shared_contacts: &mut List<'_, SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
-    if let [alone] = &mut found[..] {
+    if let [alone] = &mut found[..]
+        && !is_under_capsule(alone)
+    {
         // It has nothing to share with and keeps the weight 1; nor is there a piece behind the wall.
         if alone.status == CandidateStatus::BeyondWall {
             alone.status = CandidateStatus::Culled;
@@ -57,31 +62,91 @@ pub(crate) fn assign_weights(
         }
         _ => {}
     }
+    if kind_a == PrimitiveKind::Capsule {
+        return share_capsules(found, context, shared_contacts, scratch);
+    }
     for group in found.chunk_by_mut(|a, b| a.key == b.key) {
-        if group.iter().any(is_at_wall) {
-            match group[0].half {
-                true => choose_piece_of_end_at_walls(group, context),
-                false => choose_piece_at_walls(group, context),
-            }
-        }
+        settle_group(group, kind_a, context);
         if group[0].shares && group.len() > 1 {
-            let triangles = &context.body_b.triangles;
-            settle_fallbacks(group, kind_a);
-            match (kind_a, group[0].kind_b) {
-                (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
-                    drop_what_the_body_lacks(group, &context.body_b.polyhedra);
-                }
-                (PrimitiveKind::Sphere, PrimitiveKind::Polyhedron) => {
-                    let radius = context.body_a.spheres[group[0].element_a as usize].radius;
-                    drop_second_of_edges(group, radius, &context.body_b.polyhedra);
-                }
-                (PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => drop_deeper_faces(group),
-                _ => {}
-            }
-            outcome = outcome.and(share_surface(group, triangles, shared_contacts, scratch));
+            outcome = outcome.and(find_shares(group, &context.body_b.triangles, shared_contacts, scratch));
+            drop_idle(group);
         }
     }
     outcome
+}
+
+/// Assigns the weights of contacts of capsules, in the order of sums: the balls at their ends share as spheres do, each with half a
+/// spring.
+fn share_capsules(
+    found: &mut [ContactCandidate],
+    context: &PairContext<'_>,
+    shared_contacts: &mut List<'_, SharedContact>,
+    scratch: &mut Arena,
+) -> Result<(), Full> {
+    let mut outcome = Ok(());
+    let surface = |found: &ContactCandidate| (found.key.head(), found.key.shell_b);
+    for body in found.chunk_by_mut(|a, b| surface(a) == surface(b)) {
+        let edges = body.partition_point(|found| found.key.end < BETWEEN_ENDS);
+        // What lies on round solids and planes has three contacts with weights of their own.
+        if !body[0].shares {
+            continue;
+        }
+        let (ends, middle) = body.split_at_mut(edges);
+        for end in ends.chunk_by_mut(|a, b| a.key == b.key) {
+            keep_one_side_of_rims(end, context);
+            keep_one_way_at_places(end);
+            settle_group(end, PrimitiveKind::Sphere, context);
+            if end.len() > 1 {
+                outcome = outcome.and(find_shares(end, &context.body_b.triangles, shared_contacts, scratch));
+            }
+        }
+        if !middle.is_empty() {
+            couple(ends, middle);
+        }
+        ends.chunk_by_mut(|a, b| a.key == b.key).filter(|end| end.len() > 1).for_each(drop_idle);
+    }
+    outcome
+}
+
+/// Whether a contact is that of an edge which a capsule crosses.
+fn is_under_capsule(contact: &ContactCandidate) -> bool {
+    contact.shares && contact.half && contact.key.end == BETWEEN_ENDS
+}
+
+/// Of the contacts of a key, those that one body has.
+fn settle_group(group: &mut [ContactCandidate], kind_a: PrimitiveKind, context: &PairContext<'_>) {
+    if group.iter().any(is_at_wall) {
+        match group[0].half && !group[0].shares {
+            true => choose_piece_of_end_at_walls(group, context),
+            false => choose_piece_at_walls(group, context),
+        }
+    }
+    if !group[0].shares || group.len() == 1 {
+        return;
+    }
+    settle_fallbacks(group, kind_a);
+    match (kind_a, group[0].kind_b) {
+        (PrimitiveKind::Ellipsoid, PrimitiveKind::Polyhedron) => {
+            drop_what_the_body_lacks(group, &context.body_b.polyhedra);
+        }
+        (PrimitiveKind::Sphere, PrimitiveKind::Polyhedron) => {
+            let (_, radius) = ball_of(&group[0], context);
+            drop_second_of_edges(group, radius, &context.body_b.polyhedra);
+        }
+        (PrimitiveKind::Ellipsoid, PrimitiveKind::Triangle) => drop_deeper_faces(group),
+        _ => {}
+    }
+}
+
+/// Centre, in A's frame, and radius of the sphere, or of the ball at the end of a capsule, m.
+fn ball_of(contact: &ContactCandidate, context: &PairContext<'_>) -> (Vec3, f64) {
+    let (body_a, element) = (context.body_a, contact.element_a as usize);
+    if contact.half {
+        let capsule = &body_a.capsules[element];
+        return (capsule.ends[contact.key.end as usize], capsule.radius);
+    }
+    let sphere = &body_a.spheres[element];
+    (sphere.center, sphere.radius)
 }
 
 fn is_at_wall(contact: &ContactCandidate) -> bool {
@@ -101,10 +166,9 @@ fn choose_piece_at_walls(group: &mut [ContactCandidate], context: &PairContext<'
     };
     let first = group.iter().position(in_piece).or_else(|| {
         let found = &group[0];
-        let (body_a, element) = (context.body_a, found.element_a as usize);
         let local = match found.shares {
-            true => body_a.spheres[element].center,
-            false => body_a.points[element].position,
+            true => ball_of(found, context).0,
+            false => context.body_a.points[found.element_a as usize].position,
         };
         let point = context.motion.x_ba.point(&local);
         group.iter().position(|contact| has_neighbors_at_walls(contact, &point, context))
@@ -172,8 +236,8 @@ fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &Pair
     body.polyhedra[found.element_b as usize].walls_at(place).all(has_twin)
 }
 
-/// Contacts of one sphere or ellipsoid with one surface.
-fn share_surface(
+/// The weights of the contacts of one sphere or ellipsoid with one surface.
+fn find_shares(
     group: &mut [ContactCandidate],
     triangles: &TriangleSet,
     shared_contacts: &mut List<'_, SharedContact>,
@@ -181,17 +245,21 @@ fn share_surface(
 ) -> Result<(), Full> {
     drop_deeper_of_convex_faces(group, triangles);
     cull_idle_stand_ins(group);
-    let counts = |contact: &ContactCandidate| {
-        contact.status != CandidateStatus::Culled && contact.role == ContactRole::Active
-    };
     shared_contacts.clear();
-    for contact in group.iter().filter(|contact| counts(contact)) {
+    for contact in group.iter().filter(|contact| contact.takes_part()) {
         let shared_contact = SharedContact::new(contact.normal_b, contact.depth);
         shared_contacts.push(shared_contact).expect("as much room as for what was found");
     }
     let outcome = share_within(shared_contacts, scratch);
-    for (contact, shared_contact) in group.iter_mut().filter(|c| counts(c)).zip(shared_contacts.iter()) {
+    for (contact, shared_contact) in group.iter_mut().filter(|c| c.takes_part()).zip(shared_contacts.iter()) {
         contact.weight = shared_contact.lambda / shared_contact.depth;
+    }
+    outcome
+}
+
+/// What carries nothing is only remembered, or does not count.
+fn drop_idle(group: &mut [ContactCandidate]) {
+    for contact in group.iter_mut().filter(|contact| contact.takes_part()) {
         if contact.weight > 0.0 {
             continue;
         }
@@ -201,7 +269,6 @@ fn share_surface(
             contact.status = CandidateStatus::Culled;
         }
     }
-    outcome
 }
 
 /// A fallback contact counts where no other has its place; then it is what rounding has made it miss.

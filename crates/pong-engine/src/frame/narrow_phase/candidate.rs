@@ -88,6 +88,11 @@ impl ContactCandidate {
         (self.key, self.primitive_b, self.element_b, self.feature)
     }
 
+    /// Whether it takes part in what the contacts of a ball share.
+    pub fn takes_part(&self) -> bool {
+        self.status != CandidateStatus::Culled && self.role == ContactRole::Active
+    }
+
     /// Weight with the half spring of a segment's end taken in.
     pub fn full_weight(&self) -> f64 {
         if self.half { 0.5 * self.weight } else { self.weight }

@@ -11,7 +11,7 @@ use pong_arena::List;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
-use pong_geometry::primitive::{Containment, PrimitiveKind};
+use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere};
 use pong_geometry::simd::LANES;
 use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
@@ -76,6 +76,19 @@ impl<'m> ChunkCandidates<'m> {
     }
 }
 
+/// The end of a contact of a capsule between its two ends.
+pub(crate) const BETWEEN_ENDS: u32 = 2;
+
+/// A sphere, or the ball at an end of a capsule.
+pub(crate) struct Ball {
+    /// In B's frame.
+    pub sphere: Sphere,
+    /// Its centre in A's frame, m.
+    pub center_a: Vec3,
+    /// Of a capsule.
+    pub end: Option<u32>,
+}
+
 /// One element as A against one element as B.
 pub(crate) struct ElementPair<'a> {
     pub context: &'a PairContext<'a>,
@@ -101,8 +114,8 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    /// For a point inside B's polyhedron, the face that memory reaches and the one that pushes.
-    pub fn entry_face(&self, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
+    /// For a point inside B's polyhedron, given in both frames, the face that memory reaches and the one that pushes.
+    pub fn entry_face(&self, local: &Vec3, p: &Vec3, end: u32) -> Option<EntryFace> {
         PolyhedronEntry {
             memory: self.context.memory,
             body: self.body_b(),
@@ -112,7 +125,7 @@ impl<'a> ElementPair<'a> {
             earlier_b: self.motion().since_commit.map(|since| since.x_ba.point(local)),
             remembers: self.context.remembers_entry,
         }
-        .face(&self.key())
+        .face(&ContactKey { end, ..self.key() })
     }
 
     pub fn key(&self) -> ContactKey {
@@ -130,16 +143,51 @@ impl<'a> ElementPair<'a> {
         }
     }
 
+    /// A sphere of A.
+    pub fn ball(&self, sphere: &Sphere) -> Ball {
+        let local = self.body_a().spheres[self.item_a.element as usize].center;
+        Ball { sphere: *sphere, center_a: local, end: None }
+    }
+
+    /// The balls at the ends of a capsule of A.
+    pub fn balls(&self, capsule: &Capsule) -> [Ball; 2] {
+        let local = self.body_a().capsules[self.item_a.element as usize].ends;
+        [0, 1].map(|end: usize| Ball {
+            sphere: Sphere { center: capsule.ends[end], radius: capsule.radius },
+            center_a: local[end],
+            end: Some(end as u32),
+        })
+    }
+
     pub fn whole(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {
         if let Some(contact) = contact {
             self.emit(&contact, found, |_| ());
         }
     }
 
-    pub fn sharing(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {
-        if let Some(contact) = contact {
-            self.emit(&contact, found, |out| out.shares = true);
-        }
+    /// A contact of a ball, which shares its spring with others of the same surface.
+    pub fn sharing(
+        &self,
+        ball: &Ball,
+        contact: &Interference,
+        found: &mut ChunkCandidates<'_>,
+        adjust: impl FnOnce(&mut ContactCandidate),
+    ) {
+        self.emit(contact, found, |out| {
+            out.shares = true;
+            out.half = ball.end.is_some();
+            out.key.end = ball.end.unwrap_or(0);
+            adjust(out);
+        });
+    }
+
+    /// An edge that a capsule crosses between its ends.
+    pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
+        self.emit(crossing, found, |out| {
+            out.key.end = BETWEEN_ENDS;
+            out.half = true;
+            out.shares = true;
+        });
     }
 
     pub fn emit(

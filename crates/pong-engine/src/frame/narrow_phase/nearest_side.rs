@@ -24,22 +24,25 @@ pub(crate) struct Nearby<'a> {
     pub center_b: Vec3,
 }
 
+/// A sphere, an ellipsoid, or one end of a capsule.
+type End = (Item, u32);
+
 /// The sides that were asked for in a block, so that each ball and surface are looked at once.
 #[derive(Default)]
 pub(crate) struct KnownSides {
-    of: [Option<(Item, u32, bool)>; LANES],
+    of: [Option<(End, u32, bool)>; LANES],
     next: usize,
 }
 
 impl KnownSides {
-    /// Whether an element of A is in front of a surface; `find` answers if nobody has asked before.
-    pub fn in_front(&mut self, item_a: Item, shell: u32, find: impl FnOnce() -> bool) -> bool {
-        let known = self.of.iter().flatten().find(|(item, of, _)| (*item, *of) == (item_a, shell));
+    /// Whether something of A is in front of a surface; `find` answers if nobody has asked before.
+    pub fn in_front(&mut self, end_a: End, shell: u32, find: impl FnOnce() -> bool) -> bool {
+        let known = self.of.iter().flatten().find(|(end, of, _)| (*end, *of) == (end_a, shell));
         if let Some((_, _, in_front)) = known {
             return *in_front;
         }
         let in_front = find();
-        self.of[self.next] = Some((item_a, shell, in_front));
+        self.of[self.next] = Some((end_a, shell, in_front));
         self.next = (self.next + 1) % LANES;
         in_front
     }

@@ -6,6 +6,7 @@ use super::nearest_side::{KnownSides, Nearby};
 use super::side_of_entry::TriangleEntry;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
+use crate::state::ContactKey;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -14,14 +15,24 @@ use pong_geometry::interference::triangle_features::{Standing, TriangleContact};
 use pong_geometry::primitive::{Ellipsoid, Sphere};
 use pong_model::Item;
 
+/// The centre of a sphere, of an ellipsoid, or of the ball at an end of a capsule.
+pub(crate) struct Centre {
+    /// In A's frame, m.
+    pub center_a: Vec3,
+    /// In B's frame, m.
+    pub center_b: Vec3,
+    /// Of a capsule.
+    pub end: Option<u32>,
+}
+
 /// A contact of one sphere's or ellipsoid's centre with one triangle, unless the centre came from behind.
 pub(crate) fn on_triangle(
     pair: &ElementPair<'_>,
-    (local, center): (&Vec3, &Vec3),
+    center: &Centre,
     contact: TriangleContact,
     found: &mut ChunkCandidates<'_>,
 ) {
-    let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(local));
+    let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(&center.center_a));
     if earlier.is_none() && is_set_down_in_front(pair, center, &contact, &mut found.sides) {
         return;
     }
@@ -29,13 +40,15 @@ pub(crate) fn on_triangle(
         memory: pair.context.memory,
         body: pair.body_b(),
         triangle: pair.item_b,
-        center_b: *center,
+        center_b: center.center_b,
         earlier_b: earlier,
-        touched_behind: &|feature| touched_triangle_behind(pair, feature),
+        touched_behind: &|feature| touched_triangle_behind(pair, center.end, feature),
     };
-    let key = pair.key();
+    let key = ContactKey { end: center.end.unwrap_or(0), ..pair.key() };
     let Some(role) = entry.role(&key, &contact) else { return };
     pair.emit(&contact.interference, found, |out| {
+        out.key = key;
+        out.half = center.end.is_some();
         out.shares = true;
         out.role = role;
         out.status = match contact.standing {
@@ -49,7 +62,7 @@ pub(crate) fn on_triangle(
 }
 
 /// Whether the sphere or ellipsoid was behind a feature of the triangle, and over it, at the last commit.
-fn touched_triangle_behind(pair: &ElementPair<'_>, feature: Feature) -> bool {
+fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Feature) -> bool {
     let Some(since) = pair.motion().since_commit else { return false };
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
     let mut touched = false;
@@ -57,10 +70,15 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, feature: Feature) -> bool {
         let is_behind = matches!(contact.standing, Standing::Behind | Standing::StandIn);
         touched |= contact.interference.feature == feature && is_behind;
     };
+    let mut note_sphere = |sphere: &Sphere| {
+        let thickness = thickness_for_sphere(pair.context, pair.item_b, sphere);
+        sphere_triangle(sphere, set, triangle, thickness, &mut note);
+    };
     match TransformedPrimitive::new(pair.body_a(), pair.item_a, &since.x_ba) {
-        Some(TransformedPrimitive::Sphere(sphere)) => {
-            let thickness = thickness_for_sphere(pair.context, pair.item_b, &sphere);
-            sphere_triangle(&sphere, set, triangle, thickness, &mut note);
+        Some(TransformedPrimitive::Sphere(sphere)) => note_sphere(&sphere),
+        Some(TransformedPrimitive::Capsule(capsule)) => {
+            let center = capsule.ends[end.unwrap_or(0) as usize];
+            note_sphere(&Sphere { center, radius: capsule.radius });
         }
         Some(TransformedPrimitive::Ellipsoid(ellipsoid)) => {
             let thickness = thickness_for_ellipsoid(pair, &ellipsoid);
@@ -80,12 +98,13 @@ pub(crate) fn thickness_for_ellipsoid(pair: &ElementPair<'_>, ellipsoid: &Ellips
 /// surface at its nearest point.
 fn is_set_down_in_front(
     pair: &ElementPair<'_>,
-    center: &Vec3,
+    center: &Centre,
     contact: &TriangleContact,
     sides: &mut KnownSides,
 ) -> bool {
-    let nearby = Nearby { body: pair.body_b(), item: pair.item_b, center_b: *center };
-    nearby.is_behind(contact) && sides.in_front(pair.item_a, nearby.surface(), || nearby.is_in_front())
+    let nearby = Nearby { body: pair.body_b(), item: pair.item_b, center_b: center.center_b };
+    let end = center.end.unwrap_or(0);
+    nearby.is_behind(contact) && sides.in_front((pair.item_a, end), nearby.surface(), || nearby.is_in_front())
 }
 
 /// How far behind a triangle the centre of a sphere is still pushed to the front, m.

@@ -125,7 +125,8 @@ pub(crate) fn test_deferred(
         let (lane, item_b) = found.deferred.from[place];
         let lane = usize::from(lane);
         let pair = ElementPair { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
-        sphere_triangle::test_sphere(&pair, &chunk.sphere(lane), told.over_face >> place & 1 == 1, found);
+        let over_face = told.over_face >> place & 1 == 1;
+        sphere_triangle::test_ball(&pair, &pair.ball(&chunk.sphere(lane)), over_face, found);
     }
     counts.note_testers(PrimitiveKind::Sphere, Triangle, 0, (found.seen - before) as u32);
 }

@@ -135,6 +135,7 @@ impl Seen<'_> {
         match info.kind {
             PrimitiveKind::Sphere => body.spheres[element].radius,
             PrimitiveKind::Ellipsoid => body.ellipsoids[element].smallest_semi_axis(),
+            PrimitiveKind::Capsule => body.capsules[element].radius,
             _ => 0.0,
         }
     }

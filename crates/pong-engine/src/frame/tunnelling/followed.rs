@@ -176,18 +176,13 @@ fn places(body: &MovableGroup, kind: PrimitiveKind, item: Item) -> [Option<Vec3>
         PrimitiveKind::Sphere => [Some(body.spheres[i].center), None, None],
         PrimitiveKind::Ellipsoid => [Some(body.ellipsoids[i].center), None, None],
         PrimitiveKind::Ray => [Some(body.rays[i].origin), None, None],
-        PrimitiveKind::LineSegment => {
-            let [a, b] = body.segments[i].ends;
-            [Some(a), Some(b), Some(0.5 * (a + b))]
-        }
-        PrimitiveKind::Capsule => {
-            let [a, b] = body.capsules[i].ends;
-            [Some(a), Some(b), Some(0.5 * (a + b))]
-        }
-        PrimitiveKind::Cylinder => {
-            let [a, b] = body.frusta[i].ends;
-            [Some(a), Some(b), Some(0.5 * (a + b))]
-        }
+        PrimitiveKind::LineSegment => ends_and_middle(&body.segments[i].ends),
+        PrimitiveKind::Capsule => ends_and_middle(&body.capsules[i].ends),
+        PrimitiveKind::Cylinder => ends_and_middle(&body.frusta[i].ends),
         _ => [None; 3],
     }
+}
+
+fn ends_and_middle([one, other]: &[Vec3; 2]) -> [Option<Vec3>; 3] {
+    [Some(*one), Some(*other), Some(0.5 * (one + other))]
 }

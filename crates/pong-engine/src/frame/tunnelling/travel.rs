@@ -23,7 +23,8 @@ pub(crate) fn least_travel_m(
     if touched(PrimitiveKind::Triangle) {
         let of_balls = a.spheres.iter().map(|sphere| sphere.radius);
         let of_ellipsoids = a.ellipsoids.iter().map(|ellipsoid| ellipsoid.semi_axes.min());
-        let smallest = of_balls.chain(of_ellipsoids).fold(f64::INFINITY, f64::min);
+        let of_capsules = a.capsules.iter().map(|capsule| capsule.radius);
+        let smallest = of_balls.chain(of_ellipsoids).chain(of_capsules).fold(f64::INFINITY, f64::min);
         let meshes = b.primitives.iter().filter(|info| info.kind == PrimitiveKind::Triangle);
         thinnest = meshes.map(|info| info.thickness.unwrap_or(smallest)).fold(thinnest, f64::min);
         thinnest = a.rays.iter().map(|ray| ray.length).fold(thinnest, f64::min);

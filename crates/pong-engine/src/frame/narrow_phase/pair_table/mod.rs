@@ -9,7 +9,7 @@
 //!  Ray                                 x          x         x       x        x       x     x
 //!  Sphere          x                   x          x         x       x        x       x     x
 //!  Ellipsoid                           x          x         x
-//!  Capsule                                                  x       x        x       x     x
+//!  Capsule                             x          x         x       x        x       x     x
 //!  Cylinder                                                 x                              x
 //!  Cone                                                     x
 //! ```
@@ -18,6 +18,8 @@
 
 mod ball_bore;
 mod ball_round;
+mod capsule_polyhedron;
+mod capsule_triangle;
 mod ellipsoid_plane;
 mod ellipsoid_polyhedron;
 mod ellipsoid_triangle;
@@ -95,6 +97,8 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Point, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 1 },
     KindPair { a: Ray, b: Bore, test: ray_bore::test, cost_ns: 50, contacts: 1 },
     KindPair { a: Sphere, b: Bore, test: ball_bore::test, cost_ns: 30, contacts: 2 },
+    KindPair { a: Capsule, b: Triangle, test: capsule_triangle::test, cost_ns: 2000, contacts: 10 },
+    KindPair { a: Capsule, b: Polyhedron, test: capsule_polyhedron::test, cost_ns: 500, contacts: 10 },
     KindPair { a: Capsule, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 2 },
     KindPair { a: Cylinder, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
     KindPair { a: Cone, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },

@@ -14,7 +14,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
         false => status_of(polyhedron.containment(&point.position)),
     };
     let local = pair.body_a().points[pair.item_a.element as usize].position;
-    let Some(face) = pair.entry_face(&local, &point.position) else { return };
+    let Some(face) = pair.entry_face(&local, &point.position, 0) else { return };
     let contact = point_below_face(&point.position, polyhedron, face.pushes);
     if let Some(contact) = contact {
         pair.emit(&contact, found, |out| {

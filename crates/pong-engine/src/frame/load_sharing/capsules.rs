@@ -1,0 +1,34 @@
+//! What the balls at the ends of a capsule and the edges between them carry of a polyhedron or of triangles: of the convex edges that
+//! the axis crosses the deepest carries what the balls do not (docs/theory.md, 2.8).
+
+use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
+use pong_geometry::Vec3;
+
+/// The deepest edge between the ends, if it is deeper than both balls.
+///
+/// With E the square of its depth, and A and B those of how far the balls at the two ends have to move, the stored energy is then
+/// ¼k(E + A·B/E), and else ¼k(A + B). Its derivatives are the weights.
+pub(super) fn couple(ends: &mut [ContactCandidate], middle: &mut [ContactCandidate]) {
+    let squares = [0, 1].map(|end| square_moved(ends, end));
+    let deeper = |a: usize, b: usize| if middle[b].depth > middle[a].depth { b } else { a };
+    let deepest = (0..middle.len()).reduce(deeper);
+    for (index, contact) in middle.iter_mut().enumerate() {
+        let square = contact.depth * contact.depth;
+        if deepest != Some(index) || square <= squares[0].max(squares[1]) {
+            contact.status = CandidateStatus::Culled;
+            continue;
+        }
+        let parts = squares.map(|other| other / square);
+        contact.weight = 1.0 - parts[0] * parts[1];
+        for ball in ends.iter_mut().filter(|ball| ball.takes_part()) {
+            ball.weight *= parts[1 - ball.key.end as usize];
+        }
+    }
+}
+
+/// Square of the least motion that clears the ball at an end, m².
+fn square_moved(ends: &[ContactCandidate], end: u32) -> f64 {
+    let of_end = ends.iter().filter(|contact| contact.key.end == end && contact.takes_part());
+    let moved = of_end.map(|contact| contact.normal_b * (contact.weight * contact.depth));
+    moved.sum::<Vec3>().norm_squared()
+}

@@ -1,0 +1,30 @@
+//! A capsule on a triangle: the balls at its ends, and of the triangle's edges that are convex or free those that its axis crosses.
+
+use super::sphere_triangle::test_ball;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
+use pong_geometry::interference::Feature;
+use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
+use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
+
+pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
+    let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
+    for ball in pair.balls(capsule) {
+        test_ball(pair, &ball, false, found);
+    }
+    let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
+    let may_push = set.triangles[triangle as usize].may_push;
+    for k in (0..3).filter(|&k| may_push.edge(k)) {
+        let view = TriangleView::new(set, triangle);
+        let normals = match view.classify_edge(set, k) {
+            EdgeClass::Free => [view.normal; 2],
+            EdgeClass::Convex { normal, .. } if view.owns_edge(set, k) => [view.normal, normal],
+            EdgeClass::Convex { .. } | EdgeClass::Silent { .. } => continue,
+        };
+        let feature = Feature::edge(triangle as usize * 3 + k);
+        let edge = ConvexEdge { ends: view.edge_ends(k), normals, outwards: None, feature };
+        if let Some(crossing) = capsule_edge(capsule, &edge) {
+            pair.between_ends(&crossing, found);
+        }
+    }
+}

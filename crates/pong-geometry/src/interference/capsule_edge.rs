@@ -1,0 +1,113 @@
+//! Capsule (A) – a convex edge of a polyhedron or of a surface of triangles (B), crossed between the capsule's ends (docs/theory.md,
+//! 2.8). What the balls at the ends touch is not asked here.
+//!
+//! Degenerate cases: of an axis along the edge the balls are as near as what is between them, and there is no crossing.
+
+use super::{Feature, Interference};
+use crate::Vec3;
+use crate::primitive::Capsule;
+
+/// An edge as what crosses it sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct ConvexEdge {
+    /// Where it begins and ends, m.
+    pub ends: [Vec3; 2],
+    /// Unit normals of the faces that meet there; of a free edge twice that of its face.
+    pub normals: [Vec3; 2],
+    /// Unit vectors across the edge, in the plane of each face and out of it; `None` if only what is in front is pushed.
+    pub outwards: Option<[Vec3; 2]>,
+    /// Which edge it is.
+    pub feature: Feature,
+}
+
+/// The depth of an edge in a capsule where the axis is nearest to it, if that is between the ends of the axis. The normal is from the
+/// edge to the axis. The depth of an axis that has sunk below the edge is more than the radius; it is told as long as the way out
+/// is between the normals of the two faces.
+pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
+    let axis = Segment::new(&capsule.ends);
+    let of_edge = Segment::new(&edge.ends);
+    if let Some((at, on_edge)) = axis.crossing(&of_edge) {
+        return over(capsule, edge, &axis, &of_edge, at, on_edge);
+    }
+    // Else an end of one of the two is nearest to the other: only an end of the edge counts.
+    let tips =
+        capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
+    let [one, other] = edge.ends.map(|corner| {
+        let at = axis.nearest(&corner);
+        ((axis.at(at.clamp(0.0, 1.0)) - corner).norm_squared(), at, corner)
+    });
+    let (square, at, corner) = if one.0 <= other.0 { one } else { other };
+    let is_between = at > 0.0 && at < 1.0 && square < tips[0].min(tips[1]);
+    let arm = axis.at(at) - corner;
+    let is_outside = edge.normals.iter().sum::<Vec3>().dot(&arm) > 0.0;
+    let distance = square.sqrt();
+    if !(is_between && is_outside && distance < capsule.radius) {
+        return None;
+    }
+    Some(touched(capsule, edge, (arm / distance).normalize(), distance, &axis.at(at)))
+}
+
+/// A crossing with the common perpendicular between the ends of both.
+fn over(
+    capsule: &Capsule,
+    edge: &ConvexEdge,
+    axis: &Segment,
+    of_edge: &Segment,
+    at: f64,
+    on_edge: f64,
+) -> Option<Interference> {
+    let across = of_edge.along.cross(&axis.along).normalize();
+    let outside = edge.normals.iter().sum::<Vec3>().dot(&across);
+    let normal = if outside < 0.0 { -across } else { across };
+    let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
+    let leaves_there =
+        || edge.outwards.is_some_and(|outwards| outwards.iter().all(|outward| outward.dot(&normal) > 0.0));
+    if height >= capsule.radius || (height <= 0.0 && !leaves_there()) {
+        return None;
+    }
+    Some(touched(capsule, edge, normal, height, &axis.at(at)))
+}
+
+/// The edge lies so far below a place of the axis, against the normal.
+fn touched(capsule: &Capsule, edge: &ConvexEdge, normal: Vec3, height: f64, place: &Vec3) -> Interference {
+    Interference {
+        depth: capsule.radius - height,
+        normal_b: normal,
+        deepest_b: place - normal * capsule.radius,
+        feature: edge.feature,
+    }
+}
+
+struct Segment {
+    start: Vec3,
+    along: Vec3,
+}
+
+impl Segment {
+    fn new([one, other]: &[Vec3; 2]) -> Self {
+        Self { start: *one, along: other - one }
+    }
+
+    fn at(&self, share: f64) -> Vec3 {
+        self.start + self.along * share
+    }
+
+    /// Where along the line a place has its foot.
+    fn nearest(&self, place: &Vec3) -> f64 {
+        (place - self.start).dot(&self.along) / self.along.norm_squared()
+    }
+
+    /// The feet of the common perpendicular, if both lie between the ends.
+    fn crossing(&self, other: &Self) -> Option<(f64, f64)> {
+        let (u, v, between) = (self.along, other.along, other.start - self.start);
+        let across = u.cross(&v);
+        let square = across.norm_squared();
+        if square <= f64::EPSILON * f64::EPSILON * u.norm_squared() * v.norm_squared() {
+            return None;
+        }
+        let at = between.cross(&v).dot(&across) / square;
+        let on_other = between.cross(&u).dot(&across) / square;
+        let inside = |share: f64| share > 0.0 && share < 1.0;
+        (inside(at) && inside(on_other)).then_some((at, on_other))
+    }
+}
