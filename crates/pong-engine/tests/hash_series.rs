@@ -30,7 +30,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xea6c694a9ff398c3, 0xc31752094573b407),
     ("bowl", 0x2aedf441666a2cc0, 0x033338db790799c7),
     ("swarm", 0x8d26eb9db5e7d29e, 0x91adf350cf84ba84),
-    ("round", 0x701c2ef9dce4664e, 0xfa7aaeb9b3a56e8d),
+    ("round", 0x9989a75fbe6bcc9d, 0x643c109b3a0a2f34),
 ];
 
 /// A scene run by the caller alone, with what is needed to go on from any frame.

@@ -11,11 +11,11 @@ use crate::primitive::Capsule;
 #[derive(Clone, Copy, Debug)]
 pub struct ConvexEdge {
     /// Where it begins and ends, m.
-    pub ends: [Vec3; 2],
+    pub ends_b: [Vec3; 2],
     /// Unit normals of the faces that meet there; of a free edge twice that of its face.
-    pub normals: [Vec3; 2],
+    pub normals_b: [Vec3; 2],
     /// Unit vectors across the edge, in the plane of each face and out of it; `None` if only what is in front is pushed.
-    pub outwards: Option<[Vec3; 2]>,
+    pub outwards_b: Option<[Vec3; 2]>,
     /// Which edge it is.
     pub feature: Feature,
 }
@@ -25,21 +25,21 @@ pub struct ConvexEdge {
 /// is between the normals of the two faces.
 pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference> {
     let axis = Segment::new(&capsule.ends);
-    let of_edge = Segment::new(&edge.ends);
+    let of_edge = Segment::new(&edge.ends_b);
     if let Some((at, on_edge)) = axis.crossing(&of_edge) {
         return over(capsule, edge, &axis, &of_edge, at, on_edge);
     }
     // Else an end of one of the two is nearest to the other: only an end of the edge counts.
     let tips =
         capsule.ends.map(|tip| (tip - of_edge.at(of_edge.nearest(&tip).clamp(0.0, 1.0))).norm_squared());
-    let [one, other] = edge.ends.map(|corner| {
+    let [one, other] = edge.ends_b.map(|corner| {
         let at = axis.nearest(&corner);
         ((axis.at(at.clamp(0.0, 1.0)) - corner).norm_squared(), at, corner)
     });
     let (square, at, corner) = if one.0 <= other.0 { one } else { other };
     let is_between = at > 0.0 && at < 1.0 && square < tips[0].min(tips[1]);
     let arm = axis.at(at) - corner;
-    let is_outside = edge.normals.iter().sum::<Vec3>().dot(&arm) > 0.0;
+    let is_outside = edge.normals_b.iter().sum::<Vec3>().dot(&arm) > 0.0;
     let distance = square.sqrt();
     if !(is_between && is_outside && distance < capsule.radius) {
         return None;
@@ -57,11 +57,11 @@ fn over(
     on_edge: f64,
 ) -> Option<Interference> {
     let across = of_edge.along.cross(&axis.along).normalize();
-    let outside = edge.normals.iter().sum::<Vec3>().dot(&across);
+    let outside = edge.normals_b.iter().sum::<Vec3>().dot(&across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
     let leaves_there =
-        || edge.outwards.is_some_and(|outwards| outwards.iter().all(|outward| outward.dot(&normal) > 0.0));
+        || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(|outward| outward.dot(&normal) > 0.0));
     if height >= capsule.radius || (height <= 0.0 && !leaves_there()) {
         return None;
     }

@@ -45,9 +45,9 @@ fn crossings<'p>(
     polyhedron.edges.iter().enumerate().filter_map(move |(index, edge)| {
         let push = edge.push.as_ref()?;
         let edge = ConvexEdge {
-            ends: edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position),
-            normals: push.normals,
-            outwards: Some(push.outwards),
+            ends_b: edge.vertices.map(|vertex| polyhedron.vertices[vertex as usize].position),
+            normals_b: push.normals,
+            outwards_b: Some(push.outwards),
             feature: Feature::edge(index),
         };
         capsule_edge(capsule, &edge)

@@ -22,7 +22,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
             EdgeClass::Convex { .. } | EdgeClass::Silent { .. } => continue,
         };
         let feature = Feature::edge(triangle as usize * 3 + k);
-        let edge = ConvexEdge { ends: view.edge_ends(k), normals, outwards: None, feature };
+        let edge = ConvexEdge { ends_b: view.edge_ends(k), normals_b: normals, outwards_b: None, feature };
         if let Some(crossing) = capsule_edge(capsule, &edge) {
             pair.between_ends(&crossing, found);
         }
