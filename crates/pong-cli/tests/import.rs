@@ -42,6 +42,50 @@ fn faults_end_with_one_and_leave_what_was_there() {
     assert_eq!(names.len(), 3, "{names:?}");
 }
 
+/// A prism of 32 sides around z, R 10 mm, 100 mm long, as the page about importing has it.
+#[test]
+fn a_round_part_is_found_within_a_tolerance() {
+    let sides = 32_usize;
+    let corner = |i: usize| {
+        let turn = std::f64::consts::TAU * i as f64 / sides as f64;
+        let z = if i < sides { 0 } else { 100 };
+        format!("v {} {} {z}\n", 10.0 * turn.cos(), 10.0 * turn.sin())
+    };
+    let list = |all: Vec<usize>| all.iter().map(|i| format!(" {}", i + 1)).collect::<String>();
+    let side = |i: usize| list(vec![i, (i + 1) % sides, sides + (i + 1) % sides, sides + i]);
+    let mut text: String = (0..2 * sides).map(corner).collect();
+    (0..sides).for_each(|i| text += &format!("f{}\n", side(i)));
+    text += &format!("f{}\nf{}\n", list((0..sides).rev().collect()), list((sides..2 * sides).collect()));
+    let folder = folder("round");
+    std::fs::write(folder.join("pin.obj"), text).unwrap();
+    let run = |tolerance: &str| {
+        let arguments = [
+            "import",
+            "pin.obj",
+            "-o",
+            "pin.ron",
+            "--unit",
+            "mm",
+            "--stiffness",
+            "1e6",
+            "--round",
+            tolerance,
+        ];
+        pong(&folder, &arguments)
+    };
+    let (code, out, err) = run("0.2mm");
+    assert_eq!(
+        (code, out.as_str()),
+        (0, "64 vertices and 124 triangles read: 1 Cylinder\nwritten: ./pin.ron\n")
+    );
+    let told = "became the Cylinder `pin`, radius 0.010000 m, 0.100000 m from end to end: the mesh is 4.82e-5 m from it at most";
+    assert!(err.contains(told), "{err}");
+    assert_eq!(pong(&folder, &["check", "pin.ron"]).0, 0);
+    let (_, out, err) = run("0.02mm");
+    assert!(out.contains("1 Polyhedron") && err.is_empty(), "{out}{err}");
+    assert_eq!(run("-1").0, 2);
+}
+
 #[test]
 fn notes_go_to_standard_error_and_wrong_flags_end_with_two() {
     let folder = folder("notes");
