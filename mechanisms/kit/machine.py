@@ -1,0 +1,163 @@
+"""A mechanism in MuJoCo with Pong's contact: steps, and keeps account of energy, reactions and flags on the way."""
+
+import os
+
+import mujoco
+import numpy as np
+
+FULL = mujoco.mjtState.mjSTATE_INTEGRATION
+TUNNELLED = 4  # flag of the plugin's sensor, docs/mujoco.md
+_loaded = False
+
+
+def load_plugin():
+    """From the file in PLUGIN, as ci/mechanisms sets it, or from the wheel pong_mujoco."""
+    global _loaded
+    if _loaded:
+        return
+    if "PLUGIN" in os.environ:
+        mujoco.mj_loadPluginLibrary(os.environ["PLUGIN"])
+    else:
+        import pong_mujoco  # noqa: F401 (importing loads the plugin)
+    _loaded = True
+
+
+class Machine:
+    """`mjcf`: text of a model with one instance of pong.contact, whose sensor is called `contact`.
+
+    `carriers`: names of the bodies that carry the movable groups, in the order of the sensor (docs/mujoco.md).
+    """
+
+    def __init__(self, mjcf, carriers):
+        load_plugin()
+        self.model = mujoco.MjModel.from_xml_string(mjcf)
+        self.data = mujoco.MjData(self.model)
+        self.carriers = [self.model.body(name).id for name in carriers]
+        start = self.model.sensor("contact").adr[0]
+        self.sensed = slice(start, start + self.model.sensor("contact").dim[0])
+        self.step = self.model.opt.timestep
+        self.contacts_most, self.flags, self.imbalance = 0, 0, 0.0
+        self.start()
+
+    def start(self):
+        """After positions or velocities were set: the account of energy begins here."""
+        mujoco.mj_forward(self.model, self.data)
+        self.ledger = Ledger(self.model, self.data)
+
+    @property
+    def time(self):
+        return self.data.time
+
+    def advance(self, control=None):
+        """One step. `control(machine)` sets the controls before it."""
+        if control is not None:
+            control(self)
+        self.ledger.begin()
+        mujoco.mj_step(self.model, self.data)
+        # Forces and energies of the new state; the plugin's evaluation is pure, so this changes nothing that follows.
+        mujoco.mj_forward(self.model, self.data)
+        self.ledger.add(self.step)
+        self._look()
+
+    def run(self, seconds, control=None, watch=None):
+        """Steps for so long, or until `watch(machine)` is true; answers whether it was."""
+        for _ in range(round(seconds / self.step)):
+            self.advance(control)
+            if watch is not None and watch(self):
+                return True
+        return False
+
+    def _look(self):
+        sensed = self.data.sensordata[self.sensed]
+        if sensed[2] != 0:
+            raise RuntimeError(f"at {self.time:.6f} s a step could not be computed: status {int(sensed[2])}")
+        if not np.all(np.isfinite(self.data.qpos)):
+            raise RuntimeError(f"at {self.time:.6f} s positions are no longer finite: the step is too long")
+        self.contacts_most = max(self.contacts_most, int(sensed[0]))
+        self.flags |= int(sensed[1])
+        wrenches = sensed[3:].reshape(-1, 6)
+        forces, moments = wrenches[:, :3], wrenches[:, 3:]
+        arms = self.data.xpos[self.carriers]
+        about_origin = (moments + np.cross(arms, forces)).sum(axis=0)
+        greatest = np.abs(forces).max(initial=0.0)
+        if greatest > 0.0:
+            off = max(np.abs(forces.sum(axis=0)).max(), np.abs(about_origin).max())
+            self.imbalance = max(self.imbalance, off / greatest)
+
+    def contacts(self):
+        return int(self.data.sensordata[self.sensed][0])
+
+    def wrench(self, carrier):
+        """Force (N) and moment (N·m) about the origin of the body, along the axes of the world, summed over its groups."""
+        body = self.model.body(carrier).id
+        wrenches = self.data.sensordata[self.sensed][3:].reshape(-1, 6)
+        return wrenches[[i for i, other in enumerate(self.carriers) if other == body]].sum(axis=0)
+
+    def joint(self, name):
+        return float(self.data.qpos[self.model.joint(name).qposadr[0]])
+
+    def speed(self, name):
+        return float(self.data.qvel[self.model.joint(name).dofadr[0]])
+
+    def place(self, body):
+        return self.data.xpos[self.model.body(body).id].copy()
+
+    def save(self):
+        state = np.empty(mujoco.mj_stateSize(self.model, FULL))
+        mujoco.mj_getState(self.model, self.data, state, FULL)
+        return state
+
+    def restore(self, state):
+        mujoco.mj_setState(self.model, self.data, state, FULL)
+        self.start()
+
+
+class Ledger:
+    """Energies in and out, J, by the trapezoidal rule over the steps.
+
+    What the bodies hold (motion, gravity, springs of joints and tendons) changes by the work of motors, contacts,
+    dampers and constraints. `through` is the sum of the magnitudes of all of this work: what went through the machine.
+    """
+
+    NAMES = ("motors", "contact", "dampers", "constraints")
+
+    def __init__(self, model, data):
+        self.model, self.data = model, data
+        self.work = dict.fromkeys(self.NAMES, 0.0)
+        self.through = 0.0
+        self.began_with = self._held()
+
+    def _held(self):
+        mujoco.mj_energyPos(self.model, self.data)
+        mujoco.mj_energyVel(self.model, self.data)
+        return float(self.data.energy.sum())
+
+    def _power(self):
+        d = self.data
+        contact = d.qfrc_passive - d.qfrc_spring - d.qfrc_damper
+        forces = (d.qfrc_actuator + d.qfrc_applied + self._pushed(), contact, d.qfrc_damper, d.qfrc_constraint)
+        return np.array([force @ d.qvel for force in forces])
+
+    def _pushed(self):
+        """Wrenches that a host applies to bodies, as forces on the joints."""
+        d, forces = self.data, np.zeros(self.model.nv)
+        for body in np.flatnonzero(np.any(d.xfrc_applied != 0.0, axis=1)):
+            pushed = d.xfrc_applied[body]
+            mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, forces)
+        return forces
+
+    def begin(self):
+        """Controls may have jumped since the last step ended."""
+        mujoco.mj_fwdActuation(self.model, self.data)
+        self._powers = self._power()
+
+    def add(self, step):
+        powers = self._power()
+        works = 0.5 * step * (powers + self._powers)
+        for name, work in zip(self.NAMES, works):
+            self.work[name] += float(work)
+        self.through += float(np.abs(works).sum())
+
+    def open_share(self):
+        """What does not close, over what went through."""
+        return abs(self._held() - self.began_with - sum(self.work.values())) / self.through if self.through else 0.0
