@@ -137,13 +137,10 @@ def _drawn_fixture(fixture):
 
 
 def _drawn_pads():
-    circle, height, size = rig_preload.PAD_CIRCLE, PADS_HEIGHT - rig_preload.PAD_RADIUS, rig_preload.PAD_RADIUS
-    places = [
-        (circle * math.cos(2 * math.pi * i / PADS), circle * math.sin(2 * math.pi * i / PADS), height)
-        for i in range(PADS)
-    ]
+    size = rig_preload.PAD_RADIUS
     return "".join(
-        f'<geom type="sphere" pos="{mjcf.numbers(p)}" size="{size:g}" rgba="0.6 0.3 0.25 1"/>' for p in places
+        f'<geom type="sphere" pos="{x:.6g} {y:.6g} {PADS_HEIGHT - size:g}" size="{size:g}" rgba="0.6 0.3 0.25 1"/>'
+        for x, y in rig_preload.around(PADS, rig_preload.PAD_CIRCLE)
     )
 
 

@@ -4,7 +4,7 @@ import math
 
 import models
 from dimensions import Fixture, Snare
-from kit import mjcf
+from kit import mjcf, ron
 from kit.machine import Machine
 from kit.outcome import Limit, Row
 
@@ -48,16 +48,6 @@ def chain(snare, reach, angle):
     return text, count, length
 
 
-def model_of(snare, length, count):
-    links = ", ".join(
-        f'(name: "link_{i:02}", movable: true, surface: "steel", primitives: ['
-        f'Capsule(name: "wire", ends: ((0, 0, 0), ({length!r}, 0, 0)), radius: {snare.radius!r})])'
-        for i in range(count)
-    )
-    law = models.surfaces(2e5, 5.0, snare.friction)
-    return f'(format: "pong-model", version: 1, name: "cable", surfaces: {{ {law} }}, root: (name: "cable", groups: [{links}]))'
-
-
 def rig(snare, fixture, angle):
     reach = fixture.shaft_radius + snare.radius
     text, count, length = chain(snare, reach, angle)
@@ -73,7 +63,10 @@ def rig(snare, fixture, angle):
     )
     bodies = {"shaft": "world", "cable": "world", **{f"cable/link_{i:02}": f"link_{i:02}" for i in range(count)}}
     things = {"shaft": "text1", "cable": "text2"}
-    texts = [models.fixture(fixture, snare.friction), model_of(snare, length, count)]
+    texts = [
+        models.fixture(fixture, snare.friction),
+        models.chain(length, snare.radius, count, ron.elastic(2e5, 5.0, snare.friction)),
+    ]
     extension = mjcf.contact_instance(things, [("cable", "shaft")], bodies, texts, capacity=128)
     carriers = ["world", "world"] + [f"link_{i:02}" for i in range(count)]
     return Machine(mjcf.model("capstan", extension, world, more, 5e-5, "RK4"), carriers)

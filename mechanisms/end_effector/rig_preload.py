@@ -2,7 +2,7 @@
 
 import math
 
-from kit import mjcf
+from kit import mjcf, ron
 from kit.machine import Machine
 from kit.outcome import Limit, Row
 
@@ -30,23 +30,25 @@ def screw(joint):
     return mjcf.motor("screw", joint, preload(), MOTOR_FREE_SPEED / ratio), ROTOR_INERTIA * ratio**2
 
 
+def around(count, radius, first=0.0):
+    """Places on a circle about z."""
+    angles = [first + 2.0 * math.pi * i / count for i in range(count)]
+    return [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
+
+
 def pads(count, first=0.0, height=0.0, friction=0.0):
-    spheres = ", ".join(
-        f'Sphere(name: "pad_{i:02}", center: ({PAD_CIRCLE * math.cos(a)!r}, {PAD_CIRCLE * math.sin(a)!r}, {height - PAD_RADIUS!r}), radius: {PAD_RADIUS!r})'
-        for i in range(count)
-        for a in [first + 2.0 * math.pi * i / count]
-    )
-    law = f", friction: Bristle(mu: {friction!r})" if friction else ""
-    surfaces = f'"pad": (stiffness: {PAD_STIFFNESS!r}, normal: Linear(damping: {PAD_DAMPING!r}){law})'
-    return f'(format: "pong-model", version: 1, name: "pads", surfaces: {{ {surfaces} }}, root: (name: "pads", surface: "pad", primitives: [{spheres}]))'
+    """Balls whose tops are at `height`."""
+    balls = [
+        ron.primitive("Sphere", f"pad_{i:02}", center=(x, y, height - PAD_RADIUS), radius=PAD_RADIUS)
+        for i, (x, y) in enumerate(around(count, PAD_CIRCLE, first))
+    ]
+    return ron.model("pads", ron.elastic(PAD_STIFFNESS, PAD_DAMPING, friction), balls)
 
 
 def plate(friction=0.0):
-    law = f", friction: Bristle(mu: {friction!r})" if friction else ""
-    return (
-        f'(format: "pong-model", version: 1, name: "plate", surfaces: {{ "steel": (stiffness: inf{law}) }}, '
-        'root: (name: "plate", surface: "steel", primitives: [Plane(name: "face", normal: (0, 0, -1), offset: 0)]))'
-    )
+    """All that lies above z = 0 of the payload."""
+    face = ron.primitive("Plane", "face", normal=(0, 0, -1), offset=0)
+    return ron.model("plate", ron.rigid(friction), [face])
 
 
 def joint_rig(count, first=0.0):

@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 
-import dimensions
 import snare as s
 import numpy as np
 

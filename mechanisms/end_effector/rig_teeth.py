@@ -6,7 +6,7 @@ halves slide apart once the axial force falls below T·tan(α − ρ)/r.
 
 import math
 
-from kit import mjcf
+from kit import mjcf, ron
 from kit.machine import Machine
 from kit.outcome import Row
 
@@ -20,52 +20,43 @@ FALL = 0.1  # of the predicted force in a second: how slowly the axial force fal
 SLID = 2e-4  # m of way apart that is more than what springs give back
 
 
+MIDDLE = 0.012  # half of a tooth's width at the pitch plane, m
+
+
+def turned(index, x, y, z):
+    """A place given at the first tooth, at the tooth `index`."""
+    a = 2.0 * math.pi * index / TEETH
+    return (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z)
+
+
 def wedge(index):
-    """A tooth of the fixed half as a polyhedron: its flanks meet the pitch circle's tangent at α from the axis."""
-    azimuth = 2.0 * math.pi * index / TEETH
-    middle, foot = 0.012, 0.012 + DEPTH * math.tan(math.radians(FLANK_DEG))
-    tip = 0.012 - DEPTH * math.tan(math.radians(FLANK_DEG))
-    vertices = []
-    for radius in (CIRCLE - 0.012, CIRCLE + 0.012):
-        for half, z in ((foot, -DEPTH), (tip, DEPTH)):
-            for side in (-1, 1):
-                x, y = radius, side * half
-                vertices.append(
-                    (x * math.cos(azimuth) - y * math.sin(azimuth), x * math.sin(azimuth) + y * math.cos(azimuth), z)
-                )
+    """A tooth of the fixed half: its flanks meet the tangent of the pitch circle at α from the axis."""
+    slope = DEPTH * math.tan(math.radians(FLANK_DEG))
+    corners = [
+        turned(index, radius, side * half, z)
+        for radius in (CIRCLE - 0.012, CIRCLE + 0.012)
+        for half, z in ((MIDDLE + slope, -DEPTH), (MIDDLE - slope, DEPTH))
+        for side in (-1, 1)
+    ]
+    vertices = ", ".join(map(ron.vector, corners))
     faces = "[0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5]"
-    text = ", ".join(f"({x!r}, {y!r}, {z!r})" for x, y, z in vertices)
-    return f'Polyhedron(name: "tooth_{index:02}", vertices: [{text}], faces: [{faces}])', middle
+    return f'Polyhedron(name: "tooth_{index:02}", vertices: [{vertices}], faces: [{faces}])'
 
 
 def fixed_half(friction):
-    teeth = ", ".join(wedge(i)[0] for i in range(TEETH))
-    law = f", friction: Bristle(mu: {friction!r})" if friction else ""
-    return (
-        f'(format: "pong-model", version: 1, name: "teeth", surfaces: {{ "steel": (stiffness: inf{law}) }}, '
-        f'root: (name: "teeth", surface: "steel", primitives: [{teeth}]))'
-    )
+    return ron.model("teeth", ron.rigid(friction), [wedge(i) for i in range(TEETH)])
 
 
 def turning_half(friction):
-    """Two balls to each gap, one on each flank, at the pitch circle and half the depth."""
+    """Two balls to each gap, one on each flank; each touches its flank at the pitch circle and half the depth."""
     flank = math.radians(FLANK_DEG)
-    half = wedge(0)[1]
-    balls = []
-    for i in range(TEETH):
-        for side in (-1, 1):
-            # The ball touches the flank at z = 0: its centre is one radius off along the flank's normal.
-            x, y, z = CIRCLE, side * (half + CROWN * math.cos(flank)), CROWN * math.sin(flank)
-            a = 2.0 * math.pi * i / TEETH
-            centre = (x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a), z)
-            balls.append(
-                f'Sphere(name: "flank_{2 * i + (side > 0):02}", center: ({", ".join(map(repr, centre))}), radius: {CROWN!r})'
-            )
-    law = f", friction: Bristle(mu: {friction!r}, damping: 100.0)" if friction else ""
-    return (
-        f'(format: "pong-model", version: 1, name: "crowns", surfaces: {{ "steel": (stiffness: 2e6, normal: Linear(damping: 1e3){law}) }}, '
-        f'root: (name: "crowns", surface: "steel", primitives: [{", ".join(balls)}]))'
-    )
+    out, up = MIDDLE + CROWN * math.cos(flank), CROWN * math.sin(flank)
+    balls = [
+        ron.primitive("Sphere", f"flank_{2 * i + k:02}", center=turned(i, CIRCLE, side * out, up), radius=CROWN)
+        for i in range(TEETH)
+        for k, side in enumerate((-1, 1))
+    ]
+    return ron.model("crowns", ron.elastic(2e6, 1e3, friction, 100.0), balls)
 
 
 def separating_force(friction):
