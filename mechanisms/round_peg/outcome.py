@@ -1,0 +1,111 @@
+"""What the round peg must come to. Run by mechanisms/run.py."""
+
+import math
+
+import numpy as np
+import rig
+from kit import mjcf
+from kit.outcome import Fact, Limit, Row
+
+SHALLOW = 0.020  # m of insertion for the diagram
+NEAR = 0.05  # loads so near to the sides of the diagram are left out
+
+
+def diagram(count, seed=1):
+    """Random loads: a peg in two-place contact slides in if they are within Whitney's parallelogram, else it jams."""
+    random = np.random.default_rng(seed)
+    slope = SHALLOW / (rig.DIAMETER * rig.FRICTION)
+    wrong, slid, tried, imbalance = [], 0, 0, 0.0
+    while tried < count:
+        # Even over twice the parallelogram: across ±1/μ, and along its slanted sides.
+        across, beyond = random.uniform(-1.8, 1.8) / rig.FRICTION, random.uniform(-2.0, 2.0) * slope
+        moment = rig.FRICTION * (1 + slope) * across + beyond
+        out = rig.whitney(SHALLOW, across, moment)
+        if abs(out - 1.0) < NEAR:
+            continue
+        moved, made = rig.moves(SHALLOW, across, moment)
+        imbalance = max(imbalance, made.imbalance)
+        tried, slid = tried + 1, slid + moved
+        if moved != (out < 1.0):
+            wrong.append((across, moment, out))
+    yield Limit(f"of {count} loads, those that slide or jam against the diagram", len(wrong), 0)
+    yield Fact("some of them slid, some jammed", 0 < slid < count)
+    yield Limit("forces that have no reaction, of the greatest", imbalance, 1e-9)
+    for across, moment, out in wrong[:5]:
+        print(f"      wrong: Fx/Fz {across:.3f}, M/(r Fz) {moment:.3f}, {out:.3f} of the way to the side")
+
+
+def held(tilt, stiffness=None):
+    """A peg that goes in slowly, free across; its tilt is held, or by a spring about its tip, N·m/rad."""
+    half = tilt / 2
+    turn = "" if stiffness is None else f'<joint name="turn" axis="0 1 0" stiffness="{stiffness:g}" damping="0.5"/>'
+    return (
+        f'<body name="peg" pos="0 0 -0.004" quat="{mjcf.numbers((math.cos(half), 0, math.sin(half), 0))}">'
+        '<joint name="down" type="slide" axis="0 0 -1"/><joint name="across" type="slide" axis="1 0 0" damping="20"/>'
+        f"{turn}{rig.INERTIAL}</body>"
+    )
+
+
+def driven(made, speed=0.02):
+    """A stiff feed: position and speed of the joint `down`; the force that it takes stands in `feed`, N."""
+    drive = made.model.joint("down").dofadr[0]
+
+    def control(m):
+        error = speed * m.time - m.joint("down")
+        m.data.qfrc_applied[drive] = 2e5 * error + 1e3 * (speed - m.speed("down"))
+
+    return control
+
+
+def two_places():
+    """With its tilt held, the peg touches a second place exactly at the depth l where l·sin θ + d·cos θ = D."""
+    for depth in (0.02, 0.05):
+        tilt = rig.tilt_at(depth)
+        # Both joints turn with the body, so the way is along its own axis.
+        made = rig.machine(held(tilt))
+        # A light push to one side keeps the first place.
+        push = made.model.joint("across").dofadr[0]
+        feed = driven(made)
+
+        def control(m):
+            feed(m)
+            m.data.qfrc_applied[push] = 0.5
+
+        made.run(0.3, control)
+        one = made.contacts()
+        made.run(5.0, control, watch=lambda m: m.contacts() > 1)
+        yield Row(
+            f"a peg with a tilt of {math.degrees(tilt):.3f} deg touches twice from the depth l",
+            -tip(made),
+            depth,
+            0.02,
+            "m",
+        )
+        yield Row("places touched before", one, 1, 0.0)
+
+
+def tip(made):
+    """Height of the lowest place of the peg's tip circle's middle, m."""
+    return float(made.place("peg")[2])
+
+
+def compliant():
+    """Held by a spring about its tip, the peg turns upright as it goes in; friction in two places is 2μ·K(θ₀ − θ)/l."""
+    tilt, stiffness = rig.tilt_at(0.012), 50.0
+    made = rig.machine(held(tilt, stiffness))
+    feed = driven(made)
+    drive = made.model.joint("down").dofadr[0]
+    for depth in (0.03, 0.045, 0.06):
+        made.run(10.0, feed, watch=lambda m: -tip(m) > depth)
+        angle = tilt + made.joint("turn")
+        push = stiffness * (tilt - angle) / -tip(made)
+        yield Row(f"tilt at the depth {depth * 1e3:.0f} mm", angle, rig.tilt_at(-tip(made), push), 0.02, "rad")
+        predicted = 2 * rig.FRICTION * push
+        yield Row("force of the feed there", float(made.data.qfrc_applied[drive]), predicted, 0.03, "N")
+    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), 1e-3)
+
+
+def rows(thorough):
+    yield "two places", two_places()
+    yield "compliant insertion", compliant()
+    yield "Whitney's diagram", diagram(200 if thorough else 24)
