@@ -1,22 +1,30 @@
 //! One pair per query by the testers of pong-geometry, as the engine uses them: A is carried into B's frame and tested
 //! there.
 
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
+use crate::pairs::{
+    Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target,
+};
 use crate::peer::PairPeer;
 use pong_geometry::extension::Extensions;
 use pong_geometry::interference::{
-    Interference, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
+    Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
+    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
     ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
     line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
     point_plane::point_plane, point_polyhedron::point_below_face, point_polyhedron::shallowest_face,
     point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
-    ray_triangle::ray_triangle, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    ray_round::ray_capsule, ray_round::ray_frustum, ray_triangle::ray_triangle, round_plane::capsule_plane,
+    round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
     sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
+    triangle_features::TriangleView, two_ended_bore::EndsInBore, two_ended_bore::capsule_bore,
+    two_ended_bore::cylinder_bore, two_ended_bore::segment_bore, two_ended_round::EndContacts,
+    two_ended_round::capsule_capsule, two_ended_round::capsule_frustum, two_ended_round::segment_capsule,
+    two_ended_round::segment_frustum,
 };
-use pong_geometry::primitive::PrimitiveKind::{self, Plane, Polyhedron as Hull, Triangle};
-use pong_geometry::primitive::{Ellipsoid, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
+use pong_geometry::primitive::PrimitiveKind::{self, Bore, Cone, Cylinder, Plane, Polyhedron as Hull, Triangle};
+use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
 use pong_model::{Model, MovableGroup};
@@ -32,6 +40,17 @@ const POINT: Point = Point { position: Vec3::new(0.0, 0.0, 0.0) };
 const SEGMENT: LineSegment =
     LineSegment { ends: [Vec3::new(0.0, 0.0, -HALF_LENGTH), Vec3::new(0.0, 0.0, HALF_LENGTH)] };
 const SPHERE: Sphere = Sphere { center: Vec3::new(0.0, 0.0, 0.0), radius: RADIUS };
+
+const ROUND_ENDS: [Vec3; 2] = [Vec3::new(0.0, 0.0, -ROUND_HALF_LENGTH), Vec3::new(0.0, 0.0, ROUND_HALF_LENGTH)];
+const CAPSULE: Capsule = Capsule { ends: ROUND_ENDS, radius: RADIUS };
+
+fn cylinder() -> Frustum {
+    Frustum::new(ROUND_ENDS, [RADIUS; 2])
+}
+
+fn cone() -> Frustum {
+    Frustum::new(ROUND_ENDS, [RADIUS, 0.5 * RADIUS])
+}
 
 fn ellipsoid() -> Ellipsoid {
     Ellipsoid { center: Vec3::zeros(), axes: Mat3::identity(), semi_axes: Vec3::from(SEMI_AXES) }
@@ -84,6 +103,9 @@ trait Movers {
     fn ray(&self, i: usize) -> Ray;
     fn sphere(&self, i: usize) -> Sphere;
     fn ellipsoid(&self, i: usize) -> Ellipsoid;
+    fn capsule(&self, i: usize) -> Capsule;
+    fn cylinder(&self, i: usize) -> Frustum;
+    fn cone(&self, i: usize) -> Frustum;
 }
 
 /// One element of A, at a pose of its own in every query.
@@ -133,6 +155,21 @@ impl<P: Poses> Movers for P {
     fn ellipsoid(&self, i: usize) -> Ellipsoid {
         ellipsoid().carried(&self.x_ba(i))
     }
+
+    #[inline(always)]
+    fn capsule(&self, i: usize) -> Capsule {
+        CAPSULE.carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn cylinder(&self, i: usize) -> Frustum {
+        cylinder().carried(&self.x_ba(i))
+    }
+
+    #[inline(always)]
+    fn cone(&self, i: usize) -> Frustum {
+        cone().carried(&self.x_ba(i))
+    }
 }
 
 /// Elements of one movable group A, each placed where a query has its mover, and the one pose of A in B's frame.
@@ -148,6 +185,9 @@ pub struct Elements {
     rays: Vec<Ray>,
     spheres: Vec<Sphere>,
     ellipsoids: Vec<Ellipsoid>,
+    capsules: Vec<Capsule>,
+    cylinders: Vec<Frustum>,
+    cones: Vec<Frustum>,
     x_ba: Transform,
 }
 
@@ -166,6 +206,9 @@ impl Elements {
             rays: transforms.iter().map(|x| ray().carried(x)).collect(),
             spheres: transforms.iter().map(|x| SPHERE.carried(x)).collect(),
             ellipsoids: transforms.iter().map(|x| ellipsoid().carried(x)).collect(),
+            capsules: transforms.iter().map(|x| CAPSULE.carried(x)).collect(),
+            cylinders: transforms.iter().map(|x| cylinder().carried(x)).collect(),
+            cones: transforms.iter().map(|x| cone().carried(x)).collect(),
             x_ba: pose_ba.transform(),
             positions: placed.iter().map(|pose| pose.position).collect(),
             placed,
@@ -199,6 +242,21 @@ impl Movers for Elements {
     fn ellipsoid(&self, i: usize) -> Ellipsoid {
         self.ellipsoids[i].carried(&self.x_ba)
     }
+
+    #[inline(always)]
+    fn capsule(&self, i: usize) -> Capsule {
+        self.capsules[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn cylinder(&self, i: usize) -> Frustum {
+        self.cylinders[i].carried(&self.x_ba)
+    }
+
+    #[inline(always)]
+    fn cone(&self, i: usize) -> Frustum {
+        self.cones[i].carried(&self.x_ba)
+    }
 }
 
 /// All queries in one kernel, as the engine has all elements of a block in one.
@@ -221,6 +279,9 @@ impl<M: Movers> Kernel for Pass<'_, M> {
             Mover::Ray => self.rays(),
             Mover::Sphere => self.spheres(simd),
             Mover::Ellipsoid => self.ellipsoids(),
+            Mover::Capsule => self.capsules(),
+            Mover::Cylinder => self.cylinders(),
+            Mover::Cone => self.cones(),
         }
     }
 }
@@ -236,6 +297,9 @@ impl<M: Movers> Pass<'_, M> {
             PrimitiveKind::Ellipsoid => {
                 self.each(|i| point_ellipsoid(&m.point(i).position, &b.ellipsoids[0]));
             }
+            PrimitiveKind::Capsule => self.each(|i| ball_capsule(&ball(&m.point(i)), &b.capsules[0])),
+            Cylinder | Cone => self.each(|i| ball_frustum(&ball(&m.point(i)), &b.frusta[0])),
+            Bore => self.each(|i| deepest(ball_bore(&ball(&m.point(i)), &b.bores[0]))),
             _ => self.no_tester(),
         }
     }
@@ -246,6 +310,11 @@ impl<M: Movers> Pass<'_, M> {
         match self.kind {
             Hull => self.each(|i| deepest(line_segment_polyhedron(&m.segment(i), &b.polyhedra[0]))),
             Plane => self.each(|i| deepest(line_segment_plane(&m.segment(i), &b.planes[0]))),
+            PrimitiveKind::Capsule => {
+                self.each(|i| deepest_end(segment_capsule(&m.segment(i), &b.capsules[0])));
+            }
+            Cylinder | Cone => self.each(|i| deepest_end(segment_frustum(&m.segment(i), &b.frusta[0]))),
+            Bore => self.each(|i| deepest_in_bore(segment_bore(&m.segment(i), &b.bores[0]))),
             _ => self.no_tester(),
         }
     }
@@ -257,6 +326,9 @@ impl<M: Movers> Pass<'_, M> {
             Hull => self.each(|i| along(m.ray(i), |a| ray_polyhedron(a, &b.polyhedra[0]))),
             Triangle => self.each(|i| along(m.ray(i), |a| ray_triangle(a, &b.triangles, 0, 0.0))),
             Plane => self.each(|i| along(m.ray(i), |a| ray_plane(a, &b.planes[0]))),
+            PrimitiveKind::Capsule => self.each(|i| along(m.ray(i), |a| ray_capsule(a, &b.capsules[0]))),
+            Cylinder | Cone => self.each(|i| along(m.ray(i), |a| ray_frustum(a, &b.frusta[0]))),
+            Bore => self.each(|i| along(m.ray(i), |a| ray_bore(a, &b.bores[0]))),
             _ => self.no_tester(),
         }
     }
@@ -269,6 +341,9 @@ impl<M: Movers> Pass<'_, M> {
             Plane => self.each(|i| sphere_plane(&m.sphere(i), &b.planes[0])),
             PrimitiveKind::Sphere => self.each(|i| sphere_sphere(&m.sphere(i), &b.spheres[0])),
             Triangle => self.spheres_on_triangle(simd),
+            PrimitiveKind::Capsule => self.each(|i| ball_capsule(&m.sphere(i), &b.capsules[0])),
+            Cylinder | Cone => self.each(|i| ball_frustum(&m.sphere(i), &b.frusta[0])),
+            Bore => self.each(|i| deepest(ball_bore(&m.sphere(i), &b.bores[0]))),
             _ => self.no_tester(),
         }
     }
@@ -348,6 +423,41 @@ impl<M: Movers> Pass<'_, M> {
     }
 
     #[inline(always)]
+    fn capsules(self) {
+        let (m, b) = (self.movers, self.body);
+        match self.kind {
+            Hull => self.each(|i| capsule_on_hull(&m.capsule(i), &b.polyhedra[0])),
+            Triangle => self.each(|i| capsule_on_triangle(&m.capsule(i), b)),
+            Plane => self.each(|i| deepest(capsule_plane(&m.capsule(i), &b.planes[0]))),
+            PrimitiveKind::Capsule => {
+                self.each(|i| deepest_end(capsule_capsule(&m.capsule(i), &b.capsules[0])));
+            }
+            Cylinder | Cone => self.each(|i| deepest_end(capsule_frustum(&m.capsule(i), &b.frusta[0]))),
+            Bore => self.each(|i| deepest_in_bore(capsule_bore(&m.capsule(i), &b.bores[0]))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn cylinders(self) {
+        let (m, b) = (self.movers, self.body);
+        match self.kind {
+            Plane => self.each(|i| deepest(frustum_plane(&m.cylinder(i), &b.planes[0]))),
+            Bore => self.each(|i| deepest_in_bore(cylinder_bore(&m.cylinder(i), &b.bores[0]))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
+    fn cones(self) {
+        let (m, b) = (self.movers, self.body);
+        match self.kind {
+            Plane => self.each(|i| deepest(frustum_plane(&m.cone(i), &b.planes[0]))),
+            _ => self.no_tester(),
+        }
+    }
+
+    #[inline(always)]
     fn each<T: Into<Answer>>(self, test: impl Fn(usize) -> Option<T>) {
         for (i, answer) in self.answers.iter_mut().enumerate() {
             *answer = test(i).map(T::into).unwrap_or_default();
@@ -384,8 +494,50 @@ fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
     }
 }
 
-fn deepest(ends: [Option<Interference>; 2]) -> Option<Interference> {
-    ends.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
+/// A point is a ball of no size.
+fn ball(point: &Point) -> Sphere {
+    Sphere { center: point.position, radius: 0.0 }
+}
+
+/// The balls at the ends, and the edges that the axis crosses between them.
+fn capsule_on_hull(a: &Capsule, b: &Polyhedron) -> Option<Interference> {
+    let edges = b.edges.iter().enumerate().filter_map(|(index, edge)| {
+        let push = edge.push.as_ref()?;
+        let edge = ConvexEdge {
+            ends_b: edge.vertices.map(|vertex| b.vertices[vertex as usize].position),
+            normals_b: push.normals,
+            outwards_b: Some(push.outwards),
+            feature: Feature::edge(index),
+        };
+        capsule_edge(a, &edge)
+    });
+    deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)).chain(edges.map(Some)))
+}
+
+fn capsule_on_triangle(a: &Capsule, b: &MovableGroup) -> Option<Interference> {
+    let view = TriangleView::new(&b.triangles, 0);
+    let edges = (0..3).filter_map(|k| {
+        let (ends_b, normals_b) = (view.edge_ends(k), [view.normal; 2]);
+        capsule_edge(a, &ConvexEdge { ends_b, normals_b, outwards_b: None, feature: Feature::edge(k) })
+    });
+    let over = |ball: &Sphere| last(|emit| sphere_triangle(ball, &b.triangles, 0, ball.radius, emit));
+    deepest(balls(a).iter().map(over).chain(edges.map(Some)))
+}
+
+fn balls(a: &Capsule) -> [Sphere; 2] {
+    a.ends.map(|center| Sphere { center, radius: a.radius })
+}
+
+fn deepest(found: impl IntoIterator<Item = Option<Interference>>) -> Option<Interference> {
+    found.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
+}
+
+fn deepest_end(found: EndContacts) -> Option<Interference> {
+    deepest(found.map(|end| end.map(|contact| contact.interference)))
+}
+
+fn deepest_in_bore(found: EndsInBore) -> Option<Interference> {
+    deepest(found.into_iter().flatten())
 }
 
 /// What a test that may emit several contacts emits last.

@@ -20,6 +20,12 @@ pub const RAY: ([f64; 3], [f64; 3], f64) = ([0.0, 0.0, -1.0], [0.0, 0.0, 1.0], 2
 pub const HULLS: [usize; 3] = [8, 18, 66];
 /// Radius of the sphere that is a target, m.
 pub const TARGET_RADIUS: f64 = 0.3;
+/// Half the length of the round parts that move, which lie along z, m; their radius is [`RADIUS`], that of a cone's end 1 half.
+pub const ROUND_HALF_LENGTH: f64 = 0.15;
+/// Ends, m, on z, and radii, m, of the round parts that are targets. A cone has half the radius at its end 1.
+pub const TARGET_ROUND: ([f64; 2], f64) = ([-0.3, 0.3], 0.3);
+/// Half the length and radius of the hole that is a target, m: every mover fits in.
+pub const HOLE: (f64, f64) = (8.0, 3.0);
 /// How far below a plane the movers start from, m: less than a ray reaches above its middle.
 const BELOW_PLANE: f64 = 0.2;
 /// Depths of the hits and gaps of the misses, m.
@@ -39,6 +45,12 @@ pub enum Mover {
     Sphere,
     /// [`SEMI_AXES`]
     Ellipsoid,
+    /// [`ROUND_HALF_LENGTH`]
+    Capsule,
+    /// [`ROUND_HALF_LENGTH`]
+    Cylinder,
+    /// [`ROUND_HALF_LENGTH`]
+    Cone,
 }
 
 /// The primitive in whose frame is asked.
@@ -53,6 +65,14 @@ pub enum Target {
     Ellipsoid,
     /// The half space below z = 0.
     Plane,
+    /// [`TARGET_ROUND`]
+    Capsule,
+    /// [`TARGET_ROUND`]
+    Cylinder,
+    /// [`TARGET_ROUND`]
+    Cone,
+    /// [`HOLE`]: touched from within.
+    Bore,
 }
 
 impl Mover {
@@ -64,6 +84,9 @@ impl Mover {
             PrimitiveKind::Ray => Self::Ray,
             PrimitiveKind::Sphere => Self::Sphere,
             PrimitiveKind::Ellipsoid => Self::Ellipsoid,
+            PrimitiveKind::Capsule => Self::Capsule,
+            PrimitiveKind::Cylinder => Self::Cylinder,
+            PrimitiveKind::Cone => Self::Cone,
             _ => return None,
         })
     }
@@ -76,6 +99,9 @@ impl Mover {
             Self::Ray => PrimitiveKind::Ray,
             Self::Sphere => PrimitiveKind::Sphere,
             Self::Ellipsoid => PrimitiveKind::Ellipsoid,
+            Self::Capsule => PrimitiveKind::Capsule,
+            Self::Cylinder => PrimitiveKind::Cylinder,
+            Self::Cone => PrimitiveKind::Cone,
         }
     }
 }
@@ -91,6 +117,10 @@ impl Target {
             PrimitiveKind::Sphere => vec![Self::Sphere],
             PrimitiveKind::Ellipsoid => vec![Self::Ellipsoid],
             PrimitiveKind::Plane => vec![Self::Plane],
+            PrimitiveKind::Capsule => vec![Self::Capsule],
+            PrimitiveKind::Cylinder => vec![Self::Cylinder],
+            PrimitiveKind::Cone => vec![Self::Cone],
+            PrimitiveKind::Bore => vec![Self::Bore],
             _ => Vec::new(),
         }
     }
@@ -103,6 +133,10 @@ impl Target {
             Self::Sphere => PrimitiveKind::Sphere,
             Self::Ellipsoid => PrimitiveKind::Ellipsoid,
             Self::Plane => PrimitiveKind::Plane,
+            Self::Capsule => PrimitiveKind::Capsule,
+            Self::Cylinder => PrimitiveKind::Cylinder,
+            Self::Cone => PrimitiveKind::Cone,
+            Self::Bore => PrimitiveKind::Bore,
         }
     }
 
@@ -126,9 +160,17 @@ impl Target {
                 format!("Ellipsoid(name: \"b\", {at_origin}, semi_axes: {semi_axes})")
             }
             Self::Plane => "Plane(name: \"b\", normal: (0, 0, 1), offset: 0)".to_owned(),
+            Self::Capsule => round_model("Capsule", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
+            Self::Cylinder => round_model("Cylinder", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
+            Self::Cone => round_model("Cone", TARGET_ROUND.0, "radii", (TARGET_ROUND.1, 0.5 * TARGET_ROUND.1)),
+            Self::Bore => round_model("Bore", [-HOLE.0, HOLE.0], "radii", (HOLE.1, HOLE.1)),
         };
         ron::model("target", &primitive)
     }
+}
+
+fn round_model(kind: &str, [one, other]: [f64; 2], radius: &str, value: impl std::fmt::Debug) -> String {
+    format!("{kind}(name: \"b\", ends: ((0, 0, {one:?}), (0, 0, {other:?})), {radius}: {value:?})")
 }
 
 /// Every pair of kinds that the engine has a tester for, hulls in three sizes.
@@ -255,7 +297,11 @@ fn pose(
     };
     let middle = middle(random, target);
     let at = |along: f64| Pose { position: middle + line * along, orientation };
-    place(random, hit, at, touches)
+    match target {
+        // What is in a hole begins to touch where it goes outward.
+        Target::Bore => place(random, !hit, at, |x| !touches(x)),
+        _ => place(random, hit, at, touches),
+    }
 }
 
 /// A pose along a line on which two convex bodies, overlapping where it begins, part within 4 m: 5 to 100 mm before
@@ -289,6 +335,9 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
     if mover == Mover::Ray && one_sided && direction.z >= -0.5 {
         return None;
     }
+    if let Target::Bore = target {
+        return outward_line(mover, &direction, &line);
+    }
     match (mover, target) {
         (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
         (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
@@ -297,9 +346,16 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
     }
 }
 
+/// Across the axis of a hole; a ray leaves it ahead.
+fn outward_line(mover: Mover, direction: &Vec3, line: &Vec3) -> Option<Vec3> {
+    let across = Vec3::new(line.x, line.y, 0.0).try_normalize(0.1)?;
+    (mover != Mover::Ray || direction.dot(&across) > 0.3).then_some(across)
+}
+
 fn middle(random: &mut Random, target: &Target) -> Vec3 {
     match target {
-        Target::Hull(_) | Target::Sphere | Target::Ellipsoid => random.direction() * 0.05,
+        Target::Hull(_) | Target::Sphere | Target::Ellipsoid | Target::Bore => random.direction() * 0.05,
+        Target::Capsule | Target::Cylinder | Target::Cone => random.direction() * 0.05,
         Target::Triangle => TRIANGLE.map(Vec3::from).iter().sum::<Vec3>() / 3.0,
         Target::Plane => -BELOW_PLANE * Vec3::z(),
     }

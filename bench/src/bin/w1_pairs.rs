@@ -39,7 +39,7 @@ const fn triangle(mover: Mover, wanted: f64) -> Case {
     Case { mover, vertices: None, wanted: [None, Some(wanted)] }
 }
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 20] = [
     hull(Mover::Point, 8, Some(2.0)),
     hull(Mover::Point, 18, Some(2.0)),
     hull(Mover::Point, 66, Some(2.0)),
@@ -52,6 +52,9 @@ const CASES: [Case; 17] = [
     hull(Mover::Ellipsoid, 8, Some(0.15)),
     hull(Mover::Ellipsoid, 18, Some(0.15)),
     hull(Mover::Ellipsoid, 66, Some(0.15)),
+    hull(Mover::Capsule, 8, None),
+    hull(Mover::Capsule, 18, None),
+    hull(Mover::Capsule, 66, None),
     hull(Mover::Ray, 8, None),
     hull(Mover::Ray, 18, None),
     hull(Mover::Ray, 66, None),

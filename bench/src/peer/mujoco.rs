@@ -2,7 +2,7 @@
 
 use super::{PairPeer, Peer, pose_numbers};
 use crate::hull::Hull;
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use crate::ring::{Ring, Tip};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
@@ -159,6 +159,9 @@ impl MujocoPair {
             Mover::Sphere => format!("type=\"sphere\" size=\"{RADIUS}\""),
             Mover::Segment => format!("type=\"capsule\" size=\"{THIN} {HALF_LENGTH}\""),
             Mover::Ellipsoid => format!("type=\"ellipsoid\" size=\"{}\"", numbers(&SEMI_AXES)),
+            Mover::Capsule => format!("type=\"capsule\" size=\"{RADIUS} {ROUND_HALF_LENGTH}\""),
+            Mover::Cylinder => format!("type=\"cylinder\" size=\"{RADIUS} {ROUND_HALF_LENGTH}\""),
+            Mover::Cone => return None,
         };
         let world = format!("<geom type=\"mesh\" mesh=\"hull\"/><body>{FREE}<geom {shape}/></body>");
         let scene = Scene::load(&mesh("hull", vertices), &world);

@@ -3,7 +3,7 @@
 use super::{PairPeer, Peer, pose_numbers};
 use crate::floor::ring::planes;
 use crate::hull::{Hull, TRIANGLE};
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, Target};
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, Target};
 use crate::ring::{Ring, Tip, WEDGE_FACES};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
@@ -236,7 +236,10 @@ pub struct OdePair {
 impl OdePair {
     /// For one pair; `None` where ODE has no such primitive. Of rays against convex bodies it finds hardly any.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
-        if mover == Mover::Ellipsoid || (mover == Mover::Ray && matches!(target, Target::Hull(_))) {
+        if matches!(mover, Mover::Ellipsoid | Mover::Cylinder | Mover::Cone) {
+            return None;
+        }
+        if mover == Mover::Ray && matches!(target, Target::Hull(_)) {
             return None;
         }
         let mut scene = Scene::new(Space::SweepAndPrune);
@@ -249,7 +252,8 @@ impl OdePair {
             Mover::Sphere => scene.mover(SPHERE, RADIUS, 0.0),
             Mover::Segment => scene.mover(CAPSULE, THIN, 2.0 * HALF_LENGTH),
             Mover::Ray => scene.mover(A_RAY, 0.0, RAY.2),
-            Mover::Point | Mover::Ellipsoid => scene.mover(SPHERE, THIN, 0.0),
+            Mover::Capsule => scene.mover(CAPSULE, RADIUS, 2.0 * ROUND_HALF_LENGTH),
+            Mover::Point | Mover::Ellipsoid | Mover::Cylinder | Mover::Cone => scene.mover(SPHERE, THIN, 0.0),
         }
         Some(Self { scene, mover })
     }

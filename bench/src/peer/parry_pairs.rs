@@ -4,11 +4,11 @@ use super::PairPeer;
 use super::parry::{pose, vector};
 use crate::hull::{Hull, TRIANGLE};
 use crate::ours::Elements;
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, SEMI_AXES, Target};
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::details::{contact_convex_polyhedron_ball, contact_support_map_support_map};
 use parry3d_f64::query::{Contact, PointQuery, Ray, RayCast};
-use parry3d_f64::shape::{Ball, ConvexPolyhedron, Segment, Shape, SupportMap, Triangle};
+use parry3d_f64::shape::{Ball, Capsule, ConvexPolyhedron, Segment, Shape, SupportMap, Triangle};
 
 /// parry on one pair.
 pub struct Parry {
@@ -38,6 +38,9 @@ impl Parry {
     /// # Panics
     /// If parry refuses the hull.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
+        if matches!(mover, Mover::Cylinder | Mover::Cone) {
+            return None;
+        }
         let target = match target {
             Target::Hull(hull) => Shapes::Hull(convex(hull)),
             Target::Triangle => {
@@ -86,6 +89,11 @@ impl Parry {
                 Mover::Ellipsoid => {
                     each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
                 }
+                Mover::Capsule => {
+                    let a = Capsule::new_z(ROUND_HALF_LENGTH, RADIUS);
+                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
+                }
+                Mover::Cylinder | Mover::Cone => unreachable!("not one of W1's"),
             },
             Shapes::Triangle(b) => match self.mover {
                 Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
