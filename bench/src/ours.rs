@@ -1,20 +1,19 @@
 //! One pair per query by the testers of pong-geometry, as the engine uses them: A is carried into B's frame and tested
 //! there.
 
-use crate::pairs::{
-    Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target,
-};
+use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
 use crate::peer::PairPeer;
 use pong_geometry::extension::Extensions;
 use pong_geometry::interference::{
     Feature, Interference, ball_bore::ball_bore, ball_round::ball_capsule, ball_round::ball_frustum,
-    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, ellipsoid_plane::ellipsoid_plane, ellipsoid_polyhedron::ellipsoid_polyhedron,
-    ellipsoid_triangle::ellipsoid_triangle, line_segment_plane::line_segment_plane,
-    line_segment_polyhedron::line_segment_polyhedron, point_ellipsoid::point_ellipsoid,
-    point_plane::point_plane, point_polyhedron::point_below_face, point_polyhedron::shallowest_face,
-    point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane, ray_polyhedron::ray_polyhedron,
-    ray_round::ray_capsule, ray_round::ray_frustum, ray_triangle::ray_triangle, round_plane::capsule_plane,
-    round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    capsule_edge::ConvexEdge, capsule_edge::capsule_edge, ellipsoid_plane::ellipsoid_plane,
+    ellipsoid_polyhedron::ellipsoid_polyhedron, ellipsoid_triangle::ellipsoid_triangle,
+    line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
+    point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
+    point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane,
+    ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_frustum,
+    ray_triangle::ray_triangle, round_plane::capsule_plane, round_plane::frustum_plane,
+    sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
     sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
@@ -23,8 +22,12 @@ use pong_geometry::interference::{
     two_ended_round::capsule_capsule, two_ended_round::capsule_frustum, two_ended_round::segment_capsule,
     two_ended_round::segment_frustum,
 };
-use pong_geometry::primitive::PrimitiveKind::{self, Bore, Cone, Cylinder, Plane, Polyhedron as Hull, Triangle};
-use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere};
+use pong_geometry::primitive::PrimitiveKind::{
+    self, Bore, Cone, Cylinder, Plane, Polyhedron as Hull, Triangle,
+};
+use pong_geometry::primitive::{
+    Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere,
+};
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
 use pong_model::{Model, MovableGroup};
@@ -41,7 +44,8 @@ const SEGMENT: LineSegment =
     LineSegment { ends: [Vec3::new(0.0, 0.0, -HALF_LENGTH), Vec3::new(0.0, 0.0, HALF_LENGTH)] };
 const SPHERE: Sphere = Sphere { center: Vec3::new(0.0, 0.0, 0.0), radius: RADIUS };
 
-const ROUND_ENDS: [Vec3; 2] = [Vec3::new(0.0, 0.0, -ROUND_HALF_LENGTH), Vec3::new(0.0, 0.0, ROUND_HALF_LENGTH)];
+const ROUND_ENDS: [Vec3; 2] =
+    [Vec3::new(0.0, 0.0, -ROUND_HALF_LENGTH), Vec3::new(0.0, 0.0, ROUND_HALF_LENGTH)];
 const CAPSULE: Capsule = Capsule { ends: ROUND_ENDS, radius: RADIUS };
 
 fn cylinder() -> Frustum {

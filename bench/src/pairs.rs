@@ -162,7 +162,9 @@ impl Target {
             Self::Plane => "Plane(name: \"b\", normal: (0, 0, 1), offset: 0)".to_owned(),
             Self::Capsule => round_model("Capsule", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
             Self::Cylinder => round_model("Cylinder", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
-            Self::Cone => round_model("Cone", TARGET_ROUND.0, "radii", (TARGET_ROUND.1, 0.5 * TARGET_ROUND.1)),
+            Self::Cone => {
+                round_model("Cone", TARGET_ROUND.0, "radii", (TARGET_ROUND.1, 0.5 * TARGET_ROUND.1))
+            }
             Self::Bore => round_model("Bore", [-HOLE.0, HOLE.0], "radii", (HOLE.1, HOLE.1)),
         };
         ron::model("target", &primitive)
