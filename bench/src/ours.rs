@@ -10,8 +10,8 @@ use pong_geometry::interference::{
     ellipsoid_polyhedron::ellipsoid_polyhedron, ellipsoid_triangle::ellipsoid_triangle,
     line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
     point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
-    point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_plane::RayHit, ray_plane::ray_plane,
-    ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_frustum,
+    point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit,
+    ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_frustum,
     ray_triangle::ray_triangle, round_plane::capsule_plane, round_plane::frustum_plane,
     sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
@@ -513,8 +513,12 @@ fn capsule_on_hull(a: &Capsule, b: &Polyhedron) -> Option<Interference> {
             outwards_b: Some(push.outwards),
             feature: Feature::edge(index),
         };
-        capsule_edge(a, &edge)
+        capsule_edge(a, &edge).filter(|crossing| crossing.depth < a.radius)
     });
+    let heights = |end: usize| b.faces.iter().map(move |face| face.height(&a.ends[end]));
+    if heights(0).zip(heights(1)).any(|(one, other)| one.min(other) >= a.radius) {
+        return None;
+    }
     deepest(balls(a).iter().map(|ball| sphere_on_hull(ball, b)).chain(edges.map(Some)))
 }
 

@@ -343,6 +343,8 @@ fn usable_line(mover: Mover, target: &Target, orientation: &Quat, line: Vec3) ->
     match (mover, target) {
         (_, Target::Plane) => (upward.z > 0.5).then_some(upward),
         (Mover::Ray, _) => Some((line - direction * line.dot(&direction)).normalize()),
+        // A capsule that lies on it: beside a thin triangle one that stands has its lower end soon behind it.
+        (Mover::Capsule, Target::Triangle) => (direction.z.abs() < 0.3 && upward.z > 0.5).then_some(upward),
         (_, Target::Triangle) => Some(upward),
         _ => Some(line),
     }
