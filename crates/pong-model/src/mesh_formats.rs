@@ -3,9 +3,9 @@
 use std::io::{Cursor, Error, ErrorKind};
 use std::path::Path;
 
-/// Bytes of a binary STL file before its first triangle, and per triangle.
+/// Bytes of a binary STL file before its first triangle.
 const STL_HEAD: usize = 84;
-/// See [`STL_HEAD`].
+/// Bytes of a triangle in a binary STL file.
 pub const STL_TRIANGLE: usize = 50;
 
 /// Faces of any number of corners; materials, points and lines are left aside.
