@@ -16,14 +16,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 def main():
-    names = sorted(path.parent.name for path in HERE.glob("*/outcome.py") if path.parent.name != "kit")
+    names = sorted(path.parent.name for path in HERE.glob("*/outcome.py"))
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("name", choices=names)
     parser.add_argument("--thorough", action="store_true", help="all checks")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
     import outcome
-    from kit.outcome import show
+    from kit.rows import show
 
     off = sum(show(title, rows) for title, rows in outcome.rows(given.thorough))
     if off:

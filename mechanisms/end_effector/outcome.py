@@ -9,7 +9,7 @@ import rig_preload
 import rig_snare
 import rig_teeth
 from dimensions import LARGE_FIXTURE, Fixture, Snare, training
-from kit.outcome import Fact, Limit, Row
+from kit.rows import Fact, Limit, Row
 
 ANALYSIS, TRAINING = Snare(), training(Snare())
 HEAVY = 16000.0  # kg

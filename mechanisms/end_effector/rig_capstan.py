@@ -6,7 +6,7 @@ import models
 from dimensions import Fixture, Snare
 from kit import mjcf, ron
 from kit.machine import Machine
-from kit.outcome import Limit, Row
+from kit.rows import Limit, Row
 
 WRAPPED = 24  # links that lie on the shaft
 FREE = 3  # links at each end that do not

@@ -4,7 +4,7 @@ import math
 
 from kit import mjcf, ron
 from kit.machine import Machine
-from kit.outcome import Limit, Row
+from kit.rows import Limit, Row
 
 # The carriage's motor and screw. Chosen; real numbers are not public.
 STALL_TORQUE = 4.8  # of the carriage motor at the screw, N·m

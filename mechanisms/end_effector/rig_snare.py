@@ -6,7 +6,7 @@ from dataclasses import replace
 import snare as s
 import numpy as np
 
-from kit.outcome import Fact, Limit, Row
+from kit.rows import Fact, Limit, Row
 
 SLOW = 0.2  # rad/s of a ring that closes without a blow
 

@@ -8,7 +8,7 @@ import math
 
 from kit import mjcf, ron
 from kit.machine import Machine
-from kit.outcome import Row
+from kit.rows import Row
 
 TEETH = 12
 CIRCLE = 0.100  # pitch radius r, m; chosen
