@@ -358,9 +358,8 @@ fn outward_line(mover: Mover, direction: &Vec3, line: &Vec3) -> Option<Vec3> {
 
 fn middle(random: &mut Random, target: &Target) -> Vec3 {
     match target {
-        Target::Hull(_) | Target::Sphere | Target::Ellipsoid | Target::Bore => random.direction() * 0.05,
-        Target::Capsule | Target::Cylinder | Target::Cone => random.direction() * 0.05,
         Target::Triangle => TRIANGLE.map(Vec3::from).iter().sum::<Vec3>() / 3.0,
         Target::Plane => -BELOW_PLANE * Vec3::z(),
+        _ => random.direction() * 0.05,
     }
 }

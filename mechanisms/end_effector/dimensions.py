@@ -28,7 +28,7 @@ class Snare:
     stall_torque: float = 300.0  # of the snare motor at the ring, N·m; chosen
     snare_torque: float = 40.0  # to which its current is limited while it snares, N·m; chosen
     brake_torque: float = 600.0  # at which the ring's brake slips, N·m; chosen so that it holds the preload
-    free_speed: float = 1.2  # of the ring without load, rad/s: closes in about 2 s; chosen
+    free_speed: float = 1.2  # of the ring without load, rad/s: closes in about 1 s; chosen
     step: float = 1e-4  # s
 
 
@@ -52,7 +52,7 @@ class Fixture:
     """The grapple shaft, along −z from the payload's face: a shaft, a cone and a knob at its tip."""
 
     shaft_radius: float = 0.010  # chosen
-    shaft_length: float = 0.175  # from the payload to the cone; probe 0.2734 m in all (10.765 in)
+    shaft_length: float = 0.175  # from the payload to the cone; chosen: with cone and knob shorter than the probe's 0.2734 m
     cone_length: float = 0.012  # chosen: about 51 degrees
     knob_radius: float = 0.025  # chosen
     knob_length: float = 0.020  # chosen

@@ -3,21 +3,16 @@
 #![allow(missing_docs)]
 
 mod common;
+mod round_support;
 
 use common::{hull, random_motion};
-use pong_geometry::bounding::Bounded;
 use pong_geometry::interference::ray_plane::{RayHit, ray_contact};
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
 use pong_geometry::interference::ray_round::{ray_capsule, ray_frustum};
 use pong_geometry::primitive::{Capsule, Frustum, Ray, RayResponse};
 use pong_geometry::{Quat, Transform, Vec3};
 use pong_testkit::Random;
-
-#[derive(Clone, Copy, Debug)]
-enum Solid {
-    Capsule(Capsule),
-    Frustum(Frustum),
-}
+use round_support::Solid;
 
 impl Solid {
     fn random(random: &mut Random) -> Self {
@@ -44,31 +39,6 @@ impl Solid {
                 let (length, along) = ((b - a).norm(), (place - a).dot(&axis));
                 let aside = (place - a).cross(&axis).norm();
                 (aside - (r + (s - r) * along / length)).max(-along).max(along - length)
-            }
-        }
-    }
-
-    fn support(&self, direction: &Vec3) -> f64 {
-        match self {
-            Self::Capsule(capsule) => Bounded::support(capsule, direction),
-            Self::Frustum(frustum) => Bounded::support(frustum, direction),
-        }
-    }
-
-    fn carried(&self, x: &Transform) -> Self {
-        match self {
-            Self::Capsule(capsule) => Self::Capsule(capsule.carried(x)),
-            Self::Frustum(frustum) => Self::Frustum(frustum.carried(x)),
-        }
-    }
-
-    fn scaled(&self, factor: f64) -> Self {
-        match self {
-            Self::Capsule(Capsule { ends, radius }) => {
-                Self::Capsule(Capsule { ends: ends.map(|end| end * factor), radius: radius * factor })
-            }
-            Self::Frustum(Frustum { ends, radii, .. }) => {
-                Self::Frustum(Frustum::new(ends.map(|end| end * factor), radii.map(|r| r * factor)))
             }
         }
     }

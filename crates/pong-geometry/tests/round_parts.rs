@@ -3,6 +3,7 @@
 #![allow(missing_docs)]
 
 mod common;
+mod round_support;
 
 use common::{fibonacci_sphere, random_motion};
 use pong_geometry::bounding::Bounded;
@@ -14,13 +15,7 @@ use pong_geometry::interference::two_ended_round::{
 use pong_geometry::primitive::{Capsule, Frustum, LineSegment, Sphere};
 use pong_geometry::{Transform, Vec3};
 use pong_testkit::Random;
-
-/// A round solid of B.
-#[derive(Clone, Copy, Debug)]
-enum Solid {
-    Capsule(Capsule),
-    Frustum(Frustum),
-}
+use round_support::Solid;
 
 impl Solid {
     /// About 1 m in size, of any slenderness, anywhere near the origin.
@@ -38,20 +33,6 @@ impl Solid {
         }
     }
 
-    fn support(&self, direction: &Vec3) -> f64 {
-        match self {
-            Self::Capsule(capsule) => Bounded::support(capsule, direction),
-            Self::Frustum(frustum) => Bounded::support(frustum, direction),
-        }
-    }
-
-    fn carried(&self, x: &Transform) -> Self {
-        match self {
-            Self::Capsule(capsule) => Self::Capsule(capsule.carried(x)),
-            Self::Frustum(frustum) => Self::Frustum(frustum.carried(x)),
-        }
-    }
-
     fn swapped(&self) -> Self {
         match self {
             Self::Capsule(Capsule { ends: [a, b], radius }) => {
@@ -59,17 +40,6 @@ impl Solid {
             }
             Self::Frustum(Frustum { ends: [a, b], radii: [r, s], .. }) => {
                 Self::Frustum(Frustum::new([*b, *a], [*s, *r]))
-            }
-        }
-    }
-
-    fn scaled(&self, factor: f64) -> Self {
-        match self {
-            Self::Capsule(Capsule { ends, radius }) => {
-                Self::Capsule(Capsule { ends: ends.map(|end| end * factor), radius: radius * factor })
-            }
-            Self::Frustum(Frustum { ends, radii, .. }) => {
-                Self::Frustum(Frustum::new(ends.map(|end| end * factor), radii.map(|r| r * factor)))
             }
         }
     }

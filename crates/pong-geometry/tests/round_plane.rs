@@ -3,6 +3,7 @@
 #![allow(missing_docs)]
 
 mod common;
+mod round_support;
 
 use common::random_motion;
 use pong_geometry::bounding::Bounded;
@@ -11,14 +12,9 @@ use pong_geometry::interference::round_plane::{capsule_plane, frustum_plane};
 use pong_geometry::primitive::{Capsule, Frustum, Plane};
 use pong_geometry::{Quat, Transform, Vec3};
 use pong_testkit::Random;
+use round_support::Solid;
 
-#[derive(Clone, Copy, Debug)]
-enum Part {
-    Capsule(Capsule),
-    Frustum(Frustum),
-}
-
-impl Part {
+impl Solid {
     /// About 1 m in size, of any slenderness, near the origin.
     fn random(random: &mut Random) -> Self {
         let one = random.direction() * random.between(0.0, 0.5);
@@ -31,31 +27,6 @@ impl Part {
                 ends,
                 [radius, f64::from(random.below(3).min(1) as u32) * radius * 0.4],
             )),
-        }
-    }
-
-    fn support(&self, direction: &Vec3) -> f64 {
-        match self {
-            Self::Capsule(capsule) => Bounded::support(capsule, direction),
-            Self::Frustum(frustum) => Bounded::support(frustum, direction),
-        }
-    }
-
-    fn carried(&self, x: &Transform) -> Self {
-        match self {
-            Self::Capsule(capsule) => Self::Capsule(capsule.carried(x)),
-            Self::Frustum(frustum) => Self::Frustum(frustum.carried(x)),
-        }
-    }
-
-    fn scaled(&self, factor: f64) -> Self {
-        match self {
-            Self::Capsule(Capsule { ends, radius }) => {
-                Self::Capsule(Capsule { ends: ends.map(|end| end * factor), radius: radius * factor })
-            }
-            Self::Frustum(Frustum { ends, radii, .. }) => {
-                Self::Frustum(Frustum::new(ends.map(|end| end * factor), radii.map(|r| r * factor)))
-            }
         }
     }
 
@@ -121,7 +92,7 @@ fn the_deepest_place_is_the_least_translation() {
     let mut random = Random::new(11, 0, 0);
     let mut touching = 0;
     for _ in 0..5000 {
-        let part = Part::random(&mut random);
+        let part = Solid::random(&mut random);
         let plane = Plane { normal: random.direction(), offset: random.between(-0.7, 0.7) };
         for part in [part, part.rounded()] {
             let expected = plane.offset + part.support(&-plane.normal);
@@ -143,13 +114,13 @@ fn wrenches_derive_from_the_stored_energy() {
     let mut random = Random::new(12, 0, 0);
     let mut compared = 0;
     for case in 0..6000 {
-        let mut part = Part::random(&mut random);
+        let mut part = Solid::random(&mut random);
         let normal = random.direction();
         if case % 2 == 0 {
             // Nearly upright, where the lowest place goes round the rim.
             let radius = random.between(0.05, 0.5);
             let axis = (normal + random.direction() * 1e-3 * random.between(0.0, 1.0)).normalize();
-            part = Part::Frustum(Frustum::new([Vec3::zeros(), axis], [radius, 0.5 * radius]));
+            part = Solid::Frustum(Frustum::new([Vec3::zeros(), axis], [radius, 0.5 * radius]));
         }
         let depth = random.between(1e-3, 0.3) * if case % 4 == 0 { 1e-2 } else { 1.0 };
         let plane = Plane { normal, offset: depth - part.support(&-normal) };
@@ -178,25 +149,25 @@ fn what_stands_or_lies_carries_its_spring_and_a_rim_half_of_it() {
         let x = random_motion(&mut random, 3.0);
         let plane =
             Plane { normal: x.rotation * Vec3::z(), offset: (x.rotation * Vec3::z()).dot(&x.translation) };
-        let check = |part: Part, force: f64, place: Vec3, what: &str| {
+        let check = |part: Solid, force: f64, place: Vec3, what: &str| {
             let (found, moment) = wrench(&part.carried(&x).touch(&plane), &x.point(&place));
             assert!((found - plane.normal * (force * depth)).norm() < 1e-14, "{what}: {found}");
             assert!(moment.norm() < 1e-14, "{what}: {moment}");
         };
         let ends = [Vec3::new(0.0, 0.0, 0.3 - depth), Vec3::new(0.8, 0.0, 0.3 - depth)];
         let middle = Vec3::new(0.4, 0.0, 0.0);
-        check(Part::Capsule(Capsule { ends, radius: 0.3 }), 1.0, middle, "capsule lies");
-        check(Part::Frustum(Frustum::new(ends, [0.3; 2])), 1.0, middle, "cylinder lies");
+        check(Solid::Capsule(Capsule { ends, radius: 0.3 }), 1.0, middle, "capsule lies");
+        check(Solid::Frustum(Frustum::new(ends, [0.3; 2])), 1.0, middle, "cylinder lies");
         let stands = standing([0.3, 0.1], -depth);
-        check(Part::Frustum(stands), 1.0, stands.ends[0], "stands");
+        check(Solid::Frustum(stands), 1.0, stands.ends[0], "stands");
         let on_tip = standing([0.0, 0.2], -depth);
-        check(Part::Frustum(on_tip), 0.5, on_tip.ends[0], "on its tip");
+        check(Solid::Frustum(on_tip), 0.5, on_tip.ends[0], "on its tip");
         let leaning = Quat::from_scaled_axis(Vec3::y() * 0.4) * Vec3::z();
         let rim = Vec3::new(leaning.z, 0.0, -leaning.x) * 0.2;
         let leans = [Vec3::z() * (-depth - rim.z), Vec3::z() * (-depth - rim.z) + leaning];
-        check(Part::Frustum(Frustum::new(leans, [0.2; 2])), 0.5, rim, "on its rim");
+        check(Solid::Frustum(Frustum::new(leans, [0.2; 2])), 0.5, rim, "on its rim");
         let ball = [Vec3::z() * (0.2 - depth), Vec3::z() * (0.2 - depth) + leaning];
-        check(Part::Capsule(Capsule { ends: ball, radius: 0.2 }), 0.5, Vec3::zeros(), "on its ball");
+        check(Solid::Capsule(Capsule { ends: ball, radius: 0.2 }), 0.5, Vec3::zeros(), "on its ball");
         // A cone on its side: the wall touches along a line from the rim to the tip.
         let cone = Frustum::new([Vec3::zeros(), Vec3::x()], [0.5, 0.0]);
         let wall = Vec3::new(cone.wall[0], 0.0, -cone.wall[1]);
@@ -205,7 +176,7 @@ fn what_stands_or_lies_carries_its_spring_and_a_rim_half_of_it() {
         let lowest = -Bounded::support(&cone.carried(&lying), &-Vec3::z());
         let lying = Transform { translation: -Vec3::z() * (lowest + depth), ..lying };
         let line = [Vec3::new(0.0, 0.0, -0.5), Vec3::x()].map(|place| lying.point(&place));
-        check(Part::Frustum(cone.carried(&lying)), 1.0, 0.5 * (line[0] + line[1]), "cone lies");
+        check(Solid::Frustum(cone.carried(&lying)), 1.0, 0.5 * (line[0] + line[1]), "cone lies");
     }
 }
 
@@ -227,7 +198,7 @@ fn parts_tilt_through_upright_without_a_jump() {
             let mut last: Option<(Vec3, Vec3)> = None;
             for step in -500..=500 {
                 let x = turned(tilt(STEP * f64::from(step)), &about);
-                let (force, moment) = wrench(&Part::Frustum(part.carried(&x)).touch(&floor()), &about);
+                let (force, moment) = wrench(&Solid::Frustum(part.carried(&x)).touch(&floor()), &about);
                 if let Some((earlier, earlier_moment)) = last {
                     let jump = (force - earlier).norm() / depth
                         + (moment - earlier_moment).norm() / (depth * radius);
@@ -240,7 +211,7 @@ fn parts_tilt_through_upright_without_a_jump() {
         for _ in 0..200 {
             let spin = random.direction().cross(&Vec3::z()).normalize() * random.between(1e-12, 1e-4);
             let (_, moment) =
-                wrench(&Part::Frustum(part.carried(&turned(spin, &about))).touch(&floor()), &about);
+                wrench(&Solid::Frustum(part.carried(&turned(spin, &about))).touch(&floor()), &about);
             let expected = spin * (-radius * radius);
             let off = (moment - expected).norm();
             assert!(off < 1e-7 * expected.norm() + 1e-16, "{off:e} {spin}");
@@ -252,24 +223,24 @@ fn parts_tilt_through_upright_without_a_jump() {
 fn turning_about_its_own_axis_and_naming_its_ends_changes_nothing() {
     let mut random = Random::new(15, 0, 0);
     for case in 0..3000 {
-        let part = Part::random(&mut random);
+        let part = Solid::random(&mut random);
         let [one, other] = part.ends();
         let axis = (other - one).normalize();
         // Standing upright, too, and lying.
         let normal = [random.direction(), axis, axis.cross(&random.direction()).normalize()][case % 3];
         let plane = Plane { normal, offset: random.between(0.0, 0.1) - part.support(&-normal) };
         let (force, moment) = wrench(&part.touch(&plane), &one);
-        let close = |other: &Part, what: &str| {
+        let close = |other: &Solid, what: &str| {
             let (f, m) = wrench(&other.touch(&plane), &one);
             assert!((f - force).norm() + (m - moment).norm() < 1e-12, "{what}: {part:?}");
         };
         close(&part.carried(&turned(axis * random.between(0.0, 6.0), &one)), "turned");
         let swapped = match part {
-            Part::Capsule(Capsule { ends: [a, b], radius }) => {
-                Part::Capsule(Capsule { ends: [b, a], radius })
+            Solid::Capsule(Capsule { ends: [a, b], radius }) => {
+                Solid::Capsule(Capsule { ends: [b, a], radius })
             }
-            Part::Frustum(Frustum { ends: [a, b], radii: [r, s], .. }) => {
-                Part::Frustum(Frustum::new([b, a], [s, r]))
+            Solid::Frustum(Frustum { ends: [a, b], radii: [r, s], .. }) => {
+                Solid::Frustum(Frustum::new([b, a], [s, r]))
             }
         };
         close(&swapped, "ends exchanged");
@@ -280,7 +251,7 @@ fn turning_about_its_own_axis_and_naming_its_ends_changes_nothing() {
 fn no_pose_and_no_scale_changes_anything() {
     let mut random = Random::new(16, 0, 0);
     for _ in 0..2000 {
-        let part = Part::random(&mut random);
+        let part = Solid::random(&mut random);
         let normal = random.direction();
         let plane = Plane { normal, offset: random.between(0.0, 0.1) - part.support(&-normal) };
         let about = part.ends()[0];
