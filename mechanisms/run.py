@@ -3,9 +3,10 @@
 
     python3 mechanisms/run.py NAME              the short checks
     python3 mechanisms/run.py NAME --thorough   all of them: minutes
+    python3 mechanisms/run.py NAME --log DIR    a response log of the scene that the mechanism shows
 
-Needs mujoco, numpy and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or the wheel pong_mujoco.
-`bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
+Needs mujoco, numpy and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or the wheel pong_mujoco; for
+logs the wheel pong, too. `bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
 """
 
 import argparse
@@ -13,6 +14,7 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
+ROWS_PER_SECOND = 50  # of a log
 
 
 def main():
@@ -20,15 +22,39 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("name", choices=names)
     parser.add_argument("--thorough", action="store_true", help="all checks")
+    parser.add_argument(
+        "--log", type=pathlib.Path, metavar="DIR", help="writes a response log, and checks nothing else"
+    )
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
     import outcome
+
+    if given.log:
+        if not hasattr(outcome, "shown"):
+            parser.error(f"{given.name} has no scene to show: its outcome.py lacks the function `shown`")
+        sys.exit(write_log(outcome, given.log))
     from kit.rows import show
 
     off = sum(show(title, rows) for title, rows in outcome.rows(given.thorough))
     if off:
         sys.exit(f"{given.name}: {off} of its checks do not hold")
     print(f"{given.name}: all checks hold")
+
+
+def write_log(outcome, folder):
+    """Runs the scene that the mechanism shows. The log's own contact world must come to the same wrenches."""
+    from kit.record import Recorder
+
+    recorders = []
+
+    def prepare(machine):
+        recorders.append(Recorder(machine, folder, round(1.0 / (ROWS_PER_SECOND * machine.step))))
+        machine.watchers.append(recorders[0])
+
+    outcome.shown(prepare)
+    (recorder,) = recorders
+    print(f"{folder}: {recorder.close()} rows; wrenches differ from the plugin's by {recorder.off:.1e} at most")
+    return 0 if recorder.off <= 1e-9 else "the log does not show what the plugin computed"
 
 
 if __name__ == "__main__":

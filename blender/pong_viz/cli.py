@@ -7,6 +7,7 @@ Exit codes: 0 done, 1 it cannot be shown or written, 2 wrong usage.
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from pathlib import Path
 
@@ -54,6 +55,8 @@ def _add_what_is_shown(parser) -> None:
     parser.add_argument("--arrow", type=float, default=0.0, metavar="M", help="length of the largest force, m")
     parser.add_argument("--most-contacts", type=int, default=64, metavar="N", help="shown at once; default 64")
     parser.add_argument("--alpha", type=float, default=0.55, help="opacity of bodies, 0 to 1; default 0.55")
+    parser.add_argument("--look-from", type=_direction, metavar="X,Y,Z",
+                        help="where the camera stands, seen from what it looks at; default 1,-1.5,0.75")
     parser.add_argument("--own-camera", action="store_true", help="camera and lights of the graphics; none are added")
 
 
@@ -71,6 +74,16 @@ def _size(text: str) -> tuple[int, int]:
     if not (width.isdigit() and height.isdigit() and int(width) >= 4 and int(height) >= 4):
         raise argparse.ArgumentTypeError(f"{text}: give width x height in pixels, such as 1280x720")
     return int(width), int(height)
+
+
+def _direction(text: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+        if not 0.0 < math.hypot(x, y, z) < math.inf:
+            raise ValueError
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text}: give a direction as X,Y,Z, such as 1,-1.5,0.75") from None
+    return x, y, z
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -123,6 +136,7 @@ def _start(bpy, given) -> None:
 
 
 def _show(log, given):
+    from . import camera
     from .render import Picture, prepare
     from .scene import Options, show
     import bpy
@@ -131,7 +145,7 @@ def _show(log, given):
     return show(log, Options(
         fps=given.fps, speed=given.speed, start=given.start, end=given.end, relative_to=given.relative_to,
         arrow_length=given.arrow, most_contacts=given.most_contacts, alpha=given.alpha, shapes=given.shapes,
-        graphics=dict(given.map), camera=not given.own_camera,
+        graphics=dict(given.map), camera=not given.own_camera, look_from=given.look_from or camera.DIRECTION,
     ))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from . import captions, shapes
 from .animate import is_ours
 from .bodies import show_bodies
-from .camera import frame_camera
+from .camera import DIRECTION, frame_camera
 from .contacts import show_contacts
 from .log import Log
 from .timeline import Film, View, film, travel, view
@@ -32,6 +32,7 @@ class Options:
     shapes: str = "missing"  # draw the models' primitives: one of SHAPES
     graphics: dict[str, str] = field(default_factory=dict)  # body -> object of the scene that moves with it
     camera: bool = True
+    look_from: tuple[float, float, float] = DIRECTION  # from what is looked at to the camera
 
 
 # Of all bodies; of those without graphics; as before, and of the others what touches, while it does; of none.
@@ -93,7 +94,8 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     scene.frame_set(1)
     if options.camera:
         points = np.concatenate([slots.points[slots.shown], slots.tips(shown.metres_per_newton)])
-        frame_camera(scene, stage.collection, list(shown.objects.values()), points / stage.unit, extent / stage.unit)
+        frame_camera(scene, stage.collection, list(shown.objects.values()), points / stage.unit, extent / stage.unit,
+                     options.look_from)
     return shown
 
 

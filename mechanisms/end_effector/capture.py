@@ -186,9 +186,11 @@ class Result:
     machine: Machine
 
 
-def run(case, until="done", watch=None):
-    """`watch(machine, sequencer)` sees every step."""
+def run(case, until="done", watch=None, prepare=None):
+    """`watch(machine, sequencer)` sees every step, `prepare(machine)` what it begins with."""
     made, sequencer = machine(case), Sequencer(case.snare)
+    if prepare is not None:
+        prepare(made)
     pressed = 0.0
     while sequencer.phase != until:
         made.advance(sequencer)

@@ -52,7 +52,9 @@ class Fixture:
     """The grapple shaft, along −z from the payload's face: a shaft, a cone and a knob at its tip."""
 
     shaft_radius: float = 0.010  # chosen
-    shaft_length: float = 0.175  # from the payload to the cone; chosen: with cone and knob shorter than the probe's 0.2734 m
+    shaft_length: float = (
+        0.175  # from the payload to the cone; chosen: with cone and knob shorter than the probe's 0.2734 m
+    )
     cone_length: float = 0.012  # chosen: about 51 degrees
     knob_radius: float = 0.025  # chosen
     knob_length: float = 0.020  # chosen

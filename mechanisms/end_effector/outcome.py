@@ -101,6 +101,11 @@ def mapped():
     yield Fact("an offset beyond the ring is not", not any(yes for o, r, yes in found if o > 0.11 and r == 0.0))
 
 
+def shown(prepare):
+    """For logs and films: `prepare` sees the machine before it moves."""
+    capture.run(capture.Case(snare=TRAINING), prepare=prepare)
+
+
 def rows(thorough):
     yield "level training", trained()
     yield "preload and joint", rig_preload.rows()

@@ -26,10 +26,12 @@ class Machine:
     """`mjcf`: text of a model with one instance of pong.contact, whose sensor is called `contact`.
 
     `carriers`: names of the bodies that carry the movable groups, in the order of the sensor (docs/mujoco.md).
+    `watchers`: functions that see the machine after each step, such as a `kit.record.Recorder`.
     """
 
     def __init__(self, mjcf, carriers):
         load_plugin()
+        self.text, self.watchers = mjcf, []
         self.model = mujoco.MjModel.from_xml_string(mjcf)
         self.data = mujoco.MjData(self.model)
         self.carriers = [self.model.body(name).id for name in carriers]
@@ -45,6 +47,10 @@ class Machine:
         self.ledger = Ledger(self.model, self.data)
 
     @property
+    def name(self):
+        return self.model.names[: self.model.names.index(b"\0")].decode()
+
+    @property
     def time(self):
         return self.data.time
 
@@ -58,6 +64,8 @@ class Machine:
         mujoco.mj_forward(self.model, self.data)
         self.ledger.add(self.step)
         self._look()
+        for watch in self.watchers:
+            watch(self)
 
     def run(self, seconds, control=None, watch=None):
         """Steps for so long, or until `watch(machine)` is true; answers whether it was."""

@@ -16,7 +16,9 @@ DEPTH = 0.100  # of the hole, m
 FRICTION = 0.2
 STIFFNESS = 2e6  # N/m of peg on wall
 DAMPING = 200.0  # N·s/m
-SLID = 5e-3  # m: a peg that slides goes further in the time that it is given; one that jams may still tilt on its springs
+SLID = (
+    5e-3  # m: a peg that slides goes further in the time that it is given; one that jams may still tilt on its springs
+)
 MASS = 1.0  # kg, all in the middle of the tip, so that loads are given there
 
 

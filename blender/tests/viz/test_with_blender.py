@@ -274,6 +274,13 @@ class Renders(WithScene):
             self.assertEqual(len(list(frames.iterdir())), count)
         self.assertEqual(tuple(bpy.data.movieclips.load(str(film)).size), (66, 38))
 
+    def test_the_camera_stands_where_it_is_told(self):
+        made, away = self.folder / "made.blend", np.array([-2.0, 1.0, 0.5])
+        self.assertEqual(main([str(self.log_folder), "--look-from=-2,1,0.5", "--blend", str(made)]), 0)
+        bpy.ops.wm.open_mainfile(filepath=str(made))
+        looks = -np.array(bpy.context.scene.camera.matrix_world)[:3, 2]
+        np.testing.assert_allclose(looks, -away / np.linalg.norm(away), atol=1e-6)
+
     def test_a_place_that_cannot_be_written_is_told(self):
         (self.folder / "file").write_text("")
         for words in (["-o", "nowhere/film.mp4"], ["--still", "nowhere/x.png"], ["--frames", "file"], ["--blend", "nowhere/a.blend"]):
@@ -288,7 +295,7 @@ class Renders(WithScene):
         for code, words in ((1, [str(self.folder)]), (1, [log, "--from", "5"]), (1, [log, "--from", "nan"]),
                             (1, [log, "--relative-to", "moon"]), (1, [log, "--own-camera"]), (1, [log, "--map", "moon=x"]),
                             (2, [log, "--size", "big"]), (2, [log, "--speed", "nan"]), (2, [log, "--map", "ball"]),
-                            (2, [log, "-o", "film.avi"])):
+                            (2, [log, "-o", "film.avi"]), (2, [log, "--look-from", "0,0,0"])):
             with self.subTest(words), redirect_stderr(io.StringIO()) as told:
                 self.assertEqual(main([*words, "--still", str(still)]), code)
                 self.assertIn("pong_viz: ", told.getvalue())

@@ -1,0 +1,105 @@
+"""A response log (docs/response_logs.md) of what MuJoCo moves and Pong touches: for films, viewers and `pong trade`.
+
+A contact world in the wheel `pong` writes it. That world has the Objects and pairs of the plugin's instance, gets the
+states of the bodies after each step of MuJoCo, and must come to the wrenches of the plugin's sensor.
+"""
+
+import pathlib
+import xml.etree.ElementTree as xml
+
+import mujoco
+import numpy as np
+
+STATE = 13  # position, quaternion, velocity of the origin, angular velocity
+SENSED_BEFORE_WRENCHES = 3
+UNTURNED = (1.0, 0.0, 0.0, 0.0)
+
+
+class Recorder:
+    """Sees every step of a `Machine` (its `watchers`); each `every`-th is a row of the log.
+
+    `off` is the greatest difference between wrenches of this world and of the plugin, over the greatest force or moment.
+    """
+
+    def __init__(self, machine, folder, every=1):
+        keys = _keys(machine.text)
+        self.world = _world(keys)
+        self.machine, self.every, self.steps, self.off = machine, every, 0, 0.0
+        self.bodies = [_body(machine.model, keys, _group(made.name)) for made in self.world.interfaces]
+        self.states = np.zeros((len(self.bodies), STATE))
+        self._move()
+        self.world.evaluate()
+        # Made first: the writer makes a folder, but not those above it.
+        pathlib.Path(folder).parent.mkdir(parents=True, exist_ok=True)
+        self.world.start_log(folder, name=machine.name, step=machine.step, commits_per_frame=every, overwrite=True)
+        self.world.log_frame(machine.time)
+
+    def __call__(self, machine):
+        self._move()
+        self.world.step()
+        self._compare()
+        self.steps += 1
+        if self.steps % self.every == 0:
+            self.world.log_frame(machine.time)
+
+    def close(self):
+        """Answers how many rows were written."""
+        return self.world.stop_log()
+
+    def _move(self):
+        model, data, velocity = self.machine.model, self.machine.data, np.empty(6)
+        for state, body in zip(self.states, self.bodies):
+            mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_XBODY, body, velocity, 0)
+            state[:3], state[3:7] = data.xpos[body], data.xquat[body]
+            state[7:10], state[10:] = velocity[3:], velocity[:3]
+        self.world.set_states(self.states)
+
+    def _compare(self):
+        machine = self.machine
+        sensed = machine.data.sensordata[machine.sensed][SENSED_BEFORE_WRENCHES:].reshape(-1, 6)
+        greatest = np.abs(sensed).max(initial=0.0)
+        if greatest > 0.0:
+            self.off = max(self.off, float(np.abs(self.world.wrenches() - sensed).max() / greatest))
+
+
+def _keys(text):
+    """Of the instance of pong.contact in a text of MJCF."""
+    return {config.get("key"): config.get("value") for config in xml.fromstring(text).iterfind(".//instance/config")}
+
+
+def _entries(keys, key, between):
+    """The parts of each entry of a key, as docs/mujoco.md writes them."""
+    entries = (entry.strip() for entry in keys.get(key, "").split(";"))
+    return [tuple(part.strip() for part in entry.split(between)) for entry in entries if entry]
+
+
+def _world(keys):
+    import pong
+
+    builder = pong.WorldBuilder(contact_capacity=int(keys.get("contact_capacity", 64)))
+    models = {}
+    objects = _entries(keys, "objects", "=")
+    for name, model in objects:
+        if model not in models:
+            models[model] = builder.add_model(_model(pong, keys, model))
+        builder.create_object(models[model], name)
+    for a, b in _entries(keys, "pairs", ",") or [tuple(name for name, _ in objects)]:
+        builder.pair(a, b)
+    return builder.seal()
+
+
+def _model(pong, keys, name):
+    return pong.Model.parse(keys[name]) if name in keys else pathlib.Path(keys.get("dir", ".")) / name
+
+
+def _group(interface):
+    """As the plugin names it: an Interface OBJECT/ROOT/PATH is the group OBJECT/PATH, and OBJECT/ROOT is OBJECT."""
+    name, _, *path = interface.split("/")
+    return "/".join([name, *path])
+
+
+def _body(model, keys, group):
+    """The number of the body that carries a group: that of the key `bodies`, or the one with the group's name."""
+    carriers = dict(_entries(keys, "bodies", "="))
+    name = carriers.get(group, group)
+    return 0 if name == "world" else model.body(keys.get("prefix", "") + name).id
