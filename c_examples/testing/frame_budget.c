@@ -1,15 +1,19 @@
-/* The frame budget: the docking of docking.c at 1 kHz through the C interface, alone and with one worker, as fast as it
- * goes and paced by the clock.
+/* The frame budget: a stretch of a run (frame_budget_replay.h) again and again through the C interface, so that the time of
+ * the engine's frame alone is measured. ci/frame_budget records the stretches and runs this program.
  *
- *     frame_budget [--seconds S] [--models FOLDER]
+ *     frame_budget MOTION [--workers N] [--paced S]
  *
- * Percentiles and missed deadlines are printed and decide nothing: on a machine that others use they tell more of the
- * others. What noise cannot move decides: a frame that asks for memory makes the program fail, and the last line is the
- * least time of a step over the least time of a fixed loop, measured in turns, for ci/frame_budget to compare.
+ * With --paced the frames first keep the clock at 1 kHz for so long. Percentiles and missed deadlines are printed and decide
+ * nothing: on a machine that others use they tell more of the others. What noise cannot move decides: a frame that asks for
+ * memory makes the program fail, and the last line is the ratio of least times that ci/frame_budget compares.
+ *
+ * Exit code: 0, 1 if a frame asked for memory, 2 for a wrong option or file, 3 if engine or system refused a call, 4 if
+ * there is no core for a worker.
  */
 #define _GNU_SOURCE
 #include "docking_scene.h"
 #include "docking_timing.h"
+#include "frame_budget_replay.h"
 #include "sealed_frames_counter.h"
 
 #include <sched.h>
@@ -18,39 +22,11 @@
 #include <string.h>
 
 #define FRAME_NS 1000000L
-#define FRAME_S 1e-3
 /* Long enough for a sleeping worker to be up, short against a frame. */
 #define PREWAKE_NS 100000L
-
-typedef struct {
-    const char *models;
-    double seconds;
-} options;
-
-/* One scene, one way to run it. */
-typedef struct {
-    contact_scene scene;
-    docking d;
-    docking most; /* as it was when there were most contacts */
-    size_t most_contacts;
-    durations step, frame;
-    size_t misses;
-    unsigned long memory_calls;
-} budget;
-
-static void begin(budget *b, const options *o, uint32_t workers)
-{
-    pong_config config = pong_default_config();
-    docking_case c;
-    memset(b, 0, sizeof *b);
-    config.workers = workers;
-    config.pin_workers = workers > 0;
-    docking_defaults(&b->d);
-    open_scene(&b->scene, &config, o->models, &b->d);
-    find_case("slow,y+,roll+,pitch+", &c);
-    approach(&b->d, &c, first_contact_gap(&b->scene, &b->d, &c) + 0.002, 1);
-    b->most = b->d;
-}
+/* Long against a frame: a worker that has woken up is there for the next frames. */
+#define AWAKE_US 1000
+#define PRIORITY 20
 
 /* The first core of the mask is the caller's; the workers take those behind it. */
 static void bind_to_first_core(void)
@@ -70,75 +46,62 @@ static void bind_to_first_core(void)
     }
 }
 
+/* So that other programs do not keep a worker from its core for the whole measurement. Where it is refused, the run is told to
+ * be without it. After the seal: what a thread starts inherits its priority. */
+static void ask_for_priority(void)
+{
+    struct sched_param p;
+    memset(&p, 0, sizeof p);
+    p.sched_priority = PRIORITY;
+    if (sched_setscheduler(0, SCHED_FIFO, &p) != 0) {
+        printf("  SCHED_FIFO refused\n");
+    }
+}
+
+static unsigned long memory_calls(void) { return allocations() + frees(); }
+
+/* --- paced ---------------------------------------------------------------------------------------------------------- */
+
 /* Until shortly before the frame, then awake: that is what a worker that does not sleep is for. */
-static void wait_for(budget *b, long long release)
+static void wait_for(replay *r, long long release)
 {
     sleep_until(release - PREWAKE_NS);
-    CHECK(pong_prewake(b->scene.world, 2 * PREWAKE_NS / 1000));
+    CHECK(pong_prewake(r->world, 2 * PREWAKE_NS / 1000));
     while (now_ns() < release) {
     }
 }
 
-static void one_frame(budget *b, long long release)
+/* Frames released by the clock; the deadline of each is the release of the next. Returns its calls for memory. */
+static unsigned long run_paced(replay *r, double seconds)
 {
-    contact_wrenches contact;
-    size_t contacts;
-    docking before = b->d;
-    long long start = now_ns(), stepping, stepped, end;
-    send_states(&b->scene, &b->d);
-    stepping = now_ns();
-    CHECK(pong_step(b->scene.world));
-    stepped = now_ns();
-    contact = fetch_wrenches(&b->scene);
-    docking_step(&b->d, &contact, FRAME_S);
-    end = now_ns();
-    note(&b->step, stepped - stepping);
-    note(&b->frame, end - start);
-    b->misses += end - (release == 0 ? start : release) > FRAME_NS;
-    CHECK(pong_contact_count(b->scene.world, &contacts));
-    if (contacts > b->most_contacts) {
-        b->most_contacts = contacts;
-        b->most = before;
-    }
-}
-
-static void run(budget *b, const options *o, int paced)
-{
-    long frames = (long)(o->seconds / FRAME_S + 0.5), n;
-    long long release = now_ns();
-    unsigned long before;
-    b->step = make_durations((size_t)frames);
-    b->frame = make_durations((size_t)frames);
-    before = allocations() + frees();
-    for (n = 0; n < frames; n++) {
-        release += FRAME_NS;
-        if (paced) {
-            wait_for(b, release);
+    size_t frames = (size_t)(seconds * 1e9 / FRAME_NS + 0.5), n, missed = 0;
+    durations took = make_durations(frames);
+    unsigned long before = memory_calls(), calls;
+    long long release = now_ns() + FRAME_NS;
+    for (n = 0; n < frames; n++, release += FRAME_NS) {
+        long long start, end;
+        size_t frame = n % r->frames;
+        wait_for(r, release);
+        start = now_ns();
+        if (frame == 0) {
+            rewind_replay(r);
         }
-        one_frame(b, paced ? release : 0);
+        replay_frame(r, frame);
+        end = now_ns();
+        note(&took, end - start);
+        missed += end - release > FRAME_NS;
     }
-    b->memory_calls = allocations() + frees() - before;
+    calls = memory_calls() - before;
+    printf("  paced at 1 kHz: %u frames, %u past their deadline\n", (unsigned)frames, (unsigned)missed);
+    print_durations("frame", &took);
+    free(took.us);
+    return calls;
 }
 
-static void print_run(budget *b, uint32_t workers, int paced)
-{
-    const char *text;
-    pong_worker worker;
-    printf("%u workers, %s: %u frames, %u past their deadline, at most %u contacts, %lu calls for memory\n",
-           (unsigned)workers, paced ? "paced at 1 kHz" : "as fast as it goes", (unsigned)b->frame.count,
-           (unsigned)b->misses, (unsigned)b->most_contacts, b->memory_calls);
-    if (workers > 0) {
-        CHECK(pong_worker_text(b->scene.world, 1, &text));
-        CHECK(pong_get_worker(b->scene.world, 1, &worker));
-        printf("  %s; %u blocks in the last shared round\n", text, (unsigned)worker.blocks);
-    }
-    print_durations("pong_step", &b->step);
-    print_durations("whole frame", &b->frame);
-}
+/* --- the ratio ------------------------------------------------------------------------------------------------------ */
 
-/* --- the ratio -------------------------------------------------------------------------------------------------------- */
-
-enum { POINTS = 1024, PLANES = 16, ROUNDS = 2000, DOCKING_FRAMES = 3000 };
+enum { POINTS = 1024, PLANES = 16, LEAST_ROUNDS = 40 };
+#define LEAST_NS 2000000000LL
 
 static double points[POINTS][3], planes[PLANES][4];
 
@@ -157,8 +120,9 @@ static void lay_out_reference(void)
     }
 }
 
-/* Heights of points over planes, the highest of each: the kind of work that a step does, out of the cache. */
-static double reference(void)
+/* Heights of points over planes, the highest of each: the kind of work that a frame does, out of the cache. On its own and
+ * aligned, so that its time does not depend on what stands around it. */
+__attribute__((noinline, aligned(64))) static double reference(void)
 {
     double sum = 0.0;
     int i, k;
@@ -174,97 +138,145 @@ static double reference(void)
     return sum;
 }
 
-/* The same frame over and over, the one with most contacts of the first 3 s: all that varies is the machine. */
-static double ratio_of_minima(const options *o, uint32_t workers)
+typedef struct {
+    long long *of_frame, *of_reference;
+    double frames_us, references_us;
+    unsigned long frames, shared; /* in how many of the frames a worker did a part */
+} least_times;
+
+static int worker_took_part(const replay *r)
 {
-    budget b;
-    long long least_step = FRAME_NS * 1000LL, least_reference = FRAME_NS * 1000LL;
-    double sum = 0.0;
-    int round;
-    begin(&b, o, workers);
-    bind_to_first_core();
-    for (round = 0; round < DOCKING_FRAMES; round++) {
-        one_frame(&b, 0);
-    }
-    lay_out_reference();
-    send_states(&b.scene, &b.most);
-    for (round = 0; round < ROUNDS; round++) {
-        long long start = now_ns(), middle, end;
-        sum += reference();
-        middle = now_ns();
-        CHECK(pong_step(b.scene.world));
-        end = now_ns();
-        least_reference = middle - start < least_reference ? middle - start : least_reference;
-        least_step = end - middle < least_step ? end - middle : least_step;
-    }
-    printf("  with %u contacts: least pong_step %.1f us, least reference loop %.1f us (sum %.6g)\n",
-           (unsigned)b.most_contacts, (double)least_step * 1e-3, (double)least_reference * 1e-3, sum);
-    CHECK(pong_destroy_world(b.scene.world));
-    return (double)least_step / (double)least_reference;
+    pong_worker worker;
+    return r->workers > 0 && pong_get_worker(r->world, 1, &worker) == PONG_STATUS_OK && worker.blocks > 0;
 }
 
-/* --- main ------------------------------------------------------------------------------------------------------------- */
+static long long lesser(long long known, long long now) { return known == 0 || now < known ? now : known; }
 
-/* Returns how many calls for memory the frames made. */
-static unsigned long measure(const options *o, uint32_t workers, double *ratio)
+/* The stretch over and over, a reference loop before each frame. What is left of a frame in the round in which nobody
+ * disturbed it is its least time; the ratio is that of the sums of least times, so every frame of the stretch counts. */
+static unsigned long measure_ratio(replay *r, least_times *least)
 {
-    cpu_set_t mask;
-    unsigned long memory_calls = 0;
-    int paced;
-    sched_getaffinity(0, sizeof mask, &mask);
-    *ratio = 0.0;
-    for (paced = 0; paced < 2; paced++) {
-        budget b;
-        size_t started;
-        begin(&b, o, workers);
-        CHECK(pong_worker_count(b.scene.world, &started));
-        if (started < workers) {
-            printf("%u workers: left out, there is no core for them\n", (unsigned)workers);
-            CHECK(pong_destroy_world(b.scene.world));
-            return memory_calls;
-        }
-        bind_to_first_core();
-        run(&b, o, paced);
-        print_run(&b, workers, paced);
-        memory_calls += b.memory_calls;
-        CHECK(pong_destroy_world(b.scene.world));
-        sched_setaffinity(0, sizeof mask, &mask);
-        free(b.step.us);
-        free(b.frame.us);
+    size_t frame;
+    int round;
+    long long began;
+    double sum = 0.0;
+    durations took = make_durations(r->frames * LEAST_ROUNDS);
+    unsigned long before, calls;
+    memset(least, 0, sizeof *least);
+    least->of_frame = calloc(r->frames, sizeof *least->of_frame);
+    least->of_reference = calloc(r->frames, sizeof *least->of_reference);
+    if (least->of_frame == NULL || least->of_reference == NULL) {
+        fprintf(stderr, "out of memory\n");
+        exit(3);
     }
-    *ratio = ratio_of_minima(o, workers);
-    sched_setaffinity(0, sizeof mask, &mask);
-    return memory_calls;
+    lay_out_reference();
+    before = memory_calls();
+    began = now_ns();
+    for (round = 0; round < LEAST_ROUNDS || now_ns() - began < LEAST_NS; round++) {
+        rewind_replay(r);
+        for (frame = 0; frame < r->frames; frame++) {
+            long long start, middle, end;
+            CHECK(pong_prewake(r->world, AWAKE_US));
+            start = now_ns();
+            sum += reference();
+            middle = now_ns();
+            replay_frame(r, frame);
+            end = now_ns();
+            note(&took, end - middle);
+            least->of_reference[frame] = lesser(least->of_reference[frame], middle - start);
+            least->of_frame[frame] = lesser(least->of_frame[frame], end - middle);
+            least->frames += 1;
+            least->shared += worker_took_part(r);
+        }
+    }
+    calls = memory_calls() - before;
+    for (frame = 0; frame < r->frames; frame++) {
+        least->frames_us += (double)least->of_frame[frame] * 1e-3;
+        least->references_us += (double)least->of_reference[frame] * 1e-3;
+    }
+    printf("  as fast as it goes: %d rounds of %u frames (mean of the loops %.6g)\n", round, (unsigned)r->frames,
+           sum / round / (double)r->frames);
+    print_durations("frame", &took);
+    free(took.us);
+    free(least->of_frame);
+    free(least->of_reference);
+    return calls;
+}
+
+static void print_scene(const replay *r)
+{
+    pong_report report;
+    CHECK(pong_get_report(r->world, &report));
+    printf("  %u movable groups, at most %u contacts\n", (unsigned)r->group_count,
+           (unsigned)report.peak_contacts_wanted);
+}
+
+/* --- main ----------------------------------------------------------------------------------------------------------- */
+
+static void print_worker(const replay *r, const least_times *least)
+{
+    const char *text;
+    CHECK(pong_worker_text(r->world, 1, &text));
+    printf("  %s; it did a part of %.0f %% of the frames\n", text, 100.0 * (double)least->shared / (double)least->frames);
+}
+
+static int measure(const char *file, uint32_t workers, double paced)
+{
+    replay r;
+    least_times least;
+        double frames;
+    unsigned long calls = 0;
+    pong_config config = pong_default_config();
+    config.workers = workers;
+    config.pin_workers = workers > 0;
+    config.fifo_priority = workers > 0 ? PRIORITY : 0;
+    open_replay(&r, file, config);
+    if (r.workers < workers) {
+        printf("  left out: there is no core for %u workers\n", (unsigned)workers);
+        return 4;
+    }
+    bind_to_first_core();
+    ask_for_priority();
+    if (paced > 0.0) {
+        calls += run_paced(&r, paced);
+    }
+    calls += measure_ratio(&r, &least);
+    print_scene(&r);
+    if (workers > 0) {
+        print_worker(&r, &least);
+    }
+    frames = (double)r.frames;
+    close_replay(&r);
+    if (calls > 0) {
+        printf("  frames asked for memory: %lu calls\n", calls);
+    }
+    printf("  least times: frames %.2f us, loops %.2f us\n", least.frames_us / frames,
+           least.references_us / frames);
+    printf("ratio of least times: %.3f\n", least.frames_us / least.references_us);
+    return calls == 0 ? 0 : 1;
 }
 
 int main(int argc, char **argv)
 {
-    options o = { "models/idss_docking", 5.0 };
-    double alone, with_worker;
-    unsigned long memory_calls;
+    const char *file = NULL;
+    unsigned long workers = 0;
+    double paced = 0.0;
     int i;
     for (i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--seconds") == 0 && i + 1 < argc) {
-            o.seconds = strtod(argv[++i], NULL);
-        } else if (strcmp(argv[i], "--models") == 0 && i + 1 < argc) {
-            o.models = argv[++i];
+        if (strcmp(argv[i], "--workers") == 0 && i + 1 < argc) {
+            workers = strtoul(argv[++i], NULL, 10);
+        } else if (strcmp(argv[i], "--paced") == 0 && i + 1 < argc) {
+            paced = strtod(argv[++i], NULL);
+        } else if (argv[i][0] != '-' && file == NULL) {
+            file = argv[i];
         } else {
-            fprintf(stderr, "frame_budget [--seconds S] [--models FOLDER]\n");
-            return 2;
+            file = NULL;
+            break;
         }
     }
-    if (!(o.seconds >= FRAME_S && o.seconds < 1e4)) {
-        fprintf(stderr, "--seconds: give 0.001 to 10000\n");
+    if (file == NULL || workers > 64 || !(paced >= 0.0 && paced < 1e4)) {
+        fprintf(stderr, "frame_budget MOTION [--workers N] [--paced S]\n");
         return 2;
     }
-    memory_calls = measure(&o, 0, &alone);
-    memory_calls += measure(&o, 1, &with_worker);
-    if (with_worker > 0.0) {
-        printf("ratio of minima with 1 worker: %.3f\n", with_worker);
-    }
-    printf("ratio of minima: %.3f\n", alone);
-    if (memory_calls > 0) {
-        printf("frames asked for memory: %lu calls\n", memory_calls);
-    }
-    return memory_calls == 0 ? 0 : 1;
+    return measure(file, (uint32_t)workers, paced);
 }
