@@ -4,7 +4,7 @@ import math
 
 import models
 from dimensions import Fixture, Snare
-from kit import mjcf, ron
+from kit import mjcf
 from kit.machine import Machine
 from kit.rows import Limit, Row
 
@@ -64,8 +64,8 @@ def rig(snare, fixture, angle):
     bodies = {"shaft": "world", "cable": "world", **{f"cable/link_{i:02}": f"link_{i:02}" for i in range(count)}}
     things = {"shaft": "text1", "cable": "text2"}
     texts = [
-        models.fixture(fixture, snare.friction),
-        models.chain(length, snare.radius, count, ron.elastic(2e5, 5.0, snare.friction)),
+        models.fixture(fixture, snare.friction).text(),
+        models.chain(length, snare.radius, count, models.Surface(2e5, 5.0, snare.friction)).text(),
     ]
     extension = mjcf.contact_instance(things, [("cable", "shaft")], bodies, texts, capacity=128)
     carriers = ["world", "world"] + [f"link_{i:02}" for i in range(count)]

@@ -1,54 +1,15 @@
-"""Carriage, pads and teeth: what the ball screw presses, when the joint opens, what the teeth carry."""
+"""Carriage and pads: what the ball screw presses, and when the joint opens."""
 
 import math
 
-from kit import mjcf, ron
+import models
+from dimensions import PADS
+from kit import mjcf
 from kit.machine import Machine
 from kit.rows import Limit, Row
+from scene import screw, screw_force
 
-# The carriage's motor and screw. Chosen; real numbers are not public.
-STALL_TORQUE = 4.8  # of the carriage motor at the screw, N·m
-SCREW_LEAD = 4.0e-3  # m a turn
-EFFICIENCY = 0.85
-MOTOR_FREE_SPEED = 80.0  # rad/s at the screw
-ROTOR_INERTIA = 2e-4  # kg·m² at the screw
-PAD_CIRCLE = 0.150  # radius on which the pads lie, m
-PAD_RADIUS = 0.010
-PAD_STIFFNESS = 4e6  # of one pad, N/m
-PAD_DAMPING = 2e4  # N·s/m
 RAISED = 0.5  # s in which a moment rises
-
-
-def preload():
-    """Axial force of a stalled carriage, N."""
-    return STALL_TORQUE * 2.0 * math.pi * EFFICIENCY / SCREW_LEAD
-
-
-def screw(joint):
-    """The motor through the screw, and the rotor's inertia as it is felt along the slide (kg)."""
-    ratio = 2.0 * math.pi / SCREW_LEAD
-    return mjcf.motor("screw", joint, preload(), MOTOR_FREE_SPEED / ratio), ROTOR_INERTIA * ratio**2
-
-
-def around(count, radius, first=0.0):
-    """Places on a circle about z."""
-    angles = [first + 2.0 * math.pi * i / count for i in range(count)]
-    return [(radius * math.cos(a), radius * math.sin(a)) for a in angles]
-
-
-def pads(count, first=0.0, height=0.0, friction=0.0):
-    """Balls whose tops are at `height`."""
-    balls = [
-        ron.primitive("Sphere", f"pad_{i:02}", center=(x, y, height - PAD_RADIUS), radius=PAD_RADIUS)
-        for i, (x, y) in enumerate(around(count, PAD_CIRCLE, first))
-    ]
-    return ron.model("pads", ron.elastic(PAD_STIFFNESS, PAD_DAMPING, friction), balls)
-
-
-def plate(friction=0.0):
-    """All that lies above z = 0 of the payload."""
-    face = ron.primitive("Plane", "face", normal=(0, 0, -1), offset=0)
-    return ron.model("plate", ron.rigid(friction), [face])
 
 
 def joint_rig(count, first=0.0):
@@ -65,7 +26,10 @@ def joint_rig(count, first=0.0):
     )
     things = {"pads": "text1", "plate": "text2"}
     extension = mjcf.contact_instance(
-        things, [("pads", "plate")], {"pads": "world", "plate": "payload"}, [pads(count, first), plate()]
+        things,
+        [("pads", "plate")],
+        {"pads": "world", "plate": "payload"},
+        [models.pads(count, first, 0.0, 0.0).text(), models.plate(0.0).text()],
     )
     return Machine(mjcf.model("preload", extension, world, more, 2e-4, "RK4"), ["world", "payload"])
 
@@ -100,15 +64,15 @@ def rows():
         press(machine)
         force = -machine.wrench("world")[2]
         if count == 8:
-            yield Row("preload is the stall torque·2πη/lead", force, preload(), 2e-3, "N")
-        moment = opening_moment(machine, count, 0.0, preload() * PAD_CIRCLE / 2)
-        yield Row(f"a ring of {count} pads opens at M = P·r/2", moment, preload() * PAD_CIRCLE / 2, 0.005, "N m")
+            yield Row("preload is the stall torque·2πη/lead", force, screw_force(), 2e-3, "N")
+        moment = opening_moment(machine, count, 0.0, screw_force() * PADS.circle / 2)
+        yield Row(f"a ring of {count} pads opens at M = P·r/2", moment, screw_force() * PADS.circle / 2, 0.005, "N m")
     # Three pads: the moment that unloads one of them lifts it at P·r/2; turned half round it unloads two, at P·r.
     for direction, predicted in ((math.pi / 2, 1.0), (-math.pi / 2, 0.5)):
         machine = joint_rig(3)
         press(machine)
-        moment = opening_moment(machine, 3, direction, predicted * preload() * PAD_CIRCLE)
+        moment = opening_moment(machine, 3, direction, predicted * screw_force() * PADS.circle)
         yield Row(
-            f"three pads open at M = {predicted:g}·P·r", moment, predicted * preload() * PAD_CIRCLE, 0.005, "N m"
+            f"three pads open at M = {predicted:g}·P·r", moment, predicted * screw_force() * PADS.circle, 0.005, "N m"
         )
     yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-12)

@@ -145,7 +145,7 @@ def crossing(level):
     def watch(m):
         if round(m.time / m.step) % 40 == 0:
             pairs = (
-                (a, b) for k in range(s.CABLES) for l in range(k) for a in axes(m, snare, k) for b in axes(m, snare, l)
+                (a, b) for k in range(s.CABLES) for j in range(k) for a in axes(m, snare, k) for b in axes(m, snare, j)
             )
             apart.append(min(segments_apart(a, b) for a, b in pairs))
         return False

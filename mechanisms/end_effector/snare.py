@@ -128,12 +128,12 @@ def objects(snare):
 def rig(snare, fixture=None, payload="", more="", integrator="RK4", step=None, friction=None, capacity=128):
     """The snare on its own, its ring driven by a motor `ring`, round a fixture on a body `payload` given as text."""
     things, pairs, carried, carriers = objects(snare)
-    texts = [models.cable(snare)]
+    texts = [models.cable(snare).text()]
     if fixture is not None:
         pairs = pairs + [(name, "fixture") for name in things]
         things, carried = {**things, "fixture": "text2"}, {**carried, "fixture": "payload"}
         carriers = carriers + ["payload"]
-        texts.append(models.fixture(fixture, snare.friction if friction is None else friction))
+        texts.append(models.fixture(fixture, snare.friction if friction is None else friction).text())
     text = mjcf.model(
         "snare",
         mjcf.contact_instance(things, pairs, carried, texts, capacity=capacity),

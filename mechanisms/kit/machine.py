@@ -26,15 +26,17 @@ class Machine:
     """`mjcf`: text of a model with one instance of pong.contact, whose sensor is called `contact`.
 
     `carriers`: names of the bodies that carry the movable groups, in the order of the sensor (docs/mujoco.md).
+    `groups`: names of these groups, for those who ask for the wrench on one.
     `watchers`: functions that see the machine after each step, such as a `kit.record.Recorder`.
     """
 
-    def __init__(self, mjcf, carriers):
+    def __init__(self, mjcf, carriers, groups=()):
         load_plugin()
         self.text, self.watchers = mjcf, []
         self.model = mujoco.MjModel.from_xml_string(mjcf)
         self.data = mujoco.MjData(self.model)
         self.carriers = [self.model.body(name).id for name in carriers]
+        self.groups = {name: i for i, name in enumerate(groups)}
         start = self.model.sensor("contact").adr[0]
         self.sensed = slice(start, start + self.model.sensor("contact").dim[0])
         self.step = self.model.opt.timestep
@@ -66,6 +68,16 @@ class Machine:
         self._look()
         for watch in self.watchers:
             watch(self)
+
+    def hurry(self, control=None):
+        """One step without the accounts of energy and reactions; forces that are read are those of its beginning."""
+        if control is not None:
+            control(self)
+        mujoco.mj_step(self.model, self.data)
+        sensed = self.data.sensordata[self.sensed]
+        if sensed[2] != 0:
+            raise RuntimeError(f"at {self.time:.6f} s a step could not be computed: status {int(sensed[2])}")
+        self.flags |= int(sensed[1])
 
     def run(self, seconds, control=None, watch=None):
         """Steps for so long, or until `watch(machine)` is true; answers whether it was."""
@@ -100,6 +112,11 @@ class Machine:
         body = self.model.body(carrier).id
         wrenches = self.data.sensordata[self.sensed][3:].reshape(-1, 6)
         return wrenches[[i for i, other in enumerate(self.carriers) if other == body]].sum(axis=0)
+
+    def on(self, group):
+        """Force (N) and moment (N·m) on one of the movable groups that were named."""
+        first = self.sensed.start + 3 + 6 * self.groups[group]
+        return self.data.sensordata[first : first + 6]
 
     def joint(self, name):
         return float(self.data.qpos[self.model.joint(name).qposadr[0]])

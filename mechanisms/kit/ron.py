@@ -23,12 +23,23 @@ def vector(values):
 
 
 def primitive(kind, name, **fields):
-    """Vectors and numbers; `ends` are two vectors."""
-    text = ", ".join(f"{key}: {_field(value)}" for key, value in fields.items())
+    """Vectors, numbers, a bare word (a str), and sequences of vectors: two in `ends`, any number in `vertices`."""
+    text = ", ".join(f"{key}: {_list(key, value) or _field(value)}" for key, value in fields.items())
     return f'{kind}(name: "{name}", {text})'
 
 
+def _list(key, value):
+    """What the format writes as a list."""
+    if key == "vertices":
+        return "[" + ", ".join(map(vector, value)) + "]"
+    if key == "faces":
+        return "[" + ", ".join(str(list(face)) for face in value) + "]"
+    return ""
+
+
 def _field(value):
+    if isinstance(value, str):
+        return value
     if isinstance(value, (int, float)):
         return repr(float(value))
     if isinstance(value[0], (int, float)):
