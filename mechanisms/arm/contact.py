@@ -1,0 +1,112 @@
+"""Checks of the law of force-moment accommodation in contact with the pad."""
+
+import dataclasses
+
+import numpy as np
+import rig
+from dimensions import PAD_DAMPING
+from kit.arm import Law
+from kit.rows import Fact, Limit, Row
+from margin import Linear
+
+PUSH = 300.0  # N, commanded
+RATE = 0.01  # m/s, commanded towards the pad
+
+
+def commanded(arm, normal, push=0.0, rate=0.0):
+    """Presses, or moves, against the normal of the pad."""
+    arm.command("tip", rates=np.r_[-rate * normal, 0, 0, 0], push=np.r_[-push * normal, 0, 0, 0])
+
+
+def pressed(made, normal):
+    return float(made.wrench("tip")[:3] @ normal)
+
+
+def press(step, closes):
+    """Pressed with a force, unloaded to less, then driven by a rate: what the law must come to with its dead band."""
+    law = Law()
+    made, arm, normal = rig.machine(step)
+    commanded(arm, normal, PUSH)
+    made.run(4.0, arm.control)
+    middle, remembered = made.save(), arm.save()
+    made.run(8.0, arm.control)
+    first = pressed(made, normal)
+    yield Row(f"pressing with {PUSH:g} N from outside: less the dead band", first, PUSH - law.band, 0.01, "N")
+    commanded(arm, normal, 0.5 * PUSH)
+    made.run(10.0, arm.control)
+    yield Row("then with half of it: more by the dead band", pressed(made, normal), PUSH / 2 + law.band, 0.01, "N")
+    commanded(arm, normal, rate=RATE)
+    made.run(10.0, arm.control)
+    predicted = law.band + RATE / law.admittance
+    yield Row(f"moving on at {RATE * 1e3:g} mm/s: band + rate/admittance", pressed(made, normal), predicted, 0.01, "N")
+    commanded(arm, normal, push=10 * law.push)
+    made.run(10.0, arm.control)
+    yield Row("pressing with ten times the greatest force", pressed(made, normal), law.push - law.band, 0.01, "N")
+    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), closes)
+    yield Limit("forces that have no reaction, of the greatest", made.imbalance, 1e-9)
+    yield Fact("no flag of tunnelling", made.flags == 0)
+    yield from again(made, arm, middle, remembered, first)
+    yield from halved(step, normal, first)
+
+
+def again(made, arm, middle, remembered, first):
+    """From the middle of the run, twice."""
+    ends = []
+    for _ in range(2):
+        made.restore(middle)
+        arm.restore(remembered)
+        made.run(2.0, arm.control)
+        ends.append(np.concatenate([made.save(), arm.state.aim, arm.state.felt]).tobytes())
+    yield Fact("a restart in the middle gives the same bits", ends[0] == ends[1])
+
+
+def halved(step, normal, first):
+    made, arm, _ = rig.machine(step / 2)
+    commanded(arm, normal, PUSH)
+    made.run(12.0, arm.control)
+    yield Row("the first force at half the step", pressed(made, normal), first, 1e-3, "N")
+
+
+def margins(stiffnesses):
+    """Contact dies away below the admittance that the linearised arm gives, and grows above, as fast as it says."""
+    for stiffness in stiffnesses:
+        law = Law(admittance=1e-4, band=0.0, band_turn=1e9)
+        made, arm, normal = rig.machine(stiffness=stiffness, law=law)
+        commanded(arm, normal, PUSH)
+        # Softer contact comes to rest more slowly; what is left must not meet the limit of rate with more admittance.
+        made.run(6.0 * max(1.0, 2e4 / stiffness), arm.control)
+        middle, remembered = made.save(), arm.save()
+        linear = Linear(made, arm, normal, stiffness, PAD_DAMPING)
+        limit = linear.limit()
+        yield Limit(
+            f"pad of {stiffness:g} N/m: its limit over the admittance of the law",
+            limit / Law().admittance,
+            1.0,
+            least=True,
+        )
+        for factor in (0.8, 1.25):
+            made.restore(middle)
+            arm.restore(remembered)
+            arm.law = dataclasses.replace(law, admittance=factor * limit)
+            yield _swing(made, arm, normal, factor, linear.root(factor * limit), linear.root(limit))
+
+
+def _swing(made, arm, normal, factor, root, critical):
+    """Over whole oscillations of the mode that loses its stability; below the limit other modes die away as well."""
+    turn = 2 * np.pi / abs(np.angle(root if factor > 1.0 else critical)) * arm.law.period
+    grown = growth(made, arm, normal, turn)
+    what = f"{factor:g} of the limit: growth in one oscillation of {turn:.3f} s"
+    if factor > 1.0:
+        return Row(what, grown, abs(root) ** (turn / arm.law.period), 0.01)
+    return Limit(what, grown, 1.0)
+
+
+def growth(made, arm, normal, turn):
+    """How the swing of the force changes over whole oscillations, once the other modes have died away."""
+    made.run(2.0, arm.control)
+    swings = []
+    for _ in range(3):
+        forces = []
+        made.run(turn, arm.control, lambda m, forces=forces: forces.append(pressed(m, normal)))
+        swings.append(max(forces) - min(forces))
+    return float(np.sqrt(swings[2] / swings[0]))

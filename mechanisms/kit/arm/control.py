@@ -1,0 +1,209 @@
+"""Controller of the arm: brakes, joint rate servos, and the law of force-moment accommodation.
+
+    arm = Arm(machine)                 once, after the machine was made
+    arm.pose(angles)                   sets a posture at rest
+    arm.command("tip", rates=..., push=...)
+    machine.run(seconds, arm.control)
+
+States: `brakes` (all brakes on, motors off), `joints` (rates of joints), `tip` (rates of the tip, with accommodation)
+and `tripped` (too great a force was measured: brakes on until the next command). Everything that it remembers is in
+`save()`; a restored controller continues to the same bits.
+"""
+
+import copy
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import dimensions as d
+from . import kinematics
+
+
+@dataclass(frozen=True)
+class Law:
+    """Rate of the tip = commanded rate + admittance · (what is measured and commanded, beyond the dead band).
+
+    Vectors are shortened, never turned: limits and dead bands are those of magnitudes. All values are chosen.
+    """
+
+    admittance: float = 1e-4  # m/s of rate for each N beyond the dead band
+    admittance_turn: float = 2e-5  # rad/s for each N·m
+    band: float = 10.0  # N, dead band
+    band_turn: float = 10.0  # N·m
+    push: float = 500.0  # N, greatest commanded force
+    push_turn: float = 500.0  # N·m
+    rate: float = 0.1  # m/s, greatest rate of the tip
+    rate_turn: float = 0.03  # rad/s
+    trip: float = 1500.0  # N measured at which the brakes come on
+    filter: float = 0.05  # s, time constant of the measured force and moment
+    period: float = 0.01  # s from one evaluation of the law to the next
+    damping: float = 0.05  # of the least squares, as a singular value of the Jacobian
+
+    def answer(self, rates, push, measured):
+        """Rates that are commanded to the tip, for the force and moment that act on it."""
+        wanted = np.concatenate([shortened(push[:3], self.push), shortened(push[3:], self.push_turn)])
+        felt = measured + wanted
+        linear = rates[:3] + self.admittance * beyond(felt[:3], self.band)
+        angular = rates[3:] + self.admittance_turn * beyond(felt[3:], self.band_turn)
+        return np.concatenate([shortened(linear, self.rate), shortened(angular, self.rate_turn)])
+
+
+def shortened(vector, greatest):
+    length = float(np.linalg.norm(vector))
+    return vector * (greatest / length) if length > greatest else vector
+
+
+def beyond(vector, band):
+    """What of a vector is longer than the dead band."""
+    length = float(np.linalg.norm(vector))
+    return vector * (1.0 - band / length) if length > band else np.zeros(3)
+
+
+@dataclass
+class State:
+    mode: str = "brakes"
+    rates: np.ndarray = None  # commanded: of the joints (7) or of the tip (6)
+    push: np.ndarray = None  # commanded force and moment on what the tip touches
+    released: np.ndarray = None  # joints whose brakes are off in the state `joints`
+    aim: np.ndarray = None  # angles that the servos are to have
+    speed: np.ndarray = None  # rates that the servos are to have
+    anchor: np.ndarray = None  # angles at which the brakes have no torque
+    felt: np.ndarray = None  # filtered force and moment on the tip, along the axes of the world
+    due: int = 0  # evaluations of the law so far
+
+
+class Arm:
+    """`prefix` as given to `body`. `sensed(machine)` may replace the sensor: force and moment on the tip, world."""
+
+    def __init__(self, machine, prefix="", law=Law(), sensed=None):
+        self.machine, self.law, self.sensed = machine, law, sensed or self._sensor
+        model = machine.model
+        joints = [model.joint(prefix + link.name) for link in d.LINKS]
+        self.places = np.array([joint.qposadr[0] for joint in joints])
+        self.dofs = np.array([joint.dofadr[0] for joint in joints])
+        self.motors = np.array([model.actuator(prefix + link.name).id for link in d.LINKS])
+        self.base, self.tip = model.body(prefix + "base").id, model.body(prefix + "tip").id
+        self.site = model.site(prefix + "sensor").id
+        force, moment = (model.sensor(prefix + name).adr[0] for name in ("force", "moment"))
+        self.wrench_at = np.r_[force : force + 3, moment : moment + 3]
+        self.carried = [i for i, carrier in enumerate(machine.carriers) if self._carries(carrier)]
+        self.carriers = np.array(machine.carriers, int)[self.carried]
+        self.state = State()
+        self.pose(machine.data.qpos[self.places])
+
+    # --- commands ---------------------------------------------------------------------------------------------------
+
+    def pose(self, angles):
+        """Sets motors there, gears without load, everything of the arm at rest, brakes on."""
+        data = self.machine.data
+        data.qpos[self.places], data.qpos[self.places + 1] = angles, 0.0
+        data.qvel[self.dofs], data.qvel[self.dofs + 1] = 0.0, 0.0
+        self.machine.start()
+        zeros = np.zeros(7)
+        angles = np.array(angles, float)
+        self.state = State(
+            "brakes", zeros, np.zeros(6), zeros == 1, angles, zeros, angles.copy(), self.sensed(self.machine)
+        )
+        self.state.due = round(self.machine.time / self.law.period)
+
+    def command(self, mode, rates=None, push=None, released=None):
+        """`joints`: seven rates; brakes of the joints that are not `released` (indices; all) stay on. `tip`: six rates,
+        and the force and moment (6) that the tip is to press with."""
+        state, now = self.state, self.angles()
+        state.mode = mode
+        state.rates = np.zeros(7 if mode == "joints" else 6) if rates is None else np.array(rates, float)
+        state.push = np.zeros(6) if push is None else np.array(push, float)
+        free = np.zeros(7, bool) if mode == "brakes" else np.ones(7, bool)
+        if released is not None:
+            free = np.isin(np.arange(7), released)
+        # A brake that comes on grips where its motor stands; a servo that comes on aims there.
+        state.anchor = np.where(state.released & ~free, now, state.anchor)
+        state.aim = np.where(~state.released & free, now + self._load() / d.SERVO_STIFFNESS, state.aim)
+        state.released = free
+        state.speed = np.zeros(7)
+
+    # --- one step ---------------------------------------------------------------------------------------------------
+
+    def control(self, machine):
+        """Before each step: for `Machine.advance`, or called from another control."""
+        if machine.time >= (self.state.due - 1e-6) * self.law.period:
+            self.state.due += 1
+            self._decide()
+        self.state.aim = self.state.aim + machine.step * self.state.speed
+        machine.data.ctrl[self.motors] = np.where(self.state.released, self._servo(), self._brake())
+
+    def _decide(self):
+        """Each period: the state machine, and the rates of the joints."""
+        state, law = self.state, self.law
+        share = 1.0 - np.exp(-law.period / law.filter)
+        state.felt = state.felt + share * (self.sensed(self.machine) - state.felt)
+        if state.mode == "tip" and np.linalg.norm(state.felt[:3]) > law.trip:
+            self.command("brakes")
+            state.mode = "tripped"
+        speed = np.zeros(7)
+        if state.mode == "joints":
+            speed = state.rates * state.released
+        elif state.mode == "tip":
+            rates = law.answer(state.rates, state.push, state.felt)
+            speed = kinematics.resolve(self.jacobian(), rates, law.damping)
+        # All joints slow down together, so the tip keeps its direction.
+        fastest = np.abs(speed).max()
+        state.speed = speed * (d.SPEED / fastest) if fastest > d.SPEED else speed
+
+    def _servo(self):
+        state, limit = self.state, d.TORQUE / d.SERVO_STIFFNESS
+        # While a motor is at its limit, its aim does not run away.
+        state.aim = np.where(
+            state.released, np.clip(state.aim, self.angles() - limit, self.angles() + limit), state.aim
+        )
+        torque = d.SERVO_STIFFNESS * (state.aim - self.angles()) + d.SERVO_DAMPING * (state.speed - self.speeds())
+        return np.clip(torque, -d.TORQUE, d.TORQUE)
+
+    def _brake(self):
+        """A spring from its anchor up to the slip torque; beyond it the anchor is dragged along."""
+        state, limit = self.state, d.BRAKE_TORQUE / d.BRAKE_STIFFNESS
+        gripped = np.clip(state.anchor, self.angles() - limit, self.angles() + limit)
+        state.anchor = np.where(state.released, state.anchor, gripped)
+        torque = d.BRAKE_STIFFNESS * (state.anchor - self.angles()) - d.BRAKE_DAMPING * self.speeds()
+        return np.clip(torque, -d.BRAKE_TORQUE, d.BRAKE_TORQUE)
+
+    def _load(self):
+        return np.clip(self.machine.data.ctrl[self.motors], -d.TORQUE, d.TORQUE)
+
+    # --- what it knows ----------------------------------------------------------------------------------------------
+
+    def angles(self):
+        return self.machine.data.qpos[self.places]
+
+    def speeds(self):
+        return self.machine.data.qvel[self.dofs]
+
+    def jacobian(self):
+        data = self.machine.data
+        return kinematics.jacobian(self.angles(), data.xpos[self.base], data.xmat[self.base].reshape(3, 3))
+
+    def _sensor(self, machine):
+        """Force and moment about the tip that act on what is beyond the sensor, less its inertia, along world axes.
+
+        MuJoCo's sensor gives the inertia less the forces that it knows of; the contacts of the plugin are passive
+        forces to it and are not in there, so they are added.
+        """
+        data = machine.data
+        axes = data.site_xmat[self.site].reshape(3, 3)
+        own = data.sensordata[self.wrench_at]
+        touching = data.sensordata[machine.sensed][3:].reshape(-1, 6)[self.carried]
+        forces, arms = touching[:, :3], data.xpos[self.carriers] - data.xpos[self.tip]
+        moments = touching[:, 3:] + np.cross(arms, forces)
+        return np.concatenate([forces.sum(axis=0) - axes @ own[:3], moments.sum(axis=0) - axes @ own[3:]])
+
+    def _carries(self, carrier):
+        """Whether a body hangs, directly or not, on the tip."""
+        while carrier not in (0, self.tip):
+            carrier = self.machine.model.body_parentid[carrier]
+        return carrier == self.tip
+
+    def save(self):
+        return copy.deepcopy(self.state)
+
+    def restore(self, state):
+        self.state = copy.deepcopy(state)
