@@ -5,7 +5,7 @@ import itertools
 import mujoco
 import numpy as np
 import rig
-from contact import margins, press, pressed
+from contact import commanded, margins, press, pressed
 from kit.arm import kinematics
 from kit.arm import dimensions as d
 from kit.rows import Limit, Row
@@ -150,3 +150,13 @@ def rows(thorough):
     yield "margin of contact", margins((2e4,) if not thorough else (5e3, 2e4, 1e5))
     if thorough:
         yield "steady contact, level analysis", press(rig.ANALYSIS, 1e-3)
+
+
+def shown(prepare):
+    """For logs and films: the arm presses on the pad, then with half the force."""
+    made, arm, normal = rig.machine(gap=0.05)
+    prepare(made)
+    commanded(arm, normal, 300.0)
+    made.run(8.0, arm.control)
+    commanded(arm, normal, 150.0)
+    made.run(4.0, arm.control)
