@@ -93,22 +93,24 @@ def points():
     yield from offsets()
     yield from tilts()
     time = closing_time()
-    for rate in (0.01, 0.02, 0.03, 0.04, 0.06, 0.08, 0.10):
+    for rate in (0.01, 0.03, 0.045, 0.06, 0.08, 0.10):
         yield from (leaving(offset, rate, time) for offset in (0.0, 0.040))
-    for rate in (-0.05, 0.05, 0.10):
+    for rate in (-0.05, 0.05):
         yield from (aside(offset, rate) for offset in (0.0, 0.040))
 
 
 def offsets():
-    for radius in (0.0, 0.030, 0.050, 0.065, 0.074, 0.080, 0.090):
-        for azimuth in (0, 30, 60, 90) if radius else (0,):
+    """The snare looks the same from azimuths that are 120 degrees apart."""
+    azimuths = {0.0: (0,), 0.040: (0, 60), 0.065: (0, 30, 60, 90), 0.074: (0, 30, 60, 90), 0.080: (0, 30, 60, 90)}
+    for radius, around in azimuths.items():
+        for azimuth in around:
             a = math.radians(azimuth)
             place = (radius * math.cos(a), radius * math.sin(a))
             yield from_above("offset", *place, place)
 
 
 def tilts():
-    for tilt in (5.0, 10.0, 15.0):
+    for tilt in (7.5, 15.0):
         for offset in (-0.080, -0.070, -0.040, 0.0, 0.040, 0.070, 0.080):
             yield from_above("tilt", tilt, offset, (offset, 0.0), tilt)
 
