@@ -162,6 +162,7 @@ class Result:
     """What a capture came to; forces in N."""
 
     captured: bool  # the pads were pressed with more than half of the preload
+    missed: str  # the phase after which the sequencer gave up, or ""
     preload: float  # between shell and payload when the hold ends: pads, teeth, cams
     on_teeth: float  # what of it is on the teeth
     turned_deg: float  # of the payload about the shell's axis, when the hold ends
@@ -202,7 +203,16 @@ def run(case, until="done", watch=None, accounts=True, prepare=None):
         for _ in range(round(AFTER / made.step)):
             advance(sequencer)
     pads, *rest = seen
-    return Result(pads > 0.5 * screw_force(), *rest, sequencer.peaks, sequencer.ends, *before, speed_apart(made), made)
+    return Result(
+        pads > 0.5 * screw_force(),
+        sequencer.missed,
+        *rest,
+        sequencer.peaks,
+        sequencer.ends,
+        *before,
+        speed_apart(made),
+        made,
+    )
 
 
 def roll_deg(made):

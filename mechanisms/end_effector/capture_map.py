@@ -3,15 +3,18 @@
 
 python3 mechanisms/end_effector/capture_map.py        with the plugin as for mechanisms/run.py, and matplotlib
 
-Each case runs to its end: pressed with the preload, or given up by the sequencer. Prediction by geometry alone: the knob
-goes through the mouth if its edge is inside of the lip, and does not if its edge is beyond the crest of the lip's rounding.
-Of what is inside, a payload that moves away is missed if the knob leaves the plane of the snare before that has closed.
+Each case runs to its end: *seated* (pressed with the preload), *snared* only (the plate does not come to rest on the
+pads), or *missed*. Prediction of what is snared by geometry alone: the knob goes through the mouth if its edge is inside
+of the lip, and does not if its edge is beyond the crest of the lip's rounding, unless it is tilted so that its face
+slides off the lip to the inside. Of what is inside, a payload that moves away is snared if the knob is still below the
+cables when they are as narrow as it, and missed if it is above them by then.
 """
 
 import math
 import pathlib
 import random
 import sys
+from collections import Counter
 from dataclasses import dataclass, replace
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -35,7 +38,7 @@ SEED = 15
 
 @dataclass(frozen=True)
 class Point:
-    """One case of the map: which panel, where in it, and what geometry says: True, False, or None where it does not."""
+    """One case: which panel, where in it, and whether geometry says that it is snared; None where it does not say."""
 
     panel: str
     x: float
@@ -51,7 +54,8 @@ def entering(offset, tilt_deg):
     edge = math.hypot(*offset) + radius
     if edge <= LIP.aperture:
         return True
-    return False if edge > LIP.aperture + LIP.radius else None
+    slides = math.copysign(tilt, offset[0] * tilt) > math.atan(TRAINING.friction)
+    return None if slides or edge <= LIP.aperture + LIP.radius else False
 
 
 def from_above(panel, x, y, offset, tilt_deg=0.0):
@@ -119,34 +123,40 @@ def tilts():
 
 
 def ran(case):
-    return capture.run(case, until="release", accounts=False)
+    """seated, snared or missed."""
+    result = capture.run(case, until="release", accounts=False)
+    if result.captured:
+        return "seated"
+    return "missed" if result.missed in ("approach", "snare") else "snared"
 
 
 def found():
-    """(point, captured) of every case."""
-    return [(point, ran(point.case).captured) for point in points()]
+    """(point, what it came to) of every case."""
+    return [(point, ran(point.case)) for point in points()]
 
 
 def repeated(results):
     """How many of a random part were run again at half the step, and which came to something else."""
     chosen = random.Random(SEED).sample(results, round(REPEATED * len(results)))
-    halves = [replace(point.case, step=TRAINING.step / 2) for point, _ in chosen]
-    other = [point for (point, yes), case in zip(chosen, halves) if ran(case).captured != yes]
-    return len(chosen), other
+    halves = [(point, came, ran(replace(point.case, step=TRAINING.step / 2))) for point, came in chosen]
+    return len(chosen), [f"{point.panel} {point.x:g}, {point.y:g}: {a}, {b}" for point, a, b in halves if a != b]
 
 
 def rows():
     results = found()
     plot(results, HERE / "capture_map.png")
-    wrong = [point for point, yes in results if point.predicted not in (None, yes)]
-    told = sum(point.predicted is not None for point, _ in results)
-    print(f"      {len(results)} cases, {sum(yes for _, yes in results)} captured; geometry predicts {told}")
-    for point, yes in results:
-        if point in wrong or point.predicted is None:
-            mark = "captured" if yes else "missed"
-            print(f"      {point.panel} {point.x:g}, {point.y:g}: {mark}, predicted {point.predicted}")
-    yield Fact("every case that geometry predicts comes out so", not wrong)
+    counts = Counter(came for _, came in results)
+    told = [(point, came) for point, came in results if point.predicted is not None]
+    wrong = [(point, came) for point, came in told if point.predicted == (came == "missed")]
+    print(f"      {len(results)} cases: {dict(counts)}; geometry predicts {len(told)}")
+    for point, came in results:
+        if point.predicted is None or came == "snared" or (point, came) in wrong:
+            print(f"      {point.panel} {point.x:.3g}, {point.y:.3g}: {came}; snared as predicted: {point.predicted}")
+    yield Fact("every case of which geometry says whether it is snared comes out so", not wrong)
+    upright = [came for point, came in results if point.panel != "tilt"]
+    yield Fact("what is snared without a tilt is seated", "snared" not in upright)
     count, other = repeated(results)
+    print("".join(f"      {line}, at half the step\n" for line in other), end="")
     yield Fact(f"{count} of them, drawn by chance, come to the same at half the step", not other)
 
 
@@ -158,16 +168,19 @@ PANELS = {
 }
 
 
+MARKS = (("seated", "o", "tab:green"), ("snared", "^", "tab:orange"), ("missed", "x", "tab:red"))
+
+
 def plot(results, path):
-    """Captured: filled; missed: crosses; the line of a ring is the geometry's edge."""
+    """Lines: the edge that geometry gives, between which and the next it does not say."""
     from matplotlib import pyplot
 
     figure, places = pyplot.subplots(1, len(PANELS), figsize=(15, 4), layout="constrained")
     for place, (panel, (across, up, first, second)) in zip(places, PANELS.items()):
-        for yes, marker, colour in ((True, "o", "tab:green"), (False, "x", "tab:red")):
-            shown = [point for point, came in results if point.panel == panel and came == yes]
+        for came, marker, colour in MARKS:
+            shown = [point for point, what in results if point.panel == panel and what == came]
             x, y = [first * p.x for p in shown], [second * p.y for p in shown]
-            place.plot(x, y, marker, color=colour, label="captured" if yes else "missed")
+            place.plot(x, y, marker, color=colour, label=came)
         place.set_xlabel(across)
         place.set_ylabel(up)
         place.set_title(panel)

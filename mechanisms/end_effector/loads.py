@@ -42,19 +42,21 @@ def measured(case):
     return loads.most, capture.run(case, watch=loads, accounts=False)
 
 
-def main():
-    found = [measured(replace(HEAVY, snare=snare)) for snare in (Snare(), HEAVY.snare)]
-    print("| phase | along the axis, N | across, N | moment about the plate's centre, N·m | tension of a cable, N |")
-    print("|---|---|---|---|---|")
+def table(found):
+    """Of (loads, result) at level analysis and at level training."""
+    yield "| phase | along the axis, N | across, N | moment about the plate's centre, N·m | tension of a cable, N |"
+    yield "|---|---|---|---|---|"
     for phase in PHASES:
         both = zip(*(most[phase] for most, _ in found))
-        print(f"| {phase} | " + " | ".join(" / ".join(f"{value:.0f}" for value in pair) for pair in both) + " |")
+        yield f"| {phase} | " + " | ".join(" / ".join(f"{value:.0f}" for value in pair) for pair in both) + " |"
     for name, (_, result) in zip(("analysis", "training"), found):
         predicted = capture.push_off_speed(HEAVY.mass, result.gap, result.before)
-        print(
-            f"{name}: captured {result.captured}, preload {result.preload:.0f} N, away {1e3 * result.away:.2f} mm/s,"
-        )
-        print(f"    from energy {1e3 * predicted:.2f} mm/s; phases end at {result.ends}")
+        yield f"{name}: captured {result.captured}, preload {result.preload:.0f} N, away {1e3 * result.away:.2f} mm/s,"
+        yield f"    from energy {1e3 * predicted:.2f} mm/s; phases end at {result.ends}"
+
+
+def main():
+    print("\n".join(table([measured(replace(HEAVY, snare=snare)) for snare in (Snare(), HEAVY.snare)])))
 
 
 if __name__ == "__main__":

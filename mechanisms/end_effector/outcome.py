@@ -6,17 +6,20 @@ from dataclasses import replace
 
 import capture
 import capture_map
+import loads
 import rig_capstan
 import rig_preload
 import rig_snare
+import numpy as np
 import rig_teeth
 import scene
+import snare
+import trade
 from dimensions import ARM, LARGE_FIXTURE, Fixture, Snare, training
 from kit.rows import Fact, Limit, Row
 
 ANALYSIS, TRAINING = Snare(), training(Snare())
 LIGHT = capture.Case(snare=TRAINING)
-HEAVY = replace(LIGHT, mass=16000.0, roll_deg=0.5, held_for=3.0)
 
 
 def closed_forms():
@@ -46,25 +49,49 @@ def released(result, mass=1000.0):
 
 
 def nominal():
-    """Level analysis, and the same at half the step."""
-    whole = capture.run(capture.Case(snare=ANALYSIS))
+    """Level analysis, and the same at half the step; what the levels cost and are off by."""
+    half_given, whole_given, *rest = trade.LEVELS
+    whole_level = trade.measured(*whole_given, until="done", accounts=True)
+    whole = whole_level.result
     yield from released(whole)
     yield from honest(whole, 1e-3)
-    half = capture.run(capture.Case(snare=ANALYSIS, step=ANALYSIS.step / 2), until="release", accounts=False)
+    half_level = trade.measured(*half_given)
+    half = half_level.result
     yield Fact("captured at half the step", half.captured)
     yield Row("preload at half the step", half.preload, whole.preload, 0.01, "N")
     for phase in ("snare", "retract"):
         what = f"greatest force in the phase {phase} at half the step"
         yield Row(what, half.peaks[phase], whole.peaks[phase], 0.05, "N")
+    levels = [half_level, whole_level] + [trade.measured(*given) for given in rest]
+    print("\n".join(trade.table(levels)))
+
+
+class Farthest:
+    """Of the cables' axes from the shell's: while they hold or close, and ever. The ring has no wall that keeps them in."""
+
+    def __init__(self):
+        self.held, self.most, self.steps = 0.0, 0.0, 0
+
+    def __call__(self, machine, sequencer):
+        self.steps += 1
+        if self.steps % 25:
+            return
+        links = (link for cable in range(snare.CABLES) for link in rig_snare.axes(machine, TRAINING, cable))
+        far = max(float(np.hypot(link[:, 0], link[:, 1]).max()) for link in links)
+        self.most = max(self.most, far)
+        if sequencer.phase not in ("open", "push", "done"):
+            self.held = max(self.held, far)
 
 
 def trained():
     """Level training: 1 ms, and what it costs."""
-    began = time.process_time()
-    result = capture.run(LIGHT)
+    began, far = time.process_time(), Farthest()
+    result = capture.run(LIGHT, watch=far)
     spent = (time.process_time() - began) / (result.machine.time / result.machine.step)
     yield from released(result)
     yield from honest(result, 2e-2)
+    yield Limit("farthest that cables are from the axis before they open", far.held, 1.001 * TRAINING.ring_radius, "m")
+    print(f"      and at most, when they open: {far.most:.4f} m")
     print(f"      processor time of a step of 1 ms, with the account of energy: {spent * 1e6:.0f} µs")
     yield Fact("restarted in the middle of snaring: the same bits", capture.same_bits_after_restart(LIGHT, 1.0, 0.2))
     yield Fact(
@@ -73,9 +100,10 @@ def trained():
 
 
 def off_nominal():
-    heavy = capture.run(HEAVY, accounts=False)
+    _, heavy = loads.measured(loads.HEAVY)
     yield Fact("a free flyer of 16 t is captured", heavy.captured)
     yield Row("its preload", heavy.preload, scene.screw_force(), 0.05, "N")
+    print(f"      greatest force on it: {max(heavy.peaks.values()):.0f} N, in release {heavy.peaks['release']:.0f} N")
     for what, case in (
         ("the larger fixture", replace(LIGHT, fixture=LARGE_FIXTURE)),
         ("with a cable that is 4 mm longer", replace(LIGHT, slack=0.004)),

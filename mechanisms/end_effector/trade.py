@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """What a step of each level costs, and what a capture at that level is off by: prints the table of README.md.
 
-python3 mechanisms/end_effector/trade.py        with the plugin as for mechanisms/run.py; minutes
+python3 mechanisms/end_effector/trade.py        with the plugin as for mechanisms/run.py; minutes. It is part of
+the thorough checks.
 
 The reference is level analysis at half its step. Times are the least of several tries of the same step, in the mean over
 moments that are spread over the run; what MuJoCo takes is that of the same machine without the plugin.
@@ -25,9 +26,9 @@ ANALYSIS, TRAINING = Snare(), training(Snare())
 EVERY = 0.1  # s between the moments at which a step is timed
 TRIES = 5
 LEVELS = (
-    ("analysis, half the step: the reference", ANALYSIS, 0.5),
+    ("analysis, half the step (reference)", ANALYSIS, 0.5),
     ("analysis", ANALYSIS, 1.0),
-    ("between: cables of analysis with the mass and armature of training", replace(TRAINING, links=16), 0.2),
+    ("cables of training in 16 links", replace(TRAINING, links=16), 0.2),
     ("training, half the step", TRAINING, 0.5),
     ("training", TRAINING, 1.0),
 )
@@ -88,10 +89,10 @@ class Timer:
         return tuple(sum(column) / len(self.times) for column in zip(*self.times))
 
 
-def measured(name, snare, share):
+def measured(name, snare, share, until="release", accounts=False):
     case = Case(snare=snare, step=share * snare.step)
     timer = Timer(case)
-    result = capture.run(case, until="release", accounts=False, watch=timer)
+    result = capture.run(case, until, timer, accounts)
     return Level(name, case.step, *timer.means(), result)
 
 
@@ -101,20 +102,21 @@ def figures(result):
     return result.preload, peaks["snare"], peaks["retract"], ends["snare"], ends["retract"]
 
 
-def main():
-    print(
-        "| level | step | µs a step: MuJoCo, contact | s for 1 s | preload | peak, snare | peak, retract | closed | seated |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|")
-    reference = None
-    for given in LEVELS:
-        level = measured(*given)
+def table(levels):
+    """Of levels, of which the first is the reference."""
+    reference = figures(levels[0].result)
+    yield "| level | step | µs a step: MuJoCo, contact | s for 1 s | preload | peak, snare | peak, retract | closed | seated |"
+    yield "|---|---|---|---|---|---|---|---|---|"
+    for level in levels:
         values = figures(level.result)
-        reference = reference or values
         shown = [f"{v:.0f} N ({100 * (v / r - 1):+.1f} %)" for v, r in zip(values[:3], reference)]
         shown += [f"{v:.2f} s ({100 * (v / r - 1):+.1f} %)" for v, r in zip(values[3:], reference[3:])]
         times = f"{1e6 * level.bare:.0f}, {1e6 * (level.whole - level.bare):.0f} | {level.whole / level.step:.2f}"
-        print(f"| {level.name} | {1e3 * level.step:g} ms | {times} | {' | '.join(shown)} |", flush=True)
+        yield f"| {level.name} | {1e3 * level.step:g} ms | {times} | {' | '.join(shown)} |"
+
+
+def main():
+    print("\n".join(table([measured(*given) for given in LEVELS])))
 
 
 if __name__ == "__main__":
