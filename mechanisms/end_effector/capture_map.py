@@ -142,9 +142,11 @@ def repeated(results):
     return len(chosen), [f"{point.panel} {point.x:g}, {point.y:g}: {a}, {b}" for point, a, b in halves if a != b]
 
 
-def rows():
+def rows(picture=None):
+    """`picture`: the file that the map is drawn into."""
     results = found()
-    plot(results, HERE / "capture_map.png")
+    if picture is not None:
+        plot(results, picture)
     counts = Counter(came for _, came in results)
     told = [(point, came) for point, came in results if point.predicted is not None]
     wrong = [(point, came) for point, came in told if point.predicted == (came == "missed")]
@@ -195,7 +197,7 @@ def plot(results, path):
 
 
 def main():
-    for row in rows():
+    for row in rows(HERE / "capture_map.png"):
         print(line(row))
 
 
