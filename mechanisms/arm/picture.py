@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """Draws picture.png: the arm presses its ball onto the pad. Needs what run.py needs, and OpenGL without a screen."""
 
 import os
