@@ -1,6 +1,8 @@
 """A berthing: the machine, the sequencer that drives it, and what fails."""
 
 import copy
+import pathlib
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,19 +24,20 @@ class Case:
     level: Level = TRAINING
     offset: tuple = (0.020, -0.015)  # of the passive ring, m
     turn: tuple = (-0.006, 0.008, 0.012)  # rotation vector, rad: yaw -0.34, pitch 0.46, roll 0.69 degrees
+    gap: float = mechanism.d.START_GAP
     load: mechanism.Load = field(default_factory=mechanism.Load)
     dead_indicator: int | None = None  # gives no signal
     stalled: tuple = ()  # (latch, angle of its crank from which its motor has no power)
     unberth: bool = False
+    folder: pathlib.Path = mechanism.HERE  # of the contact models
 
 
 class Berthing(Machine):
-    """`bits` of what the sequencer knows are in `state()`; the machine's own state is that of MuJoCo."""
-
     def __init__(self, case):
-        start = mechanism.Start(case.offset, case.turn, speed=mechanism.d.APPROACH_SPEED)
-        self.case, self.sequencer = case, seq.Sequencer(case.unberth)
-        super().__init__(mechanism.text(case.level, case.load, start), mechanism.carriers())
+        start = mechanism.Start(case.offset, case.turn, case.gap, mechanism.d.APPROACH_SPEED)
+        self.case, self.sequencer = case, seq.Sequencer(case.unberth, case.gap)
+        scene = mechanism.Scene(case.level, case.load, start)
+        super().__init__(mechanism.text(scene, case.folder), mechanism.carried(scene).values())
         self.cranks = [self.model.joint(f"crank_{i}") for i in LATCHES]
         self.data.qvel[self.model.joint("module").dofadr[0] + 2] = -start.speed
         self.off_loop, self.moved_early = 0.0, 0.0
@@ -99,3 +102,13 @@ def same_bits_after_restart(case, before, after):
     second.sequencer = sequencer
     second.run(after, second.control)
     return first.save().tobytes() == second.save().tobytes()
+
+
+def without_friction(root):
+    """Copies the contact models below a folder, with μ = 0 everywhere; answers the folder that takes the place of ours."""
+    for folder in (mechanism.HERE, mechanism.d.COMMON):
+        copied = root / folder.relative_to(mechanism.HERE.parent.parent)
+        copied.mkdir(parents=True)
+        for model in folder.glob("*.ron"):
+            (copied / model.name).write_text(re.sub(r"mu: [0-9.]+", "mu: 0.0", model.read_text(encoding="utf-8")))
+    return root / mechanism.HERE.relative_to(mechanism.HERE.parent.parent)

@@ -37,6 +37,19 @@ class Start:
     speed: float = 0.0
 
 
+@dataclass(frozen=True)
+class Scene:
+    """`station`: mass of an active half that flies freely, kg, or None where it stands still. `guided`: the module slides
+    along z and does nothing else.
+    """
+
+    level: Level = TRAINING
+    load: Load = Load()
+    start: Start = Start()
+    station: float | None = None
+    guided: bool = False
+
+
 def about_y(angle):
     """Raises x toward z."""
     return mjcf.numbers((math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0))
@@ -106,12 +119,27 @@ def quadrant(i, level):
     return f'<body name="azimuth_{i}" quat="{mjcf.numbers(turned)}">{inside}</body>'
 
 
-def module(load, start):
+def module(scene):
+    start, load = scene.start, scene.load
     place = mjcf.numbers((*start.offset, start.gap))
+    joint = '<joint name="module" type="slide" axis="0 0 1"/>' if scene.guided else '<freejoint name="module"/>'
     return (
-        f'<body name="passive" pos="{place}" quat="{mjcf.numbers(arm.quaternion(start.turn))}"><freejoint name="module"/>'
+        f'<body name="passive" pos="{place}" quat="{mjcf.numbers(arm.quaternion(start.turn))}">{joint}'
         f'<inertial pos="{mjcf.numbers(load.center)}" mass="{load.mass:.12g}" diaginertia="{mjcf.numbers(load.inertia)}"/>'
         f"{arm.on_module()}{drawn_passive()}</body>"
+    )
+
+
+def station(scene):
+    """The active half: part of the world, or a ring that flies freely."""
+    inside = "".join(quadrant(i, scene.level) for i in LATCHES)
+    if scene.station is None:
+        return inside
+    hung = 4 * (d.CRANK_MASS + d.COUPLER_MASS + d.FOLLOWER_MASS + d.PLUNGER_MASS + common.PADDLE_MASS)
+    ring = mjcf.numbers([share * (scene.station - hung) / common.RING_MASS for share in common.RING_INERTIA])
+    return (
+        f'<body name="station"><freejoint name="station"/><inertial pos="0 0 0" mass="{scene.station - hung:.12g}" '
+        f'diaginertia="{ring}"/>{inside}</body>'
     )
 
 
@@ -132,19 +160,18 @@ OBJECTS = {"active": "active.ron", "passive": PASSIVE_MODEL, **{f"indicator_{i}"
 PAIRS = [(name, "passive") for name in OBJECTS if name != "passive"]
 
 
-def carried():
-    """Which body carries which movable group."""
-    bodies = {"active": "world", **{f"active/quadrant_{i}/latch_{i}": f"coupler_{i}" for i in LATCHES}}
+def carried(scene):
+    """Which body carries which movable group, in the order of the sensor."""
+    base = "world" if scene.station is None else "station"
+    bodies = {
+        "active": base,
+        **{f"active/quadrant_{i}/latch_{i}": f"coupler_{i}" for i in LATCHES},
+        "passive": "passive",
+    }
     for i in LATCHES:
-        bodies |= {f"indicator_{i}": "world"}
+        bodies |= {f"indicator_{i}": base}
         bodies |= {f"indicator_{i}/{part}": f"{part}_{i}" for part in ("plunger", "paddle")}
-    return {**bodies, "passive": "passive"}
-
-
-def carriers():
-    """Bodies of the movable groups, in the order of the sensor."""
-    of_indicators = [body for i in LATCHES for body in ("world", f"plunger_{i}", f"paddle_{i}")]
-    return ["world", *(f"coupler_{i}" for i in LATCHES), "passive", *of_indicators]
+    return bodies
 
 
 def _sensors():
@@ -159,17 +186,21 @@ def _sensors():
     return f"<sensor>{of_latch}{of_indicator}</sensor>"
 
 
-def text(level: Level = TRAINING, load=Load(), start=Start(), folder=HERE):
+def text(scene, folder=HERE):
     """The whole machine. `folder` holds active.ron and indicator.ron, as this folder does."""
-    extension = mjcf.contact_instance(OBJECTS, PAIRS, carried(), folder=str(folder), capacity=CAPACITY)
-    world = arm.in_world() + "".join(quadrant(i, level) for i in LATCHES) + module(load, start)
+    extension = mjcf.contact_instance(OBJECTS, PAIRS, carried(scene), folder=str(folder), capacity=CAPACITY)
+    world = arm.in_world() + station(scene) + module(scene)
     motors = "".join(mjcf.motor(f"latch_{i}", f"crank_{i}", d.STALL_TORQUE, d.FREE_SPEED) for i in LATCHES)
-    bolts = '<weld name="bolts" body1="passive" active="false" relpose="0 0 0 1 0 0 0" solref="0.01 1" solimp="0.99 0.999 0.001"/>'
-    joined = "".join(closure(i, level) for i in LATCHES)
+    to = "" if scene.station is None else 'body2="station"'
+    bolts = (
+        f'<weld name="bolts" body1="passive" {to} active="false" relpose="0 0 0 1 0 0 0" solref="0.01 1" '
+        'solimp="0.99 0.999 0.001"/>'
+    )
+    joined = "".join(closure(i, scene.level) for i in LATCHES)
     more = f"<equality>{joined}{bolts}</equality><actuator>{motors}{arm.actuators()}</actuator>{_sensors()}"
-    return mjcf.model("berthing", extension, world, more, level.step, "RK4")
+    return mjcf.model("berthing", extension, world, more, scene.level.step, "RK4")
 
 
 def training_mjcf(load=Load(), start=Start(), folder=HERE):
     """Level training as text: step 1 ms, integrator RK4."""
-    return text(TRAINING, load, start, folder)
+    return text(Scene(TRAINING, load, start), folder)

@@ -1,7 +1,7 @@
 """The sequence of a berthing: a state machine over numbers that sensors give. No MuJoCo, no NumPy: easy to port to C.
 
 approach   the arm brings the module in; nothing moves until all four indicators have been ready for a while
-capture    the latches close with little current until they stand; standoffs carry the module
+capture    the latches close with little current until all have caught; standoffs carry the module
 limp       the arm lets go
 pull       the current rises to that of the stalled motor; the latches pull the module onto the stops
 hold       stalled
@@ -18,10 +18,11 @@ APPROACH, CAPTURE, LIMP, PULL, HOLD, BOLT, OPEN, AWAY = range(8)
 PHASES = ("approach", "capture", "limp", "pull", "hold", "bolt", "open", "away")
 LATCHES = 4
 READY_FOR = 0.5  # s that all indicators must have been ready without a break
-STANDS = 0.01  # rad/s: a crank that is slower stands
+STANDS = 0.03  # rad/s, a twentieth of the free speed: a crank that is slower stands
 STANDS_FOR = 0.5  # s
-CAPTURE_LEAST = 5.0  # s: the stroke of a latch takes longer
-CAPTURE_MOST, PULL_MOST, OPEN_MOST = 15.0, 15.0, 12.0  # s
+CAUGHT = 0.60  # angle of a crank whose roller has drawn its fitting down to about 40 mm
+CAUGHT_FOR = 1.0  # s
+CAPTURE_MOST, PULL_MOST, OPEN_MOST = 8.0, 15.0, 12.0  # s
 LIMP_FOR = 1.0
 RAMP = 6.0  # s in which the current rises
 HELD_FOR = 1.5
@@ -52,12 +53,12 @@ class Commands:
 
 
 class Sequencer:
-    def __init__(self, unberth=False):
-        self.unberth = unberth
+    def __init__(self, unberth=False, start_gap=d.START_GAP):
+        self.unberth, self.start_gap = unberth, start_gap
         self.phase = APPROACH
         self.since = 0.0  # time at which the phase began
         self.quiet_since = 0.0  # since when what ends the phase has been so
-        self.gap = d.START_GAP
+        self.gap = start_gap
         self.fault = False  # a latch did not draw its fitting in
         self.ends = [-1.0] * len(PHASES)  # time at which each phase ended
 
@@ -65,7 +66,7 @@ class Sequencer:
         if self._finished(sensed):
             self._next(sensed)
         if self.phase == APPROACH:
-            self.gap = max(d.PUSHED_GAP, d.START_GAP - d.APPROACH_SPEED * sensed.time)
+            self.gap = max(d.PUSHED_GAP, self.start_gap - d.APPROACH_SPEED * sensed.time)
         return Commands(self._voltages(sensed), self.gap, self.phase <= CAPTURE, self.phase in (BOLT, OPEN))
 
     def _next(self, sensed):
@@ -80,8 +81,7 @@ class Sequencer:
         if self.phase == APPROACH:
             return self._lasting(all_ready(sensed), READY_FOR, sensed.time)
         if self.phase == CAPTURE:
-            standing = self._lasting(all_stand(sensed), STANDS_FOR, sensed.time)
-            return waited > CAPTURE_LEAST and standing or waited > CAPTURE_MOST
+            return self._lasting(all_caught(sensed), CAUGHT_FOR, sensed.time) or waited > CAPTURE_MOST
         if self.phase == LIMP:
             return waited > LIMP_FOR
         if self.phase == PULL:
@@ -103,11 +103,11 @@ class Sequencer:
 
     def _voltages(self, sensed):
         if self.phase in (CAPTURE, LIMP):
-            return [limited(d.CAPTURE_SHARE, speed) for speed in sensed.crank_speed]
+            return [driven(d.CAPTURE_SHARE, speed) for speed in sensed.crank_speed]
         if self.phase == PULL:
             risen = min(1.0, (sensed.time - self.since) / RAMP)
             share = d.CAPTURE_SHARE + (1.0 - d.CAPTURE_SHARE) * risen
-            return [limited(share, speed) for speed in sensed.crank_speed]
+            return [driven(share, speed) for speed in sensed.crank_speed]
         if self.phase in (HOLD, BOLT):
             return [1.0] * LATCHES
         if self.phase == OPEN:
@@ -115,13 +115,17 @@ class Sequencer:
         return [0.0] * LATCHES
 
 
-def limited(share, speed):
-    """The voltage that drives this share of the stall torque through a motor that turns: never more than the whole."""
-    return min(1.0, max(-1.0, share + speed / d.FREE_SPEED))
+def driven(share, speed):
+    """The voltage at which a motor that turns acts as one with this share of the stall torque, and the same free speed."""
+    return min(1.0, max(-1.0, share + (1.0 - share) * speed / d.FREE_SPEED))
 
 
 def all_ready(sensed):
     return min(sensed.stroke) >= d.READY_STROKE and min(sensed.turn) >= d.READY_TURN
+
+
+def all_caught(sensed):
+    return min(sensed.crank) >= CAUGHT
 
 
 def all_stand(sensed):
