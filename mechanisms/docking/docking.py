@@ -1,0 +1,154 @@
+"""A docking from the approach to the push-off: cases, runs, and what comes of them."""
+
+import copy
+import math
+from dataclasses import dataclass, field
+
+import dimensions as d
+import mujoco
+import numpy as np
+import stewart
+import vehicles
+from kit.machine import TUNNELLED
+from sequence import Sequencer
+
+GAP = 0.21  # m between the ring faces when a run begins; petals meet at about 0.17
+MEETING = 0.17
+
+
+@dataclass(frozen=True)
+class Case:
+    """How the chaser comes, when the petals meet; and what fails. SI units, angles in rad."""
+
+    speed: float = 0.10
+    lateral: tuple = (0.05, 0.0)
+    lateral_rate: tuple = (0.0, 0.0)
+    tilt: tuple = (math.radians(1.0), 0.0)  # about x and y
+    roll: float = math.radians(2.0)
+    rates: tuple = (0.0, 0.0, 0.0)  # rad/s, about the chaser's axes
+    dead_latch: int | None = None
+    stuck_leg: int | None = None
+    level: d.Level = field(default=d.TRAINING)
+    give_up: float = 8.0
+
+
+def approach(case, hard=True, drawn=None, assets=""):
+    """The machine before the first contact. The middle of the ring's face is where lateral and speed are meant."""
+    made = vehicles.machine(case.level, hard, drawn, assets)
+    ahead = (GAP - MEETING) / case.speed
+    angles = [angle - rate * ahead for angle, rate in zip((*case.tilt, case.roll), case.rates)]
+    frame = vehicles.about("z", angles[2]) @ vehicles.about("y", angles[1]) @ vehicles.about("x", angles[0])
+    face = np.array([*(p - v * ahead for p, v in zip(case.lateral, case.lateral_rate)), -GAP])
+    arm = frame @ stewart.NEUTRAL
+    spin = frame @ np.array(case.rates)
+    velocity = np.array([*case.lateral_rate, case.speed]) - np.cross(spin, arm)
+    vehicles.set_vehicle(made, "chaser", face - arm, frame, velocity, case.rates)
+    vehicles.set_vehicle(made, "target", (0, 0, 0), vehicles.flipped())
+    _open_hooks(made, hard)
+    made.start()
+    return made
+
+
+def at_rest(height, level, slack=0.0):
+    """Captured and at rest with the ring's face at a height above the hard plane; `slack`: gap between the ring faces."""
+    made = vehicles.machine(level)
+    stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
+    vehicles.set_vehicle(made, "chaser", (0, 0, -height - slack), np.eye(3))
+    vehicles.set_vehicle(made, "target", (0, 0, 0), vehicles.flipped())
+    _open_hooks(made, True)
+    made.start()
+    return made
+
+
+def _open_hooks(made, hard):
+    for i in range(d.HOOKS if hard else 0):
+        made.data.qpos[made.model.joint(f"hook_{i}").qposadr[0]] = -d.HOOK_OPEN
+
+
+class Watch:
+    """Peaks on the way, by phase."""
+
+    def __init__(self):
+        self.force, self.moment, self.leg, self.stroke, self.closure = {}, {}, {}, 0.0, 0.0
+
+    def __call__(self, made, sequencer):
+        phase, wrench = sequencer.phase, made.wrench("target")
+        for peaks, value in (
+            (self.force, np.linalg.norm(wrench[:3])),
+            (self.moment, np.linalg.norm(wrench[3:])),
+            (self.leg, max(abs(leg_force(made, i)) for i in range(stewart.LEGS))),
+        ):
+            peaks[phase] = max(peaks.get(phase, 0.0), float(value))
+        self.stroke = max(self.stroke, d.EXTENDED - float(stewart.pose(made.model, made.data)[0][2]))
+        self.closure = max(self.closure, wrong_kinematics(made)[1])
+
+
+def leg_force(made, i):
+    return float(made.data.actuator_force[made.model.actuator(f"leg_{i}").id])
+
+
+def wrong_kinematics(made):
+    """(greatest difference of a slide from the closed form of the ring's pose, greatest gap of a closure), m."""
+    place, turned = stewart.pose(made.model, made.data)
+    slides = np.array([made.joint(f"leg_{i}") for i in range(stewart.LEGS)])
+    ring = made.data.body("ring")
+    tips = ring.xpos + stewart.ON_RING @ ring.xmat.reshape(3, 3).T
+    gaps = [np.linalg.norm(tip - made.data.body(f"rod_{i}").xpos) for i, tip in enumerate(tips)]
+    return np.abs(slides - stewart.joints(place, turned)[:, 2]).max(), max(gaps)
+
+
+def motion(made, name):
+    """Velocity of the mass centre of a vehicle with all that it carries, and its angular velocity, in the world's axes."""
+    mujoco.mj_subtreeVel(made.model, made.data)
+    spin = np.empty(6)
+    mujoco.mj_objectVelocity(made.model, made.data, mujoco.mjtObj.mjOBJ_BODY, made.model.body(name).id, spin, 0)
+    return made.data.subtree_linvel[made.model.body(name).id].copy(), spin[:3]
+
+
+@dataclass
+class Result:
+    machine: object
+    sequencer: Sequencer
+    watch: Watch
+
+    @property
+    def captured(self):
+        return self.sequencer.captured_at is not None
+
+    @property
+    def tunnelled(self):
+        return bool(self.machine.flags & TUNNELLED)
+
+    def relative_speed(self):
+        return motion(self.machine, "chaser")[0] - motion(self.machine, "target")[0]
+
+
+def run(case, until, limit=60.0, prepare=None, watched=None):
+    """Until the sequencer has entered the phase `until` or aborts, `limit` s at most."""
+    made = approach(case)
+    sequencer = Sequencer(case.dead_latch, case.stuck_leg, case.give_up)
+    return go_on(made, sequencer, until, limit, prepare, watched)
+
+
+def go_on(made, sequencer, until, limit=60.0, prepare=None, watched=None):
+    if prepare is not None:
+        prepare(made)
+    watch = Watch()
+    while made.time < limit and sequencer.phase not in (until, "abort"):
+        made.advance(sequencer)
+        watch(made, sequencer)
+        if watched is not None:
+            watched(made, sequencer)
+    return Result(made, sequencer, watch)
+
+
+def same_bits_after_restart(case, before, after):
+    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
+    first, one = approach(case), Sequencer(case.dead_latch, case.stuck_leg)
+    first.run(before, one)
+    middle, other = first.save(), copy.deepcopy(one)
+    first.run(after, one)
+    second = approach(case)
+    second.restore(middle)
+    second.run(after, other)
+    return first.save().tobytes() == second.save().tobytes()

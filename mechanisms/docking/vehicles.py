@@ -1,0 +1,117 @@
+"""Chaser and target as MJCF: bodies, joints, motors, and the contact models of soft and hard capture."""
+
+import math
+
+import dimensions as d
+import numpy as np
+import stewart
+from kit import mjcf
+from kit.machine import Machine
+from kit.mjcf import numbers
+
+SOFT = {"chaser": "models/idss_docking/idss_active.ron", "target": "models/idss_docking/idss_passive.ron"}
+HARD = {"hard_chaser": "mechanisms/docking/hard_active.ron", "hard_target": "mechanisms/docking/hard_passive.ron"}
+LATCHES = range(3)
+CAPACITY = 128
+
+
+def body(name, mass, inertia, inside="", center=(0, 0, 0), place=(0, 0, 0), quaternion=(1, 0, 0, 0)):
+    return (
+        f'<body name="{name}" pos="{numbers(place)}" quat="{numbers(quaternion)}">'
+        f'<inertial pos="{numbers(center)}" mass="{mass:.12g}" diaginertia="{numbers(inertia)}"/>{inside}</body>'
+    )
+
+
+def latches():
+    """Each slides along the radius of the ring on a spring that has no preload."""
+    text = ""
+    for i, azimuth in enumerate(d.IDSS.ACTIVE_PETALS):
+        frame = np.array(d.IDSS.latch_frame(azimuth)).T
+        slide = (
+            f'<joint name="latch_{i}" type="slide" axis="1 0 0" stiffness="{d.LATCH_STIFFNESS}" damping="{d.LATCH_DAMPING}" '
+            f'limited="true" range="{-d.LATCH_STROKE} {d.LATCH_STROKE}"/>'
+        )
+        place = d.IDSS.latch_tip(azimuth)
+        text += body(f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=stewart.quaternion(frame))
+    return text
+
+
+def hooks():
+    """Each turns on a pivot outside the hard face; zero: its arm lies across the axis. It starts open."""
+    text = ""
+    for i in range(d.HOOKS):
+        azimuth = i * 360.0 / d.HOOKS
+        inwards = np.array(d.on_circle(-1.0, azimuth))
+        frame = np.column_stack([inwards, np.cross((0, 0, 1), inwards), (0, 0, 1)])
+        hinge = f'<joint name="hook_{i}" axis="0 1 0" armature="{d.HOOK_ARMATURE}"/>'
+        arm = '<geom type="box" pos="0.0325 0 0.0125" size="0.0475 0.015 0.0125" rgba="0.8 0.3 0.2 1"/>'
+        place = d.on_circle(d.HOOK_PIVOT_RADIUS, azimuth, d.HOOK_PIVOT_HEIGHT)
+        text += body(
+            f"hook_{i}", d.HOOK_MASS, (1e-3, 4e-3, 4e-3), hinge + arm, (0.03, 0, 0.01), place, stewart.quaternion(frame)
+        )
+    return text
+
+
+def world(hard, drawn=""):
+    """Everything stands at the origin: `set_vehicle` puts it in its place."""
+    inside = stewart.bodies() + stewart.ring(latches() + drawn.get("ring", "")) + (hooks() if hard else "")
+    chaser = body("chaser", d.CHASER_MASS, d.CHASER_INERTIA, "<freejoint/>" + drawn.get("chaser", "") + inside, d.CHASER_CENTER)
+    target = body("target", d.TARGET_MASS, d.TARGET_INERTIA, "<freejoint/>" + drawn.get("target", ""), d.TARGET_CENTER)
+    return chaser + target
+
+
+def actuators(hard):
+    solenoids = "".join(f'<motor name="latch_{i}" joint="latch_{i}"/>' for i in LATCHES)
+    motors = "".join(mjcf.motor(f"hook_{i}", f"hook_{i}", d.HOOK_STALL, d.HOOK_FREE_SPEED) for i in range(d.HOOKS if hard else 0))
+    return f"<actuator>{stewart.actuators()}{solenoids}{motors}</actuator>"
+
+
+def machine(level, hard=True, drawn=None, assets=""):
+    """`hard`: with pads, pushers and hooks; without, for approaches until capture. `drawn`: body → geoms to be seen."""
+    objects = {**SOFT, **(HARD if hard else {})}
+    carried = {"chaser/ring": "ring", **{f"chaser/ring/latch_{i}": f"latch_{i}" for i in LATCHES}}
+    carriers = ["chaser", "ring", *[f"latch_{i}" for i in LATCHES], "target"]
+    pairs = [("chaser", "target")]
+    if hard:
+        hooks_ = [f"hook_{i}" for i in range(d.HOOKS)]
+        carried |= {"hard_chaser": "chaser", "hard_target": "target", **{f"hard_chaser/{name}": name for name in hooks_}}
+        carriers += ["chaser", *hooks_, "target"]
+        pairs += [("hard_chaser", "hard_target")]
+    text = mjcf.model(
+        "docking",
+        mjcf.contact_instance(objects, pairs, carried, folder=d.ROOT, capacity=CAPACITY) + assets,
+        world(hard, drawn or {}),
+        actuators(hard) + stewart.closures(level),
+        level.step,
+        level.integrator,
+    )
+    return Machine(text, carriers)
+
+
+def set_vehicle(made, name, place, frame, velocity=(0, 0, 0), spin=(0, 0, 0)):
+    """Place and rotation matrix of a vehicle's frame, velocity of its origin, angular velocity along its own axes."""
+    joint = made.model.joint(made.model.body(name).jntadr[0])
+    first, rate = joint.qposadr[0], joint.dofadr[0]
+    made.data.qpos[first : first + 7] = np.hstack([place, stewart.quaternion(frame)])
+    made.data.qvel[rate : rate + 6] = np.hstack([velocity, spin])
+
+
+def flipped():
+    """The target's port looks along −z: its frame is turned by 180° about x."""
+    return np.diag([1.0, -1.0, -1.0])
+
+
+def about(axis, angle):
+    c, s = math.cos(angle), math.sin(angle)
+    made = {"x": [[1, 0, 0], [0, c, -s], [0, s, c]], "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]], "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]]}
+    return np.array(made[axis])
+
+
+def reduced_mass():
+    """Of the two vehicles along the axis; the chaser with ring, legs, latches and hooks."""
+    return 1.0 / (1.0 / chaser_mass() + 1.0 / d.TARGET_MASS)
+
+
+def chaser_mass(hard=True):
+    carried = d.RING_MASS + 3 * d.LATCH_MASS + stewart.LEGS * (d.CYLINDER_MASS + d.ROD_MASS)
+    return d.CHASER_MASS + carried + (d.HOOKS * d.HOOK_MASS if hard else 0.0)
