@@ -18,7 +18,9 @@ import geometry as g  # noqa: E402
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 STEP = 360.0 / d.HOOKS
 SURFACES = {
-    "pad": a.surface(d.HARD_PAD_STIFFNESS, normal=a.linear(damping=d.HARD_PAD_DAMPING, ramp=1e-4), friction=a.bristle(mu=0.2)),
+    "pad": a.surface(
+        d.HARD_PAD_STIFFNESS, normal=a.linear(damping=d.HARD_PAD_DAMPING, ramp=1e-4), friction=a.bristle(mu=0.2)
+    ),
     "hook": a.surface(d.HOOK_STIFFNESS, normal=a.linear(damping=d.HOOK_DAMPING, ramp=1e-4)),
     "pusher": a.surface(d.PUSHER_STIFFNESS, normal=a.linear(damping=0.0)),
 }
@@ -56,7 +58,12 @@ def active():
     pads = [a.point(f"pad_{i}", g.on_circle(d.HARD_PAD_RADIUS, i * STEP)) for i in range(d.HOOKS)]
     pushers = [
         a.ray(
-            f"pusher_{i}", g.on_circle(d.PUSHER_RADIUS, i * 360.0 / d.PUSHERS), UP, d.PUSHER_LENGTH, reach=0.02, response="Axial"
+            f"pusher_{i}",
+            g.on_circle(d.PUSHER_RADIUS, i * 360.0 / d.PUSHERS),
+            UP,
+            d.PUSHER_LENGTH,
+            reach=0.02,
+            response="Axial",
         )
         for i in range(d.PUSHERS)
     ]

@@ -30,15 +30,16 @@ class Case:
     stuck_leg: int | None = None
     level: d.Level = field(default=d.TRAINING)
     give_up: float = 8.0
+    gap: float = GAP
 
 
 def approach(case, hard=True, drawn=None, assets=""):
     """The machine before the first contact. The middle of the ring's face is where lateral and speed are meant."""
     made = vehicles.machine(case.level, hard, drawn, assets)
-    ahead = (GAP - MEETING) / case.speed
+    ahead = max(case.gap - MEETING, 0.0) / case.speed
     angles = [angle - rate * ahead for angle, rate in zip((*case.tilt, case.roll), case.rates)]
     frame = vehicles.about("z", angles[2]) @ vehicles.about("y", angles[1]) @ vehicles.about("x", angles[0])
-    face = np.array([*(p - v * ahead for p, v in zip(case.lateral, case.lateral_rate)), -GAP])
+    face = np.array([*(p - v * ahead for p, v in zip(case.lateral, case.lateral_rate)), -case.gap])
     arm = frame @ stewart.NEUTRAL
     spin = frame @ np.array(case.rates)
     velocity = np.array([*case.lateral_rate, case.speed]) - np.cross(spin, arm)
@@ -49,11 +50,26 @@ def approach(case, hard=True, drawn=None, assets=""):
     return made
 
 
-def at_rest(height, level, slack=0.0):
-    """Captured and at rest with the ring's face at a height above the hard plane; `slack`: gap between the ring faces."""
+def captured(height, level):
+    """At rest, the latches behind their strikers, the ring's face at a height above the hard plane."""
     made = vehicles.machine(level)
     stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
-    vehicles.set_vehicle(made, "chaser", (0, 0, -height - slack), np.eye(3))
+    vehicles.set_vehicle(made, "chaser", (0, 0, -height), np.eye(3))
+    return _faced(made)
+
+
+def mated_and_free(level, petals):
+    """At rest, the hard faces meet, pushers 1 and 2 are pressed; ring and latches are drawn back and hold nothing."""
+    made = vehicles.machine(level, dead_pusher=True, petals=petals)
+    height = d.MATED - d.PULLED_DEEPER
+    stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
+    vehicles.set_vehicle(made, "chaser", (0, 0, -d.MATED), np.eye(3))
+    for i in vehicles.LATCHES:
+        made.data.qpos[made.model.joint(f"latch_{i}").qposadr[0]] = -0.9 * d.LATCH_STROKE
+    return _faced(made)
+
+
+def _faced(made):
     vehicles.set_vehicle(made, "target", (0, 0, 0), vehicles.flipped())
     _open_hooks(made, True)
     made.start()
@@ -66,25 +82,32 @@ def _open_hooks(made, hard):
 
 
 class Watch:
-    """Peaks on the way, by phase."""
+    """Peaks on the way, by phase; the kinematics of the legs at each tenth step."""
 
     def __init__(self):
-        self.force, self.moment, self.leg, self.stroke, self.closure = {}, {}, {}, 0.0, 0.0
+        self.force, self.moment, self.leg, self.stroke = {}, {}, {}, 0.0
+        self.wrong, self.closure, self.beyond, self.steps = 0.0, 0.0, 0.0, 0
 
     def __call__(self, made, sequencer):
         phase, wrench = sequencer.phase, made.wrench("target")
         for peaks, value in (
             (self.force, np.linalg.norm(wrench[:3])),
             (self.moment, np.linalg.norm(wrench[3:])),
-            (self.leg, max(abs(leg_force(made, i)) for i in range(stewart.LEGS))),
+            (self.leg, np.abs(made.data.actuator_force[stewart.actuator_slice(made.model)]).max()),
         ):
             peaks[phase] = max(peaks.get(phase, 0.0), float(value))
+        self.steps += 1
+        if self.steps % 10 == 0:
+            self._look_at_legs(made)
+
+    def _look_at_legs(self, made):
         self.stroke = max(self.stroke, d.EXTENDED - float(stewart.pose(made.model, made.data)[0][2]))
-        self.closure = max(self.closure, wrong_kinematics(made)[1])
-
-
-def leg_force(made, i):
-    return float(made.data.actuator_force[made.model.actuator(f"leg_{i}").id])
+        wrong, gap = wrong_kinematics(made)
+        self.wrong, self.closure, self.beyond = (
+            max(self.wrong, wrong),
+            max(self.closure, gap),
+            max(self.beyond, wrong - gap),
+        )
 
 
 def wrong_kinematics(made):
@@ -143,12 +166,20 @@ def go_on(made, sequencer, until, limit=60.0, prepare=None, watched=None):
 
 
 def same_bits_after_restart(case, before, after):
+    return _same_bits(lambda: approach(case), Sequencer(case.dead_latch, case.stuck_leg), before, after)
+
+
+def same_bits_while_hooking(level, before, after):
+    return _same_bits(lambda: captured(d.MATED, level), Sequencer(from_phase="hook"), before, after)
+
+
+def _same_bits(begin, one, before, after):
     """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
-    first, one = approach(case), Sequencer(case.dead_latch, case.stuck_leg)
+    first = begin()
     first.run(before, one)
     middle, other = first.save(), copy.deepcopy(one)
     first.run(after, one)
-    second = approach(case)
+    second = begin()
     second.restore(middle)
     second.run(after, other)
     return first.save().tobytes() == second.save().tobytes()

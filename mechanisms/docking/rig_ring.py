@@ -85,7 +85,12 @@ def stiffness():
         measured = np.column_stack([settled(0.01 * unit, laws) / 0.01 for unit in np.eye(6)])
         # Each entry against the geometric mean of its two diagonals: metres and radians stand side by side.
         scale = np.sqrt(np.outer(np.diag(predicted), np.diag(predicted)))
-        yield Row(f"{label}: compliance against (JᵀKJ)⁻¹, greatest entry off", np.abs((measured - predicted) / scale).max(), 0.0, 1e-3)
+        yield Row(
+            f"{label}: compliance against (JᵀKJ)⁻¹, greatest entry off",
+            np.abs((measured - predicted) / scale).max(),
+            0.0,
+            1e-3,
+        )
 
 
 def rows():

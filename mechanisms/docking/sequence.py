@@ -7,8 +7,24 @@ from dimensions import IDSS
 from vehicles import LATCHES
 
 STRIKER_EDGE = IDSS.RIM_RADIUS + IDSS.STRIKER_RECESS - IDSS.STRIKER_BACK  # inner edge of its back face, from the axis
-BEHIND, BACK_IN_PLACE = 0.002, 0.001  # m: by which a catch must reach over its striker; how near it is to where it rests
-PHASES = ("capture", "attenuate", "align", "retract", "slow", "hook", "hold", "unhook", "unlatch", "away", "abort")
+BEHIND, BACK_IN_PLACE = (
+    0.002,
+    0.001,
+)  # m: by which a catch must reach over its striker; how near it is to where it rests
+PHASES = (
+    "capture",
+    "attenuate",
+    "align",
+    "retract",
+    "slow",
+    "hook",
+    "hold",
+    "unhook",
+    "unlatch",
+    "away",
+    "done",
+    "abort",
+)
 TIMES = {
     "attenuate": 4.0,
     "align": 6.0,
@@ -16,11 +32,12 @@ TIMES = {
     "slow": d.SLOW_TIME,
     "hook": 3.5,
     "hold": 0.5,
-    "unhook": 2.0,
+    "unhook": 3.5,
     "unlatch": 0.4,
+    "away": 2.6,
 }
 HOOK_VOLTAGE = {"hook": 1.0, "hold": 1.0, "unhook": -0.5}
-RELEASED = ("unlatch", "away", "abort")
+RELEASED = ("unlatch", "away", "done", "abort")
 
 
 def catch(made, i):
@@ -111,6 +128,8 @@ class Sequencer:
         """Open hooks stand on a brake; while they open, each stops where it began."""
         for i in range(d.HOOKS):
             number, dof = made.model.actuator(f"hook_{i}").id, made.model.joint(f"hook_{i}").dofadr[0]
-            braked = self.phase not in HOOK_VOLTAGE or (self.phase == "unhook" and made.joint(f"hook_{i}") < -d.HOOK_OPEN)
+            braked = self.phase not in HOOK_VOLTAGE or (
+                self.phase == "unhook" and made.joint(f"hook_{i}") < -d.HOOK_OPEN
+            )
             made.data.ctrl[number] = 0.0 if braked else HOOK_VOLTAGE[self.phase]
             made.model.dof_frictionloss[dof] = d.HOOK_STALL if braked else 0.0

@@ -11,6 +11,7 @@ import numpy as np
 from kit.mjcf import numbers
 
 LEGS = 6
+UPRIGHT = np.eye(3)
 
 
 def _joints(radius, height, middles, half_angle):
@@ -30,7 +31,7 @@ ON_RING = _joints(
 NEUTRAL = np.array([0.0, 0.0, d.EXTENDED])
 
 
-def legs(place, turned=np.eye(3)):
+def legs(place, turned=UPRIGHT):
     """Vectors from the base joints to the ring's joints: the inverse kinematics."""
     return place + ON_RING @ np.asarray(turned).T - BASE
 
@@ -53,7 +54,7 @@ def frames():
 FRAMES = frames()
 
 
-def joints(place, turned=np.eye(3)):
+def joints(place, turned=UPRIGHT):
     """Of each leg: the two angles and the slide that bring its end to the ring, in closed form."""
     answer = []
     for vector, frame, neutral in zip(legs(place, turned), FRAMES, LENGTHS):
@@ -67,7 +68,7 @@ def slides(height):
     return np.linalg.norm(legs(np.array([0.0, 0.0, height])), axis=1) - LENGTHS
 
 
-def jacobian(place=NEUTRAL, turned=np.eye(3)):
+def jacobian(place=NEUTRAL, turned=UPRIGHT):
     """Rates of the legs for a velocity of the ring's origin and an angular velocity, both along the chaser's axes."""
     vectors = legs(place, turned)
     units = vectors / np.linalg.norm(vectors, axis=1)[:, None]
@@ -103,7 +104,8 @@ def bodies():
 def ring(inside=""):
     """The ring, free against the chaser but for its legs."""
     slides_ = "".join(
-        f'<joint name="ring_{name}" type="slide" axis="{axis}"/>' for name, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
+        f'<joint name="ring_{name}" type="slide" axis="{axis}"/>'
+        for name, axis in (("x", "1 0 0"), ("y", "0 1 0"), ("z", "0 0 1"))
     )
     return (
         f'<body name="ring" pos="{numbers(NEUTRAL)}">{slides_}<joint name="ring_turn" type="ball"/>'
@@ -129,17 +131,23 @@ def actuators():
     )
 
 
+def actuator_slice(model):
+    """Where the six stand among the actuators."""
+    first = model.actuator("leg_0").id
+    return slice(first, first + LEGS)
+
+
 def command(model, data, slides_, impedances):
     """The law of each leg, one `Impedance` for each."""
-    for i, (slide, law) in enumerate(zip(slides_, impedances)):
-        number = model.actuator(f"leg_{i}").id
-        model.actuator_gainprm[number, 0] = law.stiffness
-        model.actuator_biasprm[number, 1] = -law.stiffness
-        model.actuator_biasprm[number, 2] = -law.damping
-        data.ctrl[number] = slide
+    six = actuator_slice(model)
+    stiffness = [law.stiffness for law in impedances]
+    model.actuator_gainprm[six, 0] = stiffness
+    model.actuator_biasprm[six, 1] = np.negative(stiffness)
+    model.actuator_biasprm[six, 2] = [-law.damping for law in impedances]
+    data.ctrl[six] = slides_
 
 
-def set_pose(model, data, place, turned=np.eye(3)):
+def set_pose(model, data, place, turned=UPRIGHT):
     """Puts ring and legs where the closed form says."""
     for name, value in zip("xyz", place - NEUTRAL):
         data.qpos[model.joint(f"ring_{name}").qposadr[0]] = value

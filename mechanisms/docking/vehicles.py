@@ -32,7 +32,9 @@ def latches():
             f'limited="true" range="{-d.LATCH_STROKE} {d.LATCH_STROKE}"/>'
         )
         place = d.IDSS.latch_tip(azimuth)
-        text += body(f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=stewart.quaternion(frame))
+        text += body(
+            f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=stewart.quaternion(frame)
+        )
     return text
 
 
@@ -47,7 +49,13 @@ def hooks():
         arm = '<geom type="box" pos="0.0325 0 0.0125" size="0.0475 0.015 0.0125" rgba="0.8 0.3 0.2 1"/>'
         place = d.on_circle(d.HOOK_PIVOT_RADIUS, azimuth, d.HOOK_PIVOT_HEIGHT)
         text += body(
-            f"hook_{i}", d.HOOK_MASS, (1e-3, 4e-3, 4e-3), hinge + arm, (0.03, 0, 0.01), place, stewart.quaternion(frame)
+            f"hook_{i}",
+            d.HOOK_MASS,
+            (1e-3, 4e-3, 4e-3),
+            hinge + arm,
+            (0.03, 0, 0.01),
+            place,
+            stewart.quaternion(frame),
         )
     return text
 
@@ -55,31 +63,50 @@ def hooks():
 def world(hard, drawn=""):
     """Everything stands at the origin: `set_vehicle` puts it in its place."""
     inside = stewart.bodies() + stewart.ring(latches() + drawn.get("ring", "")) + (hooks() if hard else "")
-    chaser = body("chaser", d.CHASER_MASS, d.CHASER_INERTIA, "<freejoint/>" + drawn.get("chaser", "") + inside, d.CHASER_CENTER)
+    chaser = body(
+        "chaser", d.CHASER_MASS, d.CHASER_INERTIA, "<freejoint/>" + drawn.get("chaser", "") + inside, d.CHASER_CENTER
+    )
     target = body("target", d.TARGET_MASS, d.TARGET_INERTIA, "<freejoint/>" + drawn.get("target", ""), d.TARGET_CENTER)
     return chaser + target
 
 
 def actuators(hard):
     solenoids = "".join(f'<motor name="latch_{i}" joint="latch_{i}"/>' for i in LATCHES)
-    motors = "".join(mjcf.motor(f"hook_{i}", f"hook_{i}", d.HOOK_STALL, d.HOOK_FREE_SPEED) for i in range(d.HOOKS if hard else 0))
+    motors = "".join(
+        mjcf.motor(f"hook_{i}", f"hook_{i}", d.HOOK_STALL, d.HOOK_FREE_SPEED) for i in range(d.HOOKS if hard else 0)
+    )
     return f"<actuator>{stewart.actuators()}{solenoids}{motors}</actuator>"
 
 
-def machine(level, hard=True, drawn=None, assets=""):
-    """`hard`: with pads, pushers and hooks; without, for approaches until capture. `drawn`: body → geoms to be seen."""
-    objects = {**SOFT, **(HARD if hard else {})}
+def without_pusher():
+    """The hard model of the chaser with pusher 0 too short to reach anything."""
+    text = " ".join((d.ROOT / HARD["hard_chaser"]).read_text().split())
+    before, after = text.split('name: "pusher_0"')
+    return before + 'name: "pusher_0"' + after.replace(f"length: {d.PUSHER_LENGTH}", "length: 1e-4", 1)
+
+
+def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=True):
+    """`hard`: with pads, pushers and hooks; without, for approaches until capture. `drawn`: body → geoms to be seen.
+
+    `dead_pusher`: pusher 0 does not push. Without `petals` these, strikers and latches touch nothing.
+    """
+    objects = {**SOFT, **(HARD if hard else {}), **({"hard_chaser": "text1"} if dead_pusher else {})}
+    texts = [without_pusher()] if dead_pusher else []
     carried = {"chaser/ring": "ring", **{f"chaser/ring/latch_{i}": f"latch_{i}" for i in LATCHES}}
     carriers = ["chaser", "ring", *[f"latch_{i}" for i in LATCHES], "target"]
-    pairs = [("chaser", "target")]
+    pairs = [("chaser", "target")] if petals else []
     if hard:
         hooks_ = [f"hook_{i}" for i in range(d.HOOKS)]
-        carried |= {"hard_chaser": "chaser", "hard_target": "target", **{f"hard_chaser/{name}": name for name in hooks_}}
+        carried |= {
+            "hard_chaser": "chaser",
+            "hard_target": "target",
+            **{f"hard_chaser/{name}": name for name in hooks_},
+        }
         carriers += ["chaser", *hooks_, "target"]
         pairs += [("hard_chaser", "hard_target")]
     text = mjcf.model(
         "docking",
-        mjcf.contact_instance(objects, pairs, carried, folder=d.ROOT, capacity=CAPACITY) + assets,
+        mjcf.contact_instance(objects, pairs, carried, texts, folder=d.ROOT, capacity=CAPACITY) + assets,
         world(hard, drawn or {}),
         actuators(hard) + stewart.closures(level),
         level.step,
@@ -103,7 +130,11 @@ def flipped():
 
 def about(axis, angle):
     c, s = math.cos(angle), math.sin(angle)
-    made = {"x": [[1, 0, 0], [0, c, -s], [0, s, c]], "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]], "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]]}
+    made = {
+        "x": [[1, 0, 0], [0, c, -s], [0, s, c]],
+        "y": [[c, 0, s], [0, 1, 0], [-s, 0, c]],
+        "z": [[c, -s, 0], [s, c, 0], [0, 0, 1]],
+    }
     return np.array(made[axis])
 
 
