@@ -209,4 +209,3 @@ def rows(thorough):
         yield "too slow", too_slow()
         yield "failures", failures()
         yield "limits", limits()
-        yield "worst case", worst()

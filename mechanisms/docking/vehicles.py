@@ -22,7 +22,7 @@ def body(name, mass, inertia, inside="", center=(0, 0, 0), place=(0, 0, 0), quat
     )
 
 
-def latches():
+def latches(drawn):
     """Each slides along the radius of the ring on a spring that has no preload."""
     text = ""
     for i, azimuth in enumerate(d.IDSS.ACTIVE_PETALS):
@@ -32,6 +32,7 @@ def latches():
             f'limited="true" range="{-d.LATCH_STROKE} {d.LATCH_STROKE}"/>'
         )
         place = d.IDSS.latch_tip(azimuth)
+        slide += drawn.get(f"latch_{i}", "")
         text += body(
             f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=stewart.quaternion(frame)
         )
@@ -60,9 +61,9 @@ def hooks():
     return text
 
 
-def world(hard, drawn=""):
+def world(hard, drawn):
     """Everything stands at the origin: `set_vehicle` puts it in its place."""
-    inside = stewart.bodies() + stewart.ring(latches() + drawn.get("ring", "")) + (hooks() if hard else "")
+    inside = stewart.bodies() + stewart.ring(latches(drawn) + drawn.get("ring", "")) + (hooks() if hard else "")
     chaser = body(
         "chaser", d.CHASER_MASS, d.CHASER_INERTIA, "<freejoint/>" + drawn.get("chaser", "") + inside, d.CHASER_CENTER
     )

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Draws picture.png without a screen: the latches have caught, the legs take up the motion.
+
+MUJOCO_GL=egl python3 mechanisms/docking/picture.py        with the plugin as for mechanisms/run.py
+"""
+
+import importlib.util
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+
+import dimensions as d  # noqa: E402
+import docking  # noqa: E402
+import vehicles  # noqa: E402
+from kit import picture  # noqa: E402
+from kit.mjcf import numbers  # noqa: E402
+from sequence import Sequencer  # noqa: E402
+
+COLOURS = {"chaser": "0.75 0.75 0.8 1", "ring": "0.85 0.7 0.35 1", "target": "0.4 0.5 0.65 0.35"}
+LATCH = "0.8 0.3 0.2 1"
+CHOSEN = {**vehicles.SOFT, "target ": vehicles.HARD["hard_target"]}
+
+
+def read(path):
+    spec = importlib.util.spec_from_file_location("ron_of_models", d.ROOT / "hosts/mujoco/docking/ron.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.read((d.ROOT / path).read_text(encoding="utf-8"))
+
+
+def polyhedra(group, carrier):
+    """(body, vertices) of all polyhedra of a group and those below it."""
+    for primitive in group.get("primitives", []):
+        if primitive["is"] == "Polyhedron":
+            yield carrier, primitive["vertices"]
+    for below in group.get("groups", []):
+        yield from polyhedra(below, below["name"] if below.get("movable") else carrier)
+
+
+def shapes():
+    """(assets, body → geoms) of what is to be seen of the contact models."""
+    assets, geoms = "", {}
+    for name, path in CHOSEN.items():
+        for index, (carrier, vertices) in enumerate(polyhedra(read(path)["root"], name.strip())):
+            mesh = f"{name.strip()}_{len(name)}_{index}"
+            flat = numbers(value for vertex in vertices for value in vertex)
+            assets += f'<mesh name="{mesh}" inertia="legacy" vertex="{flat}"/>'
+            colour = COLOURS.get(carrier, LATCH)
+            text = f'<geom type="mesh" mesh="{mesh}" rgba="{colour}" mass="0"/>'
+            geoms[carrier] = geoms.get(carrier, "") + text
+    return f"<asset>{assets}</asset>", geoms
+
+
+def main():
+    assets, geoms = shapes()
+    made, sequencer = docking.approach(docking.Case(), drawn=geoms, assets=assets), Sequencer()
+    made.run(20.0, sequencer, watch=lambda m: sequencer.phase == "attenuate" and m.time > sequencer.since + 0.5)
+    made.model.stat.meansize = 0.1  # of discs and arrows; the vehicles are much larger than what is seen
+    middle = made.place("ring") - (0.0, 0.0, 0.15)
+    picture.take(made, HERE / "picture.png", middle, distance=2.0, azimuth=140, elevation=-22, force_scale=2e-3)
+
+
+if __name__ == "__main__":
+    main()
