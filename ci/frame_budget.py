@@ -50,7 +50,7 @@ def record_snare(folder):
     machine, sequencer = capture.machine(case), capture.Sequencer(case.snare)
     recorder = Recorder(machine, folder)
     machine.watchers.append(recorder)
-    while sequencer.phase == "snare":
+    while "snare" not in sequencer.ends:
         machine.advance(sequencer)
     recorder.close()
 
