@@ -13,6 +13,7 @@ from scene import PLATE_HEIGHT, Case, groups, mjcf_text, screw_force
 EXTENDED = 0.012  # m: how far the carriage goes back at most before the snare opens
 UNLOADED = 0.03  # of the preload on the pads, at which the carriage stops going back
 AFTER = 0.5  # s that are run after the end
+APART_FOR = 0.1  # s without contact after which plungers and payload are apart
 
 
 class Sequencer:
@@ -125,7 +126,7 @@ class Sequencer:
     def _apart(self, machine):
         if np.any(machine.on("plungers")[:3]):
             self.calm = machine.time
-        return machine.time - self.calm > 0.1
+        return machine.time - self.calm > APART_FOR
 
 
 def sequencer_of(case):

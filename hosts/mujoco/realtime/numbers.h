@@ -1,0 +1,25 @@
+/* What a mechanism's folder tells of its sequence: `numbers.txt`, written by mechanisms/from_c.py, has rows of words. The first
+ * word of a row is its name; several rows may have the same. */
+#ifndef NUMBERS_H
+#define NUMBERS_H
+
+enum { MOST_ROWS = 128, MOST_WORDS = 2048 };
+
+typedef struct {
+    char *text;
+    char *words[MOST_WORDS];
+    char **rows[MOST_ROWS];
+    int sizes[MOST_ROWS], count;
+} numbers;
+
+/* These end the program, with 2, if something is missing. */
+void read_numbers(numbers *n, const char *file);
+
+/* The row of a name, the `which`-th from 0; NULL if there are fewer. */
+char **row_of(const numbers *n, const char *name, int which);
+
+/* A number of the only row of a name: the first behind the name is number 0. */
+double number_at(const numbers *n, const char *name, int index);
+double number(const numbers *n, const char *name);
+
+#endif
