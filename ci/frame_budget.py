@@ -21,7 +21,7 @@ SCENES = {
     "berthing": "models/common_berthing/scene_berthing.ron",
     "rover": "models/rover/scene_traverse.ron",
 }
-NAMES = [*SCENES, "snare"]
+NAMES = [*SCENES, "end_effector"]
 WORKERS = (0, 1)
 STRETCH = 500  # frames
 PACED = 2.0  # s
@@ -32,25 +32,25 @@ NO_CORE = 4  # exit code of the program
 
 def record(name, folder):
     """A response log of every step."""
-    if name == "snare":
-        record_snare(folder)
+    if name == "end_effector":
+        record_end_effector(folder)
     else:
         command = [os.environ["PONG"], "run", SCENES[name], "--log", folder, "--every-step", "--quiet"]
         subprocess.run(command, check=True, cwd=ROOT, stderr=subprocess.DEVNULL)
 
 
-def record_snare(folder):
-    """The end effector up to the end of the snare, at the level for training."""
+def record_end_effector(folder):
+    """The end effector at level training, until it lets go of the pressed joint."""
     sys.path[:0] = [str(ROOT / "mechanisms/end_effector"), str(ROOT / "mechanisms")]
     import capture
     from dimensions import Snare, training
     from kit.record import Recorder
 
     case = capture.Case(snare=training(Snare()))
-    machine, sequencer = capture.machine(case), capture.Sequencer(case.snare)
+    machine, sequencer = capture.machine(case), capture.sequencer_of(case)
     recorder = Recorder(machine, folder)
     machine.watchers.append(recorder)
-    while "snare" not in sequencer.ends:
+    while sequencer.phase not in ("release", "done"):
         machine.advance(sequencer)
     recorder.close()
 
@@ -151,7 +151,9 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("names", nargs="*", help=", ".join(NAMES))
     parser.add_argument("--write", action="store_true")
-    given = parser.parse_args()
+    given = parser.parse_intermixed_args()
+    if unknown := set(given.names) - set(NAMES):
+        parser.error(f"no run {', '.join(sorted(unknown))}: there are {', '.join(NAMES)}")
     records, ratios, slow = recorded(), {}, []
     print(processor())
     for name in given.names or NAMES:
