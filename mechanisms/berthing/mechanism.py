@@ -15,6 +15,7 @@ from kit import mjcf
 LATCHES = range(4)
 PASSIVE_MODEL = "../../models/common_berthing/passive.ron"
 CAPACITY = 128
+DECK = -0.2  # height of what carries the latches, drawn only
 STEEL, BRASS, BLUE = "0.55 0.57 0.6 1", "0.75 0.6 0.3 1", "0.3 0.45 0.65 1"
 
 
@@ -115,7 +116,7 @@ def paddle(i):
 
 def quadrant(i, level):
     turned = mjcf.quaternion_about_z(math.radians(common.LATCH_AZIMUTHS[i]))
-    inside = latch(i, level) + plunger(i) + paddle(i)
+    inside = latch(i, level) + plunger(i) + paddle(i) + drawn_pedestals()
     return f'<body name="azimuth_{i}" quat="{mjcf.numbers(turned)}">{inside}</body>'
 
 
@@ -140,6 +141,15 @@ def station(scene):
     return (
         f'<body name="station"><freejoint name="station"/><inertial pos="0 0 0" mass="{scene.station - hung:.12g}" '
         f'diaginertia="{ring}"/>{inside}</body>'
+    )
+
+
+def drawn_pedestals():
+    """Shown only: what carries the pivots."""
+    return "".join(
+        f'<geom type="capsule" fromto="{x} {y} {DECK} {x} {y} {z}" size="0.007" rgba="0.3 0.3 0.32 1"/>'
+        for x, z in (d.CRANK_PIVOT, d.FOLLOWER_PIVOT, (common.HINGE[0], common.HINGE[2]))
+        for y in (-0.012, 0.012)
     )
 
 
@@ -189,7 +199,8 @@ def _sensors():
 def text(scene, folder=HERE):
     """The whole machine. `folder` holds active.ron and indicator.ron, as this folder does."""
     extension = mjcf.contact_instance(OBJECTS, PAIRS, carried(scene), folder=str(folder), capacity=CAPACITY)
-    world = arm.in_world() + station(scene) + module(scene)
+    deck = f'<geom type="cylinder" fromto="0 0 {DECK} 0 0 {DECK + 0.01}" size="0.9" rgba="0.85 0.85 0.87 1"/>'
+    world = deck + arm.in_world() + station(scene) + module(scene)
     motors = "".join(mjcf.motor(f"latch_{i}", f"crank_{i}", d.STALL_TORQUE, d.FREE_SPEED) for i in LATCHES)
     to = "" if scene.station is None else 'body2="station"'
     bolts = (

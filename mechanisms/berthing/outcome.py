@@ -9,6 +9,7 @@ import numpy as np
 import berth
 import mechanism
 import off_nominal
+import ready
 import rig_latch
 import rig_push
 import sequencer as seq
@@ -168,4 +169,5 @@ def rows(thorough):
         yield "cost of a step", cost()
         yield "latches, level analysis", rig_latch.rows([ANALYSIS])
         yield "berthing, level analysis", halved(ANALYSIS)
+        yield "ready map", ready.rows()
         yield "unberthing", off_nominal.unberthing(TRAINING)
