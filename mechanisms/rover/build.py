@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Builds floor.ron, step.ron and rigid_wheel.ron through the modelling toolkit: python build.py [FOLDER] [--blend FILE], with Blender as a Python
+module. Tyres and other grounds are those of models/rover as they are.
+"""
+
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent.parent / "models")]
+import authoring as a  # noqa: E402
+import dimensions as d  # noqa: E402
+
+LENGTH, HALF_WIDTH, DEPTH = 4.0, 2.0, 1.0  # of the block
+STONE = {"stone": a.surface(float("inf"), a.linear(0.0, ramp=d.RIGID_RAMP), a.bristle(d.model.FRICTION))}
+
+
+def floor():
+    """Level and endless, for rigid wheels."""
+    plane = a.flat_ground("plane", (0.0, 0.0, 1.0), 0.0)
+    return a.model("floor", STONE, a.group("floor", primitives=[plane], surface="stone"))
+
+
+def step():
+    """A block whose top is at z = 0 and whose face is at x = 0: the body that carries it stands at any height."""
+    half_spaces = [
+        ((0.0, 0.0, 1.0), 0.0),
+        ((0.0, 0.0, -1.0), DEPTH),
+        ((-1.0, 0.0, 0.0), 0.0),
+        ((1.0, 0.0, 0.0), LENGTH),
+        ((0.0, 1.0, 0.0), HALF_WIDTH),
+        ((0.0, -1.0, 0.0), HALF_WIDTH),
+    ]
+    block = a.polyhedron("block", half_spaces)
+    return a.model("step", STONE, a.group("step", primitives=[block], surface="stone"))
+
+
+def rigid_wheel():
+    """As models/rover/rig_rigid.ron, but for damping that sets in at once: on level ground it sinks in by 0.4 mm only."""
+    semi_axes = (d.model.WHEEL_RADIUS, d.model.WHEEL_WIDTH / 2, d.model.WHEEL_RADIUS)
+    damping = a.linear(d.model.RIGID_DAMPING, ramp=d.RIGID_RAMP)
+    friction = a.bristle(d.model.FRICTION, stiffness=2 * d.model.RIGID_STIFFNESS, damping=d.model.BALL_DAMPING)
+    tread = a.ellipsoid("tread", (0.0, 0.0, 0.0), semi_axes)
+    turning = a.group("wheel", primitives=[tread], bound="Sphere", surface="tyre", movable=True)
+    axle = a.group("carriage", primitives=[a.sphere("axle", (0.0, 0.0, 0.0), d.model.HUB_RADIUS)], surface="tyre")
+    surfaces = {"tyre": a.surface(d.model.RIGID_STIFFNESS, damping, friction)}
+    return a.model("rigid_wheel", surfaces, a.group("rigid_wheel", groups=[axle, turning]))
+
+
+if __name__ == "__main__":
+    a.main([floor(), step(), rigid_wheel()], HERE)

@@ -1,0 +1,75 @@
+"""Dimensions of the six-wheeled rover: m, kg, s, N, rad. README.md says where each comes from.
+
+Wheels, tyres, grounds and gravity are those of models/rover, here `model`. x is ahead, y to the left, z up; the origin of
+the chassis lies midway between the middle wheels, at the height of the axles.
+"""
+
+import importlib.util
+import math
+import pathlib
+import sys
+from dataclasses import dataclass
+
+HERE = pathlib.Path(__file__).resolve().parent
+MODEL = HERE.parent.parent / "models" / "rover"
+
+
+def _of_the_model(name):
+    """Under a name of its own: this file is called `dimensions` as well."""
+    spec = importlib.util.spec_from_file_location(f"rover_{name}", MODEL / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+model = _of_the_model("dimensions")
+SIDES = {"left": 1, "right": -1}
+
+# --- rocker and bogie: the rocker bears the front wheel and the bogie, the bogie the middle and the rear wheel ------------
+AXLE_X = {"front": model.WHEELBASE / 2, "middle": 0.0, "rear": -model.WHEELBASE / 2}
+HALF_TRACK = model.TRACK / 2
+BOGIE_X, BOGIE_Z = AXLE_X["rear"] / 2, 0.0  # pivot of the bogie on the rocker: even loads of middle and rear
+ROCKER_Z = 0.250  # pivot of the rocker on the chassis, at x = 0: a third of the weight on the front wheels
+ROCKER_MASS, BOGIE_MASS, STEER_MASS = 10.0, 6.0, model.HUB_MASS
+CHASSIS_MASS = model.GROSS_MASS - 2 * (ROCKER_MASS + BOGIE_MASS) - 6 * (STEER_MASS + model.WHEEL_MASS)
+CHASSIS_Z = 0.350  # of its centre of mass
+PIVOT_DAMPING = 50.0  # of rockers and bogies, N·m·s/rad
+
+# --- drive and steering ----------------------------------------------------------------------------------------------------
+STALL_TORQUE = 30.0  # of each wheel's motor behind its gear, N·m
+FREE_SPEED = 10000 * 2 * math.pi / 60 / 80  # rad/s at the wheel
+ROTOR_INERTIA = 1.0  # as it is felt at the wheel, kg·m²
+STEER_STIFFNESS, STEER_DAMPING = 2000.0, 150.0  # N·m/rad, N·m·s/rad
+STEER_TORQUE = 150.0  # greatest
+
+# --- tyres: the wheels of the rigs of models/rover ---------------------------------------------------------------------------
+RIGID_RAMP = 1e-4  # m of depth in which damping sets in
+OF_MODEL = "../../models/rover/"
+TYRES = {"fine": OF_MODEL + "rig_balls.ron", "coarse": OF_MODEL + "rig_ellipsoid.ron", "rigid": "rigid_wheel.ron"}
+
+
+@dataclass(frozen=True)
+class Level:
+    tyre: str
+    step: float
+
+
+TRAINING, ANALYSIS = Level("coarse", 1e-3), Level("fine", 5e-4)
+RIGID = Level("rigid", 1e-3)
+
+
+def _tyre_heights():
+    """Of the axle under the weight of one wheel of six, by tyre."""
+    sys.modules["dimensions"], kept = model, sys.modules.get("dimensions")
+    tyre = _of_the_model("tyre")
+    sys.modules["dimensions"] = kept
+    weight = model.GROSS_MASS * model.GRAVITY / 6
+    one = round(tyre.CORNER_WEIGHT / (model.WHEEL_RADIUS - tyre.STATIC_HEIGHT), -1)
+    return {
+        "fine": tyre.height_under(weight),
+        "coarse": model.WHEEL_RADIUS - weight / one,
+        "rigid": model.WHEEL_RADIUS - weight / model.RIGID_STIFFNESS,
+    }
+
+
+AXLE_HEIGHT = _tyre_heights()

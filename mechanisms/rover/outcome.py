@@ -1,0 +1,143 @@
+"""What the rover must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+
+import math
+import time
+
+import dimensions as d
+import numpy as np
+import rig
+import scenes
+import statics
+from dimensions import model
+from kit.rows import Fact, Limit, Row
+
+RADIUS = 5.0  # m
+ROLLED = 0.5  # s of driving after which bits are saved
+
+
+def honest(machine, share):
+    """What holds of every run: energy, reactions, no tunnelling."""
+    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
+    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
+    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
+
+
+def turning():
+    radius, made = scenes.turned(RADIUS, d.RIGID)
+    yield Row("radius of the circle with Ackermann's angles", radius, RADIUS, 2e-3, "m")
+    yield from honest(made, 1e-3)
+
+
+def slopes():
+    predicted = scenes.stall_slope()
+    angle, made = scenes.stalls_at(predicted)
+    yield Row("slope at which the motors stall", math.degrees(angle), math.degrees(predicted), 5e-3, "deg")
+    limit = math.degrees(math.atan(model.FRICTION))
+    held, _ = scenes.slides(math.radians(limit - 0.5))
+    yield Limit(f"locked, {limit - 0.5:.2f} deg, 0.5 deg below atan μ: slides with", abs(held), 2e-4, "m/s²")
+    for more in (0.5, 2.0):
+        angle = math.atan(model.FRICTION) + math.radians(more)
+        slid, made = scenes.slides(angle)
+        closed = model.GRAVITY * (math.sin(angle) - model.FRICTION * math.cos(angle))
+        yield Row(f"{more:g} deg above it: g·(sin − μ·cos)", slid, closed, 1e-2, "m/s²")
+    yield from honest(made, 1e-3)
+
+
+def step_up(name, climbed, missed):
+    """A step that statics allows with what the motors can give, and the next."""
+    highest = statics.highest(d.STALL_TORQUE, (name,))
+    print(f"      statics: the {name} wheels come up {highest * 1e3:.0f} mm")
+    torque, up, made = scenes.climbs(name, climbed)
+    yield Fact(f"the {name} wheels climb {climbed * 1e3:g} mm", up and climbed < highest)
+    yield Row("torque at which they come off the ground", torque, statics.needed(name, climbed), 0.06, "N m")
+    _, up, _ = scenes.climbs(name, missed)
+    yield Fact(f"and not {missed * 1e3:g} mm", not up and missed > highest)
+    yield from honest(made, 5e-3)
+
+
+def trade():
+    """The stone with both tyres: what the coarse one costs and how far it is off."""
+    fine, exact = timed(d.ANALYSIS)
+    coarse, rough = timed(d.TRAINING)
+    yield from honest(fine, 1e-3)
+    yield from honest(coarse, 5e-3)
+    count = min(len(exact), len(rough))
+    off = rough[:count] - exact[:count]
+    print(
+        f"      coarse beside fine: height of the chassis {np.abs(off[:, 2]).max() * 1e3:.1f} mm, way {np.abs(off[:, 1]).max() * 1e3:.0f} mm, "
+        f"pitch {math.degrees(np.abs(off[:, 4]).max()):.2f} deg at most; "
+        f"greatest load {rough[:, 5].max():.0f} and {exact[:, 5].max():.0f} N"
+    )
+    off_middle = max(np.abs(table[:, 6]).max() for table in (exact, rough))
+    yield Limit("differential: angles of both rockers, sum", off_middle, 1e-3, "rad")
+    rise = model.GRAVITY * model.GROSS_MASS / 6
+    yield Limit("greatest load on a wheel, of its share at rest", exact[:, 5].max() / rise, 4.0)
+
+
+def timed(level, step=None):
+    began = time.process_time()
+    made, table = scenes.over_stone(level, step)
+    spent = (time.process_time() - began) / (made.time / made.step)
+    print(f"      {level.tyre} tyre, step {made.step * 1e3:g} ms: {spent * 1e6:.0f} µs of processor time a step")
+    return made, table
+
+
+def half_step():
+    for level in (d.TRAINING, d.ANALYSIS):
+        _, whole = scenes.over_stone(level)
+        _, half = scenes.over_stone(level, level.step / 2)
+        off = np.abs(whole - half)[:, 1:3].max()
+        yield Limit(f"{level.tyre} tyre over the stone at half the step: way and height differ by", off, 3e-3, "m")
+    for step in (None, 5e-4):
+        torque, up, made = scenes.climbs("front", 0.19, step)
+        yield Row(
+            f"torque at the step of 190 mm, step {made.step * 1e3:g} ms", torque, statics.needed("front", 0.19), 0.06
+        )
+        yield Fact("climbed", up)
+
+
+def off_nominal():
+    dead = ("middle_left",)
+    predicted = scenes.stall_slope(motors=5)
+    angle, _ = scenes.stalls_at(predicted, dead)
+    yield Row("slope of stall with one dead motor", math.degrees(angle), math.degrees(predicted), 1e-2, "deg")
+
+
+def restarted():
+    """In the middle of the stone, level training."""
+    control = scenes.crawl(0.7, d.TRAINING)
+    first = rig.machine(d.TRAINING, ground="stone", x=-1.6)
+    rig.rolling(first, d.TRAINING, 0.7)
+    first.run(ROLLED, control)
+    middle = first.save()
+    first.run(ROLLED, control)
+    second = rig.machine(d.TRAINING, ground="stone", x=-1.6)
+    second.restore(middle)
+    second.run(ROLLED, control)
+    same = first.save().tobytes() == second.save().tobytes()
+    yield Fact("restarted on the stone: the same bits", same)
+
+
+def rocks():
+    made = scenes.over_rocks(d.TRAINING)
+    yield Limit("way over the rocks in 8 s", made.data.qpos[0] + 2.3, 6.0, "m", least=True)
+    yield from honest(made, 5e-3)
+
+
+def shown(prepare):
+    """For logs and films: `prepare` sees the machine before it moves."""
+    scenes.over_rocks(d.ANALYSIS, seconds=12.0, prepare=prepare)
+
+
+def rows(thorough):
+    yield "turning", turning()
+    yield "slopes", slopes()
+    yield "step, front wheels", step_up("front", 0.19, 0.22)
+    yield "restart", restarted()
+    if thorough:
+        yield "step, middle wheels", step_up("middle", 0.22, 0.25)
+        yield "step, rear wheels", step_up("rear", 0.12, 0.14)
+        yield "stone: fine and coarse tyre", trade()
+        yield "one motor does not drive", off_nominal()
+        yield "rocks", rocks()
+        yield "half the step", half_step()
