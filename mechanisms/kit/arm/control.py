@@ -73,10 +73,14 @@ class State:
 
 
 class Arm:
-    """`prefix` as given to `body`. `sensed(machine)` may replace the sensor: force and moment on the tip, world."""
+    """`prefix` as given to `body`. `sensed(machine)` may replace the sensor: force and moment on the tip, world.
 
-    def __init__(self, machine, prefix="", law=Law(), sensed=None):
+    `point`: where the law acts, in the frame of the tip: rates and moments are those of this point.
+    """
+
+    def __init__(self, machine, prefix="", law=Law(), sensed=None, point=(0.0, 0.0, 0.0)):
         self.machine, self.law, self.sensed = machine, law, sensed or self._sensor
+        self.point = np.array(point)
         model = machine.model
         joints = [model.joint(prefix + link.name) for link in d.LINKS]
         self.places = np.array([joint.qposadr[0] for joint in joints])
@@ -179,11 +183,17 @@ class Arm:
         return self.machine.data.qvel[self.dofs]
 
     def jacobian(self):
+        """Of the point where the law acts, by the angles of the motors."""
         data = self.machine.data
-        return kinematics.jacobian(self.angles(), data.xpos[self.base], data.xmat[self.base].reshape(3, 3))
+        base = data.xpos[self.base], data.xmat[self.base].reshape(3, 3)
+        matrix = kinematics.jacobian(self.angles(), *base)
+        if self.point.any():
+            beside = kinematics.forward(self.angles(), *base)[3] @ self.point
+            matrix[:3] += np.cross(matrix[3:].T, beside).T
+        return matrix
 
     def _sensor(self, machine):
-        """Force and moment about the tip that act on what is beyond the sensor, less its inertia, along world axes.
+        """Force and moment about the point of the law that act beyond the sensor, less inertia, along world axes.
 
         MuJoCo's sensor gives the inertia less the forces that it knows of; the contacts of the plugin are passive
         forces to it and are not in there, so they are added.
@@ -194,7 +204,8 @@ class Arm:
         touching = data.sensordata[machine.sensed][3:].reshape(-1, 6)[self.carried]
         forces, arms = touching[:, :3], data.xpos[self.carriers] - data.xpos[self.tip]
         moments = touching[:, 3:] + np.cross(arms, forces)
-        return np.concatenate([forces.sum(axis=0) - axes @ own[:3], moments.sum(axis=0) - axes @ own[3:]])
+        force, moment = forces.sum(axis=0) - axes @ own[:3], moments.sum(axis=0) - axes @ own[3:]
+        return np.concatenate([force, moment - np.cross(axes @ self.point, force)])
 
     def _carries(self, carrier):
         """Whether a body hangs, directly or not, on the tip."""
