@@ -84,4 +84,4 @@ class Level:
 
 
 TRAINING = Level("training", 1e-3, 0.20, 2e-3)
-ANALYSIS = Level("analysis", 2.5e-4, 0.02, 5e-4)
+ANALYSIS = Level("analysis", 5e-4, 0.05, 1e-3)

@@ -35,12 +35,14 @@ def plunger(z):
 
 
 def paddle(z):
-    """A hinge spring; the edge stands at the underside of the fitting, which pushes along z."""
-    sine = (z + common.FITTING_BOTTOM - common.HINGE[2]) / common.PADDLE_LENGTH
-    raised = math.radians(common.PADDLE_DEG)
-    if sine >= math.sin(raised):
-        return 0.0
-    return common.PADDLE_SPRING * (raised - math.asin(sine)) / (common.PADDLE_LENGTH * math.sqrt(1.0 - sine**2))
+    """A hinge spring; its edge, sunk in by F/k, stands at the underside of the fitting, which pushes along z."""
+    raised, force = math.radians(common.PADDLE_DEG), 0.0
+    for _ in range(5):
+        sine = (z + force / EDGE + common.FITTING_BOTTOM - common.HINGE[2]) / common.PADDLE_LENGTH
+        if sine >= math.sin(raised):
+            return 0.0
+        force = common.PADDLE_SPRING * (raised - math.asin(sine)) / (common.PADDLE_LENGTH * math.sqrt(1.0 - sine**2))
+    return force
 
 
 def paddle_energy(z):
