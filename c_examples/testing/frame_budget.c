@@ -5,7 +5,8 @@
  *
  * With --paced the frames first keep the clock at 1 kHz for so long. Percentiles and missed deadlines are printed and decide
  * nothing: on a machine that others use they tell more of the others. What noise cannot move decides: a frame that asks for
- * memory makes the program fail, and the last line is the ratio of least times that ci/frame_budget compares.
+ * memory makes the program fail, and the last line is the ratio of least times that ci/frame_budget compares. With a worker
+ * the hand-over is how long a word takes to its core and back, the longer of before and after.
  *
  * Exit code: 0, 1 if a frame asked for memory, 2 for a wrong option or file, 3 if engine or system refused a call, 4 if
  * there is no core for a worker.
@@ -13,6 +14,7 @@
 #define _GNU_SOURCE
 #include "docking_scene.h"
 #include "docking_timing.h"
+#include "frame_budget_handover.h"
 #include "frame_budget_replay.h"
 #include "sealed_frames_counter.h"
 
@@ -211,12 +213,25 @@ static void print_scene(const replay *r)
            (unsigned)report.peak_contacts_wanted);
 }
 
+/* From the calling thread to the core of the worker and back. While it rests: both would spin there. */
+static double to_worker_ns(const replay *r)
+{
+    pong_worker worker;
+    if (r->workers == 0) {
+        return 0.0;
+    }
+    CHECK(pong_quiesce(r->world));
+    CHECK(pong_get_worker(r->world, 1, &worker));
+    return hand_over_ns((int)worker.core);
+}
+
 /* --- main ----------------------------------------------------------------------------------------------------------- */
 
-static void print_worker(const replay *r, const least_times *least)
+static void print_worker(const replay *r, const least_times *least, double hand_over)
 {
     const char *text;
     CHECK(pong_worker_text(r->world, 1, &text));
+    printf("hand-over: %.0f ns\n", hand_over);
     printf("  %s; it did a part of %.0f %% of the frames\n", text, 100.0 * (double)least->shared / (double)least->frames);
 }
 
@@ -224,7 +239,7 @@ static int measure(const char *file, uint32_t workers, double paced)
 {
     replay r;
     least_times least;
-        double frames;
+        double frames, before, after;
     unsigned long calls = 0;
     pong_config config = pong_default_config();
     config.workers = workers;
@@ -240,10 +255,12 @@ static int measure(const char *file, uint32_t workers, double paced)
     if (paced > 0.0) {
         calls += run_paced(&r, paced);
     }
+    before = to_worker_ns(&r);
     calls += measure_ratio(&r, &least);
+    after = to_worker_ns(&r);
     print_scene(&r);
     if (workers > 0) {
-        print_worker(&r, &least);
+        print_worker(&r, &least, before > after ? before : after);
     }
     frames = (double)r.frames;
     close_replay(&r);
