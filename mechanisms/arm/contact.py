@@ -6,6 +6,8 @@ import numpy as np
 import rig
 from dimensions import PAD_DAMPING
 from kit.arm import Law
+from kit.arm import dimensions as d
+from kit.arm.kinematics import resolve
 from kit.rows import Fact, Limit, Row
 from margin import Linear
 
@@ -65,6 +67,42 @@ def halved(step, normal, first):
     commanded(arm, normal, PUSH)
     made.run(12.0, arm.control)
     yield Row("the first force at half the step", pressed(made, normal), first, 1e-3, "N")
+
+
+def limits():
+    """Free motion that is commanded too fast: the tip goes straight, and no faster than the law or a joint allows."""
+    made, arm, normal = rig.machine(step=4e-3, gap=5.0)
+    along = np.array([0.6, 0.0, 0.8])
+    # At full speed of a joint the servos lag behind a Jacobian that changes.
+    for law, what, straight in ((Law(), "the law", 0.01), (Law(rate=10.0), "its fastest joint", 0.06)):
+        arm.law = law
+        arm.command("tip", rates=np.r_[5.0 * along, 0, 0, 0])
+        made.run(4.0, arm.control)
+        jacobian = arm.jacobian()
+        speed = jacobian[:3] @ arm.speeds()
+        joints = resolve(jacobian, np.r_[along, 0, 0, 0], law.damping)
+        predicted = min(law.rate, d.SPEED / np.abs(joints).max())
+        yield Row(
+            f"commanded 5 m/s, limited by {what}: speed of the tip", float(speed @ along), predicted, 0.02, "m/s"
+        )
+        across = np.linalg.norm(speed - (speed @ along) * along) / np.linalg.norm(speed)
+        yield Limit("across the way that is commanded, of the speed", across, straight)
+
+
+def trips():
+    """Pressed by its operator beyond the force at which it trips: brakes on, until the next command."""
+    made, arm, normal = rig.machine(law=Law(trip=200.0))
+    commanded(arm, normal, PUSH)
+    made.run(4.0, arm.control, lambda m: arm.state.mode == "tripped")
+    felt = float(np.linalg.norm(arm.state.felt[:3]))
+    yield Row("it trips at 200 N", felt, 200.0, 0.01, "N")
+    yield Fact("and its brakes are on", arm.state.mode == "tripped" and not arm.state.released.any())
+    commanded(arm, normal, 0.5 * PUSH)
+    made.run(0.5, arm.control)
+    yield Fact("while it still feels that, it trips again", arm.state.mode == "tripped")
+    arm.command("joints", rates=resolve(arm.jacobian(), np.r_[0.01 * normal, 0, 0, 0], arm.law.damping))
+    made.run(5.0, arm.control)
+    yield Limit("rates of joints take it away from the pad: force", pressed(made, normal), 0.0, "N")
 
 
 def margins(stiffnesses):

@@ -5,12 +5,15 @@ import itertools
 import mujoco
 import numpy as np
 import rig
-from contact import commanded, margins, press, pressed
+from contact import commanded, limits, margins, press, pressed, trips
 from kit.arm import kinematics
 from kit.arm import dimensions as d
 from kit.rows import Limit, Row
 
-LOAD = np.array([30.0, -20.0, 25.0, 60.0, 40.0, -50.0])  # N and N·m on the tip
+# N and N·m on the tip, such that each joint has its part: near to ±100 N·m on each.
+LOAD = np.linalg.lstsq(
+    kinematics.jacobian(d.READY, *rig.BASE).T, 100.0 * np.array([1.0, -1.0, 1.0, 1.0, -1.0, 1.0, 1.0]), rcond=None
+)[0]
 
 
 def smooth(share):
@@ -139,6 +142,9 @@ def brakes():
     made.run(24.0, loaded(lambda t: 1.05 * d.BRAKE_TORQUE * smooth((t - began) / 20.0)))
     yield Limit("at 1.05 of it, it slips by", arm.angles()[0] - start[0], 0.01, "rad", least=True)
     yield Limit("the other brakes hold within", np.abs(arm.angles() - start)[1:].max(), 3.5e-4, "rad")
+    slipped, began = arm.angles()[0], made.time
+    made.run(24.0, loaded(lambda t: 1.05 * d.BRAKE_TORQUE * (1.0 - smooth((t - began) / 20.0))))
+    yield Limit("the load taken away, it does not come back but by", slipped - arm.angles()[0], 3.5e-4, "rad")
 
 
 def rows(thorough):
@@ -147,6 +153,8 @@ def rows(thorough):
     yield "stalled joint", stall()
     yield "brakes", brakes()
     yield "steady contact, level training", press(rig.TRAINING, 1e-3)
+    yield "limits", limits()
+    yield "trip", trips()
     yield "margin of contact", margins((2e4,) if not thorough else (5e3, 2e4, 1e5))
     if thorough:
         yield "steady contact, level analysis", press(rig.ANALYSIS, 1e-3)

@@ -6,8 +6,8 @@
     machine.run(seconds, arm.control)
 
 States: `brakes` (all brakes on, motors off), `joints` (rates of joints), `tip` (rates of the tip, with accommodation)
-and `tripped` (too great a force was measured: brakes on until the next command). Everything that it remembers is in
-`save()`; a restored controller continues to the same bits.
+and `tripped` (too great a force was measured: brakes on until the next command; while it is felt, only `joints` moves
+the arm). Everything that it remembers is in `save()`; a restored controller continues to the same bits.
 """
 
 import copy
