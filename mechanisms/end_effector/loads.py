@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Capture and release loads of a free flyer of 16 t, the greatest in each phase, at both levels: the table of README.md.
 
-python3 mechanisms/end_effector/loads.py        with the plugin as for mechanisms/run.py; minutes
+python3 mechanisms/end_effector/loads.py [LEVEL…]        with the plugin as for mechanisms/run.py; minutes
 """
 
+import argparse
 import pathlib
 import sys
 from dataclasses import replace
@@ -18,6 +19,7 @@ from dimensions import Snare, training  # noqa: E402
 from scene import Case  # noqa: E402
 
 HEAVY = Case(snare=training(Snare()), mass=16000.0, roll_deg=0.5, held_for=3.0)
+LEVELS = {"analysis": Snare(), "training": HEAVY.snare}
 PHASES = ("snare", "retract", "rigidize", "hold", "release", "open", "push")
 
 
@@ -43,20 +45,23 @@ def measured(case):
 
 
 def table(found):
-    """Of (loads, result) at level analysis and at level training."""
+    """`found`: (name of the level, loads, result); figures of several levels stand beside each other."""
     yield "| phase | along the axis, N | across, N | moment about the plate's centre, N·m | tension of a cable, N |"
     yield "|---|---|---|---|---|"
     for phase in PHASES:
-        both = zip(*(most[phase] for most, _ in found))
-        yield f"| {phase} | " + " | ".join(" / ".join(f"{value:.0f}" for value in pair) for pair in both) + " |"
-    for name, (_, result) in zip(("analysis", "training"), found):
+        beside = zip(*(most[phase] for _, most, _ in found))
+        yield f"| {phase} | " + " | ".join(" / ".join(f"{value:.0f}" for value in values) for values in beside) + " |"
+    for name, _, result in found:
         predicted = capture.push_off_speed(HEAVY.mass, result.gap, result.before)
         yield f"{name}: captured {result.captured}, preload {result.preload:.0f} N, away {1e3 * result.away:.2f} mm/s,"
         yield f"    from energy {1e3 * predicted:.2f} mm/s; phases end at {result.ends}"
 
 
 def main():
-    print("\n".join(table([measured(replace(HEAVY, snare=snare)) for snare in (Snare(), HEAVY.snare)])))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("levels", nargs="*", choices=[*LEVELS, []], help="all unless given")
+    names = parser.parse_args().levels or LEVELS
+    print("\n".join(table([(name, *measured(replace(HEAVY, snare=LEVELS[name]))) for name in names])))
 
 
 if __name__ == "__main__":
