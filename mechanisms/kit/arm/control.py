@@ -75,12 +75,13 @@ class State:
 class Arm:
     """`prefix` as given to `body`. `sensed(machine)` may replace the sensor: force and moment on the tip, world.
 
-    `point`: where the law acts, in the frame of the tip: rates and moments are those of this point.
+    `point`: where the law acts, in the frame of the tip: rates and moments are those of this point. `torque`: greatest
+    of a motor, N·m.
     """
 
-    def __init__(self, machine, prefix="", law=Law(), sensed=None, point=(0.0, 0.0, 0.0)):
+    def __init__(self, machine, prefix="", law=Law(), sensed=None, point=(0.0, 0.0, 0.0), torque=d.TORQUE):
         self.machine, self.law, self.sensed = machine, law, sensed or self._sensor
-        self.point = np.array(point)
+        self.point, self.torque = np.array(point), torque
         model = machine.model
         joints = [model.joint(prefix + link.name) for link in d.LINKS]
         self.places = np.array([joint.qposadr[0] for joint in joints])
@@ -155,13 +156,13 @@ class Arm:
         state.speed = speed * (d.SPEED / fastest) if fastest > d.SPEED else speed
 
     def _servo(self):
-        state, limit = self.state, d.TORQUE / d.SERVO_STIFFNESS
+        state, limit = self.state, self.torque / d.SERVO_STIFFNESS
         # While a motor is at its limit, its aim does not run away.
         state.aim = np.where(
             state.released, np.clip(state.aim, self.angles() - limit, self.angles() + limit), state.aim
         )
         torque = d.SERVO_STIFFNESS * (state.aim - self.angles()) + d.SERVO_DAMPING * (state.speed - self.speeds())
-        return np.clip(torque, -d.TORQUE, d.TORQUE)
+        return np.clip(torque, -self.torque, self.torque)
 
     def _brake(self):
         """A spring from its anchor up to the slip torque; beyond it the anchor is dragged along."""
@@ -172,7 +173,7 @@ class Arm:
         return np.clip(torque, -d.BRAKE_TORQUE, d.BRAKE_TORQUE)
 
     def _load(self):
-        return np.clip(self.machine.data.ctrl[self.motors], -d.TORQUE, d.TORQUE)
+        return np.clip(self.machine.data.ctrl[self.motors], -self.torque, self.torque)
 
     # --- what it knows ----------------------------------------------------------------------------------------------
 
