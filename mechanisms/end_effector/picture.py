@@ -18,7 +18,7 @@ from scene import Case  # noqa: E402
 
 
 def snared():
-    case = Case(snare=Snare())
+    case = Case(snare=training(Snare()))
     made, sequencer = capture.machine(case), capture.sequencer_of(case)
     made.run(20.0, sequencer, watch=lambda m: sequencer.phase == "retract")
     made.run(0.4, sequencer)
