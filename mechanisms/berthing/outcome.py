@@ -10,6 +10,7 @@ import berth
 import mechanism
 import off_nominal
 import ready
+import rig_bumper
 import rig_latch
 import rig_push
 import sequencer as seq
@@ -160,6 +161,7 @@ def shown(prepare):
 def rows(thorough):
     yield "berthing, level training", nominal(TRAINING)
     yield "latches, level training", rig_latch.rows([TRAINING])
+    yield "bumper", rig_bumper.rows()
     yield "push-off", rig_push.rows(TRAINING, thorough)
     yield "one dead indicator", off_nominal.dead_indicator()
     yield "one stalled latch", stalled(thorough)
