@@ -204,7 +204,7 @@ def text(scene, folder=HERE):
     motors = "".join(mjcf.motor(f"latch_{i}", f"crank_{i}", d.STALL_TORQUE, d.FREE_SPEED) for i in LATCHES)
     to = "" if scene.station is None else 'body2="station"'
     bolts = (
-        f'<weld name="bolts" body1="passive" {to} active="false" relpose="0 0 0 1 0 0 0" solref="0.01 1" '
+        f'<weld name="bolts" body1="passive" {to} active="false" relpose="0 0 0 1 0 0 0" solref="0.1 1" '
         'solimp="0.99 0.999 0.001"/>'
     )
     joined = "".join(closure(i, scene.level) for i in LATCHES)
