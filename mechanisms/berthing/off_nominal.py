@@ -16,7 +16,8 @@ STALLED = 3  # the latch without power
 SIDE = math.radians(common.LATCH_AZIMUTHS[STALLED])
 STOPS_AT = -0.5  # angle of its crank: the roller is on its way up
 HELPED = (1.0, 1.0, 1.0, 0.0)
-ROCKS_FOR = 12.0  # s that the module rocks on the stops
+ROCKS_FOR = 2.0  # s that the module rocks hard on the stops; then its tilt is averaged
+AVERAGED_FOR = 14.0
 ALIGNED = {"offset": (0.0, 0.0), "turn": (0.0, 0.0, 0.0), "gap": 0.075}
 
 
@@ -45,11 +46,15 @@ def dead_indicator(seconds=5.5):
 
 
 def stalled_latch(load, name, folder, until_stops=True):
-    """Three latches pull, without friction. The bare ring comes to rest on the standoffs; the module rocks on them too long."""
+    """Three latches pull; `folder` has the models without friction.
+
+    The bare ring comes to rest. The module does not rest on the standoffs in time; on the stops it rocks about its tilt.
+    """
+    bare = load.mass < 1e3
     case = berth.Case(load=load, stalled=(STALLED, STOPS_AT), folder=folder, **ALIGNED)
     machine = berth.Berthing(case)
     machine.until(seq.LIMP)
-    if load.mass < 1e3:
+    if bare:
         # Before the current rises: the arm is limp, three latches hold against the standoffs.
         machine.run(0.8, machine.control)
         tilt = mean_tilt(machine, 0.15)
@@ -57,9 +62,15 @@ def stalled_latch(load, name, folder, until_stops=True):
     if until_stops:
         found = machine.until(seq.HOLD) and machine.sequencer.fault
         yield Fact(f"{name}: the sequence finds that a latch has not closed", found)
-        machine.run(ROCKS_FOR if load.mass > 1e3 else 0.0, machine.control)
-        tilt = mean_tilt(machine, 2.0)
-        yield Row(f"{name}: tilt on the stops, at full current", tilt, predicted_tilt(1.0, 1e-3), 0.02, "rad")
+        machine.run(ROCKS_FOR, machine.control)
+        tilt = mean_tilt(machine, 0.5 if bare else AVERAGED_FOR)
+        yield Row(
+            f"{name}: tilt on the stops, at full current",
+            tilt,
+            predicted_tilt(1.0, 1e-3),
+            0.02,
+            "rad",
+        )
     yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
 
 
