@@ -205,7 +205,7 @@ def text(scene, folder=HERE):
     to = "" if scene.station is None else 'body2="station"'
     bolts = (
         f'<weld name="bolts" body1="passive" {to} active="false" relpose="0 0 0 1 0 0 0" solref="0.1 1" '
-        'solimp="0.99 0.999 0.001"/>'
+        'solimp="0.9999 0.9999 0.001"/>'
     )
     joined = "".join(closure(i, scene.level) for i in LATCHES)
     more = f"<equality>{joined}{bolts}</equality><actuator>{motors}{arm.actuators()}</actuator>{_sensors()}"
