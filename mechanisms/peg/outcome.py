@@ -23,9 +23,11 @@ def phases(name, step, depths, closes):
     for depth in depths:
         made.run(10.0, rig.feed, deep(depth))
         phase, force, lean = whitney.insertion(support, rig.height(made))
+        # In the chamfer the wrist moves across, against its dampers.
+        within = 0.03 if phase == "chamfer" else 0.01
         at = f"{name} centre, {phase}, {depth * 1e3:g} mm deep"
-        yield Row(f"{at}: force of insertion", rig.resistance(made), force, 0.03, "N")
-        yield Row(f"{at}: lean", rig.lean(made), lean, 0.02, "rad")
+        yield Row(f"{at}: force of insertion", rig.resistance(made), force, within, "N")
+        yield Row(f"{at}: lean", rig.lean(made), lean, 0.005, "rad")
     yield Limit("energy that does not close, of what went through", made.ledger.open_share(), closes)
     yield Limit("forces that have no reaction, of the greatest", made.imbalance, 1e-9)
     yield Fact("no flag of tunnelling", made.flags == 0)
@@ -38,7 +40,7 @@ def second_place(step):
         made.run(4.0, rig.feed, deep(0.004))
         made.run(10.0, rig.feed, lambda m: m.contacts() > 1)
         predicted = whitney.second(whitney.Support(centre))
-        yield Row(f"{name} centre: the second place touches at the depth", -rig.height(made), predicted, 0.03, "m")
+        yield Row(f"{name} centre: the second place touches at the depth", -rig.height(made), predicted, 0.005, "m")
 
 
 def limited(step):
