@@ -45,16 +45,21 @@ def within_disc(radius, a, b):
     return (r * math.cos(angle), r * math.sin(angle))
 
 
+def both_ways(limit, value):
+    """Even from −limit to limit."""
+    return limit * (2 * value - 1)
+
+
 def case(u, scale=SCALE):
-    both = lambda limit, value: scale * limit * (2 * value - 1)  # noqa: E731
     return docking.Case(
         speed=d.CLOSING[0] + (d.CLOSING[1] - d.CLOSING[0]) * u[0],
         lateral=within_disc(scale * d.LATERAL, u[1], u[2]),
         lateral_rate=within_disc(scale * d.LATERAL_RATE, u[3], u[4]),
         tilt=within_disc(scale * d.TILT, u[5], u[6]),
-        roll=both(d.ROLL, u[7]),
-        rates=tuple(both(d.RATE, value) for value in u[8:11]),
+        roll=scale * both_ways(d.ROLL, u[7]),
+        rates=tuple(scale * both_ways(d.RATE, value) for value in u[8:11]),
         give_up=GIVE_UP,
+        gap=docking.GAP + 0.1 * max(scale - 1.0, 0.0),  # m: no approach may begin in contact
     )
 
 
@@ -62,13 +67,8 @@ class Peaks:
     """What a row of results needs of each step, with little work."""
 
     def __init__(self, made):
-        self.legs, self.force, self.moment, self.leg, self.stroke = (
-            stewart.actuator_slice(made.model),
-            0.0,
-            0.0,
-            0.0,
-            0.0,
-        )
+        self.legs = stewart.actuator_slice(made.model)
+        self.force = self.moment = self.leg = self.stroke = 0.0
         first = made.sensed.start + 3 + 6 * made.carriers.index(made.model.body("target").id)
         self.wrench, self.slide = slice(first, first + 6), made.model.joint("ring_z").qposadr[0]
         self.flags, self.status = made.sensed.start + 1, made.sensed.start + 2
@@ -119,10 +119,20 @@ def job(task):
 
 
 def done(path):
+    """Rows that are there; one that was cut off when a campaign was stopped does not count."""
     if not path.exists():
         return {}
     with path.open(newline="", encoding="utf-8") as file:
-        return {int(row["run"]): {key: float(value) for key, value in row.items()} for row in csv.DictReader(file)}
+        whole = [row for row in csv.DictReader(file) if row[COLUMNS[-1]]]
+    return {int(row["run"]): {key: float(value) for key, value in row.items()} for row in whole}
+
+
+def same_plan(folder, given):
+    """A folder holds one campaign: its rows are those of one seed and scale."""
+    plan, path = {"seed": given.seed, "scale": given.scale}, folder / "plan.json"
+    if path.exists() and json.loads(path.read_text(encoding="utf-8")) != plan:
+        sys.exit(f"{folder} has rows of another seed or scale; name another folder")
+    path.write_text(json.dumps(plan), encoding="utf-8")
 
 
 def run_all(path, tasks, workers):
@@ -173,6 +183,7 @@ def main():
     parser.add_argument("--keep", action="store_true", help="writes the worst case beside this file")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
+    same_plan(given.out, given)
     path = given.out / "approaches.csv"
     before = done(path)
     run_all(path, [(i, given.seed, given.scale) for i in range(given.runs) if i not in before], given.workers)

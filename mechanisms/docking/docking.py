@@ -50,6 +50,22 @@ def approach(case, hard=True, drawn=None, assets=""):
     return made
 
 
+def turn(made, frame, shift):
+    """Turns and moves both vehicles together: nothing may change but where they are."""
+    for name in ("chaser", "target"):
+        joint = made.model.joint(made.model.body(name).jntadr[0])
+        place, rate = joint.qposadr[0], joint.dofadr[0]
+        position, quaternion, velocity = (
+            made.data.qpos[place : place + 3],
+            np.empty(4),
+            made.data.qvel[rate : rate + 3],
+        )
+        mujoco.mju_mulQuat(quaternion, stewart.quaternion(frame), made.data.qpos[place + 3 : place + 7])
+        made.data.qpos[place : place + 7] = np.hstack([frame @ position + shift, quaternion])
+        made.data.qvel[rate : rate + 3] = frame @ velocity
+    made.start()
+
+
 def captured(height, level):
     """At rest, the latches behind their strikers, the ring's face at a height above the hard plane."""
     made = vehicles.machine(level)

@@ -184,6 +184,23 @@ def limits():
             yield Fact("nothing tunnelled", not result.tunnelled)
 
 
+def elsewhere():
+    """The same approach in another attitude, 1 km away."""
+    frame = vehicles.about("z", 0.7) @ vehicles.about("y", 1.1) @ vehicles.about("x", 0.4)
+    results = []
+    for moved in (False, True):
+        made = docking.approach(NOMINAL)
+        if moved:
+            docking.turn(made, frame, np.array([600.0, -700.0, 400.0]))
+        results.append(docking.go_on(made, Sequencer(), "align"))
+    one, other = results
+    yield Row("turned and moved: time of capture", other.sequencer.captured_at, one.sequencer.captured_at, 1e-9, "s")
+    for phase in ("capture", "attenuate"):
+        yield Row(
+            f"its greatest force in the phase {phase}", other.watch.force[phase], one.watch.force[phase], 1e-6, "N"
+        )
+
+
 def worst():
     import campaign
 
@@ -209,3 +226,5 @@ def rows(thorough):
         yield "too slow", too_slow()
         yield "failures", failures()
         yield "limits", limits()
+        yield "turned", elsewhere()
+        yield "worst case", worst()

@@ -59,6 +59,12 @@ def smooth(share):
     return s**3 * (10.0 - 15.0 * s + 6.0 * s * s)
 
 
+def blend(one, other, share):
+    """The impedance that lies so far on the way from one to the other."""
+    stiffness = one.stiffness + share * (other.stiffness - one.stiffness)
+    return d.Impedance(stiffness, one.damping + share * (other.damping - one.damping))
+
+
 class Sequencer:
     """All that it remembers is in its attributes, so `copy.deepcopy` saves it beside the state of the machine.
 
@@ -98,8 +104,7 @@ class Sequencer:
         """Impedance of the legs: from that of the phase before to that of this one."""
         goal = {"capture": d.CAPTURING, "abort": d.CAPTURING, "attenuate": d.ATTENUATING}.get(self.phase, d.ALIGNING)
         share = min((time - self.since) / d.RAMP, 1.0)
-        mix = lambda a, b: a + share * (b - a)  # noqa: E731
-        return d.Impedance(mix(self.before.stiffness, goal.stiffness), mix(self.before.damping, goal.damping))
+        return blend(self.before, goal, share)
 
     def height(self, time):
         """Of the ring's face above the hard plane, as commanded."""
