@@ -6,14 +6,17 @@ models/idss_docking. Both models have the frames of that: z out of the vehicle; 
 passive one in the face of its soft-capture ring.
 """
 
+import importlib.util
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parents[1] / "models")]
+sys.path.append(str(HERE.parents[1] / "models/idss_docking"))
 import authoring as a  # noqa: E402
 import dimensions as d  # noqa: E402
 import geometry as g  # noqa: E402
+import numpy as np  # noqa: E402
 
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 STEP = 360.0 / d.HOOKS
@@ -95,5 +98,30 @@ def passive():
     return a.model("hard_passive", surfaces, a.group("vehicle", groups=[flange], bound="Aabb", surface="flange"))
 
 
+def soft_passive():
+    """That of models/idss_docking, but for the strikers' outer walls: they are inner walls, behind them is the ring.
+
+    Where they pushed, a latch that came far off the middle was pushed outwards there and wedged between bar and ring.
+    """
+    spec = importlib.util.spec_from_file_location("idss_build", d.ROOT / "models/idss_docking/build.py")
+    interface = importlib.util.module_from_spec(spec)
+    mine, sys.modules["dimensions"] = sys.modules["dimensions"], d.IDSS
+    spec.loader.exec_module(interface)
+    sys.modules["dimensions"] = mine
+    made = interface.passive()
+    for group in made.root.groups:
+        for primitive in group.primitives if group.name.startswith("striker_") and group.name[-1].isdigit() else ():
+            if primitive.name == "bar":
+                primitive.fields["inactive_faces"] = [outer_wall(primitive.fields)]
+    made.name = "soft_passive"
+    return made
+
+
+def outer_wall(fields):
+    """Number of the face of a striker's bar whose vertices are furthest from the docking axis."""
+    reach = [min(np.hypot(*fields["vertices"][i][:2]) for i in face) for face in fields["faces"]]
+    return int(np.argmax(reach))
+
+
 if __name__ == "__main__":
-    a.main([active(), passive()], HERE)
+    a.main([active(), passive(), soft_passive()], HERE)

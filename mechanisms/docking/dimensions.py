@@ -27,7 +27,8 @@ RING_MASS, RING_INERTIA = 57.0, (11.0, 11.0, 20.0)
 LATCH_MASS, LATCH_INERTIA = 1.0, 1e-3
 LATCH_STIFFNESS, LATCH_DAMPING = 600.0, 5.0  # along its slide
 LATCH_PULL = 60.0  # N: of the solenoid that opens it
-LATCH_STROKE = 0.050
+LATCH_STROKE = 0.050  # inwards
+LATCH_STOP, LATCH_STOP_TIME = 0.0005, 0.004  # m outwards; s, time constant of MuJoCo's soft stop
 
 # --- the six legs: chosen ---------------------------------------------------------------------------------------------
 BASE_RADIUS, BASE_HEIGHT, BASE_HALF_ANGLE = 0.630, -0.350, 14.0

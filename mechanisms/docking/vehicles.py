@@ -9,7 +9,7 @@ from kit import mjcf
 from kit.machine import Machine
 from kit.mjcf import numbers
 
-SOFT = {"chaser": "models/idss_docking/idss_active.ron", "target": "models/idss_docking/idss_passive.ron"}
+SOFT = {"chaser": "models/idss_docking/idss_active.ron", "target": "mechanisms/docking/soft_passive.ron"}
 HARD = {"hard_chaser": "mechanisms/docking/hard_active.ron", "hard_target": "mechanisms/docking/hard_passive.ron"}
 LATCHES = range(3)
 CAPACITY = 128
@@ -23,13 +23,13 @@ def body(name, mass, inertia, inside="", center=(0, 0, 0), place=(0, 0, 0), quat
 
 
 def latches(drawn):
-    """Each slides along the radius of the ring on a spring that has no preload."""
+    """Each slides along the radius of the ring on a spring without preload, outwards against a stop."""
     text = ""
     for i, azimuth in enumerate(d.IDSS.ACTIVE_PETALS):
         frame = np.array(d.IDSS.latch_frame(azimuth)).T
         slide = (
             f'<joint name="latch_{i}" type="slide" axis="1 0 0" stiffness="{d.LATCH_STIFFNESS}" damping="{d.LATCH_DAMPING}" '
-            f'limited="true" range="{-d.LATCH_STROKE} {d.LATCH_STROKE}"/>'
+            f'limited="true" range="{-d.LATCH_STROKE} {d.LATCH_STOP}" solreflimit="{d.LATCH_STOP_TIME} 1"/>'
         )
         place = d.IDSS.latch_tip(azimuth)
         slide += drawn.get(f"latch_{i}", "")
