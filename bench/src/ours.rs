@@ -11,9 +11,9 @@ use pong_geometry::interference::{
     line_segment_plane::line_segment_plane, line_segment_polyhedron::line_segment_polyhedron,
     point_ellipsoid::point_ellipsoid, point_plane::point_plane, point_polyhedron::point_below_face,
     point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit,
-    ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_frustum,
-    ray_triangle::ray_triangle, round_plane::capsule_plane, round_plane::frustum_plane,
-    sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid,
+    ray_round::ray_frustum, ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
+    round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
     sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
     sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
@@ -330,6 +330,10 @@ impl<M: Movers> Pass<'_, M> {
             Hull => self.each(|i| along(m.ray(i), |a| ray_polyhedron(a, &b.polyhedra[0]))),
             Triangle => self.each(|i| along(m.ray(i), |a| ray_triangle(a, &b.triangles, 0, 0.0))),
             Plane => self.each(|i| along(m.ray(i), |a| ray_plane(a, &b.planes[0]))),
+            PrimitiveKind::Sphere => self.each(|i| along(m.ray(i), |a| ray_sphere(a, &b.spheres[0]))),
+            PrimitiveKind::Ellipsoid => {
+                self.each(|i| along(m.ray(i), |a| ray_ellipsoid(a, &b.ellipsoids[0])));
+            }
             PrimitiveKind::Capsule => self.each(|i| along(m.ray(i), |a| ray_capsule(a, &b.capsules[0]))),
             Cylinder | Cone => self.each(|i| along(m.ray(i), |a| ray_frustum(a, &b.frusta[0]))),
             Bore => self.each(|i| along(m.ray(i), |a| ray_bore(a, &b.bores[0]))),

@@ -141,7 +141,7 @@ fn main_of_invariances(arguments: &Arguments) -> Outcome {
     if arguments.list {
         return list(invariances::INVARIANCES.iter().map(|one| format!("{:<16} {}\n", one.name, one.says)));
     }
-    let families = || pong_invariance::make::touched::FAMILIES.iter().map(|(name, _)| *name);
+    let families = || pong_invariance::make::families().chain([pong_invariance::make::round::ALL]);
     if let Some(unknown) = arguments.family.as_ref().filter(|asked| !families().any(|name| name == *asked)) {
         let known: Vec<_> = families().collect();
         return wrong_usage(format!(

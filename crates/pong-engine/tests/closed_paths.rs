@@ -289,6 +289,34 @@ fn rods_around_round_parts() {
     }
 }
 
+/// Over a face with one end and with both ends past its edges, over an edge, past a corner; over seams, in a valley and over a
+/// ridge of triangles.
+#[test]
+fn capsules_on_boxes_and_triangles() {
+    let capsule = |half: f64| {
+        let ends = format!("ends: ((-{half},0,0),({half},0.1,0))");
+        model("rod", &elastic(), &format!("Capsule(name: \"l\", {ends}, radius: 0.1)"))
+    };
+    let mesh = |height: f64, slope: f64| {
+        let rim = [(1.0, 0.0), (0.8, 0.9), (-0.9, 0.6), (-0.5, -0.9), (0.7, -0.8)];
+        let rim: String = rim.iter().map(|(x, y)| format!("({x},{y},{}),", height - slope)).collect();
+        let triangles = "triangles: [(0,1,2),(0,2,3),(0,3,4),(0,4,5),(0,5,1)]";
+        let text = format!("TriangleMesh(name: \"m\", vertices: [(0,0,{height}),{rim}], {triangles})");
+        model("mesh", &elastic(), &text)
+    };
+    for (name, rod, of, center, size, turn) in [
+        ("across a box", capsule(0.9), solid(), Vec3::new(0.0, 0.0, 0.38), 0.06, 0.1),
+        ("over an edge", capsule(0.3), solid(), Vec3::new(0.45, 0.0, 0.38), 0.08, 0.2),
+        ("over a corner", capsule(0.3), solid(), Vec3::new(0.55, 0.45, 0.37), 0.07, 0.2),
+        ("on a plate", capsule(0.3), mesh(0.0, 0.0), Vec3::new(0.1, 0.0, 0.08), 0.05, 0.1),
+        ("past the rim of a plate", capsule(0.3), mesh(0.0, 0.0), Vec3::new(0.8, 0.0, 0.07), 0.05, 0.1),
+        ("in a valley", capsule(0.2), mesh(0.0, -0.5), Vec3::new(0.0, 0.0, 0.2), 0.03, 0.1),
+        ("over a ridge", capsule(0.5), mesh(0.0, 0.4), Vec3::new(0.0, 0.0, 0.06), 0.05, 0.2),
+    ] {
+        check_closed_paths(name, &rod, &of, (center, size, turn), Allowed::Nothing);
+    }
+}
+
 const STRAIGHT: &str = "Bore(name: \"b\", ends: ((-0.5,0.05,0),(0.5,0,0.1)), radii: (0.3,0.3))";
 const TAPERED: &str = "Bore(name: \"b\", ends: ((-0.5,0,0),(0.5,0.05,0)), radii: (0.4,0.25))";
 const SEAT: &str = "Bore(name: \"b\", ends: ((0,0,0),(0.2,0,0)), radii: (0.05,0.5), mouths: (false,true))";

@@ -8,8 +8,8 @@ mod round_support;
 use common::{hull, random_motion};
 use pong_geometry::interference::ray_plane::{RayHit, ray_contact};
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
-use pong_geometry::interference::ray_round::{ray_capsule, ray_frustum};
-use pong_geometry::primitive::{Capsule, Frustum, Ray, RayResponse};
+use pong_geometry::interference::ray_round::{ray_capsule, ray_ellipsoid, ray_frustum, ray_sphere};
+use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, Ray, RayResponse, Sphere};
 use pong_geometry::{Quat, Transform, Vec3};
 use pong_testkit::Random;
 use round_support::Solid;
@@ -78,9 +78,9 @@ fn random_ray(random: &mut Random) -> Ray {
 }
 
 /// Where the ray's line comes in and goes out, m from the origin, by thirds and by halving.
-fn passage(ray: &Ray, solid: &Solid) -> Option<[f64; 2]> {
+fn passage(ray: &Ray, outside: impl Fn(&Vec3) -> f64) -> Option<[f64; 2]> {
     const FAR: f64 = 10.0;
-    let at = |along: f64| solid.outside(&(ray.origin + ray.direction * along));
+    let at = |along: f64| outside(&(ray.origin + ray.direction * along));
     let (mut low, mut high) = (-FAR, FAR);
     for _ in 0..200 {
         let thirds = [low + (high - low) / 3.0, high - (high - low) / 3.0];
@@ -108,7 +108,7 @@ fn the_entrance_is_where_the_line_comes_into_the_solid() {
         let (solid, ray) = (Solid::random(&mut random), random_ray(&mut random));
         let found = solid.hit(&ray);
         let told = format!("case {case}: {found:?} {ray:?} {solid:?}");
-        let Some([comes_in, goes_out]) = passage(&ray, &solid) else {
+        let Some([comes_in, goes_out]) = passage(&ray, |place| solid.outside(place)) else {
             assert!(found.is_none(), "{told}");
             continue;
         };
@@ -135,6 +135,51 @@ fn the_entrance_is_where_the_line_comes_into_the_solid() {
         assert!((hit.normal_b.norm() - 1.0).abs() < 1e-14 && error < 1e-12 / slope, "{told} {error:e}");
     }
     assert!(hits > 1500 && behind > 50, "{hits} {behind}");
+}
+
+/// Balls and ellipsoids of any slenderness: the entrance, the normal there, and what a pose must not change.
+#[test]
+fn the_entrance_into_balls_and_ellipsoids_is_where_the_line_comes_in() {
+    let mut random = Random::new(24, 0, 0);
+    let mut hits = 0;
+    for case in 0..10_000 {
+        let center = random.vector(0.5);
+        let semi_axes = match case % 2 {
+            0 => Vec3::repeat(random.between(0.05, 1.0)),
+            _ => Vec3::from_fn(|_, _| random.between(0.05, 1.0)),
+        };
+        let axes = random.rotation_matrix();
+        let ray = random_ray(&mut random);
+        let in_axes = |place: &Vec3| axes.tr_mul(&(place - center));
+        let ellipsoid = Ellipsoid { center, axes, semi_axes };
+        let found = match case % 2 {
+            0 => ray_sphere(&ray, &Sphere { center, radius: semi_axes.x }),
+            _ => ray_ellipsoid(&ray, &ellipsoid),
+        };
+        let comes_through = passage(&ray, |place| in_axes(place).component_div(&semi_axes).norm() - 1.0);
+        let told = format!("case {case}: {found:?} {ray:?} {ellipsoid:?}");
+        let Some([comes_in, goes_out]) = comes_through else {
+            assert!(found.is_none(), "{told}");
+            continue;
+        };
+        let reach = ray.reach.unwrap_or(0.0);
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-6;
+        let limits = [(comes_in, goes_out), (comes_in, -reach), (comes_in, ray.length), (goes_out, 0.0)];
+        if limits.iter().any(|&(a, b)| close(a, b)) {
+            continue;
+        }
+        let expected = -reach < comes_in && comes_in < ray.length && goes_out > 0.0;
+        assert_eq!(found.is_some(), expected, "{told}");
+        let Some(hit) = found else { continue };
+        hits += 1;
+        let place = ray.origin + ray.direction * hit.distance;
+        let gradient = in_axes(&place).component_div(&semi_axes.component_mul(&semi_axes));
+        let outward = (axes * gradient).normalize();
+        let slope = -ray.direction.dot(&outward);
+        assert!((hit.distance - comes_in).abs() * slope < 1e-12, "{told} {comes_in}");
+        assert!((hit.normal_b - outward).norm() * slope < 1e-11, "{told} {outward}");
+    }
+    assert!(hits > 800, "{hits}");
 }
 
 /// A tapered plunger's tip is as deep below the surface as its ray is pushed in.

@@ -320,3 +320,65 @@ fn a_rod_tilts_through_lying_flat_without_a_jump() {
         }
     }
 }
+
+/// A rod along a cylinder, sunk in until its axis is inside, past one end or both: it is held at the ends of what overlaps,
+/// however the two are turned and whatever rounding says of which end is deeper.
+#[test]
+fn a_rod_sunk_in_along_a_cylinder_is_held_where_it_overlaps() {
+    let mut random = Random::new(7, 0, 0);
+    let cylinder = Frustum::new([Vec3::zeros(), Vec3::x()], [0.1; 2]);
+    for case in 0..2000 {
+        let x = random_motion(&mut random, 3.0);
+        let solid = Solid::Frustum(cylinder.carried(&x));
+        let aside = random.between(0.06, 0.095);
+        let (from, to) = [(-0.6, 0.5), (0.5, 1.9), (-0.7, 1.8)][case % 3];
+        let place = |along: f64| Vec3::new(along, 0.0, aside);
+        let mut ends = [place(from), place(to)];
+        if random.below(2) == 0 {
+            ends.reverse();
+        }
+        let rod = Capsule { ends, radius: 0.02 }.carried(&x);
+        let (force, moment) = wrench(&solid.touch(&rod), &x.point(&Vec3::zeros()));
+        let depth = 0.1 + 0.02 - aside;
+        assert!((force.norm() - depth).abs() < 1e-12, "{from} {to}: {} for {depth}", force.norm());
+        let middle = 0.5 * (f64::max(from, 0.0) + f64::min(to, 1.0));
+        let lever = x.rotation.tr_mul(&moment).dot(&-Vec3::y()) / force.norm();
+        assert!((lever - middle).abs() < 1e-9, "case {case}, {from} {to}: at {lever}, not {middle}");
+    }
+}
+
+/// A rod inside a cone, along its axis, leaves across it, by the wide end: there it is held.
+#[test]
+fn a_rod_sunk_in_along_the_axis_of_a_cone_is_held_at_the_wide_end() {
+    let mut random = Random::new(8, 0, 0);
+    let cone = Frustum::new([Vec3::zeros(), Vec3::x()], [0.3, 0.1]);
+    for _ in 0..500 {
+        let x = random_motion(&mut random, 3.0);
+        let ends = [Vec3::new(-0.8, 0.0, 0.25), Vec3::new(0.9, 0.0, 0.25)];
+        let rod = Capsule { ends, radius: 0.0 }.carried(&x);
+        let contacts = Solid::Frustum(cone).carried(&x).touch(&rod);
+        for contact in contacts.iter().flatten() {
+            let at = x.rotation.tr_mul(&(contact.interference.deepest_b - x.translation));
+            assert!(at.x.abs() < 1e-9 && (contact.interference.depth - 0.05).abs() < 1e-12, "{contacts:?}");
+        }
+        assert!(contacts.iter().flatten().count() > 0);
+    }
+}
+
+/// An axis that goes through the end of another leaves it across both, and that turns with the two.
+#[test]
+fn an_axis_through_the_end_of_another_leaves_across_both() {
+    let mut random = Random::new(9, 0, 0);
+    let (log, rod) = (
+        Capsule { ends: [Vec3::zeros(), Vec3::x()], radius: 0.1 },
+        Capsule { ends: [Vec3::new(-0.3, 0.4, 0.5), Vec3::new(0.3, -0.4, -0.5)], radius: 0.05 },
+    );
+    let across = Vec3::x().cross(&rod.ends[1]).normalize();
+    for _ in 0..500 {
+        let x = random_motion(&mut random, 3.0);
+        for contact in capsule_capsule(&rod.carried(&x), &log.carried(&x)).iter().flatten() {
+            let cosine = (x.rotation * across).dot(&contact.interference.normal_b);
+            assert!((cosine.abs() - 1.0).abs() < 1e-12, "{contact:?}");
+        }
+    }
+}

@@ -36,10 +36,10 @@ impl Allowance {
         let rounding = ROUNDINGS * (scene.stiffness() * position + scene.damping() * velocity);
         // The plane of a thin triangle is known as well as its height.
         let thin = 64.0 * f64::EPSILON * (1.0 / thinnest(scene)).max(1.0 / thinnest(&twin.scene));
-        let origins = twin.back.origins.iter().map(Vec3::norm).fold(0.0, f64::max);
+        let origins = twin.back.origins.iter().flatten().map(Vec3::norm).fold(0.0, f64::max);
         let lever = 4.0 * (scene.size + origins);
         // A position that is known to so much of a size leaves a direction as uncertain.
-        let turned = ROUNDINGS * twin.rounding / scene.size;
+        let turned = ROUNDINGS * twin.rounding / narrowest(scene);
         Self { force: (TOLERANCE + thin + turned) * largest + rounding, lever }
     }
 
@@ -72,6 +72,15 @@ fn bent(scene: &Scene) -> f64 {
     // A plane through three of them is off by a few times that at the others, and edges of pieces move with it.
     let slack = 1e3 * f64::EPSILON * scene.size;
     if most > slack { 30.0 * most } else { 0.0 }
+}
+
+/// The smallest radius of a round part, or the size, m: the way from an axis is as uncertain as that is small.
+fn narrowest(scene: &Scene) -> f64 {
+    let radii = scene.bodies.iter().flat_map(|body| &body.shapes).filter_map(|shape| match shape {
+        Shape::Round(part) => Some(part.radii),
+        _ => None,
+    });
+    radii.flatten().filter(|radius| *radius > 0.0).fold(scene.size, f64::min)
 }
 
 /// Height of the thinnest triangle over the scene's size.

@@ -19,6 +19,7 @@ pub mod play;
 pub mod properties;
 pub mod random;
 pub mod reduce;
+pub mod round_part;
 pub mod scene;
 pub mod survey;
 pub mod text;

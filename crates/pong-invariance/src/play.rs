@@ -180,8 +180,13 @@ impl Stage {
 fn capacity(scene: &Scene) -> Option<usize> {
     let elements = |shape: &Shape| match shape {
         Shape::Mesh(mesh) => mesh.triangles.len() * (1 + usize::from(mesh.two_sided)),
+        // A capsule's two balls and the edges, on each triangle; four places of a cylinder's rims.
+        Shape::Round(_) => 16,
         _ => 2,
     };
     let [a, b] = [0, 1].map(|body| scene.bodies[body].shapes.iter().map(elements).sum::<usize>());
-    (a * b <= 256).then_some(a * b + 8)
+    let is_round =
+        |body: usize| scene.bodies[body].shapes.iter().any(|shape| matches!(shape, Shape::Round(_)));
+    // A large capsule on many small triangles touches more of them than the engine expects of one body.
+    (a * b <= 256 || is_round(0)).then_some((a * b + 8).min(65_536))
 }

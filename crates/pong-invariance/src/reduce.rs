@@ -173,6 +173,7 @@ fn plainer_shape(scene: &Scene, at: usize) -> Option<Scene> {
                 | Shape::Ellipsoid { center: p, .. } => *p,
                 Shape::Segment { ends } => (ends[0] + ends[1]) * 0.5,
                 Shape::Ray { origin, .. } => *origin,
+                Shape::Round(part) => (part.ends[0] + part.ends[1]) * 0.5,
                 _ => return None,
             };
             let move_it = Pose { position: -shift, orientation: nalgebra::UnitQuaternion::identity() };
@@ -218,6 +219,7 @@ fn rounder_shapes(scene: &Scene, at: usize) -> Option<Scene> {
             Shape::Ellipsoid { center, semi_axes, .. } => {
                 (*center, *semi_axes) = (round(center), round(semi_axes))
             }
+            Shape::Round(part) => part.radii = part.radii.map(|radius| rounded(radius, digits)),
             Shape::Point { position } => *position = round(position),
             Shape::Segment { ends } => *ends = ends.map(|end| round(&end)),
             Shape::Plane { normal, offset } => (*normal, *offset) = (round(normal), rounded(*offset, digits)),

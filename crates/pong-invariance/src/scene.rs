@@ -1,5 +1,6 @@
 //! A scene as plain data: two bodies and the states of a history. Models and twins are made from it.
 
+use crate::round_part::RoundPart;
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Vec3};
 
@@ -113,6 +114,7 @@ pub enum Shape {
     Plane { normal: Vec3, offset: f64 },
     Polyhedron(Solid),
     Mesh(Mesh),
+    Round(RoundPart),
 }
 
 /// A convex solid; each face counter-clockwise seen from outside.
@@ -151,6 +153,7 @@ impl Shape {
             Self::Plane { .. } => "Plane",
             Self::Polyhedron(_) => "Polyhedron",
             Self::Mesh(_) => "TriangleMesh",
+            Self::Round(part) => part.kind_name(),
         }
     }
 
@@ -184,6 +187,7 @@ impl Shape {
             Self::Mesh(mesh) => {
                 Self::Mesh(Mesh { vertices: mesh.vertices.iter().map(point).collect(), ..mesh.clone() })
             }
+            Self::Round(part) => Self::Round(part.carried(pose)),
         }
     }
 
@@ -210,6 +214,7 @@ impl Shape {
                 thickness: mesh.thickness.and(Some(std::hint::black_box(mesh.thickness.unwrap_or(0.0)) * s)),
                 ..mesh.clone()
             }),
+            Self::Round(part) => Self::Round(part.scaled(s)),
         }
     }
 
@@ -218,6 +223,7 @@ impl Shape {
         match self {
             Self::Polyhedron(solid) => &mut solid.vertices,
             Self::Mesh(mesh) => &mut mesh.vertices,
+            Self::Round(part) => &mut part.ends,
             _ => &mut [],
         }
     }

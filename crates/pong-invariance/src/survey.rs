@@ -3,6 +3,7 @@
 use crate::base::Base;
 use crate::invariances::{INVARIANCES, Invariance, numbers, scene};
 use crate::judge::{Finding, Verdict};
+use crate::make;
 use crate::reduce;
 use crate::scene::Scene;
 use crate::text;
@@ -32,8 +33,8 @@ pub struct Order {
 
 impl Order {
     /// Options of the command that shows the scene of an index again.
-    fn again(&self, name: &str, index: u64) -> String {
-        let family = self.family.as_ref().map_or(String::new(), |family| format!(" --family {family}"));
+    fn again(&self, name: &str, family: Option<&str>, index: u64) -> String {
+        let family = family.map_or(String::new(), |family| format!(" --family {family}"));
         format!("--only {name}{family} --seed {} --first {index} --scenes 1", self.seed)
     }
 }
@@ -104,6 +105,10 @@ pub struct Survey {
     pub listed: Vec<Listed>,
 }
 
+/// Of an order for all families, a scene of round parts stands beside every scene of so many: those of the others keep their
+/// numbers.
+const ROUND_EVERY: u64 = 2;
+
 /// Scenes that a thread takes at a time.
 const PORTION: u64 = 64;
 
@@ -145,19 +150,36 @@ impl Survey {
         total
     }
 
-    /// One index: its scene against all twins, and the scenes that invariances make for themselves.
+    /// One index: a scene of the family asked for, or one without and one with round parts.
     fn one(&mut self, order: &Order, asked: &[&'static Invariance], index: u64) {
+        match order.family.as_deref() {
+            Some(make::round::ALL) => {
+                self.one_of(order, &of_shared_scenes(asked), Some(make::round::family(index)), index);
+            }
+            Some(family) => self.one_of(order, asked, Some(family), index),
+            None => {
+                self.one_of(order, asked, None, index);
+                if index.is_multiple_of(ROUND_EVERY) {
+                    let family = make::round::family(index / ROUND_EVERY);
+                    self.one_of(order, &of_shared_scenes(asked), Some(family), index);
+                }
+            }
+        }
+    }
+
+    /// Its scene against all twins, and the scenes that invariances make for themselves.
+    fn one_of(&mut self, order: &Order, asked: &[&'static Invariance], family: Option<&'_ str>, index: u64) {
         let mut shared = None;
         for invariance in asked.iter().filter(|invariance| index.is_multiple_of(invariance.every)) {
             let mut own = None;
             let base = match invariance.make {
                 Some(_) => {
-                    self.base(invariance, order, index, &mut own);
+                    self.base(invariance, order.seed, (family, index), &mut own);
                     &mut own
                 }
                 None => {
                     if shared.is_none() {
-                        self.base(invariance, order, index, &mut shared);
+                        self.base(invariance, order.seed, (family, index), &mut shared);
                         if shared.is_none() {
                             // Refused once, it is refused by all.
                             return;
@@ -167,14 +189,20 @@ impl Survey {
                 }
             };
             if let Some(base) = base {
-                self.judge(order, invariance, index, base);
+                self.judge(order, invariance, (family, index), base);
             }
         }
     }
 
-    fn base(&mut self, invariance: &Invariance, order: &Order, index: u64, out: &mut Option<Base>) {
+    fn base(
+        &mut self,
+        invariance: &Invariance,
+        seed: u64,
+        (family, index): (Option<&str>, u64),
+        out: &mut Option<Base>,
+    ) {
         self.scenes += 1;
-        match Base::new(scene(invariance, order.family.as_deref(), order.seed, index)) {
+        match Base::new(scene(invariance, family, seed, index)) {
             Ok(base) => *out = Some(base),
             Err(refusal) => {
                 self.refused += 1;
@@ -185,7 +213,13 @@ impl Survey {
         }
     }
 
-    fn judge(&mut self, order: &Order, invariance: &'static Invariance, index: u64, base: &mut Base) {
+    fn judge(
+        &mut self,
+        order: &Order,
+        invariance: &'static Invariance,
+        (family, index): (Option<&str>, u64),
+        base: &mut Base,
+    ) {
         let verdict = invariance.judge(base, &mut numbers(invariance, order.seed, index));
         let tally = self.tallies.entry(invariance.name).or_default();
         match verdict {
@@ -207,12 +241,12 @@ impl Survey {
                     family: base.scene.family,
                     frame: finding.frame,
                     relative: finding.relative,
-                    again: order.again(invariance.name, index),
+                    again: order.again(invariance.name, family, index),
                 });
                 let known =
                     |found: &&Found| found.name == invariance.name && found.whole.family == base.scene.family;
                 if self.found.iter().filter(known).count() < order.kept {
-                    self.found.push(smallest(invariance, order, index, &base.scene, finding));
+                    self.found.push(smallest(invariance, order, (family, index), &base.scene, finding));
                 }
             }
         }
@@ -317,11 +351,16 @@ impl Survey {
     }
 }
 
+/// Those without scenes of their own: what round parts are held against.
+fn of_shared_scenes(asked: &[&'static Invariance]) -> Vec<&'static Invariance> {
+    asked.iter().filter(|invariance| invariance.make.is_none()).copied().collect()
+}
+
 /// Reduces a scene that disagrees.
 fn smallest(
     invariance: &'static Invariance,
     order: &Order,
-    index: u64,
+    (family, index): (Option<&str>, u64),
     whole: &Scene,
     finding: Finding,
 ) -> Found {
@@ -336,7 +375,7 @@ fn smallest(
     let differs = |scene: &Scene| verdict(scene).is_some_and(|found| found.is_refusal == finding.is_refusal);
     let scene = if invariance.is_general { reduce::reduce(whole, differs) } else { whole.clone() };
     let name = invariance.name;
-    let again = order.again(name, index);
+    let again = order.again(name, family, index);
     let finding = verdict(&scene).unwrap_or(finding);
     Found { name, again, whole: whole.clone(), scene, finding }
 }

@@ -1,5 +1,6 @@
 //! A body as the text of a model file, and a scene as something to read.
 
+use crate::round_part::{RoundKind, RoundPart};
 use crate::scene::{Body, Friction, Mesh, Normal, Scene, Shape, Solid, Surface};
 use pong_engine::State;
 use pong_geometry::{Quat, Vec3};
@@ -126,8 +127,25 @@ fn primitive(text: &mut String, shape: &Shape, name: usize) {
             let _ = write!(text, "], two_sided: {two_sided}");
             thickness.map_or(Ok(()), |thickness| write!(text, ", thickness: {thickness:?}"))
         }
+        Shape::Round(part) => {
+            round_part(text, part);
+            Ok(())
+        }
     };
     text.push(')');
+}
+
+fn round_part(text: &mut String, part: &RoundPart) {
+    let RoundPart { kind, ends: [p, q], radii: [r, s], thickness, mouths } = part;
+    let _ = write!(text, "ends: ({}, {}), ", triple(p), triple(q));
+    let _ = match kind {
+        RoundKind::Capsule | RoundKind::Cylinder => write!(text, "radius: {r:?}"),
+        RoundKind::Cone => write!(text, "radii: ({r:?}, {s:?})"),
+        RoundKind::Bore => write!(text, "radii: ({r:?}, {s:?}), mouths: ({}, {})", mouths[0], mouths[1]),
+    };
+    if let Some(thickness) = thickness {
+        let _ = write!(text, ", thickness: {thickness:?}");
+    }
 }
 
 fn triple(v: &Vec3) -> String {

@@ -196,6 +196,37 @@ fn slip_evaluated_again_and_beside() {
 }
 
 #[test]
+fn whatever_touches_rods() {
+    nothing_differs(&["turned", "own_axis", "reordered", "scaled"], Some("rod"), 400);
+}
+
+#[test]
+fn round_parts_on_floors() {
+    nothing_differs(&["turned", "moved", "own_axis", "reordered", "scaled"], Some("floor"), 400);
+}
+
+#[test]
+fn balls_and_rays_in_holes_and_on_shafts() {
+    let told = ["turned", "own_axis", "cut", "reordered", "scaled"];
+    let is_thin = |scene: &Scene| !scene.bodies[0].shapes.iter().any(is_rod);
+    for family in ["hole", "shaft", "cone"] {
+        nothing_differs_where(&told, family, 300, is_thin);
+    }
+}
+
+/// What has two ends.
+fn is_rod(shape: &Shape) -> bool {
+    matches!(shape, Shape::Round(_) | Shape::Segment { .. })
+}
+
+#[test]
+fn what_must_be_the_same_bits_with_round_parts() {
+    let bits =
+        ["swapped", "regrouped", "bounded", "negated", "thrown_away", "restored", "forgotten", "workers"];
+    nothing_differs(&bits, Some(make::round::ALL), 500);
+}
+
+#[test]
 fn what_must_be_the_same_bits() {
     let bits =
         ["swapped", "regrouped", "bounded", "negated", "thrown_away", "restored", "forgotten", "workers"];

@@ -4,8 +4,8 @@ use super::named::Named;
 use crate::text::{count, number};
 use pong_engine::{Laws, NormalProps, combine_surfaces, has_tester};
 use pong_geometry::primitive::PrimitiveKind;
-use pong_model::{Exponent, Model, MovableGroup, Surface, pair_entries, printable};
-use std::collections::BTreeMap;
+use pong_model::{Exponent, Model, MovableGroup, PrimitiveInfo, Surface, pair_entries, printable};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How many are told; the softer ones are only counted.
 const LISTED: usize = 10;
@@ -17,6 +17,16 @@ const PRESSING: [(PrimitiveKind, &str, &str); 5] = [
     (PrimitiveKind::Capsule, "capsule", "capsules"),
     (PrimitiveKind::Cylinder, "cylinder", "cylinders"),
     (PrimitiveKind::Cone, "cone", "cones"),
+];
+
+/// On which that lies: a face, or the wall of a round part or a hole.
+const PRESSED: [PrimitiveKind; 6] = [
+    PrimitiveKind::Plane,
+    PrimitiveKind::Polyhedron,
+    PrimitiveKind::Capsule,
+    PrimitiveKind::Cylinder,
+    PrimitiveKind::Cone,
+    PrimitiveKind::Bore,
 ];
 
 /// How many primitives of each kind that presses have one surface.
@@ -63,7 +73,7 @@ pub(super) fn faces_pressed(
 ) -> Vec<FacePressed> {
     let pressing = pressing(body_a);
     let mut found = Vec::new();
-    for (surface, kind) in faces(body_b) {
+    for (kind, surface) in faces(body_b) {
         let mut all = [0; PRESSING.len()];
         let counts = pressing.iter().flat_map(|group| group.on(kind).into_iter().enumerate());
         counts.for_each(|(index, count)| all[index] += count);
@@ -123,10 +133,10 @@ fn pressing(body: &MovableGroup) -> Vec<Group> {
     by_surface.into_values().collect()
 }
 
-/// Surfaces of planes and polyhedra, each once.
-fn faces(body: &MovableGroup) -> BTreeMap<u32, PrimitiveKind> {
-    let flat = |kind| matches!(kind, PrimitiveKind::Plane | PrimitiveKind::Polyhedron);
-    body.primitives.iter().filter(|info| flat(info.kind)).map(|info| (info.surface, info.kind)).collect()
+/// Kinds and surfaces of what can be lain on, each once.
+fn faces(body: &MovableGroup) -> BTreeSet<(PrimitiveKind, u32)> {
+    let of_primitive = |info: &PrimitiveInfo| (info.kind, info.surface);
+    body.primitives.iter().filter(|info| PRESSED.contains(&info.kind)).map(of_primitive).collect()
 }
 
 /// Stiffness of a pair, and whether it goes with the power 3/2. `None` cannot be combined, which sealing tells.

@@ -171,21 +171,25 @@ impl Bounded for Frustum {
     }
 }
 
+/// The wall of a bore moved back by its thickness, and what is in front of it.
+fn behind(bore: &Bore) -> Frustum {
+    let [along, aside] = bore.hole.wall.map(|part| part * bore.thickness);
+    let Frustum { ends, radii, axis, .. } = bore.hole;
+    Frustum {
+        ends: ends.map(|end| end + axis * along),
+        radii: radii.map(|radius| radius + aside),
+        ..bore.hole
+    }
+}
+
 /// What a bore may push: all that is in the hole or less than the thickness behind its wall.
 impl Bounded for Bore {
     fn support(&self, direction: &Vec3) -> f64 {
-        let [along, aside] = self.hole.wall.map(|part| part * self.thickness);
-        let Frustum { ends, radii, axis, .. } = self.hole;
-        let behind = Frustum {
-            ends: ends.map(|end| end + axis * along),
-            radii: radii.map(|radius| radius + aside),
-            ..self.hole
-        };
-        self.hole.support(direction).max(behind.support(direction))
+        self.hole.support(direction).max(behind(self).support(direction))
     }
 
     fn farthest(&self, from: &Vec3) -> f64 {
-        self.hole.farthest(from) + self.thickness
+        self.hole.farthest(from).max(behind(self).farthest(from))
     }
 
     fn representatives(&self, out: &mut Vec<Vec3>) {

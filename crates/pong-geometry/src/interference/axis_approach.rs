@@ -1,7 +1,7 @@
 //! How near the axis of a two-ended body comes to a round solid, and which way it leaves it soonest (docs/theory.md, 2.8).
 
 use super::Feature;
-use super::round_surface::{Nearest, nearest_on_segment, of_capsule, of_frustum};
+use super::round_surface::{Nearest, ROUNDING, nearest_on_segment, of_capsule, of_frustum};
 use crate::primitive::{Capsule, Frustum};
 use crate::{Vec3, any_perpendicular, divisor};
 
@@ -20,8 +20,8 @@ pub(crate) struct Approach {
 
 /// A round convex solid, as B of a two-ended body.
 pub(crate) trait RoundSolid {
-    /// Where a place is nearest to the surface.
-    fn nearest(&self, place: &Vec3) -> Nearest;
+    /// Where an end of a segment is nearest to the surface.
+    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest;
 
     /// Where a segment is nearest, or how it leaves the solid.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach;
@@ -34,22 +34,14 @@ pub(crate) trait RoundSolid {
 }
 
 impl RoundSolid for Capsule {
-    fn nearest(&self, place: &Vec3) -> Nearest {
-        of_capsule(place, self)
+    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest {
+        self.nearest_of(&segment[end], segment)
     }
 
-    /// Two axes that cross leave each other across both.
     fn approach(&self, segment: &[Vec3; 2]) -> Approach {
         let at = nearest_to_segment(segment, &self.ends);
-        let nearest = of_capsule(&at, self);
-        // Of axes that cross the nearest places coincide, and their difference is noise.
-        let along = [segment[1] - segment[0], self.axis()];
-        let across = along[0].cross(&along[1]);
-        let scale = at.amax().max(self.ends[0].amax()).max(self.ends[1].amax());
-        let crosses = nearest.distance + self.radius <= 64.0 * f64::EPSILON * scale
-            && across.norm_squared() > f64::EPSILON * along[0].norm_squared() * along[1].norm_squared();
-        let normal = if crosses { across.normalize() } else { nearest.normal_b };
-        Approach { distance: nearest.distance, normal_b: normal, place_b: at, feature: nearest.feature }
+        let Nearest { distance, normal_b, feature } = self.nearest_of(&at, segment);
+        Approach { distance, normal_b, place_b: at, feature }
     }
 
     fn approach_end(&self, end: usize, segment: &[Vec3; 2]) -> Approach {
@@ -57,10 +49,10 @@ impl RoundSolid for Capsule {
         let place = nearest_on_segment(&center, segment);
         let arm = place - center;
         let distance = arm.norm();
-        let normal = if distance > 0.0 {
-            (arm / distance.max(f64::MIN_POSITIVE)).normalize()
+        let normal = if self.is_in_axis(distance, &place) {
+            self.across(segment).unwrap_or_else(|| any_perpendicular(&(segment[1] - segment[0]).normalize()))
         } else {
-            any_perpendicular(&(segment[1] - segment[0]).normalize())
+            (arm / distance).normalize()
         };
         Approach {
             distance: distance - self.radius,
@@ -72,6 +64,29 @@ impl RoundSolid for Capsule {
 
     fn axis(&self) -> Vec3 {
         self.ends[1] - self.ends[0]
+    }
+}
+
+impl Capsule {
+    /// Nearest to a place of a segment. Two axes that cross, or of which one ends in the other, leave each other across both.
+    fn nearest_of(&self, place: &Vec3, segment: &[Vec3; 2]) -> Nearest {
+        let nearest = of_capsule(place, self);
+        let crosses = self.is_in_axis(nearest.distance + self.radius, place);
+        let across = if crosses { self.across(segment) } else { None };
+        Nearest { normal_b: across.unwrap_or(nearest.normal_b), ..nearest }
+    }
+
+    /// Whether a place so far from the axis is in it: then the way to it is noise.
+    fn is_in_axis(&self, distance: f64, place: &Vec3) -> bool {
+        distance <= 64.0 * f64::EPSILON * place.amax().max(self.ends[0].amax()).max(self.ends[1].amax())
+    }
+
+    /// The unit vector across both axes, if they are not parallel. It turns with the bodies.
+    fn across(&self, segment: &[Vec3; 2]) -> Option<Vec3> {
+        let along = [segment[1] - segment[0], self.axis()];
+        let across = along[0].cross(&along[1]);
+        let least = f64::EPSILON * along[0].norm_squared() * along[1].norm_squared();
+        (across.norm_squared() > least).then(|| across.normalize())
     }
 }
 
@@ -107,8 +122,8 @@ fn common_perpendicular(segment: &[Vec3; 2], other: &[Vec3; 2]) -> Option<(Vec3,
 }
 
 impl RoundSolid for Frustum {
-    fn nearest(&self, place: &Vec3) -> Nearest {
-        of_frustum(place, self)
+    fn nearest(&self, end: usize, segment: &[Vec3; 2]) -> Nearest {
+        of_frustum(&segment[end], self)
     }
 
     fn approach(&self, segment: &[Vec3; 2]) -> Approach {
@@ -199,6 +214,8 @@ impl<'a> WayOut<'a> {
         for end in self.segment {
             let arm = end - self.frustum.ends[0];
             let across = arm - axis * axis.dot(&arm);
+            // Once more: what rounding leaves along the axis is much of a short way from it.
+            let across = across - axis * axis.dot(&across);
             let aside = across.norm();
             if aside > 0.0 {
                 let [wall_along, wall_aside] = self.frustum.wall;
@@ -277,25 +294,34 @@ impl<'a> WayOut<'a> {
         along.cross(normal).dot(&(farther - self.segment[0]))
     }
 
-    /// Where the solid is touched along the shortest way out across the segment: where that does not tend to turn. On the wall
-    /// that is between the two ends.
-    fn touched(&self, along: &Vec3, normal: &Vec3) -> Vec3 {
-        let [one, other] = self.farthest(normal);
-        let turning = along.cross(normal);
-        let [first, last] = [one, other].map(|place| turning.dot(&(place - self.segment[0])));
-        if first * last < 0.0 {
-            return one + (other - one) * (first / divisor(first - last));
+    /// How far along the segment the solid is touched on the shortest way out across it. The end of the solid that is farther out
+    /// is. Where both are as far, that is on the wall between them, where the way out does not tend to turn; of a segment along the
+    /// wall in the middle of what overlaps.
+    fn travelled(&self, along: &Vec3, normal: &Vec3, rounding: f64) -> f64 {
+        let places = self.farthest(normal);
+        let [height, other_height] = places.map(|place| normal.dot(&place));
+        let [at, other] = places.map(|place| along.dot(&(place - self.segment[0])));
+        let length = along.dot(&(self.segment[1] - self.segment[0]));
+        if (height - other_height).abs() > rounding {
+            return if height > other_height { at } else { other }.clamp(0.0, length);
         }
-        if normal.dot(&one) >= normal.dot(&other) { one } else { other }
+        let turning = along.cross(normal);
+        let [first, last] = places.map(|place| turning.dot(&(place - self.segment[0])));
+        if (first - last).abs() <= rounding {
+            return 0.5 * (at.clamp(0.0, length) + other.clamp(0.0, length));
+        }
+        let share = (first / divisor(first - last)).clamp(0.0, 1.0);
+        (at + (other - at) * share).clamp(0.0, length)
     }
 
+    /// Of a segment along the wall both ends are last out, though rounding may say that one of them alone is.
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
-        if distance > self.best.distance {
-            let touched = self.touched(along, normal);
-            let travelled = along.dot(&(touched - one)).clamp(0.0, along.dot(&(other - one)));
-            let place = one + along * travelled;
+        let of_solid = self.frustum.ends[0].amax() + self.frustum.length + self.frustum.radii[0];
+        let rounding = ROUNDING * one.amax().max(other.amax()).max(of_solid);
+        if distance > self.best.distance - rounding {
+            let place = one + along * self.travelled(along, normal, rounding);
             self.best = Approach { distance, normal_b: *normal, place_b: place, feature: Feature::face(0) };
         }
     }

@@ -3,6 +3,7 @@
 //!
 //! Degenerate cases: of an axis along the edge the balls are as near as what is between them, and there is no crossing.
 
+use super::round_surface::ROUNDING;
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::Capsule;
@@ -60,8 +61,9 @@ fn over(
     let outside = edge.normals_b.iter().sum::<Vec3>().dot(&across);
     let normal = if outside < 0.0 { -across } else { across };
     let height = normal.dot(&(axis.at(at) - of_edge.at(on_edge)));
-    let leaves_there =
-        || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(|outward| outward.dot(&normal) > 0.0));
+    // Of an axis along a face rounding decides whether the way out is beside that face's normal: it counts as if it were not.
+    let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
+    let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
     if height >= capsule.radius || (height <= 0.0 && !leaves_there()) {
         return None;
     }

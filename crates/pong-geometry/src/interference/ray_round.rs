@@ -1,4 +1,4 @@
-//! Ray (A) – capsule, cylinder and cone (B) (docs/theory.md, 2.5 and 2.8): where the ray's line enters the solid.
+//! Ray (A) – sphere, ellipsoid, capsule, cylinder and cone (B) (docs/theory.md, 2.5 and 2.8): where the ray's line enters the solid.
 //!
 //! Degenerate cases: a line that only grazes does not enter. One through a rim of a cylinder or a cone enters by the wall. As in
 //! a polyhedron the origin may lie inside, up to the reach behind the surface, but not beyond the far side.
@@ -6,8 +6,29 @@
 use super::Feature;
 use super::ray_plane::RayHit;
 use super::round_surface::nearest_on_segment;
-use crate::primitive::{Capsule, Frustum, Ray};
+use crate::primitive::{Capsule, Ellipsoid, Frustum, Ray, Sphere};
 use crate::{Vec3, any_perpendicular};
+
+/// Where a ray enters a ball.
+pub fn ray_sphere(ray: &Ray, sphere: &Sphere) -> Option<RayHit> {
+    let line = Line::near(ray, &sphere.center);
+    let inside = line.in_ball(&sphere.center, sphere.radius)?;
+    line.hit(ray, &inside, (line.at(inside.from) - sphere.center).normalize(), Feature::WHOLE)
+}
+
+/// Where a ray enters an ellipsoid: with every principal axis in units of its semi-axis that is a ball of radius 1.
+pub fn ray_ellipsoid(ray: &Ray, ellipsoid: &Ellipsoid) -> Option<RayHit> {
+    let Ellipsoid { center, axes, semi_axes } = ellipsoid;
+    let line = Line::near(ray, center);
+    let in_units = |v: &Vec3| axes.tr_mul(v).component_div(semi_axes);
+    let along = in_units(&line.direction);
+    let rate = along.norm();
+    let of_ball = Line { start: in_units(&(line.start - center)), direction: along / rate, ahead: 0.0 };
+    let inside = of_ball.in_ball(&Vec3::zeros(), 1.0)?;
+    let normal = (axes * of_ball.at(inside.from).component_div(semi_axes)).normalize();
+    let inside = Inside { from: inside.from / rate, to: inside.to / rate };
+    line.hit(ray, &inside, normal, Feature::WHOLE)
+}
 
 /// Where a ray enters a capsule: of its wall and its two balls the first.
 pub fn ray_capsule(ray: &Ray, capsule: &Capsule) -> Option<RayHit> {

@@ -46,7 +46,7 @@ fn two_ended(ends: &[Vec3; 2], radius: f64, solid: &impl RoundSolid) -> EndConta
     let Some(deepest) = touched(&solid.approach(ends), radius) else { return [None; 3] };
     let same_way = (ends[1] - ends[0]).dot(&solid.axis()) >= 0.0;
     let at_end = |end: usize| {
-        let own = pressed(&ends[end], radius, &solid.nearest(&ends[end]));
+        let own = pressed(&ends[end], radius, &solid.nearest(end, ends));
         let end_of_solid = if same_way { end } else { 1 - end };
         let other = touched(&solid.approach_end(end_of_solid, ends), radius);
         let deeper = match (own, other) {

@@ -50,6 +50,16 @@ pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Ran
         let length = length(random);
         *x += random.between(-length, length);
     };
+    // Of a cylinder both are one, and holes that meet have one in common.
+    let mut widened: BTreeMap<u64, f64> = BTreeMap::new();
+    let mut wider = |radius: &mut f64, random: &mut Random| {
+        let told = *radius;
+        *radius = *widened.entry(told.to_bits()).or_insert_with(|| {
+            let mut other = told;
+            longer(&mut other, random);
+            if told > 0.0 { other } else { told }
+        });
+    };
     let turn = |random: &mut Random| {
         let step = step(random);
         little_turn(&random.vector(step))
@@ -79,7 +89,10 @@ pub fn reshaped(scene: &Scene, (shortest, longest): (f64, f64), random: &mut Ran
             // Its faces would be planes no more, nor its inner walls those of its neighbours: the cracks between pieces, which
             // rounding must not open, would be part of the shape.
             Shape::Polyhedron(_) => {}
-            Shape::Mesh(_) => {
+            Shape::Mesh(_) | Shape::Round(_) => {
+                if let Shape::Round(part) = shape {
+                    part.radii.iter_mut().for_each(|radius| wider(radius, random));
+                }
                 shape.vertices_mut().iter_mut().for_each(|vertex| corner(vertex, random));
             }
         }

@@ -3,35 +3,52 @@
 
 pub mod meshes;
 pub mod path;
+pub mod round;
+mod round_path;
 pub mod solids;
 pub mod touched;
+mod toucher;
 
 use crate::random::Random;
 use crate::scene::{Body, Friction, Normal, Scene, Shape, Surface};
-use pong_geometry::{Quat, Vec3};
+use toucher::toucher;
 
 /// A scene of any family.
 pub fn scene(random: &mut Random) -> Scene {
     let (name, make) = touched::FAMILIES[random.below(touched::FAMILIES.len())];
-    family(random, name, make)
+    family(random, name, make, None)
 }
 
 /// A scene of one family, by its name.
 pub fn scene_of(random: &mut Random, name: &str) -> Option<Scene> {
+    if let Some((name, make, kinds)) = round::FAMILIES.iter().find(|(known, ..)| *known == name) {
+        return Some(family(random, name, *make, Some(kinds)));
+    }
     let (name, make) = touched::FAMILIES.iter().find(|(known, _)| *known == name)?;
-    Some(family(random, name, *make))
+    Some(family(random, name, *make, None))
 }
 
-fn family(random: &mut Random, name: &'static str, make: touched::Make) -> Scene {
+/// Names of all families.
+pub fn families() -> impl Iterator<Item = &'static str> {
+    let of_round_parts = round::FAMILIES.iter().map(|(name, ..)| *name);
+    touched::FAMILIES.iter().map(|(name, _)| *name).chain(of_round_parts)
+}
+
+/// A family, and which kinds touch it if not all that can.
+fn family(
+    random: &mut Random,
+    name: &'static str,
+    make: touched::Make,
+    kinds: Option<&[&'static str]>,
+) -> Scene {
     // A third of the scenes has round numbers: exact seams, right angles and ties are met by those alone.
     let is_round = random.chance(0.35);
     let mut touched = make(random, is_round);
     touched::tilt(random, &mut touched, is_round);
-    let kinds = kinds_that_touch(&touched[0]);
-    let mut touching = vec![toucher(random, kinds, is_round)];
-    while random.chance(0.2) {
-        touching.push(toucher(random, kinds, is_round));
-    }
+    let touching = match kinds {
+        Some(kinds) => round::touching(random, kinds, &touched[0], is_round),
+        None => touching(random, kinds_that_touch(&touched[0]), is_round),
+    };
     let mut size = 1.0;
     if random.chance(0.3) {
         size = random.log_between(1e-3, 1e3);
@@ -48,6 +65,14 @@ fn family(random: &mut Random, name: &'static str, make: touched::Make) -> Scene
     rescaled(&scene, size)
 }
 
+fn touching(random: &mut Random, kinds: &[&str], is_round: bool) -> Vec<Shape> {
+    let mut touching = vec![toucher(random, kinds, is_round)];
+    while random.chance(0.2) {
+        touching.push(toucher(random, kinds, is_round));
+    }
+    touching
+}
+
 /// The kinds that have a tester against one.
 fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
     match shape {
@@ -55,31 +80,6 @@ fn kinds_that_touch(shape: &Shape) -> &'static [&'static str] {
         Shape::Mesh(_) => &["Sphere", "Sphere", "Ellipsoid", "Ellipsoid", "Ray"],
         Shape::Sphere { .. } => &["Point", "Sphere"],
         _ => &["Point"],
-    }
-}
-
-fn toucher(random: &mut Random, kinds: &[&str], is_round: bool) -> Shape {
-    let place = if is_round || random.chance(0.5) { Vec3::zeros() } else { random.vector(0.5) };
-    let size = if is_round { random.pick(&[0.25, 0.5, 1.0]) } else { random.log_between(0.05, 1.0) };
-    match random.pick(kinds) {
-        "Point" => Shape::Point { position: place },
-        "LineSegment" => {
-            let along = if is_round { Vec3::x() } else { random.direction() };
-            Shape::Segment { ends: [place - along * size, place + along * size] }
-        }
-        "Ray" => {
-            let direction = if is_round { -Vec3::z() } else { random.direction() };
-            Shape::Ray { origin: place, direction, length: size, axial: random.chance(0.4) }
-        }
-        "Sphere" => Shape::Sphere { center: place, radius: size },
-        _ => {
-            let part = |random: &mut Random| {
-                if is_round { random.pick(&[0.5, 0.75, 1.0]) } else { random.between(0.25, 1.0) }
-            };
-            let semi_axes = Vec3::from_fn(|_, _| size * part(random));
-            let orientation = if is_round { Quat::identity() } else { random.orientation() };
-            Shape::Ellipsoid { center: place, semi_axes, orientation }
-        }
     }
 }
 

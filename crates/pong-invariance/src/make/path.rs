@@ -1,18 +1,11 @@
 //! A history: where A stands on B in each frame, and how deep.
 
+pub use super::round_path::Foot;
+use super::round_path::{first_orientation_of_round, foot_on_round};
 use crate::random::{Random, rotation_between};
 use crate::scene::{Scene, Shape};
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Twist, Vec3};
-
-/// A place on the surface of B and the way out of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Foot {
-    /// In B's group, m.
-    pub place: Vec3,
-    /// Out of the surface, in B's group; a unit vector.
-    pub normal: Vec3,
-}
 
 /// A place on a primitive: in a face, on an edge (a seam, a wall's end), on a corner (a junction).
 pub fn foot(random: &mut Random, shapes: &[Shape], is_round: bool) -> Foot {
@@ -41,6 +34,7 @@ pub fn foot(random: &mut Random, shapes: &[Shape], is_round: bool) -> Foot {
             let triangle = random.pick(&mesh.triangles);
             on_face(random, shapes, &corners(&mesh.vertices, &triangle), is_round)
         }
+        Shape::Round(part) => foot_on_round(random, part, is_round),
         Shape::Point { .. } | Shape::Segment { .. } | Shape::Ray { .. } => {
             Foot { place: Vec3::zeros(), normal: Vec3::z() }
         }
@@ -119,6 +113,7 @@ fn depth_size(shape: &Shape) -> f64 {
         Shape::Sphere { radius, .. } => *radius,
         Shape::Ellipsoid { semi_axes, .. } => semi_axes.min(),
         Shape::Ray { length, .. } => *length,
+        Shape::Round(part) => part.widest(),
         _ => 0.2,
     }
 }
@@ -137,6 +132,7 @@ pub fn stand(shape: &Shape, orientation: &Quat, foot: &Foot, depth: f64, end: us
         Shape::Ellipsoid { center, semi_axes, orientation } => {
             center + orientation * support(semi_axes, &(orientation.inverse() * down))
         }
+        Shape::Round(part) => part.lowest(&down, end),
         Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => Vec3::zeros(),
     };
     let position = foot.place - foot.normal * depth - orientation * lowest;
@@ -166,7 +162,8 @@ pub fn history(random: &mut Random, scene: &Scene, is_round: bool) -> Vec<[State
     let shape = &scene.bodies[0].shapes[0];
     let shapes = &scene.bodies[1].shapes;
     let mut here = foot(random, shapes, is_round);
-    let mut orientation = first_orientation(random, shape, &here, is_round);
+    let mut orientation = first_orientation_of_round(random, [shape, &shapes[0]], &here, is_round)
+        .unwrap_or_else(|| first_orientation(random, shape, &here, is_round));
     let mut x_wb = match is_round || random.chance(0.4) {
         true => Pose::identity(),
         false => Pose { position: random.vector(1.0), orientation: random.orientation() },

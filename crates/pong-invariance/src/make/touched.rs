@@ -27,7 +27,7 @@ pub const FAMILIES: &[(&str, Make)] = &[
     ("sheet", |random, is_round| mesh(random, sheet, is_round)),
 ];
 
-fn plane(random: &mut Random, is_round: bool) -> Vec<Shape> {
+pub(super) fn plane(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let normal = if is_round { Vec3::z() } else { random.direction() };
     vec![Shape::Plane { normal, offset: if is_round { 0.0 } else { random.between(-1.0, 1.0) } }]
 }
@@ -49,12 +49,12 @@ fn egg(random: &mut Random, is_round: bool) -> Vec<Shape> {
     }]
 }
 
-fn solid(random: &mut Random, is_round: bool) -> Vec<Shape> {
+pub(super) fn solid(random: &mut Random, is_round: bool) -> Vec<Shape> {
     vec![Shape::Polyhedron(solids::any(random, is_round))]
 }
 
 /// A box or a prism cut by one to three planes.
-fn pieces(random: &mut Random, is_round: bool) -> Vec<Shape> {
+pub(super) fn pieces(random: &mut Random, is_round: bool) -> Vec<Shape> {
     loop {
         let mut parts = vec![solids::any(random, is_round)];
         for _ in 0..1 + random.below(3) {
@@ -74,7 +74,7 @@ fn pieces(random: &mut Random, is_round: bool) -> Vec<Shape> {
 }
 
 /// Two to eight wedges round one line.
-fn junction(random: &mut Random, is_round: bool) -> Vec<Shape> {
+pub(super) fn junction(random: &mut Random, is_round: bool) -> Vec<Shape> {
     let count = 2 + random.below(7);
     let half = if is_round { 0.5 } else { random.between(0.2, 1.0) };
     wedges(random, count, half, is_round).into_iter().map(Shape::Polyhedron).collect()
@@ -110,7 +110,7 @@ pub fn wedges(random: &mut Random, count: usize, half: f64, is_round: bool) -> V
         .collect()
 }
 
-fn mesh(random: &mut Random, make: fn(&mut Random, bool) -> Mesh, is_round: bool) -> Vec<Shape> {
+pub(super) fn mesh(random: &mut Random, make: fn(&mut Random, bool) -> Mesh, is_round: bool) -> Vec<Shape> {
     let mut mesh = make(random, is_round);
     mesh.two_sided = random.chance(0.2);
     if random.chance(0.3) {
@@ -129,27 +129,27 @@ fn slope(random: &mut Random, is_round: bool) -> f64 {
     }
 }
 
-fn valley(random: &mut Random, is_round: bool) -> Mesh {
+pub(super) fn valley(random: &mut Random, is_round: bool) -> Mesh {
     let slope = slope(random, is_round);
     meshes::fold(random, slope, is_round)
 }
 
-fn ridge(random: &mut Random, is_round: bool) -> Mesh {
+pub(super) fn ridge(random: &mut Random, is_round: bool) -> Mesh {
     let slope = -slope(random, is_round);
     meshes::fold(random, slope, is_round)
 }
 
-fn bowl(random: &mut Random, is_round: bool) -> Mesh {
+pub(super) fn bowl(random: &mut Random, is_round: bool) -> Mesh {
     let sign = random.pick(&[1.0, 1.0, -1.0]);
     let slope = sign * slope(random, is_round);
     meshes::fan(random, slope, is_round)
 }
 
-fn skin(random: &mut Random, is_round: bool) -> Mesh {
+pub(super) fn skin(random: &mut Random, is_round: bool) -> Mesh {
     meshes::skin(&solids::any(random, is_round))
 }
 
-fn sheet(random: &mut Random, _: bool) -> Mesh {
+pub(super) fn sheet(random: &mut Random, _: bool) -> Mesh {
     // Two to a few hundred triangles, now and then 20,000.
     let cells = if random.chance(2e-3) { 100 } else { random.log_between(1.0, 12.0) as usize };
     meshes::sheet(random, cells)
@@ -164,7 +164,10 @@ pub fn tilt(random: &mut Random, shapes: &mut Vec<Shape>, is_round: bool) {
     }
     if random.chance(0.3) {
         for shape in shapes {
-            shape.vertices_mut().iter_mut().for_each(|v| *v = v.map(|x| f64::from(x as f32)));
+            match shape {
+                Shape::Round(part) => *part = part.in_single_precision(),
+                _ => shape.vertices_mut().iter_mut().for_each(|v| *v = v.map(|x| f64::from(x as f32))),
+            }
         }
     }
 }

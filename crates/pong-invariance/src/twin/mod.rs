@@ -27,7 +27,7 @@ pub struct Twin {
 }
 
 /// From the wrenches of a twin to those of the first scene.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Back {
     /// By which the whole scene was turned.
     pub turn: Quat,
@@ -35,15 +35,14 @@ pub struct Back {
     pub force: f64,
     /// Ratio of the moments of the twin to those of the first.
     pub moment: f64,
-    /// Origins of the twin's groups in the groups of the first, m.
-    pub origins: [Vec3; 2],
+    /// Origins of the twin's groups in the groups of the first, m, frame by frame; all zero if there are none.
+    pub origins: Vec<[Vec3; 2]>,
 }
 
 impl Twin {
     /// The same scene, to be changed.
     pub fn of(scene: &Scene) -> Self {
-        let back =
-            Back { turn: Quat::identity(), force: 1.0, moment: 1.0, origins: [Vec3::zeros(), Vec3::zeros()] };
+        let back = Back { turn: Quat::identity(), force: 1.0, moment: 1.0, origins: Vec::new() };
         Self { scene: scene.clone(), back, manner: Manner::Plain, rounding: 0.0, rounding_of_velocity: 0.0 }
     }
 
@@ -69,7 +68,8 @@ impl Twin {
 
     /// A frame's wrenches as the first scene would tell them.
     pub fn read(&self, answer: &Answer, first: &Scene, frame: usize) -> [Wrench; 2] {
-        let Back { turn, force, moment, origins } = self.back;
+        let Back { turn, force, moment, ref origins } = self.back;
+        let origins = origins.get(frame).copied().unwrap_or_default();
         std::array::from_fn(|body| {
             let Wrench { force: f, moment: m } = answer.wrenches[body];
             let f = turn.inverse() * f / force;

@@ -3,7 +3,8 @@
 use super::Twin;
 use crate::make::rescaled;
 use crate::random::Random;
-use crate::scene::{Body, Friction, Normal, Scene};
+use crate::round_part::RoundKind;
+use crate::scene::{Body, Friction, Normal, Scene, Shape};
 use pong_engine::State;
 use pong_geometry::{Pose, Quat, Twist, Vec3};
 
@@ -74,15 +75,42 @@ pub fn group_frame(scene: &Scene, random: &mut Random) -> Option<Twin> {
                 *place = Pose::identity();
             }
         }
-        for states in &mut twin.scene.frames {
-            let (pose, twist) = (states[body].pose(), states[body].twist());
-            let arm = pose.orientation * frame.position;
-            let twist = Twist { linear: twist.linear + twist.angular.cross(&arm), ..twist };
-            states[body] = State::from_motion(&pose.compose(&frame), &twist);
-        }
-        twin.back.origins[body] = frame.position;
+        (0..scene.frames.len()).for_each(|at| other_axes(&mut twin, (at, body), &frame));
     }
     Some(twin)
+}
+
+/// Tells the state of a body in a frame by other axes of its group, which stand at `frame` in it.
+fn other_axes(twin: &mut Twin, (at, body): (usize, usize), frame: &Pose) {
+    let state = &mut twin.scene.frames[at][body];
+    let (pose, twist) = (state.pose(), state.twist());
+    let arm = pose.orientation * frame.position;
+    let twist = Twist { linear: twist.linear + twist.angular.cross(&arm), ..twist };
+    *state = State::from_motion(&pose.compose(frame), &twist);
+    twin.back.origins.resize(twin.scene.frames.len(), [Vec3::zeros(); 2]);
+    twin.back.origins[at][body] = frame.position;
+}
+
+/// Bodies of one round part turned about its own axis: in every frame by an angle of its own, or by the same angle where
+/// bristles remember how the body lay, or a hole from where something came: straight from its last place.
+pub fn own_axis(scene: &Scene, random: &mut Random) -> Option<Twin> {
+    let mut twin = Twin::of(scene);
+    let remembers = scene.bodies.iter().any(|body| matches!(body.surface.friction, Friction::Bristle { .. }));
+    let mut is_turned = false;
+    for (body, told) in scene.bodies.iter().enumerate() {
+        let [Shape::Round(part)] = told.shapes.as_slice() else { continue };
+        if told.place != Pose::identity() {
+            continue;
+        }
+        is_turned = true;
+        let same = random.between(-3.0, 3.0);
+        for at in 0..scene.frames.len() {
+            let angle =
+                if remembers || part.kind == RoundKind::Bore { same } else { random.between(-3.0, 3.0) };
+            other_axes(&mut twin, (at, body), &part.own_turn(angle));
+        }
+    }
+    is_turned.then_some(twin)
 }
 
 /// Another unit of length: forces scale with it where stiffness in N/m stays.

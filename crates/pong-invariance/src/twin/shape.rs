@@ -5,6 +5,7 @@ use crate::base::Base;
 use crate::cutting;
 use crate::make::meshes;
 use crate::random::{Random, rotation_between};
+use crate::round_part::RoundKind;
 use crate::scene::{Grouping, Mesh, Scene, Shape, Solid};
 use pong_geometry::Vec3;
 
@@ -49,14 +50,18 @@ pub fn reordered(scene: &Scene, random: &mut Random) -> Option<Twin> {
     let mut twin = Twin::of(scene);
     for body in &mut twin.scene.bodies {
         let order = random.order(body.shapes.len());
-        body.shapes = order.iter().map(|index| reordered_shape(&body.shapes[*index], random)).collect();
+        // Holes that meet must run the same way.
+        let reverses = body.shapes.iter().any(|shape| matches!(shape, Shape::Round(_))) && random.chance(0.5);
+        body.shapes =
+            order.iter().map(|index| reordered_shape(&body.shapes[*index], reverses, random)).collect();
         body.names = random.order(body.shapes.len()).iter().map(|name| name + 10).collect();
     }
     Some(twin)
 }
 
-fn reordered_shape(shape: &Shape, random: &mut Random) -> Shape {
+fn reordered_shape(shape: &Shape, reverses: bool, random: &mut Random) -> Shape {
     match shape {
+        Shape::Round(part) if reverses => Shape::Round(part.reversed()),
         Shape::Mesh(mesh) => {
             let (vertices, new) = renumbered(&mesh.vertices, random);
             let turned = |triangle: [usize; 3], by: usize| [0, 1, 2].map(|k| new[triangle[(k + by) % 3]]);
@@ -104,6 +109,12 @@ pub fn cut(base: &Base, random: &mut Random) -> Option<Twin> {
             let pieces = cut_solid(shapes, aim, random)?;
             is_fair(base, &pieces).then_some(())?;
             pieces.into_iter().map(Shape::Polyhedron).collect()
+        }
+        [Shape::Round(hole)] if hole.kind == RoundKind::Bore => {
+            // A rod leans on the mouths of a hole as a whole, and what was behind one piece was not behind the other.
+            let is_rod = |shape: &Shape| matches!(shape, Shape::Round(_) | Shape::Segment { .. });
+            (scene.frames.len() == 1 && !scene.bodies[0].shapes.iter().any(is_rod)).then_some(())?;
+            hole.cut(random.between(0.2, 0.8)).map(Shape::Round).to_vec()
         }
         [Shape::Plane { normal, offset }] => vec![Shape::Mesh(plate(base, normal, *offset, random)?)],
         _ => return None,
@@ -156,9 +167,13 @@ fn cut_solid(shapes: &[Shape], aim: Option<(Vec3, Vec3)>, random: &mut Random) -
 }
 
 /// A plate of triangles instead of a half space, so large that nothing reaches its rim and so thick that nothing gets
-/// through. For balls and ellipsoids alone: a plunger sees a triangle's thickness.
+/// through. For balls, capsules and ellipsoids alone: a plunger sees a triangle's thickness.
 fn plate(base: &Base, normal: &Vec3, offset: f64, random: &mut Random) -> Option<Mesh> {
-    let is_round_shape = |shape: &Shape| matches!(shape, Shape::Sphere { .. } | Shape::Ellipsoid { .. });
+    let is_round_shape = |shape: &Shape| match shape {
+        Shape::Sphere { .. } | Shape::Ellipsoid { .. } => true,
+        Shape::Round(part) => part.kind == RoundKind::Capsule,
+        _ => false,
+    };
     base.scene.bodies[0].shapes.iter().all(is_round_shape).then_some(())?;
     let normal = normal.normalize();
     let size = base.scene.size;
@@ -237,6 +252,10 @@ impl Cut<'_> {
                 let mut ends = ends.iter().map(at).map(|end| (end, depth_along(self.whole, &end, &out)));
                 is_flat
                     && ends.all(|(end, depth)| self.is_least(&end, depth) && self.leaves(&end, &out, depth))
+            }
+            Shape::Round(part) => {
+                let ends = part.ends.map(|end| at(&end));
+                is_passed_by(self.whole, &ends, self.slack)
             }
             Shape::Plane { .. } | Shape::Polyhedron(_) | Shape::Mesh(_) => true,
         }
@@ -338,6 +357,24 @@ fn is_inside(solid: &Solid, x: &Vec3, slack: f64) -> bool {
         let (normal, p) = plane_of(solid, face);
         normal.dot(&(x - p)) <= slack
     })
+}
+
+/// Whether a straight way stays outside.
+fn is_passed_by(solid: &Solid, [from, to]: &[Vec3; 2], slack: f64) -> bool {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    for face in &solid.faces {
+        let (normal, p) = plane_of(solid, face);
+        let [start, end] = [from, to].map(|x| normal.dot(&(x - p)) - slack);
+        if start > 0.0 && end > 0.0 {
+            return true;
+        }
+        if start > 0.0 {
+            enters = enters.max(start / (start - end));
+        } else if end > 0.0 {
+            leaves = leaves.min(start / (start - end));
+        }
+    }
+    enters > leaves
 }
 
 /// Outside for sure: a centre in the surface itself counts as inside.

@@ -25,7 +25,11 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     }
 }
 
-/// Whether an axis that has sunk below an edge is in the solid there, and no face and no other edge is a shorter way out.
+/// What the last few roundings of a depth come to, over the size of what it is computed from.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Whether an axis that has sunk below an edge is in the solid there, and no face and no other edge is a shorter way out, but for
+/// rounding: of an axis along a face that face and the edges around it are as short.
 fn leaves_by(crossing: &Interference, capsule: &Capsule, polyhedron: &Polyhedron) -> bool {
     let lowest = |face: &PolyhedronFace| face.height(&capsule.ends[0]).min(face.height(&capsule.ends[1]));
     let ways_out = polyhedron.faces.iter().map(|face| capsule.radius - lowest(face));
@@ -35,7 +39,9 @@ fn leaves_by(crossing: &Interference, capsule: &Capsule, polyhedron: &Polyhedron
         .chain(ways_out)
         .fold(f64::INFINITY, f64::min);
     let place = crossing.deepest_b + crossing.normal_b * capsule.radius;
-    crossing.depth <= shortest && polyhedron.contains(&place)
+    let rounding = ROUNDING * capsule.ends[0].amax().max(capsule.ends[1].amax());
+    crossing.depth <= shortest + rounding
+        && polyhedron.faces.iter().all(|face| face.height(&place) <= rounding)
 }
 
 fn crossings<'p>(

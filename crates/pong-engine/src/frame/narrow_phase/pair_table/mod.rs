@@ -6,7 +6,7 @@
 //!  A \ B         Sphere  Ellipsoid  Triangle  Polyhedron  Plane  Capsule  Cylinder  Cone  Bore
 //!  Point           x         x                    x         x       x        x       x     x
 //!  LineSegment                                    x         x       x        x       x     x
-//!  Ray                                 x          x         x       x        x       x     x
+//!  Ray             x         x         x          x         x       x        x       x     x
 //!  Sphere          x                   x          x         x       x        x       x     x
 //!  Ellipsoid                           x          x         x
 //!  Capsule                             x          x         x       x        x       x     x
@@ -102,6 +102,8 @@ const ROWS: &[KindPair] = &[
     KindPair { a: Capsule, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 2 },
     KindPair { a: Cylinder, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
     KindPair { a: Cone, b: Plane, test: round_plane::test, cost_ns: 50, contacts: 4 },
+    KindPair { a: Ray, b: Sphere, test: ray_round::test_sphere, cost_ns: 50, contacts: 1 },
+    KindPair { a: Ray, b: Ellipsoid, test: ray_round::test_ellipsoid, cost_ns: 50, contacts: 1 },
     KindPair { a: Ray, b: Capsule, test: ray_round::test_capsule, cost_ns: 50, contacts: 1 },
     KindPair { a: Ray, b: Cylinder, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },
     KindPair { a: Ray, b: Cone, test: ray_round::test_frustum, cost_ns: 50, contacts: 1 },

@@ -1,10 +1,24 @@
-//! A ray into a capsule, a cylinder or a cone.
+//! A ray into a ball, an ellipsoid, a capsule, a cylinder or a cone.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use pong_geometry::interference::ray_plane::{RayHit, ray_contact};
-use pong_geometry::interference::ray_round::{ray_capsule, ray_frustum};
+use pong_geometry::interference::ray_round::{ray_capsule, ray_ellipsoid, ray_frustum, ray_sphere};
 use pong_geometry::primitive::Ray;
+
+pub(crate) fn test_sphere(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
+    let TransformedPrimitive::Ray(ray) = a else { wrong_kind(a) };
+    emit(pair, ray, ray_sphere(ray, &pair.body_b().spheres[pair.item_b.element as usize]), found);
+}
+
+pub(crate) fn test_ellipsoid(
+    pair: &ElementPair<'_>,
+    a: &TransformedPrimitive,
+    found: &mut ChunkCandidates<'_>,
+) {
+    let TransformedPrimitive::Ray(ray) = a else { wrong_kind(a) };
+    emit(pair, ray, ray_ellipsoid(ray, &pair.body_b().ellipsoids[pair.item_b.element as usize]), found);
+}
 
 pub(crate) fn test_capsule(
     pair: &ElementPair<'_>,

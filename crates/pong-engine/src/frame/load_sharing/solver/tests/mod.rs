@@ -199,6 +199,24 @@ fn plates_in_pieces_share_alike_where_some_normals_do_not_couple() {
     }
 }
 
+/// Two pieces of a plate that lean by so little that the square of the angle is far below the numbers that they are made of, and
+/// equally deep: by symmetry each carries half, whatever else there is that does not couple.
+#[test]
+fn pieces_that_lean_a_little_carry_half_each_beside_what_does_not_couple() {
+    let turn = pong_geometry::Quat::from_scaled_axis(Vec3::new(0.3, -1.1, 0.7));
+    for lean in [3e-5, 1e-6, 3e-8] {
+        let place = |n: Vec3, depth: f64| (turn * n, depth);
+        let (lambda, _) = solved(&[
+            place(Vec3::new(lean, 0.0, 1.0), 1e-3),
+            place(Vec3::new(-lean, 0.0, 1.0), 1e-3),
+            place(Vec3::new(0.0, 1.0, -0.5), 4e-4),
+        ]);
+        let [one, other, apart] = [0, 1, 2].map(|at| lambda[at] / 1e-3);
+        assert!((one - 0.5).abs() < 1e-6 && (other - 0.5).abs() < 1e-6, "lean {lean:e}: {one} and {other}");
+        assert!((apart - 0.4).abs() < 1e-12, "lean {lean:e}: {apart}");
+    }
+}
+
 /// Normals more than 90° apart do not couple: the fixed point of the definition itself.
 #[test]
 fn opposed_normals_satisfy_the_definition() {

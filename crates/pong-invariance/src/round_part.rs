@@ -1,0 +1,127 @@
+//! Round parts as plain data: capsule, cylinder, cone, bore.
+
+use pong_geometry::{Pose, Quat, Vec3};
+
+/// A round part, in the words of a model file. Lengths in m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RoundPart {
+    /// Which of the four.
+    pub kind: RoundKind,
+    /// The two ends of its axis.
+    pub ends: [Vec3; 2],
+    /// Radius at each end; equal for a capsule and a cylinder.
+    pub radii: [f64; 2],
+    /// How far behind its wall a bore pushes; by default its smaller radius.
+    pub thickness: Option<f64>,
+    /// Which ends of a bore are convex edges.
+    pub mouths: [bool; 2],
+}
+
+/// Which round part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum RoundKind {
+    Capsule,
+    Cylinder,
+    Cone,
+    Bore,
+}
+
+impl RoundPart {
+    /// A part with a radius at each end, its mouths convex.
+    pub fn new(kind: RoundKind, ends: [Vec3; 2], radii: [f64; 2]) -> Self {
+        Self { kind, ends, radii, thickness: None, mouths: [true; 2] }
+    }
+
+    /// Its kind, as in a model file.
+    pub fn kind_name(&self) -> &'static str {
+        match self.kind {
+            RoundKind::Capsule => "Capsule",
+            RoundKind::Cylinder => "Cylinder",
+            RoundKind::Cone => "Cone",
+            RoundKind::Bore => "Bore",
+        }
+    }
+
+    /// Unit vector from end 0 to end 1.
+    pub fn axis(&self) -> Vec3 {
+        (self.ends[1] - self.ends[0]).normalize()
+    }
+
+    /// The larger of its radii, m.
+    pub fn widest(&self) -> f64 {
+        self.radii[0].max(self.radii[1])
+    }
+
+    /// The same part carried by a pose.
+    pub fn carried(&self, pose: &Pose) -> Self {
+        Self { ends: self.ends.map(|end| pose.orientation * end + pose.position), ..self.clone() }
+    }
+
+    /// The same part in another unit of length.
+    pub fn scaled(&self, s: f64) -> Self {
+        Self {
+            ends: self.ends.map(|end| end * s),
+            radii: self.radii.map(|radius| radius * s),
+            thickness: self.thickness.map(|thickness| thickness * s),
+            ..self.clone()
+        }
+    }
+
+    /// The same part with its ends told the other way round.
+    pub fn reversed(&self) -> Self {
+        let Self { ends: [p, q], radii: [r, s], mouths: [m, n], .. } = *self;
+        Self { ends: [q, p], radii: [s, r], mouths: [n, m], ..self.clone() }
+    }
+
+    /// The same part with its numbers in single precision.
+    pub fn in_single_precision(&self) -> Self {
+        let single = |x: f64| f64::from(x as f32);
+        Self { ends: self.ends.map(|end| end.map(single)), radii: self.radii.map(single), ..self.clone() }
+    }
+
+    /// A hole as two that meet in its middle, or wherever `t` of its length is.
+    pub fn cut(&self, t: f64) -> [Self; 2] {
+        let Self { ends: [p, q], radii: [r, s], .. } = *self;
+        let (seam, radius) = (p + (q - p) * t, r + (s - r) * t);
+        let thickness = Some(self.thickness.unwrap_or(if r.min(s) > 0.0 { r.min(s) } else { r.max(s) }));
+        [
+            Self {
+                ends: [p, seam],
+                radii: [r, radius],
+                mouths: [self.mouths[0], false],
+                thickness,
+                ..self.clone()
+            },
+            Self {
+                ends: [seam, q],
+                radii: [radius, s],
+                mouths: [false, self.mouths[1]],
+                thickness,
+                ..self.clone()
+            },
+        ]
+    }
+
+    /// The turn about its own axis by an angle, as a pose of its group.
+    pub fn own_turn(&self, angle: f64) -> Pose {
+        let orientation: Quat = crate::random::rotation_about(&self.axis(), angle);
+        let middle = (self.ends[0] + self.ends[1]) * 0.5;
+        Pose { position: middle - orientation * middle, orientation }
+    }
+
+    /// The farthest place of a solid part along a unit direction, of an end if one is asked for (2: of its middle).
+    pub fn lowest(&self, down: &Vec3, end: usize) -> Vec3 {
+        let axis = self.axis();
+        let (place, radius) = match end {
+            0 | 1 => (self.ends[end], self.radii[end]),
+            _ => ((self.ends[0] + self.ends[1]) * 0.5, 0.5 * (self.radii[0] + self.radii[1])),
+        };
+        let across = down - axis * axis.dot(down);
+        match self.kind {
+            RoundKind::Capsule => place + down * radius,
+            _ if across.norm() < 1e-12 => place,
+            _ => place + across.normalize() * radius,
+        }
+    }
+}
