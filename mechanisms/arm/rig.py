@@ -16,13 +16,6 @@ BASE = (np.array([1.0, -2.0, 0.5]), kinematics.rotation(np.array([2.0, -1.0, 2.0
 TRAINING, ANALYSIS = 1e-3, 2.5e-4  # s
 
 
-def quaternion(attitude):
-    """Of a rotation matrix whose angle is below half a turn."""
-    w = 0.5 * np.sqrt(1.0 + np.trace(attitude))
-    vector = [attitude[2, 1] - attitude[1, 2], attitude[0, 2] - attitude[2, 0], attitude[1, 0] - attitude[0, 1]]
-    return np.array([w, *(np.array(vector) / (4.0 * w))])
-
-
 def model_text(name, stiffness=PAD_STIFFNESS):
     """A model file on one line, as the plugin wants it, with another stiffness of the pad on request."""
     lines = (HERE / f"{name}.ron").read_text(encoding="utf-8").splitlines()
@@ -44,10 +37,10 @@ def pad_pose(posture=READY, gap=0.002, tilt=0.3):
 
 def machine(step=TRAINING, stiffness=PAD_STIFFNESS, gap=0.002, law=Law(), posture=READY, integrator="RK4"):
     """Answers the machine, its arm in that posture at rest with brakes on, and the normal of the pad."""
-    arm = body(place=BASE[0], quaternion=quaternion(BASE[1]), payload=_ball())
+    arm = body(place=BASE[0], quaternion=kinematics.quaternion(BASE[1]), payload=_ball())
     where, turned = pad_pose(posture, gap)
     pad = (
-        f'<body name="pad" pos="{mjcf.numbers(where)}" quat="{mjcf.numbers(quaternion(turned))}">'
+        f'<body name="pad" pos="{mjcf.numbers(where)}" quat="{mjcf.numbers(kinematics.quaternion(turned))}">'
         '<geom type="box" size="0.4 0.4 0.02" pos="0 0 -0.02" mass="0" rgba="0.45 0.5 0.6 1"/></body>'
     )
     extension = mjcf.contact_instance(

@@ -25,18 +25,13 @@ def machine(law, step=STEP):
     tip = place - LENGTH * attitude[:, 2]
     hole = tip - turned @ np.array([OFFSET, 0.0, CHAMFER + 0.001])
     arm = body(payload=f'<body name="peg" pos="0 0 {-LENGTH:g}">{rig.shaft()}</body>')
-    text = mjcf.model("peg", rig.extension(), rig.hole(hole, quaternion(turned)) + arm.world, arm.more, step)
+    text = mjcf.model(
+        "peg", rig.extension(), rig.hole(hole, kinematics.quaternion(turned)) + arm.world, arm.more, step
+    )
     made = Machine(text, ["hole", "peg"])
     controller = Arm(made, law=law, point=(0.0, 0.0, -LENGTH))
     controller.pose(READY)
     return made, controller
-
-
-def quaternion(attitude):
-    """Of a rotation matrix whose angle is below half a turn."""
-    w = 0.5 * np.sqrt(1.0 + np.trace(attitude))
-    vector = [attitude[2, 1] - attitude[1, 2], attitude[0, 2] - attitude[2, 0], attitude[1, 0] - attitude[0, 1]]
-    return np.array([w, *(np.array(vector) / (4.0 * w))])
 
 
 def push(controller):

@@ -17,13 +17,6 @@ FEET = np.array([[np.cos(a), np.sin(a)] for a in np.pi * (0.5 + 2.0 / 3.0 * np.a
 X, Z = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, 1.0])
 
 
-def quaternion(attitude):
-    """Of a rotation matrix whose angle is below half a turn."""
-    w = 0.5 * np.sqrt(1.0 + np.trace(attitude))
-    vector = [attitude[2, 1] - attitude[1, 2], attitude[0, 2] - attitude[2, 0], attitude[1, 0] - attitude[0, 1]]
-    return np.array([w, *(np.array(vector) / (4.0 * w))])
-
-
 def made(text, more, step, folder, gravity, legs):
     """`legs`: whether each foot is a movable group of its own, as in the models here."""
     feet = {f"tripod/foot_{i}": "tripod" for i in range(3)} if legs else {}
@@ -47,7 +40,7 @@ def shape(height):
 
 def floor(place, attitude):
     return (
-        f'<body name="ground" pos="{mjcf.numbers(place)}" quat="{mjcf.numbers(quaternion(attitude))}">'
+        f'<body name="ground" pos="{mjcf.numbers(place)}" quat="{mjcf.numbers(kinematics.quaternion(attitude))}">'
         '<geom type="box" size="1.2 1.2 0.02" pos="0 0 -0.02" mass="0" rgba="0.5 0.55 0.5 1"/></body>'
     )
 
@@ -60,8 +53,8 @@ def free(step, slope=0.0, yaw=0.0, height=HEIGHT, sunk=True, plain=False):
     turned = attitude @ kinematics.rotation(X, tilt) @ kinematics.rotation(Z, yaw)
     text = (
         f'<body name="tripod" pos="{mjcf.numbers(place - depth * attitude[:, 2])}" '
-        f'quat="{mjcf.numbers(quaternion(turned))}"><freejoint/><inertial pos="0 0 {height:g}" mass="{MASS:g}" '
-        f'diaginertia="{mjcf.numbers(INERTIA)}"/>{shape(height)}</body>'
+        f'quat="{mjcf.numbers(kinematics.quaternion(turned))}"><freejoint/>'
+        f'<inertial pos="0 0 {height:g}" mass="{MASS:g}" diaginertia="{mjcf.numbers(INERTIA)}"/>{shape(height)}</body>'
     )
     folder = PLAIN if plain else HERE
     return made(text + floor(place, attitude), "", step, folder, (0, 0, -GRAVITY), not plain), attitude

@@ -53,3 +53,10 @@ def turn_between(first, second):
     vector = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     sine, cosine = np.linalg.norm(vector), 0.5 * (np.trace(turn) - 1.0)
     return vector * (np.arctan2(sine, cosine) / sine if sine > 1e-9 else 1.0)
+
+
+def quaternion(attitude):
+    """Of a rotation matrix whose angle is below half a turn."""
+    w = 0.5 * np.sqrt(1.0 + np.trace(attitude))
+    vector = [attitude[2, 1] - attitude[1, 2], attitude[0, 2] - attitude[2, 0], attitude[1, 0] - attitude[0, 1]]
+    return np.array([w, *(np.array(vector) / (4.0 * w))])
