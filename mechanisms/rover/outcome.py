@@ -52,7 +52,7 @@ def step_up(name, climbed, missed):
     yield Row("torque at which they come off the ground", torque, statics.needed(name, climbed), 0.06, "N m")
     _, up, _ = scenes.climbs(name, missed)
     yield Fact(f"and not {missed * 1e3:g} mm", not up and missed > highest)
-    yield from honest(made, 1e-2)
+    yield from honest(made, 1e-3)
 
 
 def trade():

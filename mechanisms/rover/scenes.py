@@ -137,12 +137,13 @@ def climbs(name, height, step=None):
     wheel = f"wheel_{name}_left"
     told = crawl(CRAWL, d.RIGID, cap=rising)
     made.run(LET_DOWN, crawl(0.0, d.RIGID))
+    made.start()  # the account of energy: without the fall
     made.run(STANDS - LET_DOWN, told)
     low = made.place(wheel)[2]
     lifted = made.run(RISE + 2.0, told, lambda m: m.place(wheel)[2] > low + LIFTED)
     torque = rising(made.time)
     if lifted:
-        made.run(10.0, told, lambda m: m.place(wheel)[2] > height + 0.99 * model.WHEEL_RADIUS)
+        made.run(18.0, told, lambda m: m.place(wheel)[2] > height + 0.99 * model.WHEEL_RADIUS)
     return torque, made.place(wheel)[2] > height + 0.98 * model.WHEEL_RADIUS, made
 
 
