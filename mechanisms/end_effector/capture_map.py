@@ -4,8 +4,7 @@
 python3 mechanisms/end_effector/capture_map.py        with the plugin as for mechanisms/run.py, and matplotlib
 
 Each case runs to its end: *seated* (pressed with the preload), *snared* only (the plate does not come to rest on the
-pads), or *missed*. Prediction of what is snared by geometry alone: the knob goes through the mouth if its edge is inside
-of the lip, and does not if its edge is beyond the crest of the lip's rounding, unless it is tilted so that its face
+pads), or *missed*. Prediction of what is snared by geometry alone: the knob goes in if its edge is inside of the open cables, and does not if its edge is beyond the crest of the lip's rounding, unless it is tilted so that its face
 slides off the lip to the inside. Of what is inside, a payload that moves away is snared if the knob is still below the
 cables when they are as narrow as it, and missed if it is above them by then.
 """
@@ -47,12 +46,17 @@ class Point:
     case: capture.Case
 
 
+def open_aperture():
+    """From the axis to the open cables: to the middles of their links."""
+    return TRAINING.ring_radius * math.cos(0.5 * s.bend(TRAINING)) - TRAINING.radius
+
+
 def entering(offset, tilt_deg):
-    """Whether the knob goes in: the farthest place of its edge from the axis, against the lip and its crest."""
+    """Whether the knob goes in: the farthest place of its edge from the axis, against cables and the lip's crest."""
     tilt = math.radians(tilt_deg)
     radius = FIXTURE.knob_radius * math.cos(tilt) + 0.5 * FIXTURE.knob_length * abs(math.sin(tilt))
     edge = math.hypot(*offset) + radius
-    if edge <= LIP.aperture:
+    if edge <= open_aperture():
         return True
     slides = math.copysign(tilt, offset[0] * tilt) > math.atan(TRAINING.friction)
     return None if slides or edge <= LIP.aperture + LIP.radius else False
@@ -155,8 +159,8 @@ def rows(picture=None):
         if point.predicted is None or came == "snared" or (point, came) in wrong:
             print(f"      {point.panel} {point.x:.3g}, {point.y:.3g}: {came}; snared as predicted: {point.predicted}")
     yield Fact("every case of which geometry says whether it is snared comes out so", not wrong)
-    upright = [came for point, came in results if point.panel != "tilt"]
-    yield Fact("what is snared without a tilt is seated", "snared" not in upright)
+    upright = [came for point, came in results if point.panel == "offset" and point.predicted]
+    yield Fact("what clears the cables, upright and without a rate across, is seated", set(upright) == {"seated"})
     count, other = repeated(results)
     print("".join(f"      {line}, at half the step\n" for line in other), end="")
     yield Fact(f"{count} of them, drawn by chance, come to the same at half the step", not other)
@@ -186,7 +190,7 @@ def plot(results, path):
         place.set_xlabel(across)
         place.set_ylabel(up)
         place.set_title(panel)
-    for edge in (LIP.aperture, LIP.aperture + LIP.radius):
+    for edge in (open_aperture(), LIP.aperture + LIP.radius):
         turn = [math.radians(a) for a in range(91)]
         radius = 1e3 * (edge - FIXTURE.knob_radius)
         places[0].plot([radius * math.cos(a) for a in turn], [radius * math.sin(a) for a in turn], "k--", lw=0.8)
