@@ -81,7 +81,7 @@ def mated_and_free(level, petals):
     stewart.set_pose(made.model, made.data, np.array([0.0, 0.0, height]))
     vehicles.set_vehicle(made, "chaser", (0, 0, -d.MATED), np.eye(3))
     for i in vehicles.LATCHES:
-        made.data.qpos[made.model.joint(f"latch_{i}").qposadr[0]] = -0.9 * d.LATCH_STROKE
+        made.data.qpos[made.model.joint(f"latch_{i}").qposadr[0]] = -d.LATCH_STROKE
     return _faced(made)
 
 
