@@ -21,6 +21,7 @@ mod run;
 mod terminal;
 mod text;
 mod trade;
+mod trim;
 mod tune;
 mod verify;
 mod view;
@@ -49,6 +50,7 @@ enum Command {
     ManPages(man_pages::Arguments),
     Replay(replay::Arguments),
     Trade(trade::Arguments),
+    Trim(trim::Arguments),
     Tune(tune::Arguments),
     Verify(verify::Arguments),
     View(view::Arguments),
@@ -71,6 +73,7 @@ fn main() -> ExitCode {
         Command::ManPages(arguments) => man_pages::main(&arguments, Cli::command()),
         Command::Replay(arguments) => replay::main(&arguments),
         Command::Trade(arguments) => trade::main(&arguments),
+        Command::Trim(arguments) => trim::main(&arguments),
         Command::Tune(arguments) => tune::main(&arguments),
         Command::Verify(arguments) => verify::main(&arguments),
         Command::View(arguments) => view::main(&arguments),

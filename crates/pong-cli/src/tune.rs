@@ -80,9 +80,5 @@ fn run(arguments: &Arguments) -> Result<Tuned, StudyError> {
 
 /// A log keeps copies of its models for itself: what is tuned goes elsewhere.
 fn folder(arguments: &Arguments) -> Option<PathBuf> {
-    let log = || {
-        let name = arguments.subject.file_name().unwrap_or_default().to_string_lossy();
-        arguments.subject.is_dir().then(|| PathBuf::from(format!("{name}_tuned")))
-    };
-    arguments.output.clone().or_else(log)
+    arguments.output.clone().or_else(|| crate::folders::beside_a_log(&arguments.subject, "tuned"))
 }

@@ -77,16 +77,20 @@ pub fn regrouped(text: &str, changes: &[Regrouped]) -> Result<String, String> {
         };
         edits.extend(places.edits(plain, change));
     }
+    Ok(mark.to_owned() + &edited(plain, edits))
+}
+
+/// A text with other words in some places, which do not overlap.
+pub(crate) fn edited(text: &str, mut edits: Vec<Edit>) -> String {
     edits.sort_by_key(|edit| edit.from);
-    let mut out = mark.to_owned();
+    let mut out = String::new();
     let mut done = 0;
     for Edit { from, to, put } in edits {
-        out.push_str(&plain[done..from]);
+        out.push_str(&text[done..from]);
         out.push_str(&put);
         done = to;
     }
-    out.push_str(&plain[done..]);
-    Ok(out)
+    out + &text[done..]
 }
 
 /// The mesh files that the text of a model file names, each once, in the order of the file.
@@ -119,7 +123,7 @@ fn meshes(node: &Node, files: &mut Vec<String>) {
     }
 }
 
-const BOM: char = '\u{feff}';
+pub(crate) const BOM: char = '\u{feff}';
 
 /// Where the fields of a group stand in the text, in bytes from and to.
 struct Places {
@@ -130,10 +134,11 @@ struct Places {
     group: Group,
 }
 
-struct Edit {
-    from: usize,
-    to: usize,
-    put: String,
+/// What is put between two bytes of a text.
+pub(crate) struct Edit {
+    pub from: usize,
+    pub to: usize,
+    pub put: String,
 }
 
 impl Places {
@@ -234,20 +239,20 @@ fn bound_of(node: &Node) -> Option<Bound> {
 }
 
 /// `Some(x)` is `x`.
-fn within_some(node: &Node) -> &Node {
+pub(crate) fn within_some(node: &Node) -> &Node {
     match &node.value {
         Value::Tuple(Some(word), items) if word.as_ref() == "Some" && items.len() == 1 => &items[0],
         _ => node,
     }
 }
 
-fn fields(node: &Node) -> Option<&[Field]> {
+pub(crate) fn fields(node: &Node) -> Option<&[Field]> {
     match &node.value {
         Value::Struct(_, fields) => Some(fields),
         _ => None,
     }
 }
 
-fn field<'n>(fields: &'n [Field], name: &str) -> Option<&'n Field> {
+pub(crate) fn field<'n>(fields: &'n [Field], name: &str) -> Option<&'n Field> {
     fields.iter().find(|field| field.name.as_ref() == name)
 }

@@ -37,6 +37,7 @@ pub mod surface;
 pub mod t_junctions;
 mod tree;
 mod triangle_topology;
+pub mod trimming;
 #[doc(hidden)]
 pub mod weld;
 

@@ -1,12 +1,12 @@
 //! Proposals on the kept motions of all runs: made, compared, counted, timed.
 
 use crate::Result;
-use crate::tree_tuning::counts::Counts;
-use crate::tree_tuning::motions::Motions;
-use crate::tree_tuning::play::{Compared, Player};
-use crate::tree_tuning::run::Run;
+use crate::runs::counts::Counts;
+use crate::runs::motions::Motions;
+use crate::runs::play::{Compared, Player};
+use crate::runs::run::Run;
+use crate::runs::subject::{Grouping, Made, Subject};
 use crate::tree_tuning::search::{Judge, Proposal};
-use crate::tree_tuning::subject::{Grouping, Made, Subject};
 use pong_model::Fnv;
 use pong_model::Model;
 use std::sync::Arc;

@@ -6,30 +6,20 @@
 //!
 //! | file | is |
 //! |---|---|
-//! | `subject.rs`, `moves.rs` | a model's groups, what they may be given; what may be changed in one step |
-//! | `run.rs`, `motions.rs` | a scene or a log, run once; its motions, kept |
-//! | `answer.rs`, `play.rs`, `counts.rs` | a frame's answer; kept motions through the engine: compared, counted, timed |
+//! | `moves.rs` | what may be changed in one step |
 //! | `bench.rs`, `search.rs` | proposals measured in turn; which are tried, which are taken |
-//! | `tune.rs`, `write.rs` | all of it; model files |
+//! | `tune.rs` | all of it |
 //! | `report.rs`, `words.rs` | the page; changes in words |
 
-mod answer;
 mod bench;
-mod counts;
-mod motions;
 mod moves;
-mod play;
 pub mod report;
-mod run;
 mod search;
-mod subject;
 mod tune;
 mod words;
-mod write;
 
 #[cfg(test)]
 mod tests;
 
-pub use counts::Counts;
+pub use crate::runs::{Counts, Output};
 pub use tune::{ModelTuned, Progress, RunTuned, Settings, Tuned, tune};
-pub use write::Output;

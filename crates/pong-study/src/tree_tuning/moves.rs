@@ -1,6 +1,6 @@
 //! What may be changed about the groups of a model: in steps from large to small.
 
-use crate::tree_tuning::subject::{Grouping, Setting, Shape};
+use crate::runs::subject::{Grouping, Setting, Shape};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::Bound;
 

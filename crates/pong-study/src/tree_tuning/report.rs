@@ -1,6 +1,6 @@
 //! Before and after, as a page.
 
-use crate::tree_tuning::counts::Counts;
+use crate::runs::counts::Counts;
 use crate::tree_tuning::tune::{RunTuned, Tuned};
 use pong_model::printable;
 use pong_report::table;

@@ -2,9 +2,9 @@
 //! timed in turn with what is best so far, twice, so that noise is known and no chance is taken for a gain.
 
 use crate::Result;
-use crate::tree_tuning::counts::Counts;
+use crate::runs::counts::Counts;
+use crate::runs::subject::{Grouping, Shape};
 use crate::tree_tuning::moves::{Move, Reach, applied, moves};
-use crate::tree_tuning::subject::{Grouping, Shape};
 use std::collections::BTreeSet;
 
 /// A grouping for every model.

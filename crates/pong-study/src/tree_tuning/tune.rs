@@ -1,17 +1,23 @@
 //! All of it: runs in, motions kept, search, the whole run compared, before and after timed in turn, files out.
 
+use crate::runs::counts::Counts;
+use crate::runs::motions::Motions;
+use crate::runs::output::{Output, headed};
+use crate::runs::run::Run;
+use crate::runs::subject::hash_of_trees;
+use crate::runs::subject::{Shape, Subject};
 use crate::tree_tuning::bench::{Bench, FrameTimes, relative};
-use crate::tree_tuning::counts::Counts;
-use crate::tree_tuning::motions::Motions;
-use crate::tree_tuning::run::Run;
 use crate::tree_tuning::search::{Found, LEAST_GAIN, OVER_NOISE, Proposal, base, search};
-use crate::tree_tuning::subject::{Shape, Subject};
 use crate::tree_tuning::words;
-use crate::tree_tuning::write::{Output, headed};
 use crate::{Result, StudyError};
 use pong_geometry::extension::Extensions;
+use pong_model::Model;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+
+/// What ends the names of tuned files, and what is said at their head.
+pub(crate) const TUNED: &str = "tuned";
+pub(crate) const DONE: &str = "Bounds and leaves by `pong tune`";
 
 /// How models are tuned.
 #[derive(Clone, Debug)]
@@ -125,7 +131,7 @@ pub fn tune(paths: &[&Path], settings: &Settings, watch: Watch<'_>) -> Result<Tu
     for path in paths {
         runs.push(Run::load(path, settings.duration_s, &settings.extensions, &mut subjects)?);
     }
-    settings.output.check(&subjects)?;
+    settings.output.check(&subjects, TUNED)?;
     let mut motions = Vec::new();
     for run in &runs {
         motions.push(run.gather(settings.frames, &mut ticker(watch, "runs", run))?);
@@ -272,9 +278,11 @@ impl Job<'_> {
         let names: Vec<&str> = self.runs.iter().map(|run| run.name.as_str()).collect();
         for (index, subject) in self.subjects.iter().enumerate() {
             if best[index] != subject.shape.authored() {
-                let text = headed(&subject.text(&best[index])?, &names.join("`, `"));
+                let text = headed(&subject.text(&best[index])?, DONE, &names.join("`, `"));
                 let trees = bench.trees_of(best, index)?;
-                tuned.models[index].written = Some(self.settings.output.write(subject, &text, trees)?);
+                let expected = |model: &Model| model.hash == subject.hash && hash_of_trees(model) == trees;
+                let written = self.settings.output.write((subject, TUNED), &text, &expected)?;
+                tuned.models[index].written = Some(written);
             }
         }
         Ok(())

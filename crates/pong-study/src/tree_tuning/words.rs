@@ -1,6 +1,6 @@
 //! What was changed, group by group, in words.
 
-use crate::tree_tuning::subject::{Grouping, Setting, Shape};
+use crate::runs::subject::{Grouping, Setting, Shape};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::Bound;
 

@@ -1,18 +1,29 @@
 //! Files that are written, and those that are not.
 
 use super::{Folder, Ready, ball_on_sheet, model};
-use crate::tree_tuning::subject::Subject;
+use crate::runs::output::{Output, headed};
+use crate::runs::subject::{Subject, hash_of_trees};
+use crate::tree_tuning::tune::{DONE, TUNED};
 use crate::tree_tuning::words;
-use crate::tree_tuning::write::{Output, headed};
 use crate::tree_tuning::{Settings, tune};
 use pong_geometry::extension::Extensions;
+use pong_model::Model;
 use std::ops::ControlFlow::{Break, Continue};
 use std::path::PathBuf;
 
+/// What a file must read as.
+fn as_measured(subject: &Subject, trees: u64) -> impl Fn(&Model) -> bool {
+    let hash = subject.hash;
+    move |model| model.hash == hash && hash_of_trees(model) == trees
+}
+
 fn best_of(ready: &Ready) -> (Vec<String>, crate::tree_tuning::search::Proposal) {
     let best = ready.search().best;
-    let texts =
-        ready.subjects.iter().zip(&best).map(|(subject, best)| headed(&subject.text(best).unwrap(), "a run"));
+    let texts = ready
+        .subjects
+        .iter()
+        .zip(&best)
+        .map(|(subject, best)| headed(&subject.text(best).unwrap(), DONE, "a run"));
     (texts.collect(), best)
 }
 
@@ -25,32 +36,30 @@ fn a_tuned_file_reads_back() {
     for (index, subject) in ready.subjects.iter().enumerate() {
         let trees = ready.bench().trees_of(&best, index).unwrap();
         let output = Output::default();
-        let place = output.write(subject, &texts[index], trees).unwrap();
+        let place = output.write((subject, TUNED), &texts[index], &as_measured(subject, trees)).unwrap();
         assert_eq!(place, folder.0.join(format!("{}_tuned.ron", subject.shape.name)));
         let again = Subject::load(&place, false, &Extensions::new()).unwrap();
         assert_eq!(again.hash, subject.hash);
         assert_eq!(again.shape.authored(), best[index]);
         assert_eq!(again.make(&best[index]).unwrap().trees, trees);
         // All but the head, the bounds and the sizes is as it was, names and paths too.
-        let back = headed(&again.text(&subject.shape.authored()).unwrap(), "a run");
+        let back = headed(&again.text(&subject.shape.authored()).unwrap(), DONE, "a run");
         let own = subject.make(&subject.shape.authored()).unwrap().model;
         let model = pong_model::parse(&back, "back", None, &Default::default()).unwrap();
-        assert_eq!(
-            crate::tree_tuning::subject::hash_of_trees(&model),
-            crate::tree_tuning::subject::hash_of_trees(&own)
-        );
+        assert_eq!(crate::runs::subject::hash_of_trees(&model), crate::runs::subject::hash_of_trees(&own));
         let paths = |model: &pong_model::Model| -> Vec<String> {
             model.bodies.iter().flat_map(|body| body.primitives.iter().map(|p| p.path.clone())).collect()
         };
         assert_eq!(paths(&again.make(&best[index]).unwrap().model), paths(&own));
         let bytes = std::fs::read(&place).unwrap();
-        let replaced =
-            Output { force: true, ..Output::default() }.write(subject, &texts[index], trees).unwrap();
+        let replaced = Output { force: true, ..Output::default() }
+            .write((subject, TUNED), &texts[index], &as_measured(subject, trees))
+            .unwrap();
         assert_eq!(std::fs::read(replaced).unwrap(), bytes);
     }
-    assert_eq!(headed(&texts[0], "a run"), texts[0]);
+    assert_eq!(headed(&texts[0], DONE, "a run"), texts[0]);
     // A head with a line's end in it would be read as part of the model.
-    assert!(headed("()", "a\nb").starts_with("// Bounds and leaves by `pong tune` for `ab`;"));
+    assert!(headed("()", DONE, "a\nb").starts_with("// Bounds and leaves by `pong tune` for `ab`;"));
     let left: Vec<_> =
         std::fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 5, "{left:?}");
@@ -87,7 +96,7 @@ fn a_file_that_reads_otherwise_is_not_put_in_place() {
         (subject.text.replace("radius: 0.1", "radius: 0.2"), trees),
         ("(format: 1)".to_owned(), trees),
     ] {
-        assert!(Output::default().write(subject, &text, trees).is_err());
+        assert!(Output::default().write((subject, TUNED), &text, &as_measured(subject, trees)).is_err());
     }
     assert_eq!(std::fs::read_dir(&folder.0).unwrap().count(), 3);
 }
@@ -105,12 +114,15 @@ fn meshes_go_along_into_another_folder() {
     let authored = subject.shape.authored();
     let trees = subject.make(&authored).unwrap().trees;
     let output = |force| Output { folder: Some(folder.0.join("new/home")), force };
-    let place = output(false).write(&subject, &subject.text, trees).unwrap();
+    let place = output(false).write((&subject, TUNED), &subject.text, &as_measured(&subject, trees)).unwrap();
     assert_eq!(Subject::load(&place, false, &Extensions::new()).unwrap().hash, subject.hash);
     folder.write("new/home/parts/floor.obj", "another");
-    let refused = output(false).write(&subject, &subject.text, trees).unwrap_err().to_string();
+    let refused = output(false)
+        .write((&subject, TUNED), &subject.text, &as_measured(&subject, trees))
+        .unwrap_err()
+        .to_string();
     assert!(refused.contains("floor.obj") && refused.contains("--force"), "{refused}");
-    output(true).write(&subject, &subject.text, trees).unwrap();
+    output(true).write((&subject, TUNED), &subject.text, &as_measured(&subject, trees)).unwrap();
 }
 
 #[test]

@@ -98,9 +98,8 @@ fn a_log_with_events_is_played_as_it_was() {
 
 /// Frames that are kept and in which the pair is switched off.
 fn switched_off(ready: &Ready) -> u64 {
-    let frames = |window: &crate::tree_tuning::motions::Window| {
-        window.first..window.first + window.frames.len() as u64
-    };
+    let frames =
+        |window: &crate::runs::motions::Window| window.first..window.first + window.frames.len() as u64;
     ready.motions[0].windows.iter().flat_map(frames).filter(|frame| (100..120).contains(frame)).count() as u64
 }
 
@@ -126,7 +125,6 @@ fn what_is_not_restored_would_be_seen() {
 fn a_duration_cuts_a_log() {
     let folder = Folder::new("cut_log");
     let path = log(&folder);
-    let run =
-        crate::tree_tuning::run::Run::load(&path, Some(0.995), &Extensions::new(), &mut Vec::new()).unwrap();
+    let run = crate::runs::run::Run::load(&path, Some(0.995), &Extensions::new(), &mut Vec::new()).unwrap();
     assert_eq!(run.frames, 100);
 }

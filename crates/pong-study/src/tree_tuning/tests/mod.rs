@@ -8,69 +8,21 @@ mod refusals;
 mod searches;
 
 use crate::Result;
+use crate::runs::counts::Counts;
+use crate::runs::motions::Motions;
+use crate::runs::run::Run;
+use crate::runs::samples::{Folder, model, scene};
+use crate::runs::subject::Subject;
 use crate::tree_tuning::bench::Bench;
-use crate::tree_tuning::counts::Counts;
-use crate::tree_tuning::motions::Motions;
-use crate::tree_tuning::run::Run;
 use crate::tree_tuning::search::{Judge, Proposal};
-use crate::tree_tuning::subject::Subject;
 use pong_geometry::extension::Extensions;
 use std::path::{Path, PathBuf};
-
-/// A folder of the test's own, gone afterwards.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(test: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("pong_tune_{test}_{}", std::process::id()));
-        let _ = std::fs::remove_dir_all(&folder);
-        std::fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
-    fn write(&self, name: &str, text: &str) -> PathBuf {
-        let path = self.0.join(name);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, text).unwrap();
-        path
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
-}
-
-fn model(name: &str, root: &str) -> String {
-    format!(
-        "(format: \"pong-model\", version: 1, name: \"{name}\", surfaces: {{ \"s\": (stiffness: 1e5, friction: Bristle(mu: 0.4)) }},\n    \
-         root: (name: \"{name}\", surface: \"s\", {root}))\n"
-    )
-}
 
 /// A ball of 0.1 m that comes down on a sheet of triangles and slides; both in groups that are there for nothing.
 const BALL: &str = "groups: [(name: \"a\", groups: [(name: \"b\", groups: [(name: \"c\", primitives: \
                     [Sphere(name: \"skin\", center: (0, 0, 0), radius: 0.1)])])])]";
 const SHEET: &str = "groups: [(name: \"x\", bound: Obb, groups: [(name: \"y\", primitives: [TriangleMesh(name: \"floor\", \
                      vertices: [(-2, -2, 0), (2, -2, 0), (2, 2, 0), (-2, 2, 0)], triangles: [(0, 1, 2), (0, 2, 3)])])])]";
-
-/// A scene of a free model above or beside a fixed one.
-fn scene(folder: &Folder, moving: (&str, &str), fixed: (&str, &str), start: &str) -> PathBuf {
-    for (name, root) in [moving, fixed] {
-        folder.write(&format!("{name}.ron"), &model(name, root));
-    }
-    let (a, b) = (moving.0, fixed.0);
-    folder.write(
-        "scene.ron",
-        &format!(
-            "(format: \"pong-scene\", version: 1, name: \"{a} and {b}\", models: {{ \"{a}\": \"{a}.ron\", \"{b}\": \"{b}.ron\" }},\n\
-             objects: [(name: \"{a}\", model: \"{a}\", bodies: [(motion: Free, mass: 1.0, inertia: Diagonal(4e-3, 4e-3, 4e-3), {start})]),\n\
-             (name: \"{b}\", model: \"{b}\", bodies: [(motion: Fixed)])], pairs: [(\"{a}\", \"{b}\")],\n\
-             integrator: SemiImplicitEuler, step: 1e-3, duration: 0.1)"
-        ),
-    )
-}
 
 fn ball_on_sheet(folder: &Folder) -> PathBuf {
     let start = "position: (0, 0, 0.0999), linear_velocity: (0.3, 0.1, -0.2)";

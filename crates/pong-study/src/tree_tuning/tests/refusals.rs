@@ -2,8 +2,8 @@
 
 use super::{Folder, Priced, Ready, ball_on_sheet, scene};
 use crate::Result;
-use crate::tree_tuning::counts::Counts;
-use crate::tree_tuning::play::Compared;
+use crate::runs::counts::Counts;
+use crate::runs::play::Compared;
 use crate::tree_tuning::search::{Judge, Proposal, search};
 use pong_model::Model;
 use std::sync::Arc;

@@ -1,8 +1,8 @@
 //! Models whose best grouping is known.
 
 use super::{Folder, Ready, ball_on_sheet, price, scene};
+use crate::runs::subject::{Setting, Shape};
 use crate::tree_tuning::moves::{Reach, applied, moves};
-use crate::tree_tuning::subject::{Setting, Shape};
 use pong_geometry::bounding::BoundKind;
 use pong_model::grouping::{self, Bound};
 

@@ -15,6 +15,12 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
+    /// Whether wrenches and what was left out are the same bits. Numbers of primitives, which contacts and contact state
+    /// hold, may differ.
+    pub fn has_wrenches_of(&self, other: &Self) -> bool {
+        self.wrenches == other.wrenches
+    }
+
     /// What differs, if anything does that both know.
     pub fn difference(&self, other: &Self) -> Option<&'static str> {
         let parts = [

@@ -1,11 +1,11 @@
-//! Tuned model files: written beside their place, read back, and only then put there.
+//! Changed model files: written beside their place, read back, and only then put there.
 
-use crate::tree_tuning::subject::{Subject, hash_of_trees};
+use crate::runs::subject::Subject;
 use crate::{Result, StudyError};
-use pong_model::grouping;
+use pong_model::{Model, grouping};
 use std::path::{Path, PathBuf};
 
-/// Where tuned files go, and whether others there may be replaced.
+/// Where changed files go, and whether others there may be replaced.
 #[derive(Clone, Debug, Default)]
 pub struct Output {
     /// A folder; beside the model unless given.
@@ -15,21 +15,22 @@ pub struct Output {
 }
 
 impl Output {
-    /// The file for a model.
-    pub(crate) fn place(&self, subject: &Subject) -> PathBuf {
+    /// The file for a model; `what` was done to it ends its name.
+    pub(crate) fn place(&self, subject: &Subject, what: &str) -> PathBuf {
         let stem = subject.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let home = subject.file.parent().unwrap_or(Path::new(""));
-        self.folder.as_deref().unwrap_or(home).join(format!("{stem}_tuned.ron"))
+        self.folder.as_deref().unwrap_or(home).join(format!("{stem}_{what}.ron"))
     }
 
     /// Refuses places that are taken, before anything is run.
-    pub(crate) fn check(&self, subjects: &[Subject]) -> Result<()> {
+    pub(crate) fn check(&self, subjects: &[Subject], what: &str) -> Result<()> {
         let mut places: Vec<PathBuf> = Vec::new();
         for subject in subjects {
-            let place = self.place(subject);
+            let place = self.place(subject, what);
             if subject.in_log && self.folder.is_none() {
-                let line =
-                    "it is the copy that a log keeps for itself; name a folder for tuned models with -o";
+                let line = format!(
+                    "it is the copy that a log keeps for itself; name a folder for {what} models with -o"
+                );
                 return Err(StudyError::file(&subject.file, line));
             }
             if !self.force && place.exists() {
@@ -45,9 +46,14 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a text as the tuned file of a model; `trees` is what its bounding trees must be.
-    pub(crate) fn write(&self, subject: &Subject, text: &str, trees: u64) -> Result<PathBuf> {
-        let place = self.place(subject);
+    /// Writes a text as the changed file of a model; what is read back must be as `expected`.
+    pub(crate) fn write(
+        &self,
+        (subject, what): (&Subject, &str),
+        text: &str,
+        expected: &dyn Fn(&Model) -> bool,
+    ) -> Result<PathBuf> {
+        let place = self.place(subject, what);
         let folder = match place.parent() {
             Some(folder) if folder != Path::new("") => folder.to_owned(),
             _ => PathBuf::from("."),
@@ -60,7 +66,7 @@ impl Output {
         let name = place.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let staged = folder.join(format!(".{name}.{}", std::process::id()));
         std::fs::write(&staged, text).map_err(|reason| unwritable(&staged, reason))?;
-        let moved = check(&staged, subject, trees)
+        let moved = check(&staged, subject, expected)
             .and_then(|()| std::fs::rename(&staged, &place).map_err(|reason| unwritable(&place, reason)));
         if moved.is_err() {
             let _ = std::fs::remove_file(&staged);
@@ -94,20 +100,19 @@ impl Output {
     }
 }
 
-/// The file as it will be read: the same model in the trees that were measured.
-fn check(staged: &Path, subject: &Subject, trees: u64) -> Result<()> {
-    let model = pong_model::load(staged, &subject.extensions)?;
-    if model.hash == subject.hash && hash_of_trees(&model) == trees {
+/// The file as it will be read: the model that was run.
+fn check(staged: &Path, subject: &Subject, expected: &dyn Fn(&Model) -> bool) -> Result<()> {
+    if expected(&pong_model::load(staged, &subject.extensions)?) {
         return Ok(());
     }
-    let line = "what was written does not read as what was measured; run it again and leave the model and its meshes as they are";
+    let line = "what was written does not read as what was run; run it again and leave the model and its meshes as they are";
     Err(StudyError::file(staged, line))
 }
 
-/// The text of a tuned file: a line at its head says where it came from.
-pub(crate) fn headed(text: &str, name: &str) -> String {
+/// The text of a changed file: a line at its head says what was done, and for which run.
+pub(crate) fn headed(text: &str, done: &str, name: &str) -> String {
     let (mark, rest) = text.strip_prefix('\u{feff}').map_or(("", text), |rest| ("\u{feff}", rest));
     let name: String = name.chars().filter(|c| !c.is_control()).collect();
-    let line = format!("// Bounds and leaves by `pong tune` for `{name}`; all else is as it was.\n");
+    let line = format!("// {done} for `{name}`; all else is as it was.\n");
     if rest.starts_with(&line) { text.to_owned() } else { format!("{mark}{line}{rest}") }
 }

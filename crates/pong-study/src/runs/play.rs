@@ -1,8 +1,8 @@
 //! A world that plays kept motions: counted and compared, or timed.
 
-use crate::tree_tuning::answer::Reader;
-use crate::tree_tuning::counts::Counts;
-use crate::tree_tuning::motions::{Commit, Given, Motions, Window};
+use crate::runs::answer::Reader;
+use crate::runs::counts::Counts;
+use crate::runs::motions::{Commit, Given, Motions, Window};
 use pong_engine::{EngineError, InterfaceId, PairId, State, World};
 use pong_executive::scene::BuiltScene;
 use std::time::Instant;
@@ -59,6 +59,11 @@ impl Player {
         let bodies = bodies(held.world())?;
         let pairs = held.world().scene().pairs().map(|(pair, _)| pair).collect();
         Ok(Self { held, bodies, pairs, states: Vec::new() })
+    }
+
+    /// The world that plays.
+    pub fn world(&self) -> &World {
+        self.held.world()
     }
 
     /// Plays every `stride`-th row of frames, counts, and compares every answer with the run's own.

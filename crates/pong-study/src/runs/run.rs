@@ -1,10 +1,10 @@
-//! A run that models are tuned for: a scene, or the motions of a log.
+//! A run whose models are changed: a scene, or the motions of a log.
 
-use crate::tree_tuning::motions::{Commit, Gatherer, Motions, rows};
-use crate::tree_tuning::play::{Held, Player, bodies};
-use crate::tree_tuning::subject::Subject;
+use crate::runs::motions::{Commit, Gatherer, Motions, rows};
+use crate::runs::play::{Held, Player, bodies};
+use crate::runs::subject::Subject;
 use crate::{Result, StudyError};
-use pong_engine::EngineError;
+use pong_engine::{EngineError, World};
 use pong_executive::scene::{BuiltScene, Scene, Variation};
 use pong_geometry::extension::Extensions;
 use pong_model::Model;
@@ -30,6 +30,14 @@ enum Source {
 
 /// Told of the frames done; its error ends the run.
 pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<()>;
+
+/// Sees the world after each frame; its error ends the run.
+pub(crate) type Seen<'a> = &'a mut dyn FnMut(&World) -> Result<(), EngineError>;
+
+/// What sees nothing.
+fn unseen(_: &World) -> Result<(), EngineError> {
+    Ok(())
+}
 
 impl Run {
     /// Reads a scene, or the folder of a log; models that are new are added to the subjects.
@@ -90,14 +98,19 @@ impl Run {
 
     /// Runs it as it is and keeps its motions: at most so many frames.
     pub fn gather(&self, wanted: u64, tick: Tick<'_>) -> Result<Motions> {
-        let motions = match &self.source {
-            Source::Scene(scene) => self.follow(build(scene, None)?, rows(self.frames, wanted, &[]), tick),
-            Source::Log(path) => {
-                let mut log = open(path)?;
-                let events = places_of_events(&mut log, self.frames)?;
-                self.rerun(log, &[], rows(self.frames, wanted, &events), tick)
-            }
-        }?;
+        self.gather_with(None, wanted, &mut unseen, tick)
+    }
+
+    /// The same with other models, one for each subject; `seen` is shown every frame.
+    pub fn gather_with(
+        &self,
+        made: Option<&[Arc<Model>]>,
+        wanted: u64,
+        seen: Seen<'_>,
+        tick: Tick<'_>,
+    ) -> Result<Motions> {
+        let mut rows_without = |events: &[u64]| rows(self.frames, wanted, events);
+        let motions = self.repeat(made, &mut rows_without, seen, tick)?;
         if motions.windows.is_empty() {
             return Err(StudyError::new(&self.name, "it has no frame to tune for; give a run that has some"));
         }
@@ -106,16 +119,33 @@ impl Run {
 
     /// Runs all of it again with other models, one for each subject, and tells the first frame whose answer is another.
     pub fn differs(&self, made: &[Arc<Model>], motions: &Motions, tick: Tick<'_>) -> Result<Option<String>> {
-        let again = match &self.source {
-            Source::Scene(scene) => self.follow(build(scene, Some((self, made)))?, Vec::new(), tick),
-            Source::Log(path) => self.rerun(open(path)?, made, Vec::new(), tick),
-        };
-        let again = again?.answers;
+        let again = self.repeat(Some(made), &mut |_| Vec::new(), &mut unseen, tick)?.answers;
         if again.len() != motions.answers.len() {
             return Ok(Some("the number of frames".to_owned()));
         }
         let mut pairs = again.iter().zip(&motions.answers).enumerate();
         Ok(pairs.find_map(|(frame, (new, old))| Some(format!("{} of frame {frame}", new.difference(old)?))))
+    }
+
+    /// Runs it from its start; the frames of `rows` are kept, which gets the places of a log's events.
+    fn repeat(
+        &self,
+        made: Option<&[Arc<Model>]>,
+        rows: &mut dyn FnMut(&[u64]) -> Vec<(u64, u64)>,
+        seen: Seen<'_>,
+        tick: Tick<'_>,
+    ) -> Result<Motions> {
+        match &self.source {
+            Source::Scene(scene) => {
+                let built = build(scene, made.map(|made| (self, made)))?;
+                self.follow(built, rows(&[]), seen, tick)
+            }
+            Source::Log(path) => {
+                let mut log = open(path)?;
+                let events = places_of_events(&mut log, self.frames)?;
+                self.rerun(log, made.unwrap_or_default(), rows(&events), seen, tick)
+            }
+        }
     }
 
     /// A world with a model for each subject, to play kept motions.
@@ -142,7 +172,13 @@ impl Run {
     }
 
     /// The scene's own run; every answer is kept, and the frames of some rows.
-    fn follow(&self, mut built: BuiltScene, rows: Vec<(u64, u64)>, tick: Tick<'_>) -> Result<Motions> {
+    fn follow(
+        &self,
+        mut built: BuiltScene,
+        rows: Vec<(u64, u64)>,
+        seen: Seen<'_>,
+        tick: Tick<'_>,
+    ) -> Result<Motions> {
         let refused = |error: EngineError| self.refused(&error);
         let bodies = bodies(built.simulation.world()).map_err(refused)?;
         let mut gatherer = Gatherer::new(rows);
@@ -152,6 +188,7 @@ impl Run {
                 if frame == 0 { built.simulation.commit_initial_states() } else { built.simulation.step() };
             moved.map_err(|error| StudyError::new(&self.name, error))?;
             gatherer.after(built.simulation.world(), &bodies, Commit::All).map_err(refused)?;
+            seen(built.simulation.world()).map_err(refused)?;
             tick(frame + 1)?;
         }
         Ok(gatherer.finish())
@@ -163,6 +200,7 @@ impl Run {
         mut log: Log,
         made: &[Arc<Model>],
         rows: Vec<(u64, u64)>,
+        seen: Seen<'_>,
         tick: Tick<'_>,
     ) -> Result<Motions> {
         let instead = |index: usize| made.get(self.models[index].1).cloned();
@@ -176,6 +214,7 @@ impl Run {
             let commit = commit(&frame.logged.row, &events);
             let gathered = gatherer.after(frame.world, frame.bodies, commit);
             gathered.and_then(|()| gatherer.before(frame.world)).map_err(|error| self.refused(&error))?;
+            seen(frame.world).map_err(|error| self.refused(&error))?;
             tick(frame.index + 1)
         })?;
         Ok(gatherer.finish())

@@ -1,7 +1,7 @@
 //! The motions of a run, kept: some frames that follow each other, again and again over the run, each time with what the
 //! engine knew before the first of them. So every proposal is asked for the same frames, in the midst of the run.
 
-use crate::tree_tuning::answer::{Answer, Reader};
+use crate::runs::answer::{Answer, Reader};
 use pong_engine::{EngineError, InterfaceId, State, World};
 use pong_model::Surface;
 

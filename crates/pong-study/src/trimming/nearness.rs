@@ -1,0 +1,149 @@
+//! How near each primitive of each model came to any partner in a run.
+
+use super::shape::Shape;
+use pong_engine::{EngineError, World};
+use pong_geometry::Pose;
+use pong_model::Model;
+use std::collections::BTreeMap;
+
+/// A model: its hash and its name. Several files of a run may hold the same one.
+pub(crate) type Key = (u64, String);
+
+pub(crate) fn key(model: &Model) -> Key {
+    (model.hash, model.name.clone())
+}
+
+/// Least distances of the primitives of each model to any partner, m, body after body in the order of the file.
+pub(crate) type Nearness = BTreeMap<Key, Vec<Vec<f64>>>;
+
+/// Pairs of primitives that have a test in a world, by their kinds, A's first.
+pub(crate) fn testers(world: &World) -> BTreeMap<(String, String), usize> {
+    let view = world.inspect();
+    let mut testers = BTreeMap::new();
+    for pair in view.pairs() {
+        for (first, second) in [(pair.first, pair.second), (pair.second, pair.first)] {
+            for one in &view.body(first).primitives {
+                let partners = view.body(second).primitives.iter();
+                for other in partners.filter(|other| view.can_be_tested((first, one), (second, other))) {
+                    // Two of one kind are tested once, whichever is A.
+                    if one.kind != other.kind || first == pair.first {
+                        let kinds = (one.kind.name().to_owned(), other.kind.name().to_owned());
+                        *testers.entry(kinds).or_insert(0) += 1;
+                    }
+                }
+            }
+        }
+    }
+    testers
+}
+
+/// The movable groups of a world, measured frame after frame.
+pub(crate) struct Measure<'w> {
+    bodies: Vec<Body<'w>>,
+    pairs: Vec<Pair>,
+}
+
+struct Body<'w> {
+    key: Key,
+    /// Place among the movable groups of its model.
+    index: usize,
+    shapes: Vec<Shape<'w>>,
+    /// Least distance of each primitive so far, m.
+    least: Vec<f64>,
+}
+
+struct Pair {
+    /// The pair of Objects.
+    pair: usize,
+    bodies: [usize; 2],
+    /// Primitives of both that have a test with each other.
+    tested: Vec<(u32, u32)>,
+}
+
+impl<'w> Measure<'w> {
+    /// `world` gives the models only.
+    pub fn new(world: &'w World) -> Result<Self, EngineError> {
+        let (scene, view) = (world.scene(), world.inspect());
+        let mut bodies = Vec::new();
+        for object in scene.objects() {
+            let model = scene.model_of(object)?;
+            for (index, body) in model.bodies.iter().enumerate() {
+                bodies.push(Body {
+                    key: key(model),
+                    index,
+                    shapes: (0..body.primitives.len()).map(|primitive| Shape::new(body, primitive)).collect(),
+                    least: vec![f64::INFINITY; body.primitives.len()],
+                });
+            }
+        }
+        let pairs = view.pairs().iter().map(|pair| {
+            let groups = [pair.first, pair.second];
+            let infos = groups.map(|group| &view.body(group).primitives);
+            let mut tested = Vec::new();
+            for (first, one) in infos[0].iter().enumerate() {
+                for (second, other) in infos[1].iter().enumerate() {
+                    let (a, b) = ((groups[0], one), (groups[1], other));
+                    if view.can_be_tested(a, b) || view.can_be_tested(b, a) {
+                        tested.push((first as u32, second as u32));
+                    }
+                }
+            }
+            Pair { pair: pair.pair, bodies: groups, tested }
+        });
+        Ok(Self { bodies, pairs: pairs.collect() })
+    }
+
+    /// A frame of a world of the same Objects and pairs; its own models may be other copies.
+    pub fn frame(&mut self, world: &World) -> Result<(), EngineError> {
+        let mut poses = Vec::new();
+        for object in world.scene().objects() {
+            for interface in world.scene().interfaces(object)? {
+                poses.push(world.state_as_set(interface)?.map(|state| state.pose()));
+            }
+        }
+        let mut enabled = Vec::new();
+        for (pair, _) in world.scene().pairs() {
+            enabled.push(world.pair_enabled(pair)?);
+        }
+        for pair in self.pairs.iter().filter(|pair| enabled[pair.pair]) {
+            let [first, second] = pair.bodies;
+            if let (Some(x_ca), Some(x_cb)) = (&poses[first], &poses[second]) {
+                measure(&mut self.bodies, pair, &Pose::relative(x_ca, x_cb));
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds what was measured.
+    pub fn add_to(&self, nearness: &mut Nearness) {
+        for body in &self.bodies {
+            let model = nearness.entry(body.key.clone()).or_default();
+            if model.len() <= body.index {
+                model.resize(body.index + 1, Vec::new());
+            }
+            let least = &mut model[body.index];
+            least.resize(body.least.len(), f64::INFINITY);
+            least.iter_mut().zip(&body.least).for_each(|(least, new)| *least = least.min(*new));
+        }
+    }
+}
+
+/// The distances of a pair of movable groups; `x_ba` leads from the first to the second.
+fn measure(bodies: &mut [Body<'_>], pair: &Pair, x_ba: &Pose) {
+    let [first, second] = pair.bodies;
+    let x_ba = x_ba.transform();
+    let centers: Vec<_> = bodies[first].shapes.iter().map(|shape| x_ba.point(&shape.center)).collect();
+    for &(a, b) in &pair.tested {
+        let (a, b) = (a as usize, b as usize);
+        let (one, other) = (&bodies[first], &bodies[second]);
+        // What is as near as this already learns nothing from a pair that is farther apart.
+        let known = one.least[a].max(other.least[b]);
+        let (shape, partner) = (&one.shapes[a], &other.shapes[b]);
+        if (centers[a] - partner.center).norm() - shape.radius - partner.radius >= known {
+            continue;
+        }
+        let apart = shape.apart(partner, &x_ba);
+        bodies[first].least[a] = bodies[first].least[a].min(apart);
+        bodies[second].least[b] = bodies[second].least[b].min(apart);
+    }
+}
