@@ -34,6 +34,9 @@ pub(crate) type Tick<'a> = &'a mut dyn FnMut(u64) -> Result<()>;
 /// Sees the world after each frame; its error ends the run.
 pub(crate) type Seen<'a> = &'a mut dyn FnMut(&World) -> Result<(), EngineError>;
 
+/// Which frames are kept, from and to, by the places of a log's events.
+type Rows<'a> = &'a mut dyn FnMut(&[u64]) -> Vec<(u64, u64)>;
+
 /// What sees nothing.
 fn unseen(_: &World) -> Result<(), EngineError> {
     Ok(())
@@ -131,7 +134,7 @@ impl Run {
     fn repeat(
         &self,
         made: Option<&[Arc<Model>]>,
-        rows: &mut dyn FnMut(&[u64]) -> Vec<(u64, u64)>,
+        rows: Rows<'_>,
         seen: Seen<'_>,
         tick: Tick<'_>,
     ) -> Result<Motions> {
