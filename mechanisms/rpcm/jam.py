@@ -1,0 +1,116 @@
+"""An arm brings the box into the rails: beside the middle and turned, it jams; aligned, it does not."""
+
+import copy
+
+import dimensions as d
+import numpy as np
+import rig
+import statics
+
+BEGIN = 0.010  # depth of the front corners at the beginning
+TILT = 0.040  # rad: the arm holds the box turned to the left by so much
+OFFSET = 0.070  # m to the right of the middle of the rear, where it holds it
+FREED = 1e-4  # m: a box that went so far is free
+
+
+class Wrist:
+    """A six-axis drive that holds the box at its rear: a feed along x with a limit, free across, springs against turning.
+
+    `accommodating`: the attitude that it holds turns at a rate in proportion to the moment about the middle line of the rails.
+    What it remembers is all in its attributes.
+    """
+
+    def __init__(self, offset, tilt, most=d.ARM_FORCE):
+        self.grip, self.tilt, self.most = np.array((-d.LENGTH / 2, -offset, 0.0)), tilt, most
+        self.accommodating, self.goal = False, None
+        self.push, self.moment, self.sensed = 0.0, 0.0, 0.0
+
+    def __call__(self, made):
+        box = made.model.body("box").id
+        turned = made.data.xmat[box].reshape(3, 3)
+        arm, spin = turned @ self.grip, turned @ made.data.qvel[3:6]
+        place, velocity = made.place("box") + arm, made.data.qvel[:3] + np.cross(spin, arm)
+        force = np.array((self._feed(made, place[0], velocity[0]), *(-d.ARM_ACROSS * velocity[1:])))
+        twist = self._turning(turned, spin)
+        self.push, self.moment = force[0], twist[2]
+        self.sensed = self.moment - place[1] * self.push
+        if self.accommodating:
+            self.tilt -= d.ACCOMMODATION * self.sensed * made.step
+        made.data.xfrc_applied[box] = (*force, *(twist + np.cross(arm, force)))
+
+    def _feed(self, made, x, speed):
+        """The goal goes on evenly, but never further ahead than the greatest push needs."""
+        goal = x if self.goal is None else self.goal + d.SPEED * made.step
+        self.goal = min(goal, x + self.most / d.ARM_STIFFNESS)
+        wanted = d.ARM_STIFFNESS * (self.goal - x) + d.ARM_DAMPING * (d.SPEED - speed)
+        return float(np.clip(wanted, -self.most, self.most))
+
+    def _turning(self, turned, spin):
+        held = np.array((-turned[2, 1], turned[2, 0], self.tilt - np.arctan2(turned[1, 0], turned[0, 0])))
+        return d.ARM_TURNING * held - d.ARM_TURNING_DAMPING * spin
+
+
+def depth(made):
+    """Of the left front corner, m."""
+    x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
+    angle = rig.yaw(made)
+    return float(made.place("box")[0] + x * np.cos(angle) - y * np.sin(angle))
+
+
+def start(offset, tilt=TILT, step=d.TRAINING.step):
+    """The machine with a box as the arm holds it, in the middle of the mouth; and the wrist."""
+    x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
+    place = BEGIN - x * np.cos(tilt) + y * np.sin(tilt), -x * np.sin(tilt), 0.0
+    return rig.machine(place, tilt, step=step), Wrist(offset, tilt)
+
+
+def second_touch(made, wrist):
+    """Pushed until the box touches two places, each with its upper and its lower corner; depth, m."""
+    made.run(3.0, wrist, watch=lambda m: m.contacts() >= 4)
+    return depth(made)
+
+
+def pushed(offset, tilt=TILT, step=d.TRAINING.step, seconds=2.0):
+    """Pushed for so long: machine, wrist, depth of the second touch, and how far the last half second went, m."""
+    made, wrist = start(offset, tilt, step)
+    touched = second_touch(made, wrist)
+    made.run(seconds - 0.5 - made.time, wrist)
+    before = depth(made)
+    made.run(0.5, wrist)
+    return made, wrist, touched, depth(made) - before
+
+
+def released(made, wrist, seconds=5.0):
+    """The wrist accommodates until the box goes on: whether it did, moment of the wrist at that time, and depth before."""
+    stood, wrist.accommodating = depth(made), True
+    free = made.run(seconds, wrist, watch=lambda m: depth(m) - stood > FREED)
+    return free, wrist.moment, stood
+
+
+def home(made, wrist, seconds=14.0):
+    """Pushed on until the box stands at the stop; force on the stop, N."""
+    rest = d.STOP - d.LENGTH / 2
+    arrived = made.run(seconds, wrist, watch=lambda m: m.place("box")[0] > rest - 1e-5)
+    made.run(0.5, wrist)
+    return arrived, float(made.data.sensordata[made.sensed][3])
+
+
+def predicted_release(stood):
+    """Moment of the wrist at which the greatest push slides the box again; that push makes the places sink in."""
+    mouth = 0.0
+    for _ in range(20):
+        push, moment = statics.wedge(stood, statics.tilt_at(stood, mouth), OFFSET)
+        mouth = d.ARM_FORCE / push
+    return mouth * moment
+
+
+def same_bits_after_restart(before=1.0, after=0.3):
+    """Runs, goes back in another machine, and compares the bits of both ends."""
+    first, one = start(OFFSET)
+    first.run(before, one)
+    middle, other = first.save(), copy.deepcopy(one)
+    first.run(after, one)
+    second, _ = start(OFFSET)
+    second.restore(middle)
+    second.run(after, other)
+    return first.save().tobytes() == second.save().tobytes()
