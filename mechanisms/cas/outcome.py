@@ -1,0 +1,197 @@
+"""What the attachment must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
+
+import time
+
+import dimensions as d
+import handover
+import numpy as np
+import rig
+import seat
+import statics
+from dimensions import ANALYSIS, TRAINING
+from kit.rows import Fact, Limit, Row
+from seat import PULL
+
+TURNING = 4000.0  # N·m: far enough for all flanks to slip
+LOADS = {
+    "a pull of 6 kN at (60, 40) mm": (0.0, 0.0, -PULL, -PULL * 0.04, PULL * 0.06, 0.0),
+    "that, 400 N sideways and 300 N m about z": (400.0, -200.0, -PULL, -PULL * 0.04, PULL * 0.06, 300.0),
+}
+STARTS = [  # m and rad from the seat
+    (0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
+    (0.008, 0.004, 0.015, 0.0, 0.0, 0.010),
+    (-0.006, 0.008, 0.018, 0.004, 0.004, -0.012),
+    (0.0, -0.010, 0.018, -0.003, 0.002, 0.005),
+]
+EDGES = [(1.0, 0.0, 0.0), (-0.5, 0.2, 0.06)]  # directions of offset (m) and yaw (rad), which are scaled to the opening
+MORE_EDGES = [(0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (0.8, -0.6, 0.0), (0.3, 0.3, -0.1), (-1.0, -0.3, 0.02)]
+
+
+def honest(made, share):
+    """What holds of every run: energy, reactions, no tunnelling."""
+    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), share)
+    yield Limit("forces that have no reaction, of the greatest", made.imbalance, 1e-9)
+    yield Fact("no contact tunnelled, no limit was met", made.flags == 0)
+
+
+def vane_loads(step):
+    """Three grooves of two flanks without friction: six unknowns, six equations."""
+    for what, load in LOADS.items():
+        made = seat.pulled(step, load)
+        forces, predicted = rig.on_vanes(made), statics.loads(load)
+        off = np.abs(forces - predicted).max()
+        yield Limit(f"{what}: forces of the vanes off the six equations", off, 2e-3 * PULL / 3, "N")
+    beside = np.array((0.06, 0.04))
+    made = seat.pulled(step, next(iter(LOADS.values())))
+    for name, force, share in zip(rig.VANES, rig.on_vanes(made)[:, 2], statics.shares(PULL, beside)):
+        yield Row(f"{name}, along z: F/3·(1 + 2·r·e/R)", force, share, 2e-3, "N")
+    yield Row("payload goes in by F/(6·k·cos²β)", -made.place("payload")[2], statics.sunk(PULL), 2e-3, "m")
+    yield from honest(made, 1e-3)
+
+
+def seated(step, share):
+    """From several places beside the seat, without friction and with."""
+    load = (0.0, 0.0, -PULL, 0.0, 0.0, 0.0)
+    runs = [seat.pulled(step, load, start, seconds=6.0) for start in STARTS]
+    poses = np.array([rig.pose(made) for made in runs])
+    spread = np.ptp(poses, axis=0)
+    yield Limit("no friction: places after four starts differ by", spread[:3].max(), 1e-6, "m")
+    yield Limit("and turns by", spread[3:].max(), 1e-6, "rad")
+    yield Limit("greatest share of energy that does not close", max(m.ledger.open_share() for m in runs), share)
+    runs = [seat.pulled(step, load, start, friction=None) for start in STARTS]
+    poses = np.array([rig.pose(made) for made in runs])
+    sideways, turned = (PULL * b for b in statics.band())
+    places = np.linalg.norm(poses[:, :2], axis=1)
+    yield Limit("friction 0.1: sideways from the seat, at most μΣN/(3·k·sin²β)", places.max(), sideways, "m")
+    yield Limit("turned about z, at most μF/(6·k·sin²β·(1 + μ²)·R)", np.abs(poses[:, 5]).max(), turned, "rad")
+    yield Limit("in by at least F/(6·k·cosβ·(cosβ + μ·sinβ))", -poses[:, 2].max(), statics.sunk(PULL, 0.1), "m", True)
+    yield Limit("in by at most F/(6·k·cosβ·(cosβ − μ·sinβ))", -poses[:, 2].min(), statics.sunk(PULL, -0.1), "m")
+    yield Limit("greatest share of energy that does not close", max(m.ledger.open_share() for m in runs), share)
+    yield Fact("no contact tunnelled, no limit was met", all(made.flags == 0 for made in runs))
+
+
+def turned(step, share):
+    """Friction against a moment about the axis of the pull."""
+    made, (under, after) = seat.turned(step, TURNING)
+    what = f"{TURNING:g} N m against friction: turned by (M/R − μF)/(6·k·sin²β·(1 + μ²)·R)"
+    yield Row(what, under, statics.slipped(PULL, TURNING), 0.01, "rad")
+    yield Row("and without it again: all that friction can keep", after, PULL * statics.band()[1], 0.02, "rad")
+    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), share)
+
+
+def at_the_edge(direction, share):
+    """Offset and yaw at which the pin that is most out of line is at that share of half the opening."""
+    low, high = 0.0, 2.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        x, y, yaw = (middle * c for c in direction)
+        low, high = (middle, high) if statics.out_of_line((x, y), yaw) < share else (low, middle)
+    return (low * direction[0], low * direction[1]), low * direction[2]
+
+
+def captures(step, directions):
+    """From 5 % within the opening of the vanes it is captured, from 5 % beyond it stands on a crest."""
+    within, beyond = 0.95, 1.05
+    yield Limit("5 % within the opening: friction of the crest holds no ball", within, statics.surely_in())
+    for direction in directions:
+        for share in (within, beyond):
+            offset, yaw = at_the_edge(direction, share)
+            made = seat.Capture(step, offset, yaw).run()
+            where = f"{1e3 * offset[0]:.1f}, {1e3 * offset[1]:.1f} mm, {np.degrees(yaw):.2f}°"
+            wanted = share < 1.0
+            yield Fact(f"{where}: {'captured' if wanted else 'not captured'}", made.seated() == wanted)
+            if wanted:
+                yield Row("preload of the claw, torque over lever", made.claw_force(), seat.preload(), 5e-3, "N")
+            yield Fact("no contact tunnelled", made.machine.flags == 0)
+
+
+def handed_over(step, share):
+    """Trunk, two arms, vanes and claw."""
+    began = time.process_time()
+    made, sequence = handover.run(step)
+    spent = (time.process_time() - began) / (made.time / made.step)
+    force, moment = handover.expected()[[0, 3]]
+    first, second = (sequence.seen["both"][h.name] for h in handover.ARMS)
+    yield Row("both hold: force d·k1·k2/(k1 + k2)", second[0], force, 1e-3, "N")
+    yield Row("moment, alike", second[3], moment, 1e-3, "N m")
+    yield Limit("what one arm gives the other takes: sum", np.abs(first + second)[[0, 1, 2, 3]].max(), 1e-3, "N, N m")
+    speed = statics.released_speed(d.SECOND, force)
+    yield Row("the first lets go: greatest speed of one damped spring", sequence.fastest, speed, 2e-3, "m/s")
+    left = np.abs(sequence.seen["release"][d.SECOND.name]).max()
+    yield Limit("6 s later the second arm gives", left, 1e-3 * force, "N, N m")
+    yield from clamped(made)
+    yield from honest(made, share)
+    print(f"      processor time of a step of {step * 1e3:g} ms, with the account of energy: {spent * 1e6:.0f} µs")
+
+
+def clamped(made):
+    """The claw is stalled and no arm holds the payload."""
+    claw, vanes = float(np.linalg.norm(made.on("claw")[:3])), rig.on_vanes(made)[:, 2]
+    yield Row("no arm holds it: preload of the claw, torque over lever", claw, seat.preload(), 2e-3, "N")
+    for name, force in zip(rig.VANES, vanes):
+        yield Row(f"of this {name} bears a third", force, seat.preload() / 3, 0.02, "N")
+    sideways = seat.preload() * statics.band()[0]
+    yield Limit(
+        "sideways from the seat: what friction allows", np.linalg.norm(made.place("payload")[:2]), sideways, "m"
+    )
+
+
+def any_misalignment(step):
+    """Six components at once, against the two stiffness matrices in series."""
+    off = (0.010, -0.008, 0.006, 0.004, 0.003, -0.005)
+    _, sequence = handover.run(step, until="release", off=off)
+    measured, predicted = sequence.seen["both"][d.SECOND.name], handover.expected(off)
+    for axis, one, other in zip(rig.AXES, measured, predicted):
+        yield Row(f"{axis}: matrices in series, small angles", one, other, 0.03, "N, N m")
+
+
+def off_nominal(step):
+    """The claw gives half of its torque; a pin is missing."""
+    made = seat.Capture(step, voltage=-0.5).run(14.0)
+    yield Fact("half of the torque: captured", made.seated())
+    yield Row("preload of the claw", made.claw_force(), seat.preload(0.5), 5e-3, "N")
+    share = 0.1
+    made = seat.on_two(step, share)
+    turn, borne = statics.tilt_on_two(d.SECOND, seat.preload(share), 1)
+    yield Row("pin 1 missing, the arm holds: payload turns by", abs(rig.pose(made)[3]), turn, 0.03, "rad")
+    yield Row("the other two vanes bear", rig.on_vanes(made)[:, 2].sum(), borne, 0.03, "N")
+    yield Limit("and that of the missing pin", abs(rig.on_vanes(made)[0, 2]), 0.0, "N")
+    yield from honest(made, 5e-3)
+
+
+def half_step(step):
+    one, other = (handover.run(s) for s in (step, step / 2))
+    for phase in ("both", "claw"):
+        forces = [sequence.seen[phase][d.SECOND.name][0] for _, sequence in (other, one)]
+        yield Row(f"second arm, along x, at the end of {phase}, half the step", *forces, 0.02, "N")
+    forces = [float(np.linalg.norm(made.on("claw")[:3])) for made, _ in (other, one)]
+    yield Row("claw, half the step", *forces, 1e-3, "N")
+    apart = np.abs(rig.pose(one[0]) - rig.pose(other[0]))[:3].max()
+    yield Limit("places at the end differ by less than friction allows", apart, PULL * statics.band()[0], "m")
+
+
+def restart(step):
+    yield Fact("restarted while the claw pulls: the same bits", seat.same_bits_after_restart(step, 5.0, 0.5))
+
+
+def shown(prepare):
+    """For logs and films: `prepare` sees the machine before it moves."""
+    handover.run(TRAINING.step, prepare)
+
+
+def rows(thorough):
+    yield "loads of the three vanes, without friction", vane_loads(TRAINING.step)
+    yield "one seat, level training", seated(TRAINING.step, 2e-2)
+    yield "friction of the vanes", turned(TRAINING.step, 1e-3)
+    yield "limits of capture, level training", captures(TRAINING.step, EDGES)
+    yield "from the trunk to the platform, level training", handed_over(TRAINING.step, 5e-3)
+    yield "off-nominal", off_nominal(TRAINING.step)
+    yield "restart", restart(TRAINING.step)
+    if thorough:
+        same = handover.same_bits_after_restart(TRAINING.step, 13.0, 2.0)
+        yield "restart of the whole", [Fact("restarted while the second arm grasps: the same bits", same)]
+        yield "any misalignment of the arms", any_misalignment(TRAINING.step)
+        yield "more limits of capture", captures(TRAINING.step, MORE_EDGES)
+        yield "half the step", half_step(TRAINING.step)
+        yield "one seat, level analysis", seated(ANALYSIS.step, 1e-3)
+        yield "from the trunk to the platform, level analysis", handed_over(ANALYSIS.step, 1e-3)

@@ -1,0 +1,103 @@
+"""The payload in its vanes: pulled with a given load, let in from beside, and pulled by the claw."""
+
+import dimensions as d
+import numpy as np
+import rig
+
+PULL = 6000.0  # N
+
+
+def pulled(step, load, pose=(0.0,) * 6, friction=rig.SMOOTH, seconds=4.0):
+    """No arm holds it; a wrench about the origin of the platform acts on it."""
+    made = rig.machine(step, friction=friction, pose=pose)
+    made.run(seconds, lambda machine: push(machine, load))
+    return made
+
+
+def push(made, load):
+    """`load` is a wrench about the origin of the platform, so its moment about the mass centre moves with that."""
+    body = made.model.body("payload").id
+    force, moment = np.array(load[:3]), np.array(load[3:])
+    made.data.xfrc_applied[body] = np.r_[force, moment - np.cross(made.data.xipos[body], force)]
+
+
+def turned(step, most, rise=3.0):
+    """With friction, under a pull of 6 kN: turned about z by a moment that rises slowly, then falls again.
+
+    The turns at both ends.
+    """
+    made = rig.machine(step, friction=rig.SOON_SLIPS)
+    made.run(1.0, lambda machine: push(machine, (0.0, 0.0, -PULL, 0.0, 0.0, 0.0)))
+    ends = []
+    for start, end in ((0.0, most), (most, 0.0)):
+        began = made.time
+
+        def control(machine, start=start, end=end, began=began):
+            share = min((machine.time - began) / rise, 1.0)
+            push(machine, (0.0, 0.0, -PULL, 0.0, 0.0, start + share * (end - start)))
+
+        made.run(rise + 0.5, control)
+        ends.append(rig.pose(made)[5])
+    return made, ends
+
+
+class Capture:
+    """A payload, beside the vanes and level, is led in; the claw closes when the bar is near. `voltage`: of the claw."""
+
+    FEED, ABOVE, BELOW = 0.04, 0.075, -0.020  # m/s, m, m
+
+    def __init__(self, step, offset=(0.0, 0.0), yaw=0.0, voltage=-1.0):
+        self.voltage, self.closing = voltage, False
+        pose = (*offset, self.ABOVE, 0.0, 0.0, yaw)
+        self.machine = rig.machine(step, (d.LIMP,), pose=pose)
+
+    def control(self, machine):
+        z = max(self.ABOVE - self.FEED * machine.time, self.BELOW)
+        rig.lead(machine, d.LIMP, (0.0, 0.0, z, 0.0, 0.0, 0.0))
+        self.closing = self.closing or machine.place("payload")[2] < d.READY_Z
+        rig.drive(machine, self.voltage if self.closing else 0.0)
+
+    def run(self, seconds=9.0):
+        """Ends early if the payload stands on a crest."""
+        self.machine.run(4.0, self.control)
+        if self.closing:
+            self.machine.run(seconds - 4.0, self.control)
+        return self
+
+    def seated(self):
+        """All three pins are within 2 mm of where they sit."""
+        pose = rig.pose(self.machine)
+        turn = rig.rotation(pose[3:])
+        pins = [d.RADIUS * rig.radial(name) for name in rig.VANES]
+        return max(float(np.linalg.norm(pose[:3] + turn @ pin - pin)) for pin in pins) < 2e-3
+
+    def claw_force(self):
+        """Of the claw on the bar, N."""
+        return float(np.linalg.norm(self.machine.on("claw")[:3]))
+
+
+def preload(share=1.0):
+    """Of a stalled claw: torque over lever, N."""
+    return share * d.CLAW_STALL / d.LEVER
+
+
+def on_two(step, share, missing=1, seconds=8.0):
+    """One pin is missing; the second arm holds the payload and the claw pulls with a share of its torque."""
+    made = rig.machine(step, (d.SECOND,), friction=rig.SMOOTH, missing=missing, opened=0.05)
+
+    def control(machine):
+        rig.drive(machine, -share)
+
+    made.run(seconds, control)
+    return made
+
+
+def same_bits_after_restart(step, before, after):
+    """Of a capture: runs on, goes back in another machine, and compares the bits of both ends."""
+    first, second = Capture(step, (0.02, 0.01)), Capture(step, (0.02, 0.01))
+    first.machine.run(before, first.control)
+    middle, second.closing = first.machine.save(), first.closing
+    first.machine.run(after, first.control)
+    second.machine.restore(middle)
+    second.machine.run(after, second.control)
+    return first.machine.save().tobytes() == second.machine.save().tobytes()
