@@ -21,6 +21,8 @@ import scenes  # noqa: E402
 # Set before anything was compared: MuJoCo's defaults with an elliptic cone, and as hard as a step of 1 ms allows.
 DEFAULT = {"solref": "0.02 1", "solimp": "0.9 0.95 0.001 0.5 2", "impratio": "1"}
 HARD = {"solref": "0.002 1", "solimp": "0.99 0.999 0.0001 0.5 2", "impratio": "100"}
+# Added after: which of the differences come from the friction's regularization alone.
+FIRM = {**DEFAULT, "impratio": "100"}
 STEP, SECONDS = d.TRAINING.step, 10.0
 
 
@@ -97,13 +99,13 @@ def tilted(share, made):
 
 
 def moves(hexapod, seconds):
-    """Way of the body, m; its mean acceleration along the slope, m/s²; and the share of steps with no foot loaded."""
-    start, speed, air = hexapod.place("body"), hexapod.data.qvel[0], 0
+    """Way of the body, m; its mean acceleration down the slope, m/s²; forces of the feet in each step, N."""
+    start, speed, forces = hexapod.place("body"), hexapod.data.qvel[0], []
     for _ in range(round(seconds / STEP)):
         hexapod.hurry()
-        air += not hexapod.forces().any()
+        forces.append(np.array(hexapod.forces()))
     way = float(np.linalg.norm(hexapod.place("body") - start))
-    return way, (speed - hexapod.data.qvel[0]) / seconds, air * STEP / seconds
+    return way, (speed - hexapod.data.qvel[0]) / seconds, np.array(forces)
 
 
 def figures(made):
@@ -115,12 +117,13 @@ def figures(made):
         yield f"{share} of tan θ = μ: way in {SECONDS:g} s, µm", 1e6 * moves(tilted(share, made), SECONDS)[0]
     for share in (1.03, 1.2):
         angle = math.atan(share * d.FRICTION)
-        _, slid, air = moves(tilted(share, made), 1.0)
-        yield (
-            f"{share}: acceleration over g(sin θ − μ cos θ)",
-            slid / (d.GRAVITY * (math.sin(angle) - d.FRICTION * math.cos(angle))),
-        )
-        yield f"{share}: share of time with no foot loaded", air
+        _, slid, forces = moves(tilted(share, made), 1.0)
+        coulomb = d.GRAVITY * (math.sin(angle) - d.FRICTION * math.cos(angle))
+        yield f"{share}: acceleration over g(sin θ − μ cos θ)", slid / coulomb
+        yield f"{share}: time with no foot loaded", float(np.mean(~forces.any(axis=(1, 2))))
+        across = np.linalg.norm(forces[:, :, :2], axis=2).sum()
+        yield f"{share}: friction over load, foot by foot", across / forces[:, :, 2].sum()
+        yield f"{share}: friction up the slope over load", forces[:, :, 0].sum() / forces[:, :, 2].sum()
     walk = scenes.Walk(STEP, made=made)
     walk.go(2.5)
     start = walk.way()
@@ -130,8 +133,8 @@ def figures(made):
 
 
 def main():
-    columns = [list(figures(made)) for made in (None, own(DEFAULT), own(HARD))]
-    print(f"{'':46} {'Pong':>12} {'MuJoCo':>12} {'MuJoCo, hard':>12}")
+    columns = [list(figures(made)) for made in (None, own(DEFAULT), own(FIRM), own(HARD))]
+    print(f"{'':46} {'Pong':>12} {'MuJoCo':>12} {'impratio 100':>12} {'hard':>12}")
     for rows in zip(*columns):
         print(f"{rows[0][0]:46} " + " ".join(f"{value:12.5g}" for _, value in rows))
 
