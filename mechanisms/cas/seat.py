@@ -81,9 +81,9 @@ def preload(share=1.0):
     return share * d.CLAW_STALL / d.LEVER
 
 
-def on_two(step, share, missing=1, seconds=8.0):
-    """One pin is missing; the second arm holds the payload and the claw pulls with a share of its torque."""
-    made = rig.machine(step, (d.SECOND,), friction=rig.SMOOTH, missing=missing, opened=0.05)
+def on_two(step, share, holders, missing=1, seconds=8.0):
+    """One pin is missing; the claw pulls with a share of its torque, and an arm holds the payload or none."""
+    made = rig.machine(step, holders, friction=rig.SMOOTH, missing=missing, opened=0.05)
 
     def control(machine):
         rig.drive(machine, -share)
