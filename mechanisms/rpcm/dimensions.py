@@ -41,6 +41,7 @@ CONE_LENGTH, CONE_RADIUS = 0.040, 0.016  # radius at its root
 GRIP_STIFFNESS, GRIP_DAMPING = 1e6, 600.0
 JAW_MASS, JAW_ARMATURE = 0.3, 2.0  # kg: a jaw, and rotor and gear as felt there
 JAW_STALL, JAW_SPEED = 150.0, 0.030  # N, m/s: of the motor of a jaw
+TOOL_MASS = 10.0  # of the gripper on its wrist
 JAW_OPEN = 0.010  # way of an open jaw
 ABOUT_LIMIT = {"below": 0.97, "above": 1.03}  # tan of the half-angle over the friction, for the two trial fixtures
 

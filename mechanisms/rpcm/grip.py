@@ -32,6 +32,11 @@ def motors():
     return "".join(mjcf.motor(f"jaw_{name}", f"jaw_{name}", d.JAW_STALL, d.JAW_SPEED) for name in d.SIDES)
 
 
+def cone_body():
+    """What carries the cone: it is fixed to the box."""
+    return f'<body name="cone" pos="{mjcf.numbers(rig.root())}"/>'
+
+
 def carried(trial, tool="world"):
     """Groups of cone and jaws, and the bodies that carry them."""
     fingers = {f"jaws/jaw_{name}": f"jaw_{name}" for name in d.SIDES}
@@ -42,8 +47,7 @@ def machine(trial, joint=rig.FREE, step=d.ANALYSIS.step):
     """A box, free or on a slide along x, with its cone between jaws on the ground, which just touch it."""
     groups, objects = carried(trial)
     extension = mjcf.contact_instance(objects, [("cone", "jaws")], groups, folder=str(d.HERE))
-    cone = f'<body name="cone" pos="{mjcf.numbers(rig.root())}"/>'
-    world = rig.body((0, 0, 0), inside=cone, slope=d.half_angle(trial), joint=joint) + jaws(rig.root())
+    world = rig.body((0, 0, 0), inside=cone_body(), slope=d.half_angle(trial), joint=joint) + jaws(rig.root())
     made = Machine(
         mjcf.model("rpcm_grip", extension, world, f"<actuator>{motors()}</actuator>", step), list(groups.values())
     )

@@ -14,36 +14,37 @@ FREED = 1e-4  # m: a box that went so far is free
 
 
 class Wrist:
-    """A six-axis drive that holds the box at its rear: a feed along x with a limit, free across, springs against turning.
+    """A six-axis drive that holds a body, the box at its rear or else the gripper: a feed along x with a limit, free across, springs against turning.
 
     `accommodating`: the attitude that it holds turns at a rate in proportion to the moment about the middle line of the rails.
     What it remembers is all in its attributes.
     """
 
-    def __init__(self, offset, tilt, most=d.ARM_FORCE):
-        self.grip, self.tilt, self.most = np.array((-d.LENGTH / 2, -offset, 0.0)), tilt, most
+    def __init__(self, grip, tilt, body="box"):
+        self.grip, self.tilt, self.body, self.way = np.array(grip), tilt, body, 1.0
         self.accommodating, self.goal = False, None
         self.push, self.moment, self.sensed = 0.0, 0.0, 0.0
 
     def __call__(self, made):
-        box = made.model.body("box").id
-        turned = made.data.xmat[box].reshape(3, 3)
-        arm, spin = turned @ self.grip, turned @ made.data.qvel[3:6]
-        place, velocity = made.place("box") + arm, made.data.qvel[:3] + np.cross(spin, arm)
+        held = made.model.body(self.body)
+        turned, rates = made.data.xmat[held.id].reshape(3, 3), made.data.qvel[held.dofadr[0] :][:6]
+        arm, spin = turned @ self.grip, turned @ rates[3:]
+        place, velocity = made.place(self.body) + arm, rates[:3] + np.cross(spin, arm)
         force = np.array((self._feed(made, place[0], velocity[0]), *(-d.ARM_ACROSS * velocity[1:])))
         twist = self._turning(turned, spin)
         self.push, self.moment = force[0], twist[2]
         self.sensed = self.moment - place[1] * self.push
         if self.accommodating:
             self.tilt -= d.ACCOMMODATION * self.sensed * made.step
-        made.data.xfrc_applied[box] = (*force, *(twist + np.cross(arm, force)))
+        made.data.xfrc_applied[held.id] = (*force, *(twist + np.cross(arm, force)))
 
     def _feed(self, made, x, speed):
         """The goal goes on evenly, but never further ahead than the greatest push needs."""
-        goal = x if self.goal is None else self.goal + d.SPEED * made.step
-        self.goal = min(goal, x + self.most / d.ARM_STIFFNESS)
-        wanted = d.ARM_STIFFNESS * (self.goal - x) + d.ARM_DAMPING * (d.SPEED - speed)
-        return float(np.clip(wanted, -self.most, self.most))
+        rate, ahead = self.way * d.SPEED, d.ARM_FORCE / d.ARM_STIFFNESS
+        goal = x if self.goal is None else self.goal + rate * made.step
+        self.goal = float(np.clip(goal, x - ahead, x + ahead))
+        wanted = d.ARM_STIFFNESS * (self.goal - x) + d.ARM_DAMPING * (rate - speed)
+        return float(np.clip(wanted, -d.ARM_FORCE, d.ARM_FORCE))
 
     def _turning(self, turned, spin):
         held = np.array((-turned[2, 1], turned[2, 0], self.tilt - np.arctan2(turned[1, 0], turned[0, 0])))
@@ -61,7 +62,7 @@ def start(offset, tilt=TILT, step=d.TRAINING.step):
     """The machine with a box as the arm holds it, in the middle of the mouth; and the wrist."""
     x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
     place = BEGIN - x * np.cos(tilt) + y * np.sin(tilt), -x * np.sin(tilt), 0.0
-    return rig.machine(place, tilt, step=step), Wrist(offset, tilt)
+    return rig.machine(place, tilt, step=step), Wrist((-d.LENGTH / 2, -offset, 0.0), tilt)
 
 
 def second_touch(made, wrist):

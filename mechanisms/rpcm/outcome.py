@@ -1,6 +1,7 @@
 """What box, connector and gripper must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
 import dimensions as d
+import exchange
 import grip
 import jam
 import numpy as np
@@ -64,6 +65,14 @@ def jammed(level=d.TRAINING):
     yield from honest(made, 1e-3)
 
 
+def moved_push():
+    """The other cure: the arm takes the jammed box in the middle and goes on pushing."""
+    made, wrist, _, went = jam.pushed(jam.OFFSET)
+    yield Limit("way in the last half second of the jam", went, 1e-5, "m")
+    wrist.grip[1] = 0.0
+    yield from seated(made, wrist)
+
+
 def seated(made, wrist):
     arrived, force = jam.home(made, wrist)
     yield Fact("the box comes home", arrived)
@@ -107,6 +116,26 @@ def cone():
         yield from honest(made, 1e-3)
 
 
+def exchanged(level, share):
+    """A gripper takes the box by its cone, pushes it home, pulls it out, lets go and backs away."""
+    made, sequencer = exchange.run(level.step)
+    force = d.ARM_FORCE - statics.spring()
+    yield Row("force on the stop: push less the springs of the connector", sequencer.stop, force, 0.01, "N")
+    yield Limit("how far the cone moves in the jaws", sequencer.slipped, 2e-4, "m")
+    yield Limit("the box is where it began: off by", abs(made.place("box")[0] - exchange.BEGIN), 2.5e-3, "m")
+    apart = exchange.along(made) - d.LENGTH / 2
+    yield Limit("the gripper has left it: distance", apart, 0.015, "m", least=True)
+    yield from honest(made, share)
+
+
+def weak_jaws(voltage=0.6):
+    """The push overcomes the jaws: the cone goes into them, and the stop bears what the wedge lets through."""
+    made, sequencer = exchange.run(voltage=voltage, until="out")
+    predicted = exchange.driven_in(voltage)
+    yield Row(f"jaws at {voltage:g} of their voltage: force on the stop", sequencer.stop, predicted, 0.02, "N")
+    yield Limit("the cone has gone into them by", sequencer.slipped, 1e-3, "m", least=True)
+
+
 def half_step():
     ends = []
     for step in (d.ANALYSIS.step, d.ANALYSIS.step / 2):
@@ -117,6 +146,8 @@ def half_step():
         ("depth of the second touch", "moment of release", "force that pulls the cone out"), *ends, ("m", "N·m", "N")
     ):
         yield Row(f"{what} at half the step", half, one, 0.02, unit)
+    one, half = (exchange.run(step, until="out")[1].stop for step in (d.TRAINING.step, d.TRAINING.step / 2))
+    yield Row("force on the stop, the whole, at half the step", half, one, 2e-3, "N")
 
 
 def shown(prepare):
@@ -134,8 +165,13 @@ def rows(thorough):
     yield "the opposite: held in the middle", opposite()
     yield "restart", [Fact("restarted in the jam: the same bits", jam.same_bits_after_restart())]
     yield "cone and jaws", cone()
+    yield "the whole, with the gripper, level training", exchanged(d.TRAINING, 1e-2)
+    yield "weak jaws", weak_jaws()
+    yield "restart", [Fact("restarted on the way in: the same bits", exchange.same_bits_after_restart())]
     if thorough:
+        yield "the whole, level analysis", exchanged(d.ANALYSIS, 1e-3)
         yield "the limit of the jam", limit()
+        yield "the jammed box is taken in the middle", moved_push()
         yield "jam and cure, level analysis", jammed(d.ANALYSIS)
         yield "the opposite, level analysis", opposite(d.ANALYSIS)
         yield "half the step", half_step()
