@@ -89,6 +89,10 @@ def at_the_edge(direction, share):
     return (low * direction[0], low * direction[1]), low * direction[2]
 
 
+def claw_row(what, made, share=1.0):
+    return Row(what, seat.claw_force(made), seat.preload(made, share), 1e-3, "N")
+
+
 def captures(step, directions):
     """From 5 % within the opening of the vanes it is captured, from 5 % beyond it stands on a crest."""
     within, beyond = 0.95, 1.05
@@ -101,7 +105,7 @@ def captures(step, directions):
             wanted = share < 1.0
             yield Fact(f"{where}: {'captured' if wanted else 'not captured'}", made.seated() == wanted)
             if wanted:
-                yield Row("preload of the claw, torque over lever", made.claw_force(), seat.preload(), 5e-3, "N")
+                yield claw_row("preload of the claw, torque over lever", made.machine)
             yield Fact("no contact tunnelled", made.machine.flags == 0)
 
 
@@ -126,11 +130,10 @@ def handed_over(step, share):
 
 def clamped(made):
     """The claw is stalled and no arm holds the payload."""
-    claw, vanes = float(np.linalg.norm(made.on("claw")[:3])), rig.on_vanes(made)[:, 2]
-    yield Row("no arm holds it: preload of the claw, torque over lever", claw, seat.preload(), 2e-3, "N")
-    for name, force in zip(rig.VANES, vanes):
-        yield Row(f"of this {name} bears a third", force, seat.preload() / 3, 0.02, "N")
-    sideways = seat.preload() * statics.band()[0]
+    yield claw_row("no arm holds it: preload of the claw, torque over lever", made)
+    for name, force in zip(rig.VANES, rig.on_vanes(made)[:, 2]):
+        yield Row(f"of this {name} bears a third", force, seat.preload(made) / 3, 0.02, "N")
+    sideways = seat.preload(made) * statics.band()[0]
     yield Limit(
         "sideways from the seat: what friction allows", np.linalg.norm(made.place("payload")[:2]), sideways, "m"
     )
@@ -154,10 +157,10 @@ def off_nominal(step):
     """The claw gives half of its torque; a pin is missing."""
     made = seat.Capture(step, voltage=-0.5).run(14.0)
     yield Fact("half of the torque: captured", made.seated())
-    yield Row("preload of the claw", made.claw_force(), seat.preload(0.5), 5e-3, "N")
+    yield claw_row("preload of the claw", made.machine, 0.5)
     share = 0.1
     made = seat.on_two(step, share, (d.SECOND,))
-    turn, borne = statics.tilt_on_two(d.SECOND, seat.preload(share), 1)
+    turn, borne = statics.tilt_on_two(d.SECOND, share * d.CLAW_STALL / d.LEVER, 1)
     yield Row("pin 1 missing, the arm holds: payload turns by", turned_by(made), turn, 0.03, "rad")
     yield Row("the other two vanes bear", rig.on_vanes(made)[:, 2].sum(), borne, 0.03, "N")
     yield Limit("and that of the missing pin", abs(rig.on_vanes(made)[0, 2]), 0.0, "N")
@@ -177,7 +180,7 @@ def half_step(step):
     for phase in ("both", "claw"):
         forces = [sequence.seen[phase][d.SECOND.name][0] for _, sequence in (other, one)]
         yield Row(f"second arm, along x, at the end of {phase}, half the step", *forces, 1e-3, "N")
-    forces = [float(np.linalg.norm(made.on("claw")[:3])) for made, _ in (other, one)]
+    forces = [seat.claw_force(made) for made, _ in (other, one)]
     yield Row("claw, half the step", *forces, 1e-3, "N")
     apart = np.abs(rig.pose(one[0]) - rig.pose(other[0]))[:3].max()
     yield Limit("places at the end differ by", apart, 1e-6, "m")

@@ -71,14 +71,18 @@ class Capture:
         pins = [d.RADIUS * rig.radial(name) for name in rig.VANES]
         return max(float(np.linalg.norm(pose[:3] + turn @ pin - pin)) for pin in pins) < 2e-3
 
-    def claw_force(self):
-        """Of the claw on the bar, N."""
-        return float(np.linalg.norm(self.machine.on("claw")[:3]))
+
+def claw_force(made):
+    """Of the claw on the bar, square to the face that pulls, N."""
+    angle = made.joint("claw")
+    return float(made.on("claw")[:3] @ (-np.sin(angle), 0.0, np.cos(angle)))
 
 
-def preload(share=1.0):
-    """Of a stalled claw: torque over lever, N."""
-    return share * d.CLAW_STALL / d.LEVER
+def preload(made, share=1.0):
+    """Of a claw that is stalled where it stands: torque over lever, which is the way of the bar along the face, N."""
+    angle = made.joint("claw")
+    bar = made.place("payload") + rig.rotation(rig.pose(made)[3:]) @ (0.0, 0.0, d.BAR_Z)
+    return share * d.CLAW_STALL / float((bar - d.HINGE) @ (np.cos(angle), 0.0, np.sin(angle)))
 
 
 def on_two(step, share, holders, missing=1, seconds=8.0):
