@@ -318,8 +318,10 @@ impl<'a> WayOut<'a> {
     fn offer_at(&mut self, along: &Vec3, normal: &Vec3) {
         let [one, other] = self.segment;
         let distance = normal.dot(one) - self.frustum.support(normal);
-        let of_solid = self.frustum.ends[0].amax() + self.frustum.length + self.frustum.radii[0];
-        let rounding = ROUNDING * one.amax().max(other.amax()).max(of_solid);
+        // Of the coordinates, and of directions, found by halving, over the lengths of both.
+        let lengths = (other - one).norm() + self.frustum.length + self.frustum.radii[0];
+        let rounding =
+            4.0 * ROUNDING * (one.amax().max(other.amax()).max(self.frustum.ends[0].amax()) + lengths);
         if distance > self.best.distance - rounding {
             let place = one + along * self.travelled(along, normal, rounding);
             self.best = Approach { distance, normal_b: *normal, place_b: place, feature: Feature::face(0) };
