@@ -4,21 +4,19 @@ Blender as a Python module. The passive half is models/common_berthing/passive.r
 are drawn by that model's own script. New are latches with rollers, duckhead bumpers, and plungers that slide.
 """
 
-import importlib.util
 import math
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODELS = HERE.parent.parent / "models"
+sys.path.insert(0, str(HERE.parent))
+from kit.files import module_of  # noqa: E402
 
 
 def _own(name):
     """A file of this folder, under a name of its own: the models' scripts have one called `dimensions` as well."""
-    spec = importlib.util.spec_from_file_location(f"berthing_{name}", HERE / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_of(HERE / f"{name}.py", f"berthing_{name}")
 
 
 d = _own("dimensions")

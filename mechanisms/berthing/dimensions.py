@@ -4,24 +4,16 @@ Rings, guides, fittings, standoffs and the module are those of models/common_ber
 frames: z runs out of the active half, and the height of the passive frame is the gap.
 """
 
-import importlib.util
 import math
 import pathlib
 from dataclasses import dataclass
 
+from kit.files import module_of
+
 HERE = pathlib.Path(__file__).resolve().parent
 COMMON = HERE.parent.parent / "models" / "common_berthing"
 
-
-def _dimensions_of_the_models():
-    """Under a name of its own: this file is called `dimensions` as well."""
-    spec = importlib.util.spec_from_file_location("common_berthing_dimensions", COMMON / "dimensions.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-common = _dimensions_of_the_models()
+common = module_of(COMMON / "dimensions.py", "common_berthing_dimensions")
 
 # --- latches: four-bar linkages in the plane (radius, z) of their azimuth. All chosen: no public number was found. ------
 CRANK_PIVOT = (0.500, -0.040)  # on the ring; the motor turns the crank

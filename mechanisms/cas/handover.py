@@ -5,13 +5,13 @@ Phases: *carry*, *grasp* (the second arm closes, and its place is not where the 
 the first arm), *bring*, *claw*, *held* (the second arm has let go), *done*.
 """
 
-import copy
 from dataclasses import dataclass, field
 
 import dimensions as d
 import numpy as np
 import rig
 import statics
+from kit.restart import same_bits
 
 TRUNK, MEETING = np.array((1.2, 0.3, 0.9, 0, 0, 0.1)), np.array((0.4, 0.0, 0.5, 0, 0, 0))
 OFF = (0.020, 0.0, 0.0, 0.010, 0.0, 0.0)  # of the second arm from where the first one holds, m and rad
@@ -97,12 +97,4 @@ def expected(off=OFF):
 
 
 def same_bits_after_restart(step, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
-    first, one = machine(step), Sequence()
-    first.run(before, one.control)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one.control)
-    second = machine(step)
-    second.restore(middle)
-    second.run(after, other.control)
-    return first.save().tobytes() == second.save().tobytes()
+    return same_bits(lambda: machine(step), Sequence().control, before, after)

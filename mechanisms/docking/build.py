@@ -6,17 +6,17 @@ models/idss_docking. Both models have the frames of that: z out of the vehicle; 
 passive one in the face of its soft-capture ring.
 """
 
-import importlib.util
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "models")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "models")]
 sys.path.append(str(HERE.parents[1] / "models/idss_docking"))
 import authoring as a  # noqa: E402
 import dimensions as d  # noqa: E402
 import geometry as g  # noqa: E402
 import numpy as np  # noqa: E402
+from kit.files import module_of  # noqa: E402
 
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 STEP = 360.0 / d.HOOKS
@@ -103,10 +103,8 @@ def soft_passive():
 
     Where they pushed, a latch that came far off the middle was pushed outwards there and wedged between bar and ring.
     """
-    spec = importlib.util.spec_from_file_location("idss_build", d.ROOT / "models/idss_docking/build.py")
-    interface = importlib.util.module_from_spec(spec)
     mine, sys.modules["dimensions"] = sys.modules["dimensions"], d.IDSS
-    spec.loader.exec_module(interface)
+    interface = module_of(d.ROOT / "models/idss_docking/build.py", "idss_build")
     sys.modules["dimensions"] = mine
     made = interface.passive()
     for group in made.root.groups:

@@ -1,10 +1,11 @@
 """Dimensions of the docking mechanism, SI units and degrees. README.md says which are public and which are chosen."""
 
-import importlib.util
 import math
 import pathlib
 import sys
 from dataclasses import dataclass
+
+from kit.files import module_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -12,10 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def _interface():
     """Dimensions of the two sides whose petals and latches touch: models/idss_docking."""
     sys.path.append(str(ROOT / "models"))
-    spec = importlib.util.spec_from_file_location("idss_dimensions", ROOT / "models/idss_docking/dimensions.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_of(ROOT / "models/idss_docking/dimensions.py", "idss_dimensions")
 
 
 IDSS = _interface()

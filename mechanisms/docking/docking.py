@@ -1,6 +1,5 @@
 """A docking from the approach to the push-off: cases, runs, and what comes of them."""
 
-import copy
 import math
 from dataclasses import dataclass, field
 
@@ -9,7 +8,9 @@ import mujoco
 import numpy as np
 import stewart
 import vehicles
+from kit import mjcf
 from kit.machine import TUNNELLED
+from kit.restart import same_bits
 from sequence import Sequencer
 
 GAP = 0.21  # m between the ring faces when a run begins; petals meet at about 0.17
@@ -60,7 +61,7 @@ def turn(made, frame, shift):
             np.empty(4),
             made.data.qvel[rate : rate + 3],
         )
-        mujoco.mju_mulQuat(quaternion, stewart.quaternion(frame), made.data.qpos[place + 3 : place + 7])
+        mujoco.mju_mulQuat(quaternion, mjcf.quaternion_of(frame), made.data.qpos[place + 3 : place + 7])
         made.data.qpos[place : place + 7] = np.hstack([frame @ position + shift, quaternion])
         made.data.qvel[rate : rate + 3] = frame @ velocity
     made.start()
@@ -182,20 +183,8 @@ def go_on(made, sequencer, until, limit=60.0, prepare=None, watched=None):
 
 
 def same_bits_after_restart(case, before, after):
-    return _same_bits(lambda: approach(case), Sequencer(case.dead_latch, case.stuck_leg), before, after)
+    return same_bits(lambda: approach(case), Sequencer(case.dead_latch, case.stuck_leg), before, after)
 
 
 def same_bits_while_hooking(level, before, after):
-    return _same_bits(lambda: captured(d.MATED, level), Sequencer(from_phase="hook"), before, after)
-
-
-def _same_bits(begin, one, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
-    first = begin()
-    first.run(before, one)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one)
-    second = begin()
-    second.restore(middle)
-    second.run(after, other)
-    return first.save().tobytes() == second.save().tobytes()
+    return same_bits(lambda: captured(d.MATED, level), Sequencer(from_phase="hook"), before, after)

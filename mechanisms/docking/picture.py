@@ -4,7 +4,6 @@
 MUJOCO_GL=egl python3 mechanisms/docking/picture.py        with the plugin as for mechanisms/run.py
 """
 
-import importlib.util
 import pathlib
 import sys
 
@@ -15,6 +14,7 @@ import dimensions as d  # noqa: E402
 import docking  # noqa: E402
 import vehicles  # noqa: E402
 from kit import picture  # noqa: E402
+from kit.files import module_of  # noqa: E402
 from kit.mjcf import numbers  # noqa: E402
 from sequence import Sequencer  # noqa: E402
 
@@ -24,10 +24,8 @@ CHOSEN = {**vehicles.SOFT, "target ": vehicles.HARD["hard_target"]}
 
 
 def read(path):
-    spec = importlib.util.spec_from_file_location("ron_of_models", d.ROOT / "hosts/mujoco/docking/ron.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module.read((d.ROOT / path).read_text(encoding="utf-8"))
+    reader = module_of(d.ROOT / "hosts/mujoco/docking/ron.py", "ron_of_models")
+    return reader.read((d.ROOT / path).read_text(encoding="utf-8"))
 
 
 def polyhedra(group, carrier):

@@ -4,6 +4,7 @@ import dimensions as d
 import mujoco
 import numpy as np
 import stewart
+from kit import mjcf
 from kit.rows import Row
 
 LAW = d.Impedance(1e3, 300.0)  # for the rig: settles soon
@@ -71,7 +72,7 @@ def settled(wrench, laws, seconds=25.0):
     data.xfrc_applied[m.body("ring").id] = wrench
     mujoco.mj_step(m, data, round(seconds / m.opt.timestep))
     place, attitude = stewart.pose(m, data)
-    vector, quaternion = np.empty(3), stewart.quaternion(attitude)
+    vector, quaternion = np.empty(3), mjcf.quaternion_of(attitude)
     mujoco.mju_quat2Vel(vector, quaternion, 1.0)
     return np.hstack([place - stewart.NEUTRAL, vector])
 

@@ -8,7 +8,7 @@ import math
 
 import dimensions as d
 import numpy as np
-from kit.mjcf import numbers
+from kit.mjcf import numbers, quaternion_of
 
 LEGS = 6
 UPRIGHT = np.eye(3)
@@ -75,22 +75,13 @@ def jacobian(place=NEUTRAL, turned=UPRIGHT):
     return np.hstack([units, np.cross(ON_RING @ np.asarray(turned).T, units)])
 
 
-def quaternion(frame):
-    """Of a rotation matrix."""
-    import mujoco
-
-    made = np.empty(4)
-    mujoco.mju_mat2Quat(made, np.asarray(frame).flatten())
-    return made
-
-
 def bodies():
     """To stand in the chaser."""
     text = ""
     for i, (base, frame, length) in enumerate(zip(BASE, FRAMES, LENGTHS)):
         inertia = numbers(d.LEG_INERTIA)
         text += (
-            f'<body name="cylinder_{i}" pos="{numbers(base)}" quat="{numbers(quaternion(frame))}">'
+            f'<body name="cylinder_{i}" pos="{numbers(base)}" quat="{numbers(quaternion_of(frame))}">'
             f'<joint name="leg_{i}_a" axis="1 0 0"/><joint name="leg_{i}_b" axis="0 1 0"/>'
             f'<inertial pos="0 0 0.15" mass="{d.CYLINDER_MASS}" diaginertia="{inertia}"/>'
             '<geom type="cylinder" fromto="0 0 0 0 0 0.35" size="0.022" rgba="0.3 0.35 0.4 1"/>'
@@ -152,7 +143,7 @@ def set_pose(model, data, place, turned=UPRIGHT):
     for name, value in zip("xyz", place - NEUTRAL):
         data.qpos[model.joint(f"ring_{name}").qposadr[0]] = value
     first = model.joint("ring_turn").qposadr[0]
-    data.qpos[first : first + 4] = quaternion(turned)
+    data.qpos[first : first + 4] = quaternion_of(turned)
     for i, (a, b, slide) in enumerate(joints(place, turned)):
         for name, value in ((f"leg_{i}_a", a), (f"leg_{i}_b", b), (f"leg_{i}", slide)):
             data.qpos[model.joint(name).qposadr[0]] = value

@@ -34,7 +34,7 @@ def latches(drawn):
         place = d.IDSS.latch_tip(azimuth)
         slide += drawn.get(f"latch_{i}", "")
         text += body(
-            f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=stewart.quaternion(frame)
+            f"latch_{i}", d.LATCH_MASS, [d.LATCH_INERTIA] * 3, slide, place=place, quaternion=mjcf.quaternion_of(frame)
         )
     return text
 
@@ -56,7 +56,7 @@ def hooks():
             hinge + arm,
             (0.03, 0, 0.01),
             place,
-            stewart.quaternion(frame),
+            mjcf.quaternion_of(frame),
         )
     return text
 
@@ -120,7 +120,7 @@ def set_vehicle(made, name, place, frame, velocity=(0, 0, 0), spin=(0, 0, 0)):
     """Place and rotation matrix of a vehicle's frame, velocity of its origin, angular velocity along its own axes."""
     joint = made.model.joint(made.model.body(name).jntadr[0])
     first, rate = joint.qposadr[0], joint.dofadr[0]
-    made.data.qpos[first : first + 7] = np.hstack([place, stewart.quaternion(frame)])
+    made.data.qpos[first : first + 7] = np.hstack([place, mjcf.quaternion_of(frame)])
     made.data.qvel[rate : rate + 6] = np.hstack([velocity, spin])
 
 

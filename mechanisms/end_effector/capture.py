@@ -1,6 +1,5 @@
 """A capture and a release: the sequencer of the end effector, and what a run of it comes to. The machine: scene.py."""
 
-import copy
 import math
 from dataclasses import dataclass
 
@@ -8,6 +7,7 @@ import numpy as np
 import snare as s
 from dimensions import PLUNGERS, SEAT
 from kit.machine import Machine
+from kit.restart import same_bits
 from scene import PLATE_HEIGHT, Case, groups, mjcf_text, screw_force
 
 EXTENDED = 0.012  # m: how far the carriage goes back at most before the snare opens
@@ -241,13 +241,5 @@ def push_off_speed(mass, gap=0.0, before=0.0):
 
 
 def same_bits_after_restart(case, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
-    first, one = machine(case), sequencer_of(case)
-    first.run(before, one)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one)
-    second = machine(case)
-    second.restore(middle)
-    # The brake belongs to the model, not to the state: the sequencer sets it before the first step.
-    second.run(after, other)
-    return first.save().tobytes() == second.save().tobytes()
+    """The brake belongs to the model, not to the state: the sequencer sets it before the first step after the restart."""
+    return same_bits(lambda: machine(case), sequencer_of(case), before, after)

@@ -74,10 +74,7 @@ class Machine:
         if control is not None:
             control(self)
         mujoco.mj_step(self.model, self.data)
-        sensed = self.data.sensordata[self.sensed]
-        if sensed[2] != 0:
-            raise RuntimeError(f"at {self.time:.6f} s a step could not be computed: status {int(sensed[2])}")
-        self.flags |= int(sensed[1])
+        self._computed()
 
     def run(self, seconds, control=None, watch=None):
         """Steps for so long, or until `watch(machine)` is true; answers whether it was."""
@@ -87,14 +84,19 @@ class Machine:
                 return True
         return False
 
-    def _look(self):
+    def _computed(self):
+        """What the sensor says of a step that could be computed; its flags are kept."""
         sensed = self.data.sensordata[self.sensed]
         if sensed[2] != 0:
             raise RuntimeError(f"at {self.time:.6f} s a step could not be computed: status {int(sensed[2])}")
+        self.flags |= int(sensed[1])
+        return sensed
+
+    def _look(self):
+        sensed = self._computed()
         if not np.all(np.isfinite(self.data.qpos)):
             raise RuntimeError(f"at {self.time:.6f} s positions are no longer finite: the step is too long")
         self.contacts_most = max(self.contacts_most, int(sensed[0]))
-        self.flags |= int(sensed[1])
         wrenches = sensed[3:].reshape(-1, 6)
         forces, moments = wrenches[:, :3], wrenches[:, 3:]
         arms = self.data.xpos[self.carriers]

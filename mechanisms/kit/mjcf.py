@@ -11,6 +11,16 @@ def quaternion_about_z(angle):
     return (math.cos(angle / 2), 0.0, 0.0, math.sin(angle / 2))
 
 
+def quaternion_of(attitude):
+    """Of any rotation matrix, by its largest component."""
+    import mujoco
+    import numpy as np
+
+    made = np.empty(4)
+    mujoco.mju_mat2Quat(made, np.ascontiguousarray(attitude).ravel())
+    return made
+
+
 def motor(name, joint, stall, free_speed, gear=1.0):
     """A direct-current motor behind a gear: its control −1 to 1 is the voltage over the greatest one.
 

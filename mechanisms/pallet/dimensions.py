@@ -4,23 +4,15 @@ Pallet, wheels and rails are those of models/htv_pallet, here `model`; so are th
 z up. New are the tie-downs and the arm.
 """
 
-import importlib.util
 import pathlib
 from dataclasses import dataclass
+
+from kit.files import module_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE.parent.parent / "models" / "htv_pallet"
 
-
-def _dimensions_of_the_model():
-    """Under a name of its own: this file is called `dimensions` as well."""
-    spec = importlib.util.spec_from_file_location("htv_pallet_dimensions", MODEL / "dimensions.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-model = _dimensions_of_the_model()
+model = module_of(MODEL / "dimensions.py", "htv_pallet_dimensions")
 SIDES = {"left": 1, "right": -1}
 
 # --- tie-downs: a hook on a hinge at each rear corner pulls a pin of the pallet inwards. All chosen. ----------------------

@@ -3,7 +3,6 @@
 Phases: *in*, *press* (the arm comes into line), *tie*, *held* (the arm gives way), *untie*, *out*, *done*.
 """
 
-import copy
 from dataclasses import dataclass
 
 import arm
@@ -11,6 +10,7 @@ import dimensions as d
 import numpy as np
 import rig
 from dimensions import TRAINING, Level, model
+from kit.restart import same_bits
 
 OVERTRAVEL = 0.040  # of the tip beyond the seated pallet, m
 SPEED = 0.030  # m/s
@@ -117,12 +117,4 @@ def tied():
 
 
 def same_bits_after_restart(case, before, after):
-    """Runs for `before` s, then for `after` s; goes back in another machine, and compares the bits of both ends."""
-    first, one = machine(case), Sequencer(case)
-    first.run(before, one)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one)
-    second = machine(case)
-    second.restore(middle)
-    second.run(after, other)
-    return first.save().tobytes() == second.save().tobytes()
+    return same_bits(lambda: machine(case), Sequencer(case), before, after)

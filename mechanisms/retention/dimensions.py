@@ -4,23 +4,15 @@ Latches and pins are those of models/payload_retention, here `model`; x is aft, 
 kit/arm.
 """
 
-import importlib.util
 import math
 import pathlib
+
+from kit.files import module_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE.parent.parent / "models" / "payload_retention"
 
-
-def _dimensions_of_the_model():
-    """Under a name of its own: this file is called `dimensions` as well."""
-    spec = importlib.util.spec_from_file_location("payload_retention_dimensions", MODEL / "dimensions.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-model = _dimensions_of_the_model()
+model = module_of(MODEL / "dimensions.py", "payload_retention_dimensions")
 
 # --- truss ---------------------------------------------------------------------------------------------------------------
 TRUSS_MASS = 14061.0

@@ -14,15 +14,6 @@ JAWS = {"port": -1, "starboard": 1}
 STEEL, BLUE, GOLD = "0.55 0.57 0.6 1", "0.3 0.45 0.65 0.35", "0.75 0.6 0.3 1"
 
 
-def quaternion(attitude):
-    """Of a rotation matrix, by its largest component."""
-    import mujoco
-
-    made = np.empty(4)
-    mujoco.mju_mat2Quat(made, np.ascontiguousarray(attitude).ravel())
-    return made
-
-
 def claw(name):
     """Its angle is 0 where it is closed."""
     reach, heel = model.CLAW_REACH, model.CLAW_HEEL
@@ -59,7 +50,7 @@ def truss(attitude):
     place = attitude.T @ -np.array(model.GRAPPLE)
     size = mjcf.numbers([s / 2 for s in d.TRUSS_SIZE])
     return (
-        f'<body name="truss" pos="{mjcf.numbers(place)}" quat="{mjcf.numbers(quaternion(attitude.T))}"><inertial '
+        f'<body name="truss" pos="{mjcf.numbers(place)}" quat="{mjcf.numbers(mjcf.quaternion_of(attitude.T))}"><inertial '
         f'pos="{middle}" mass="{d.TRUSS_MASS}" diaginertia="{mjcf.numbers(d.TRUSS_INERTIA)}"/>'
         f'<geom type="box" pos="{middle}" size="{size}" rgba="{BLUE}"/>{pins}</body>'
     )

@@ -7,7 +7,7 @@ import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parent.parent / "models")]
+sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parent.parent / "models")]
 import authoring as a  # noqa: E402
 import dimensions as d  # noqa: E402
 

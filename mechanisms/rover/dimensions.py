@@ -4,22 +4,19 @@ Wheels, tyres, grounds and gravity are those of models/rover, here `model`. x is
 the chassis lies midway between the middle wheels, at the height of the axles.
 """
 
-import importlib.util
 import math
 import pathlib
 import sys
 from dataclasses import dataclass
+
+from kit.files import module_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 MODEL = HERE.parent.parent / "models" / "rover"
 
 
 def _of_the_model(name):
-    """Under a name of its own: this file is called `dimensions` as well."""
-    spec = importlib.util.spec_from_file_location(f"rover_{name}", MODEL / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
+    return module_of(MODEL / f"{name}.py", f"rover_{name}")
 
 
 model = _of_the_model("dimensions")

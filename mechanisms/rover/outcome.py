@@ -9,6 +9,7 @@ import rig
 import scenes
 import statics
 from dimensions import model
+from kit.restart import same_bits
 from kit.rows import Fact, Limit, Row
 
 RADIUS = 5.0  # m
@@ -105,16 +106,13 @@ def off_nominal():
 
 def restarted():
     """In the middle of the stone, level training."""
-    control = scenes.crawl(0.7, d.TRAINING)
-    first = rig.machine(d.TRAINING, ground="stone", x=-1.6)
-    rig.rolling(first, d.TRAINING, 0.7)
-    first.run(ROLLED, control)
-    middle = first.save()
-    first.run(ROLLED, control)
-    second = rig.machine(d.TRAINING, ground="stone", x=-1.6)
-    second.restore(middle)
-    second.run(ROLLED, control)
-    same = first.save().tobytes() == second.save().tobytes()
+
+    def begin():
+        made = rig.machine(d.TRAINING, ground="stone", x=-1.6)
+        rig.rolling(made, d.TRAINING, 0.7)
+        return made
+
+    same = same_bits(begin, scenes.crawl(0.7, d.TRAINING), ROLLED, ROLLED)
     yield Fact("restarted on the stone: the same bits", same)
 
 

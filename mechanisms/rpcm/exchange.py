@@ -3,7 +3,6 @@
 Phases: *close*, *in*, *press*, *out*, *halt*, *open*, *away*, *done*. The gripper comes aside of the cone and turned.
 """
 
-import copy
 import math
 
 import dimensions as d
@@ -13,6 +12,7 @@ import rig
 import statics
 from kit import mjcf
 from kit.machine import Machine
+from kit.restart import same_bits
 
 BEGIN = d.STOP - d.LENGTH / 2 - 0.060  # where the box begins
 REST = d.STOP - d.LENGTH / 2
@@ -109,11 +109,4 @@ def driven_in(voltage):
 
 
 def same_bits_after_restart(before=2.0, after=0.5):
-    first, one = machine(), Sequencer()
-    first.run(before, one)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one)
-    second = machine()
-    second.restore(middle)
-    second.run(after, other)
-    return first.save().tobytes() == second.save().tobytes()
+    return same_bits(machine, Sequencer(), before, after)

@@ -1,11 +1,10 @@
 """An arm brings the box into the rails: beside the middle and turned, it jams; aligned, it does not."""
 
-import copy
-
 import dimensions as d
 import numpy as np
 import rig
 import statics
+from kit.restart import same_bits
 
 BEGIN = 0.010  # depth of the front corners at the beginning
 TILT = 0.040  # rad: the arm holds the box turned to the left by so much
@@ -106,12 +105,5 @@ def predicted_release(stood):
 
 
 def same_bits_after_restart(before=1.0, after=0.3):
-    """Runs, goes back in another machine, and compares the bits of both ends."""
-    first, one = start(OFFSET)
-    first.run(before, one)
-    middle, other = first.save(), copy.deepcopy(one)
-    first.run(after, one)
-    second, _ = start(OFFSET)
-    second.restore(middle)
-    second.run(after, other)
-    return first.save().tobytes() == second.save().tobytes()
+    _, wrist = start(OFFSET)
+    return same_bits(lambda: start(OFFSET)[0], wrist, before, after)
