@@ -4,6 +4,7 @@
     python3 mechanisms/run.py NAME              the short checks
     python3 mechanisms/run.py NAME --thorough   all of them: minutes
     python3 mechanisms/run.py NAME --log DIR    a response log of the scene that the mechanism shows
+    python3 mechanisms/run.py NAME --log DIR --drawn    with bodies that touch nothing, for viewers and films
 
 Needs mujoco, numpy and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or the wheel pong_mujoco; for
 logs the wheel pong, too. `bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
@@ -25,6 +26,7 @@ def main():
     parser.add_argument(
         "--log", type=pathlib.Path, metavar="DIR", help="writes a response log, and checks nothing else"
     )
+    parser.add_argument("--drawn", action="store_true", help="the log shows bodies that touch nothing, too")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
     import outcome
@@ -32,7 +34,7 @@ def main():
     if given.log:
         if not hasattr(outcome, "shown"):
             parser.error(f"{given.name} has no scene to show: its outcome.py lacks the function `shown`")
-        sys.exit(write_log(outcome, given.log))
+        sys.exit(write_log(outcome, given.log, getattr(outcome, "DRAWN", ()) if given.drawn else ()))
     from kit.rows import show
 
     off = sum(show(title, rows) for title, rows in outcome.rows(given.thorough))
@@ -41,14 +43,15 @@ def main():
     print(f"{given.name}: all checks hold")
 
 
-def write_log(outcome, folder):
+def write_log(outcome, folder, drawn):
     """Runs the scene that the mechanism shows. The log's own contact world must come to the same wrenches."""
     from kit.record import Recorder
 
     recorders = []
 
     def prepare(machine):
-        recorders.append(Recorder(machine, folder, round(1.0 / (ROWS_PER_SECOND * machine.step))))
+        every = round(1.0 / (ROWS_PER_SECOND * machine.step))
+        recorders.append(Recorder(machine, folder, every, drawn))
         machine.watchers.append(recorders[0])
 
     outcome.shown(prepare)

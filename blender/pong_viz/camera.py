@@ -10,10 +10,12 @@ SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT"}  # objects that have a size
 LARGE = 20.0  # times what is looked at: a terrain, not what the camera is for
 
 
-def frame_camera(scene, collection, bodies, points, extent: float, direction=DIRECTION, lens_mm: float = 50.0):
-    """Adds a camera that sees the bodies in every picture and all points, and two suns. `extent`: of what is looked at."""
-    low, high = _box_of_run(scene, _looked_at(bodies, extent), points)
-    center, radius = 0.5 * (low + high), max(0.5 * float(np.linalg.norm(high - low)), 0.05 * extent)
+def frame_camera(scene, collection, bodies, points, extent: float, direction=DIRECTION, ball=None, lens_mm: float = 50.0):
+    """Adds a camera that sees the bodies in every picture and all points, and two suns. `extent`: of what is looked at.
+
+    `ball`: centre and radius of what fills the picture instead.
+    """
+    center, radius = (ball[:3], float(ball[3])) if ball is not None else _ball_of_run(scene, bodies, points, extent)
     data = bpy.data.cameras.new("Pong camera")
     data.lens = lens_mm
     camera = bpy.data.objects.new("Pong camera", data)
@@ -25,7 +27,7 @@ def frame_camera(scene, collection, bodies, points, extent: float, direction=DIR
     camera.location = Vector(center) + distance * away
     camera.rotation_mode = "QUATERNION"
     camera.rotation_quaternion = away.to_track_quat("Z", "Y")
-    data.clip_start, data.clip_end = 0.001 * distance, 10.0 * distance + 4.0 * radius
+    data.clip_start, data.clip_end = 0.001 * distance, 10.0 * distance + 4.0 * max(radius, extent)
     scene.camera = camera
     for name, energy, way in (("Pong key light", 3.0, (0.5, -1.0, 1.5)), ("Pong fill light", 1.0, (-1.0, -0.3, 0.5))):
         light = bpy.data.objects.new(name, bpy.data.lights.new(name, "SUN"))
@@ -34,6 +36,11 @@ def frame_camera(scene, collection, bodies, points, extent: float, direction=DIR
         light.rotation_quaternion = Vector(way).normalized().to_track_quat("Z", "Y")
         collection.objects.link(light)
     return camera
+
+
+def _ball_of_run(scene, bodies, points, extent: float):
+    low, high = _box_of_run(scene, _looked_at(bodies, extent), points)
+    return 0.5 * (low + high), max(0.5 * float(np.linalg.norm(high - low)), 0.05 * extent)
 
 
 def _looked_at(bodies, extent: float) -> list:

@@ -57,6 +57,8 @@ def _add_what_is_shown(parser) -> None:
     parser.add_argument("--alpha", type=float, default=0.55, help="opacity of bodies, 0 to 1; default 0.55")
     parser.add_argument("--look-from", type=_direction, metavar="X,Y,Z",
                         help="where the camera stands, seen from what it looks at; default 1,-1.5,0.75")
+    parser.add_argument("--look-at", type=_place, metavar="X,Y,Z,R",
+                        help="what fills the picture: the ball of this radius about this place, m; default: the whole run")
     parser.add_argument("--own-camera", action="store_true", help="camera and lights of the graphics; none are added")
 
 
@@ -84,6 +86,16 @@ def _direction(text: str) -> tuple[float, float, float]:
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text}: give a direction as X,Y,Z, such as 1,-1.5,0.75") from None
     return x, y, z
+
+
+def _place(text: str) -> tuple[float, float, float, float]:
+    try:
+        x, y, z, radius = (float(part) for part in text.split(","))
+        if not (radius > 0.0 and math.hypot(x, y, z, radius) < math.inf):
+            raise ValueError
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text}: give a place and a radius as X,Y,Z,R, such as 0,0,1,0.5") from None
+    return x, y, z, radius
 
 
 def _pair(text: str) -> tuple[str, str]:
@@ -146,6 +158,7 @@ def _show(log, given):
         fps=given.fps, speed=given.speed, start=given.start, end=given.end, relative_to=given.relative_to,
         arrow_length=given.arrow, most_contacts=given.most_contacts, alpha=given.alpha, shapes=given.shapes,
         graphics=dict(given.map), camera=not given.own_camera, look_from=given.look_from or camera.DIRECTION,
+        look_at=given.look_at,
     ))
 
 

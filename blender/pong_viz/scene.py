@@ -33,6 +33,7 @@ class Options:
     graphics: dict[str, str] = field(default_factory=dict)  # body -> object of the scene that moves with it
     camera: bool = True
     look_from: tuple[float, float, float] = DIRECTION  # from what is looked at to the camera
+    look_at: tuple[float, float, float, float] | None = None  # a ball that fills the picture: centre, radius; else the run
 
 
 # Of all bodies; of those without graphics; as before, and of the others what touches, while it does; of none.
@@ -75,9 +76,10 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     models = [shapes.load(path) for path in log.models]
     boxes = [shapes.boxes_of(model) for model in models]
     anchors = np.array([shapes.anchor_of(boxes[body.model].get(body.path)) for body in log.bodies]).reshape(-1, 3)
-    extent = _extent(log, [shapes.extent_of(model) for model in models])
-    seen = view(log, pictures, held, extent, anchors)
-    sizes = shapes.sizes_for(extent, travel(log, pictures, seen, anchors))
+    whole = _extent(log, [shapes.extent_of(model) for model in models])
+    extent = 2.0 * options.look_at[3] if options.look_at else whole  # arrows and marks are as large as suits the picture
+    seen = view(log, pictures, held, whole, anchors)
+    sizes = shapes.sizes_for(extent, whole + travel(log, pictures, seen, anchors))
     shown = Shown(pictures, seen, {}, [], [], 0.0, list(log.notes))
     name = f"Response of {log.run.get('name') or log.folder.name}"
     _remove(name)
@@ -94,8 +96,8 @@ def show(log: Log, options: Options, scene=None) -> Shown:
     scene.frame_set(1)
     if options.camera:
         points = np.concatenate([slots.points[slots.shown], slots.tips(shown.metres_per_newton)])
-        frame_camera(scene, stage.collection, list(shown.objects.values()), points / stage.unit, extent / stage.unit,
-                     options.look_from)
+        frame_camera(scene, stage.collection, list(shown.objects.values()), points / stage.unit, whole / stage.unit,
+                     options.look_from, options.look_at and np.array(options.look_at) / stage.unit)
     return shown
 
 

@@ -32,9 +32,9 @@ class Sizes:
     plane: float  # half the side of a plane
 
 
-def sizes_for(extent: float, travel: float) -> Sizes:
-    """Sizes that show well for models of this extent, of which one travels so far (m)."""
-    return Sizes(point=0.012 * extent, line=0.006 * extent, plane=extent + travel)
+def sizes_for(extent: float, way: float) -> Sizes:
+    """Sizes that show well where so much is looked at (m), and where models reach so far with their travel (m)."""
+    return Sizes(point=0.012 * extent, line=0.006 * extent, plane=way)
 
 
 def load(path: Path) -> Model:

@@ -160,11 +160,16 @@ def rows(thorough):
         yield "steady contact, level analysis", press(rig.ANALYSIS, 1e-3)
 
 
+DRAWN = ("base", "link_*", "tip")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
-    """For logs and films: the arm presses on the pad, then with half the force."""
-    made, arm, normal = rig.machine(gap=0.05)
+    """For logs and films: the arm presses on the pad, then with half the force, and moves away."""
+    made, arm, normal = rig.machine(gap=0.25)
     prepare(made)
     commanded(arm, normal, 300.0)
-    made.run(8.0, arm.control)
+    made.run(14.0, arm.control)
     commanded(arm, normal, 150.0)
+    made.run(6.0, arm.control)
+    commanded(arm, normal, rate=-0.1)
     made.run(4.0, arm.control)

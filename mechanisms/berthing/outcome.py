@@ -150,6 +150,9 @@ def stalled(thorough):
             yield from off_nominal.stalled_latch(mechanism.Load(), "module", smooth)
 
 
+DRAWN = ("crank_*", "coupler_*", "follower_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     machine = berth.Berthing(berth.Case(unberth=True))

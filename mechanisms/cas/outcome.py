@@ -190,6 +190,9 @@ def restart(step):
     yield Fact("restarted while the claw pulls: the same bits", seat.same_bits_after_restart(step, 5.0, 0.5))
 
 
+DRAWN = ("payload", "claw")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     handover.run(TRAINING.step, prepare)

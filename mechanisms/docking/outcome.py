@@ -209,6 +209,9 @@ def worst():
     yield Row("worst case of the campaign: its peak force again", again["peak_force"], kept["peak_force"], 1e-9, "N")
 
 
+DRAWN = ("cylinder_*", "rod_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     docking.run(NOMINAL, "done", prepare=prepare)

@@ -139,6 +139,9 @@ def half_step(seconds):
     yield Limit(f"{ways[0][0]:.2f} m over the terrain at half the step: place differs by", off, 5e-3, "m")
 
 
+DRAWN = ("body", "coxa_*", "femur_*", "tibia_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: it walks over the terrain."""
     walk = scenes.Walk(STEP, 2)

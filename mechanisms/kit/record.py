@@ -10,6 +10,8 @@ import xml.etree.ElementTree as xml
 import mujoco
 import numpy as np
 
+from kit import figure
+
 STATE = 13  # position, quaternion, velocity of the origin, angular velocity
 SENSED_BEFORE_WRENCHES = 3
 UNTURNED = (1.0, 0.0, 0.0, 0.0)
@@ -18,12 +20,13 @@ UNTURNED = (1.0, 0.0, 0.0, 0.0)
 class Recorder:
     """Sees every step of a `Machine` (its `watchers`); each `every`-th is a row of the log.
 
+    `drawn`: patterns of names of bodies whose geoms the log shows beside what touches, such as "link_*".
     `off` is the greatest difference between wrenches of this world and of the plugin, over the greatest force or moment.
     """
 
-    def __init__(self, machine, folder, every=1):
+    def __init__(self, machine, folder, every=1, drawn=()):
         keys = _keys(machine.text)
-        self.world = _world(keys)
+        self.world = _world(keys, figure.model(machine.model, drawn) if drawn else None)
         self.machine, self.every, self.steps, self.off = machine, every, 0, 0.0
         self.bodies = [_body(machine.model, keys, _group(made.name)) for made in self.world.interfaces]
         self.states = np.zeros((len(self.bodies), STATE))
@@ -59,7 +62,9 @@ class Recorder:
         sensed = machine.data.sensordata[machine.sensed][SENSED_BEFORE_WRENCHES:].reshape(-1, 6)
         greatest = np.abs(sensed).max(initial=0.0)
         if greatest > 0.0:
-            self.off = max(self.off, float(np.abs(self.world.wrenches() - sensed).max() / greatest))
+            # What is only drawn comes last, and nothing touches it.
+            wrenches = self.world.wrenches()[: len(sensed)]
+            self.off = max(self.off, float(np.abs(wrenches - sensed).max() / greatest))
 
 
 def _keys(text):
@@ -73,7 +78,7 @@ def _entries(keys, key, between):
     return [tuple(part.strip() for part in entry.split(between)) for entry in entries if entry]
 
 
-def _world(keys):
+def _world(keys, drawn=None):
     import pong
 
     builder = pong.WorldBuilder(contact_capacity=int(keys.get("contact_capacity", 64)))
@@ -85,6 +90,8 @@ def _world(keys):
         builder.create_object(models[model], name)
     for a, b in _entries(keys, "pairs", ",") or [tuple(name for name, _ in objects)]:
         builder.pair(a, b)
+    if drawn is not None:
+        builder.create_object(builder.add_model(pong.Model.parse(drawn)), figure.NAME)
     return builder.seal()
 
 
@@ -100,6 +107,8 @@ def _group(interface):
 
 def _body(model, keys, group):
     """The number of the body that carries a group: that of the key `bodies`, or the one with the group's name."""
+    if group == figure.NAME or group.startswith(f"{figure.NAME}/"):
+        return model.body(group.partition("/")[2] or "world").id
     carriers = dict(_entries(keys, "bodies", "="))
     name = carriers.get(group, group)
     return 0 if name == "world" else model.body(keys.get("prefix", "") + name).id

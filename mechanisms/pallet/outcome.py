@@ -87,6 +87,9 @@ def half_step():
     yield Row("2·μ·e/L when it is freed at half the step", shares[1], shares[0], 0.03)
 
 
+DRAWN = ("pallet", "hook_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     stowage.run(stowage.Case(start=OUTSIDE), prepare)

@@ -84,6 +84,9 @@ def rows(thorough):
         yield "in the hand of the arm, half the step", held.inserted(held.STEP / 2)
 
 
+DRAWN = ("base", "link_*", "hole")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: the arm inserts the peg."""
     made, controller = held.machine(held.YIELDING)

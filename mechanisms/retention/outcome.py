@@ -81,6 +81,9 @@ def restart():
     yield Fact("restarted on the way into the guides: the same bits", latch.same_bits_after_restart(7.0, 0.5))
 
 
+DRAWN = ("base", "link_*", "truss", "claw_*", "keel_jaw_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     made = latch.Berthing()

@@ -89,9 +89,12 @@ def tip(made):
     return float(made.place("peg")[2])
 
 
+TILT, STIFFNESS = rig.tilt_at(0.012), 50.0  # rad; N·m/rad of the spring that holds a peg
+
+
 def compliant():
     """Held by a spring about its tip, the peg turns upright as it goes in; friction in two places is 2μ·K(θ₀ − θ)/l."""
-    tilt, stiffness = rig.tilt_at(0.012), 50.0
+    tilt, stiffness = TILT, STIFFNESS
     made = rig.machine(held(tilt, stiffness))
     feed = driven(made)
     drive = made.model.joint("down").dofadr[0]
@@ -103,6 +106,13 @@ def compliant():
         predicted = 2 * rig.FRICTION * push
         yield Row("force of the feed there", float(made.data.qfrc_applied[drive]), predicted, 0.03, "N")
     yield Limit("energy that does not close, of what went through", made.ledger.open_share(), 1e-3)
+
+
+def shown(prepare):
+    """For logs and films: the compliant insertion."""
+    made = rig.machine(held(TILT, STIFFNESS))
+    prepare(made)
+    made.run(10.0, driven(made), watch=lambda m: -tip(m) > 0.08)
 
 
 def rows(thorough):

@@ -122,6 +122,9 @@ def rocks():
     yield from honest(made, 5e-3)
 
 
+DRAWN = ("chassis", "rocker_*", "bogie_*")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: `prepare` sees the machine before it moves."""
     scenes.over_rocks(d.ANALYSIS, seconds=12.0, prepare=prepare)

@@ -134,9 +134,12 @@ def rows(thorough):
         yield "set down by the arm, half the step", set_down(HOLDING / 2)
 
 
+DRAWN = ("base", "link_*", "tripod")  # bodies that logs and films show beside what touches
+
+
 def shown(prepare):
     """For logs and films: the arm sets the tripod down."""
-    made, arm, normal = rig.held(HOLDING)
+    made, arm, normal = rig.held(HOLDING, gap=0.2)
     prepare(made)
     press(arm, normal)
-    made.run(12.0, arm.control)
+    made.run(50.0, arm.control)

@@ -79,11 +79,11 @@ def feet(machine, normal):
     return np.array([machine.on(f"tripod/foot_{i}")[:3] @ normal for i in range(3)])
 
 
-def held(step):
-    """At the tip of the arm, before a slope that leans against its feet. The law has no dead band here."""
+def held(step, gap=0.005):
+    """At the tip of the arm, `gap` before a slope that leans against its feet. The law has no dead band here."""
     place, attitude = kinematics.forward(READY)[2:]
     lean = kinematics.rotation(np.array([0.6, 0.8, 0.0]), LEAN)
-    ground = place + attitude @ np.array([0.0, 0.0, -REACH - RADIUS * LEAN - 0.005])
+    ground = place + attitude @ np.array([0.0, 0.0, -REACH - RADIUS * LEAN - gap])
     carried = f'<body name="tripod" pos="0 0 {-REACH:g}">{shape(REACH)}</body>'
     arm = body(payload=carried)
     machine = made(arm.world + floor(ground, attitude @ lean), arm.more, step, HERE, (0, 0, 0), True)

@@ -281,6 +281,17 @@ class Renders(WithScene):
         looks = -np.array(bpy.context.scene.camera.matrix_world)[:3, 2]
         np.testing.assert_allclose(looks, -away / np.linalg.norm(away), atol=1e-6)
 
+    def test_the_camera_has_the_ball_in_the_picture_that_it_is_told(self):
+        made, center, radius = self.folder / "made.blend", np.array([0.5, -0.2, 0.1]), 0.3
+        self.assertEqual(main([str(self.log_folder), "--look-at", "0.5,-0.2,0.1,0.3", "--blend", str(made)]), 0)
+        bpy.ops.wm.open_mainfile(filepath=str(made))
+        scene, camera = bpy.context.scene, bpy.context.scene.camera
+        pose = np.array(camera.matrix_world)
+        away = pose[:3, 3] - center
+        np.testing.assert_allclose(away / np.linalg.norm(away), pose[:3, 2], atol=1e-6)
+        shorter = np.arctan(np.tan(camera.data.angle / 2) * scene.render.resolution_y / scene.render.resolution_x)
+        self.assertAlmostEqual(np.arcsin(radius / np.linalg.norm(away)) / shorter, 1.0, delta=0.03)
+
     def test_a_place_that_cannot_be_written_is_told(self):
         (self.folder / "file").write_text("")
         for words in (["-o", "nowhere/film.mp4"], ["--still", "nowhere/x.png"], ["--frames", "file"], ["--blend", "nowhere/a.blend"]):
@@ -295,7 +306,7 @@ class Renders(WithScene):
         for code, words in ((1, [str(self.folder)]), (1, [log, "--from", "5"]), (1, [log, "--from", "nan"]),
                             (1, [log, "--relative-to", "moon"]), (1, [log, "--own-camera"]), (1, [log, "--map", "moon=x"]),
                             (2, [log, "--size", "big"]), (2, [log, "--speed", "nan"]), (2, [log, "--map", "ball"]),
-                            (2, [log, "-o", "film.avi"]), (2, [log, "--look-from", "0,0,0"])):
+                            (2, [log, "-o", "film.avi"]), (2, [log, "--look-from", "0,0,0"]), (2, [log, "--look-at", "0,0,0"])):
             with self.subTest(words), redirect_stderr(io.StringIO()) as told:
                 self.assertEqual(main([*words, "--still", str(still)]), code)
                 self.assertIn("pong_viz: ", told.getvalue())
