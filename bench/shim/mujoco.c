@@ -113,6 +113,17 @@ void pong_mujoco_pairs(scene *s, const double *poses, int count, answer *answers
     }
 }
 
+/* Distance along a ray to the target, by the function that mj_ray calls for its type; negative: none. */
+static double cast(scene *s, const double *origin, const double *direction, double *normal)
+{
+    const mjModel *m = s->model;
+    if (m->geom_type[TARGET] == mjGEOM_MESH) {
+        return mj_rayMesh(m, s->data, TARGET, origin, direction, normal);
+    }
+    return mju_rayGeom(s->data->geom_xpos + 3 * TARGET, s->data->geom_xmat + 9 * TARGET, m->geom_size + 3 * TARGET,
+                       origin, direction, m->geom_type[TARGET], normal);
+}
+
 /* A ray along z that starts at `start` of the mover's frame, no longer than `length`. */
 void pong_mujoco_rays(scene *s, const double *poses, int count, double start, double length, answer *answers)
 {
@@ -124,7 +135,7 @@ void pong_mujoco_rays(scene *s, const double *poses, int count, double start, do
         mju_rotVecQuat(direction, z, poses + 3);
         mju_addScl3(origin, poses, direction, start);
         place(s, TARGET, poses + 7);
-        out.depth = mj_rayMesh(s->model, s->data, TARGET, origin, direction, out.normal);
+        out.depth = cast(s, origin, direction, out.normal);
         if (out.depth < 0 || out.depth >= length) {
             out.depth = 0;
         } else {

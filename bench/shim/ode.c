@@ -4,7 +4,7 @@
 #include <string.h>
 
 enum { BODIES = 2, MOST_CONTACTS = 64 };
-enum { SPHERE, CAPSULE, RAY };
+enum { SPHERE, CAPSULE, RAY, CYLINDER };
 
 typedef struct {
     dWorldID world;
@@ -100,6 +100,12 @@ void pong_ode_target_mesh(scene *s, const double *vertices, int vertex_count, co
     dGeomTriMeshDataBuildDouble(s->mesh, vertices, 3 * sizeof(double), vertex_count, triangles, 3 * triangle_count,
                                 3 * sizeof(unsigned));
     s->target = dCreateTriMesh(0, s->mesh, 0, 0, 0);
+}
+
+/* A capsule or a cylinder along z; the length of a capsule is that between the centres of its ends. */
+void pong_ode_target_round(scene *s, int kind, double radius, double length)
+{
+    s->target = kind == CAPSULE ? dCreateCapsule(0, radius, length) : dCreateCylinder(0, radius, length);
 }
 
 /* Radius and length; rays have no radius. */

@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 pub const SEMI_AXES: [f64; 3] = [0.5, 0.4, 0.3];
 
 /// A convex polyhedron with triangular faces.
+#[derive(Clone)]
 pub struct Hull {
     /// m
     pub vertices: Vec<Vec3>,
@@ -30,6 +31,18 @@ impl Hull {
         let cloud: Vec<_> = (0..vertices).map(|i| vector(&vertex(i))).collect();
         let (vertices, faces) = convex_hull(&cloud);
         Self { vertices: vertices.iter().map(|v| Vec3::new(v.x, v.y, v.z)).collect(), faces }
+    }
+
+    /// A cone of so many sides along z, its rim and its tip where those of the round one are.
+    pub fn cone([base, tip]: [f64; 2], radius: f64, sides: u32) -> Self {
+        let rim = |i: u32| {
+            let (sine, cosine) = (2.0 * PI * f64::from(i) / f64::from(sides)).sin_cos();
+            Vec3::new(radius * cosine, radius * sine, base)
+        };
+        let vertices = (0..sides).map(rim).chain([Vec3::new(0.0, 0.0, tip)]).collect();
+        let wall = (0..sides).map(|i| [i, (i + 1) % sides, sides]);
+        let below = (2..sides).map(|i| [0, i, i - 1]);
+        Self { vertices, faces: wall.chain(below).collect() }
     }
 
     /// Unit normals and offsets of the faces: inside is where normal · p < offset for all.
@@ -60,4 +73,25 @@ pub fn triangle_model() -> String {
         "triangle",
         &format!("TriangleMesh(name: \"t\", vertices: [{vertices}], triangles: [(0,1,2)])"),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cone_of_many_sides_is_convex_closed_and_nearly_as_large_as_the_round_one() {
+        let (ends, radius, sides) = ([-0.3, 0.5], 0.4, 64);
+        let cone = Hull::cone(ends, radius, sides);
+        for (normal, offset) in cone.planes() {
+            assert!(cone.vertices.iter().all(|vertex| normal.dot(vertex) < offset + 1e-12));
+        }
+        let signed = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| cone.vertices[v as usize]);
+            a.dot(&b.cross(&c)) / 6.0
+        };
+        let volume: f64 = cone.faces.iter().map(signed).sum();
+        let base = 0.5 * f64::from(sides) * radius * radius * (2.0 * PI / f64::from(sides)).sin();
+        assert!((volume - base * (ends[1] - ends[0]) / 3.0).abs() < 1e-12);
+    }
 }

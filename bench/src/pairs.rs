@@ -22,7 +22,8 @@ pub const HULLS: [usize; 3] = [8, 18, 66];
 pub const TARGET_RADIUS: f64 = 0.3;
 /// Half the length of the round parts that move, which lie along z, m; their radius is [`RADIUS`], that of a cone's end 1 half.
 pub const ROUND_HALF_LENGTH: f64 = 0.15;
-/// Ends, m, on z, and radii, m, of the round parts that are targets. A cone has half the radius at its end 1.
+/// Ends, m, on z, and radius, m, of the round parts that are targets. A cone comes to a point at its end 1: parry has no
+/// other.
 pub const TARGET_ROUND: ([f64; 2], f64) = ([-0.3, 0.3], 0.3);
 /// Half the length and radius of the hole that is a target, m: every mover fits in.
 pub const HOLE: (f64, f64) = (8.0, 3.0);
@@ -162,9 +163,7 @@ impl Target {
             Self::Plane => "Plane(name: \"b\", normal: (0, 0, 1), offset: 0)".to_owned(),
             Self::Capsule => round_model("Capsule", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
             Self::Cylinder => round_model("Cylinder", TARGET_ROUND.0, "radius", TARGET_ROUND.1),
-            Self::Cone => {
-                round_model("Cone", TARGET_ROUND.0, "radii", (TARGET_ROUND.1, 0.5 * TARGET_ROUND.1))
-            }
+            Self::Cone => round_model("Cone", TARGET_ROUND.0, "radii", (TARGET_ROUND.1, 0.0)),
             Self::Bore => round_model("Bore", [-HOLE.0, HOLE.0], "radii", (HOLE.1, HOLE.1)),
         };
         ron::model("target", &primitive)
@@ -200,7 +199,9 @@ fn of_kinds(a: PrimitiveKind, b: PrimitiveKind) -> impl Iterator<Item = (Mover, 
 pub struct Queries {
     /// Of the mover and of the target, in the common frame.
     pub poses: Vec<[Pose; 2]>,
-    /// The same for engines in C: of each a position, m, and a quaternion (w, x, y, z).
+    /// Of the target, for engines whose cylinders lie along y: by [`along_y`].
+    pub along_y: Vec<Pose>,
+    /// The same as `poses` for engines in C: of each a position, m, and a quaternion (w, x, y, z).
     pub numbers: Vec<[[f64; 7]; 2]>,
     /// Of the mover in the target's frame.
     pub transforms: Vec<Transform>,
@@ -244,6 +245,7 @@ impl Queries {
         let hits: Vec<bool> = (0..count).map(|i| i % 2 == 0).collect();
         let mut out = Self {
             poses: Vec::with_capacity(count),
+            along_y: Vec::with_capacity(count),
             numbers: Vec::with_capacity(count),
             transforms: Vec::with_capacity(count),
             hits,
@@ -261,6 +263,7 @@ impl Queries {
 
     fn add(&mut self, poses: [Pose; 2]) {
         self.poses.push(poses);
+        self.along_y.push(poses[1].compose(&along_y()));
         self.numbers.push(poses.map(|pose| numbers(&pose)));
         self.transforms.push(Pose::relative(&poses[0], &poses[1]).transform());
     }
@@ -271,11 +274,17 @@ impl Queries {
         for i in (1..self.hits.len()).rev() {
             let j = self.shuffles.between(0.0, (i + 1) as f64) as usize;
             self.poses.swap(i, j);
+            self.along_y.swap(i, j);
             self.numbers.swap(i, j);
             self.transforms.swap(i, j);
             self.hits.swap(i, j);
         }
     }
+}
+
+/// A frame whose y axis is the z axis of ours: its x, y and z are our y, z and x. Seen from ours.
+pub fn along_y() -> Pose {
+    Pose::new(Vec3::zeros(), [0.5; 4])
 }
 
 /// Position and quaternion (w, x, y, z).

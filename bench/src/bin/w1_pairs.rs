@@ -5,9 +5,9 @@ use pong_bench::floor::{Level, planes};
 use pong_bench::hull::Hull;
 use pong_bench::options::Options;
 use pong_bench::ours::{Elements, Ours};
-use pong_bench::pairs::{Answer, Mover, Queries, Target};
-use pong_bench::peer::PairPeer;
+use pong_bench::pairs::{Answer, Mover, Queries, Target, along_y};
 use pong_bench::peer::parry_pairs::Parry;
+use pong_bench::peer::{AnswerFrame, PairPeer};
 use pong_bench::race::{Outcome, Race};
 use pong_bench::table::{Table, min_and_median, or_dash, ratio_at_most};
 use pong_bench::timing::{Clock, Ratios};
@@ -25,21 +25,34 @@ const PEERS: [&str; 3] = ["parry", "MuJoCo", "ODE"];
 /// One row of each table.
 struct Case {
     mover: Mover,
-    /// Vertices of the hull; `None` for the triangle.
-    vertices: Option<usize>,
+    on: On,
     /// Greatest time to reach in W1 and in W1b, as a share of the floor's for points, else of the best peer's.
     wanted: [Option<f64>; 2],
 }
 
+#[derive(Clone, Copy)]
+enum On {
+    /// A hull of so many vertices.
+    Hull(usize),
+    Triangle,
+    Capsule,
+    Cylinder,
+    Cone,
+}
+
 const fn hull(mover: Mover, vertices: usize, wanted: Option<f64>) -> Case {
-    Case { mover, vertices: Some(vertices), wanted: [wanted, None] }
+    Case { mover, on: On::Hull(vertices), wanted: [wanted, None] }
 }
 
-const fn triangle(mover: Mover, wanted: f64) -> Case {
-    Case { mover, vertices: None, wanted: [None, Some(wanted)] }
+const fn triangle(mover: Mover, wanted: Option<f64>) -> Case {
+    Case { mover, on: On::Triangle, wanted: [None, wanted] }
 }
 
-const CASES: [Case; 20] = [
+const fn round(mover: Mover, on: On) -> Case {
+    Case { mover, on, wanted: [None, None] }
+}
+
+const CASES: [Case; 36] = [
     hull(Mover::Point, 8, Some(2.0)),
     hull(Mover::Point, 18, Some(2.0)),
     hull(Mover::Point, 66, Some(2.0)),
@@ -58,8 +71,24 @@ const CASES: [Case; 20] = [
     hull(Mover::Ray, 8, None),
     hull(Mover::Ray, 18, None),
     hull(Mover::Ray, 66, None),
-    triangle(Mover::Sphere, 0.5),
-    triangle(Mover::Ray, 0.5),
+    triangle(Mover::Sphere, Some(0.5)),
+    triangle(Mover::Ray, Some(0.5)),
+    triangle(Mover::Capsule, None),
+    round(Mover::Point, On::Capsule),
+    round(Mover::Point, On::Cylinder),
+    round(Mover::Point, On::Cone),
+    round(Mover::Segment, On::Capsule),
+    round(Mover::Segment, On::Cylinder),
+    round(Mover::Segment, On::Cone),
+    round(Mover::Sphere, On::Capsule),
+    round(Mover::Sphere, On::Cylinder),
+    round(Mover::Sphere, On::Cone),
+    round(Mover::Capsule, On::Capsule),
+    round(Mover::Capsule, On::Cylinder),
+    round(Mover::Capsule, On::Cone),
+    round(Mover::Ray, On::Capsule),
+    round(Mover::Ray, On::Cylinder),
+    round(Mover::Ray, On::Cone),
 ];
 
 struct Tables {
@@ -110,7 +139,7 @@ fn peers(case: &Case, target: &Target) -> Vec<Named> {
 }
 
 fn run(case: &Case, poses: usize, options: &Options, tables: &mut Tables) -> Result<(), Box<dyn Error>> {
-    let target = case.vertices.map_or(Target::Triangle, |vertices| Target::Hull(Hull::fibonacci(vertices)));
+    let target = case.target();
     let mut ours = Ours::new(case.mover, &target);
     let queries = Queries::new(poses, case.mover, &target, |x| ours.touches(x));
     let mut all: Vec<Named> = if options.alone { Vec::new() } else { peers(case, &target) };
@@ -185,6 +214,21 @@ fn one_pose<'a>(
 }
 
 impl Case {
+    fn target(&self) -> Target {
+        match self.on {
+            On::Hull(vertices) => Target::Hull(Hull::fibonacci(vertices)),
+            On::Triangle => Target::Triangle,
+            On::Capsule => Target::Capsule,
+            On::Cylinder => Target::Cylinder,
+            On::Cone => Target::Cone,
+        }
+    }
+
+    /// Whether all mean the same by depth: of a bar on a hull Pong measures both ends, the others one depth.
+    fn depths_compare(&self) -> bool {
+        !matches!((self.mover, self.on), (Mover::Segment, On::Hull(_)))
+    }
+
     fn name(&self, target: &Target) -> String {
         let mover = format!("{:?}", self.mover).to_lowercase();
         match target.faces() {
@@ -225,11 +269,8 @@ fn check(
         let mut theirs = vec![Answer::default(); answers.len()];
         pair.pass(queries, &mut theirs);
         require_hits(name, peer, queries, &theirs)?;
-        // Of a bar Pong measures both ends, the others one depth.
-        if case.mover != Mover::Segment {
-            if pair.answers_in_common_frame() {
-                in_target_frame(queries, &mut theirs);
-            }
+        if case.depths_compare() {
+            in_target_frame(pair.frame_of_answers(), queries, &mut theirs);
             let pair = name.split(' ').next().unwrap_or(name);
             Difference::between(pair, peer, &answers, &theirs).join(checks);
         }
@@ -237,12 +278,16 @@ fn check(
     Ok(())
 }
 
-/// Normals and points from the common frame into the target's.
-fn in_target_frame(queries: &Queries, answers: &mut [Answer]) {
+/// Normals and points carried into the target's frame.
+fn in_target_frame(from: AnswerFrame, queries: &Queries, answers: &mut [Answer]) {
     for (answer, [_, target]) in answers.iter_mut().zip(&queries.poses) {
-        let x_bw = target.inverse();
-        answer.normal = (x_bw.orientation * Vec3::from(answer.normal)).into();
-        answer.point = x_bw.transform().point(&Vec3::from(answer.point)).into();
+        let x = match from {
+            AnswerFrame::Target => return,
+            AnswerFrame::TargetAlongY => along_y(),
+            AnswerFrame::Common => target.inverse(),
+        };
+        answer.normal = (x.orientation * Vec3::from(answer.normal)).into();
+        answer.point = x.transform().point(&Vec3::from(answer.point)).into();
     }
 }
 

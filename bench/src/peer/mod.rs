@@ -7,9 +7,15 @@ pub mod ode;
 pub mod parry;
 pub mod parry_pairs;
 
+#[cfg(any(feature = "mujoco", feature = "ode"))]
+use crate::hull::Hull;
 use crate::ours::Elements;
 use crate::pairs::{Answer, Queries};
+#[cfg(any(feature = "mujoco", feature = "ode"))]
+use crate::pairs::{TARGET_ROUND, Target};
 use pong_engine::State;
+#[cfg(any(feature = "mujoco", feature = "ode"))]
+use std::borrow::Cow;
 
 /// An engine on a scene of bodies.
 pub trait Peer {
@@ -33,9 +39,30 @@ pub trait PairPeer {
         false
     }
 
-    /// Whether answers are in the common frame, not in the target's.
-    fn answers_in_common_frame(&self) -> bool {
-        false
+    /// The frame of the normals and points in answers.
+    fn frame_of_answers(&self) -> AnswerFrame {
+        AnswerFrame::Target
+    }
+}
+
+/// What the normals and points of an answer are seen from.
+pub enum AnswerFrame {
+    /// The target.
+    Target,
+    /// The target, turned by [`crate::pairs::along_y`].
+    TargetAlongY,
+    /// The common frame.
+    Common,
+}
+
+/// The polyhedron that a target is, or that stands for a cone in engines that have none.
+#[cfg(any(feature = "mujoco", feature = "ode"))]
+fn hull_of(target: &Target) -> Option<Cow<'_, Hull>> {
+    const SIDES: u32 = 64;
+    match target {
+        Target::Hull(hull) => Some(Cow::Borrowed(hull)),
+        Target::Cone => Some(Cow::Owned(Hull::cone(TARGET_ROUND.0, TARGET_ROUND.1, SIDES))),
+        _ => None,
     }
 }
 

@@ -1,8 +1,9 @@
 //! MuJoCo, through `shim/mujoco.c`.
 
-use super::{PairPeer, Peer, pose_numbers};
-use crate::hull::Hull;
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
+use super::{AnswerFrame, PairPeer, Peer, hull_of, pose_numbers};
+use crate::pairs::{
+    Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, TARGET_ROUND, Target,
+};
 use crate::ring::{Ring, Tip};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
@@ -150,9 +151,8 @@ pub struct MujocoPair {
 }
 
 impl MujocoPair {
-    /// For one pair; `None` for the triangle, which MuJoCo does not have.
+    /// For one pair; `None` for the triangle, which MuJoCo does not have. Of a cone it has a polyhedron.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
-        let Target::Hull(Hull { vertices, .. }) = target else { return None };
         const THIN: f64 = 1e-9;
         let shape = match mover {
             Mover::Point | Mover::Ray => format!("type=\"sphere\" size=\"{THIN}\""),
@@ -163,8 +163,19 @@ impl MujocoPair {
             Mover::Cylinder => format!("type=\"cylinder\" size=\"{RADIUS} {ROUND_HALF_LENGTH}\""),
             Mover::Cone => return None,
         };
-        let world = format!("<geom type=\"mesh\" mesh=\"hull\"/><body>{FREE}<geom {shape}/></body>");
-        let scene = Scene::load(&mesh("hull", vertices), &world);
+        let ([_, half_length], radius) = TARGET_ROUND;
+        let (assets, target) = match (hull_of(target), target) {
+            (Some(hull), _) => (mesh("hull", &hull.vertices), "type=\"mesh\" mesh=\"hull\"".to_owned()),
+            (_, Target::Capsule) => {
+                (String::new(), format!("type=\"capsule\" size=\"{radius} {half_length}\""))
+            }
+            (_, Target::Cylinder) => {
+                (String::new(), format!("type=\"cylinder\" size=\"{radius} {half_length}\""))
+            }
+            _ => return None,
+        };
+        let world = format!("<geom {target}/><body>{FREE}<geom {shape}/></body>");
+        let scene = Scene::load(&assets, &world);
         Some(Self { scene, mover })
     }
 }
@@ -183,8 +194,8 @@ impl PairPeer for MujocoPair {
         }
     }
 
-    fn answers_in_common_frame(&self) -> bool {
-        true
+    fn frame_of_answers(&self) -> AnswerFrame {
+        AnswerFrame::Common
     }
 }
 

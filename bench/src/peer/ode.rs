@@ -1,9 +1,11 @@
 //! ODE, through `shim/ode.c`.
 
-use super::{PairPeer, Peer, pose_numbers};
+use super::{AnswerFrame, PairPeer, Peer, hull_of, pose_numbers};
 use crate::floor::ring::planes;
 use crate::hull::{Hull, TRIANGLE};
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, Target};
+use crate::pairs::{
+    Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, TARGET_ROUND, Target,
+};
 use crate::ring::{Ring, Tip, WEDGE_FACES};
 use crate::terrain::{Terrain, Wheel};
 use pong_engine::State;
@@ -18,6 +20,7 @@ struct Opaque {
 const SPHERE: c_int = 0;
 const CAPSULE: c_int = 1;
 const A_RAY: c_int = 2;
+const CYLINDER: c_int = 3;
 /// ODE has no points: what stands for one is a nanometre across.
 const THIN: f64 = 1e-9;
 
@@ -50,6 +53,7 @@ unsafe extern "C" {
         triangles: *const c_uint,
         triangle_count: c_int,
     );
+    fn pong_ode_target_round(scene: *mut Opaque, kind: c_int, radius: f64, length: f64);
     fn pong_ode_mover(scene: *mut Opaque, kind: c_int, radius: f64, length: f64);
     fn pong_ode_wheels(scene: *mut Opaque, poses: *const f64, count: c_int) -> c_int;
     fn pong_ode_deepest(scene: *const Opaque) -> f64;
@@ -131,6 +135,12 @@ impl Scene {
                 convex.polygons.as_ptr(),
             );
         }
+    }
+
+    fn target_round(&mut self, kind: c_int) {
+        let ([one, other], radius) = TARGET_ROUND;
+        // SAFETY: the scene lives.
+        unsafe { pong_ode_target_round(self.pointer, kind, radius, other - one) };
     }
 
     fn mover(&mut self, kind: c_int, radius: f64, length: f64) {
@@ -234,18 +244,22 @@ pub struct OdePair {
 }
 
 impl OdePair {
-    /// For one pair; `None` where ODE has no such primitive. Of rays against convex bodies it finds hardly any.
+    /// For one pair; `None` where ODE has no such primitive. Of rays against convex bodies it finds hardly any. Of a cone
+    /// it has a polyhedron.
     pub fn new(mover: Mover, target: &Target) -> Option<Self> {
         if matches!(mover, Mover::Ellipsoid | Mover::Cylinder | Mover::Cone) {
             return None;
         }
-        if mover == Mover::Ray && matches!(target, Target::Hull(_)) {
+        let hull = hull_of(target);
+        if mover == Mover::Ray && hull.is_some() {
             return None;
         }
         let mut scene = Scene::new(Space::SweepAndPrune);
-        match target {
-            Target::Hull(hull) => scene.target_convex(hull),
-            Target::Triangle => scene.target_mesh(TRIANGLE.to_vec(), vec![[0, 1, 2]]),
+        match (hull, target) {
+            (Some(hull), _) => scene.target_convex(&hull),
+            (_, Target::Capsule) => scene.target_round(CAPSULE),
+            (_, Target::Cylinder) => scene.target_round(CYLINDER),
+            (_, Target::Triangle) => scene.target_mesh(TRIANGLE.to_vec(), vec![[0, 1, 2]]),
             _ => return None,
         }
         match mover {
@@ -273,7 +287,7 @@ impl PairPeer for OdePair {
         }
     }
 
-    fn answers_in_common_frame(&self) -> bool {
-        true
+    fn frame_of_answers(&self) -> AnswerFrame {
+        AnswerFrame::Common
     }
 }

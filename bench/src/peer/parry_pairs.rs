@@ -1,14 +1,21 @@
 //! W1 by parry: the function that its own dispatch would call, called directly.
 
-use super::PairPeer;
 use super::parry::{pose, vector};
+use super::{AnswerFrame, PairPeer};
 use crate::hull::{Hull, TRIANGLE};
 use crate::ours::Elements;
-use crate::pairs::{Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, Target};
+use crate::pairs::{
+    Answer, HALF_LENGTH, Mover, Queries, RADIUS, RAY, ROUND_HALF_LENGTH, SEMI_AXES, TARGET_ROUND, Target,
+    along_y,
+};
 use parry3d_f64::math::{Pose, Vector};
-use parry3d_f64::query::details::{contact_convex_polyhedron_ball, contact_support_map_support_map};
-use parry3d_f64::query::{Contact, PointQuery, Ray, RayCast};
-use parry3d_f64::shape::{Ball, Capsule, ConvexPolyhedron, Segment, Shape, SupportMap, Triangle};
+use parry3d_f64::query::details::{
+    contact_convex_polyhedron_ball, contact_manifold_capsule_capsule, contact_support_map_support_map,
+};
+use parry3d_f64::query::{Contact, ContactManifold, Ray};
+use parry3d_f64::shape::{
+    Ball, Capsule, Cone, ConvexPolyhedron, Cylinder, Segment, Shape, SupportMap, Triangle,
+};
 
 /// parry on one pair.
 pub struct Parry {
@@ -19,6 +26,10 @@ pub struct Parry {
 enum Shapes {
     Hull(ConvexPolyhedron),
     Triangle(Triangle),
+    Capsule(Capsule),
+    /// Along y, as the cone.
+    Cylinder(Cylinder),
+    Cone(Cone),
 }
 
 /// An ellipsoid is one support function away.
@@ -41,15 +52,23 @@ impl Parry {
         if matches!(mover, Mover::Cylinder | Mover::Cone) {
             return None;
         }
+        let ([_, half_length], radius) = TARGET_ROUND;
         let target = match target {
             Target::Hull(hull) => Shapes::Hull(convex(hull)),
             Target::Triangle => {
                 let [a, b, c] = TRIANGLE.map(Vector::from);
                 Shapes::Triangle(Triangle::new(a, b, c))
             }
+            Target::Capsule => Shapes::Capsule(Capsule::new_z(half_length, radius)),
+            Target::Cylinder => Shapes::Cylinder(Cylinder::new(half_length, radius)),
+            Target::Cone => Shapes::Cone(Cone::new(half_length, radius)),
             _ => return None,
         };
         Some(Self { mover, target })
+    }
+
+    fn lies_along_y(&self) -> bool {
+        matches!(self.target, Shapes::Cylinder(_) | Shapes::Cone(_))
     }
 }
 
@@ -60,16 +79,28 @@ fn convex(hull: &Hull) -> ConvexPolyhedron {
 
 impl PairPeer for Parry {
     fn pass(&mut self, queries: &Queries, answers: &mut [Answer]) {
-        self.each(answers, |i| {
-            let [mover, target] = queries.poses[i].each_ref().map(own_pose);
-            target.inv_mul(&mover)
-        });
+        let relative = |mover: &pong_geometry::Pose, target| own_pose(target).inv_mul(&own_pose(mover));
+        match self.lies_along_y() {
+            true => self.each(answers, |i| relative(&queries.poses[i][0], &queries.along_y[i])),
+            false => self.each(answers, |i| relative(&queries.poses[i][0], &queries.poses[i][1])),
+        }
     }
 
     fn pass_over_elements(&mut self, elements: &Elements, answers: &mut [Answer]) -> bool {
-        let x_ba = own_pose(&elements.pose_ba);
+        let x_ba = match self.lies_along_y() {
+            true => along_y().inverse().compose(&elements.pose_ba),
+            false => elements.pose_ba,
+        };
+        let x_ba = own_pose(&x_ba);
         self.each(answers, |i| x_ba * own_pose(&elements.placed[i]));
         true
+    }
+
+    fn frame_of_answers(&self) -> AnswerFrame {
+        match self.lies_along_y() {
+            true => AnswerFrame::TargetAlongY,
+            false => AnswerFrame::Target,
+        }
     }
 }
 
@@ -77,33 +108,41 @@ impl Parry {
     /// Answers one query after another, given the mover's pose in the target's frame of each.
     fn each(&self, answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose) {
         match &self.target {
-            Shapes::Hull(b) => match self.mover {
-                Mover::Point => each(answers, x_ba, |x| point(x, b)),
-                Mover::Sphere => each(answers, x_ba, |x| ball(x, b)),
-                Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
-                Mover::Segment => {
-                    let half = Vector::new(0.0, 0.0, HALF_LENGTH);
-                    let a = Segment::new(-half, half);
-                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
-                }
-                Mover::Ellipsoid => {
-                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
-                }
-                Mover::Capsule => {
-                    let a = Capsule::new_z(ROUND_HALF_LENGTH, RADIUS);
-                    each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
-                }
-                Mover::Cylinder | Mover::Cone => unreachable!("not one of W1's"),
-            },
-            Shapes::Triangle(b) => match self.mover {
-                Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
-                _ => each(answers, x_ba, |x| ball(x, b)),
-            },
+            Shapes::Hull(b) => self.on(b, answers, x_ba),
+            Shapes::Triangle(b) => self.on(b, answers, x_ba),
+            Shapes::Capsule(b) if self.mover == Mover::Capsule => {
+                let mut kept = ContactManifold::new();
+                each(answers, x_ba, |x| capsules(x, b, &mut kept));
+            }
+            Shapes::Capsule(b) => self.on(b, answers, x_ba),
+            Shapes::Cylinder(b) => self.on(b, answers, x_ba),
+            Shapes::Cone(b) => self.on(b, answers, x_ba),
+        }
+    }
+
+    fn on(&self, b: &(impl Shape + SupportMap), answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose) {
+        match self.mover {
+            Mover::Point => each(answers, x_ba, |x| point(x, b)),
+            Mover::Sphere => each(answers, x_ba, |x| ball(x, b)),
+            Mover::Ray => each(answers, x_ba, |x| ray(x, b)),
+            Mover::Segment => {
+                let half = Vector::new(0.0, 0.0, HALF_LENGTH);
+                let a = Segment::new(-half, half);
+                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
+            }
+            Mover::Ellipsoid => {
+                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &Ellipsoid, 0.0)));
+            }
+            Mover::Capsule => {
+                let a = capsule();
+                each(answers, x_ba, |x| touch(contact_support_map_support_map(x, b, &a, 0.0)));
+            }
+            Mover::Cylinder | Mover::Cone => unreachable!("not one of W1's"),
         }
     }
 }
 
-fn each(answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose, test: impl Fn(&Pose) -> Option<Answer>) {
+fn each(answers: &mut [Answer], x_ba: impl Fn(usize) -> Pose, mut test: impl FnMut(&Pose) -> Option<Answer>) {
     for (i, answer) in answers.iter_mut().enumerate() {
         *answer = test(&x_ba(i)).unwrap_or_default();
     }
@@ -114,7 +153,11 @@ fn own_pose(x: &pong_geometry::Pose) -> Pose {
     pose(x.position.into(), [q.w, q.i, q.j, q.k])
 }
 
-fn point(x: &Pose, b: &ConvexPolyhedron) -> Option<Answer> {
+fn capsule() -> Capsule {
+    Capsule::new_z(ROUND_HALF_LENGTH, RADIUS)
+}
+
+fn point(x: &Pose, b: &impl Shape) -> Option<Answer> {
     let found = b.project_local_point(x.translation, false);
     let arm = found.point - x.translation;
     let depth = arm.length();
@@ -125,7 +168,14 @@ fn ball(x: &Pose, b: &impl Shape) -> Option<Answer> {
     touch(contact_convex_polyhedron_ball(x, b, &Ball::new(RADIUS), 0.0))
 }
 
-fn ray(x: &Pose, b: &impl RayCast) -> Option<Answer> {
+/// Of two capsules parry has a test of its own, which fills a manifold that is kept.
+fn capsules(x: &Pose, b: &Capsule, kept: &mut ContactManifold<(), ()>) -> Option<Answer> {
+    contact_manifold_capsule_capsule(x, b, &capsule(), 0.0, kept);
+    let found = kept.points.first()?;
+    Some(Answer::new(-found.dist, kept.local_n1, found.local_p1))
+}
+
+fn ray(x: &Pose, b: &impl Shape) -> Option<Answer> {
     let (origin, direction, length) = RAY;
     let ray = Ray::new(x.transform_point(origin.into()), x.rotation * Vector::from(direction));
     let hit = b.cast_local_ray_and_get_normal(&ray, length, false)?;
