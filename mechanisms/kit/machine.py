@@ -5,6 +5,8 @@ import os
 import mujoco
 import numpy as np
 
+from kit.ledger import Ledger
+
 FULL = mujoco.mjtState.mjSTATE_INTEGRATION
 TUNNELLED = 4  # flag of the plugin's sensor, docs/mujoco.md
 _loaded = False
@@ -60,11 +62,10 @@ class Machine:
         """One step. `control(machine)` sets the controls before it."""
         if control is not None:
             control(self)
-        self.ledger.begin()
-        mujoco.mj_step(self.model, self.data)
-        # Forces and energies of the new state; the plugin's evaluation is pure, so this changes nothing that follows.
+        with self.ledger:
+            mujoco.mj_step(self.model, self.data)
+        # Forces of the new state; the plugin's evaluation is pure, so this changes nothing that follows.
         mujoco.mj_forward(self.model, self.data)
-        self.ledger.add(self.step)
         self._look()
         for watch in self.watchers:
             watch(self)
@@ -137,54 +138,3 @@ class Machine:
     def restore(self, state):
         mujoco.mj_setState(self.model, self.data, state, FULL)
         self.start()
-
-
-class Ledger:
-    """Energies in and out, J, by the trapezoidal rule over the steps.
-
-    What the bodies hold (motion, gravity, springs of joints and tendons) changes by the work of motors, contacts,
-    dampers and constraints. `through` is the sum of the magnitudes of all of this work: what went through the machine.
-    """
-
-    NAMES = ("motors", "contact", "dampers", "constraints")
-
-    def __init__(self, model, data):
-        self.model, self.data = model, data
-        self.work = dict.fromkeys(self.NAMES, 0.0)
-        self.through = 0.0
-        self.began_with = self._held()
-
-    def _held(self):
-        mujoco.mj_energyPos(self.model, self.data)
-        mujoco.mj_energyVel(self.model, self.data)
-        return float(self.data.energy.sum())
-
-    def _power(self):
-        d = self.data
-        contact = d.qfrc_passive - d.qfrc_spring - d.qfrc_damper
-        forces = (d.qfrc_actuator + d.qfrc_applied + self._pushed(), contact, d.qfrc_damper, d.qfrc_constraint)
-        return np.array([force @ d.qvel for force in forces])
-
-    def _pushed(self):
-        """Wrenches that a host applies to bodies, as forces on the joints."""
-        d, forces = self.data, np.zeros(self.model.nv)
-        for body in np.flatnonzero(np.any(d.xfrc_applied != 0.0, axis=1)):
-            pushed = d.xfrc_applied[body]
-            mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, forces)
-        return forces
-
-    def begin(self):
-        """Controls may have jumped since the last step ended."""
-        mujoco.mj_fwdActuation(self.model, self.data)
-        self._powers = self._power()
-
-    def add(self, step):
-        powers = self._power()
-        works = 0.5 * step * (powers + self._powers)
-        for name, work in zip(self.NAMES, works):
-            self.work[name] += float(work)
-        self.through += float(np.abs(works).sum())
-
-    def open_share(self):
-        """What does not close, over what went through."""
-        return abs(self._held() - self.began_with - sum(self.work.values())) / self.through if self.through else 0.0
