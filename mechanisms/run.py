@@ -36,8 +36,13 @@ def main():
             parser.error(f"{given.name} has no scene to show: its outcome.py lacks the function `shown`")
         sys.exit(write_log(outcome, given.log, getattr(outcome, "DRAWN", ()) if given.drawn else ()))
     from kit.rows import show
+    from kit.rules import Tally
 
-    off = sum(show(title, rows) for title, rows in outcome.rows(given.thorough))
+    tally = Tally()
+    off = sum(show(title, tally.watch(title, rows)) for title, rows in outcome.rows(given.thorough))
+    print("\n".join(tally.lines()))
+    if given.thorough and given.name != "kit" and tally.missing():
+        sys.exit(f"{given.name}: no check of {', '.join(tally.missing())}")
     if off:
         sys.exit(f"{given.name}: {off} of its checks do not hold")
     print(f"{given.name}: all checks hold")

@@ -10,6 +10,7 @@ import rig_push
 import sequencer as seq
 import statics
 from dimensions import common
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 STALLED = 3  # the latch without power
@@ -85,4 +86,4 @@ def unberthing(level):
     left = rig_push.speed(machine, "module")
     yield Row("speed at which the module leaves", left, rig_push.predicted(machine.case.load.mass), 0.03, "m/s")
     yield Row("½·m·v² over ½·Σk·δ²", 0.5 * machine.case.load.mass * left**2 / statics.stored(0.0), 1.0, 0.08)
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), 1e-3)
+    yield from honest(machine)

@@ -16,6 +16,7 @@ import rig_push
 import sequencer as seq
 import statics
 from dimensions import ANALYSIS, ROLLER_FRICTION, TRAINING, Level, common
+from kit import rules
 from kit.rows import Fact, Limit, Row
 
 LATCHES = berth.LATCHES
@@ -84,10 +85,8 @@ def rested():
     yield Row("the rings are pressed together by", -forces[-1] * 1e6, -statics.rest()[0] * 1e6, 0.03, "µm")
 
 
-def honest(machine, share):
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
+def honest(machine):
+    yield from rules.honest(machine)
     yield Limit("what is left of Freudenstein's equation of any latch", machine.off_loop, 1e-6)
 
 
@@ -99,7 +98,7 @@ def nominal(level):
     yield Limit(
         "off-centre, of what the guides leave free", float(np.hypot(x, y)), 2**0.5 * common.GUIDE_CLEARANCE, "m"
     )
-    yield from honest(machine, 1e-3)
+    yield from honest(machine)
 
 
 def restarts(moments):
@@ -127,7 +126,7 @@ def halved(level):
     """The same berthing at half the step."""
     finer = Level(f"{level.name}, half the step", level.step / 2, level.armature, level.closure)
     (whole, forces), (half, others) = berthed(berth.Case(level=level)), berthed(berth.Case(level=finer))
-    yield from honest(whole, 1e-3)
+    yield from honest(whole)
     yield Fact("berthed at half the step", half.phase() == "hold" and not half.sequencer.fault)
     for phase in (seq.APPROACH, seq.CAPTURE, seq.PULL):
         yield Row(
@@ -139,7 +138,7 @@ def halved(level):
         )
     for name, a, b in zip(("stops and standoffs", "latches"), forces, others):
         yield Row(f"force of {name} at half the step", b, a, 0.02, "N")
-    yield Limit("energy that does not close, at half the step", half.ledger.open_share(), 1e-3)
+    yield from honest(half)
 
 
 def stalled(thorough):

@@ -11,6 +11,7 @@ import rig_hard
 import rig_ring
 import vehicles
 from docking import Case
+from kit import rules
 from kit.rows import Fact, Limit, Row
 from sequence import STRIKER_EDGE, TIMES, Sequencer, catch
 
@@ -18,12 +19,9 @@ NOMINAL = Case()
 ALIGNED = Case(lateral=(0.0, 0.0), tilt=(0.0, 0.0), roll=0.0)
 
 
-def honest(result, share):
+def honest(result):
     """What holds of every run: energy, reactions, no tunnelling, the legs' kinematics."""
-    machine = result.machine
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
+    yield from rules.honest(result.machine)
     yield Limit("closures of the legs open by", result.watch.closure, 1e-5, "m")
     yield Limit("slides differ from the closed form by more than the closures' gap", result.watch.beyond, 1e-12, "m")
 
@@ -42,7 +40,7 @@ class Seen:
             self.hooked = list(rig_hard.hooked(made))
 
 
-def whole(level, share):
+def whole(level):
     """From the approach to the push-off."""
     seen = Seen()
     result = docking.run(replace(NOMINAL, level=level), "done", watched=seen)
@@ -53,7 +51,7 @@ def whole(level, share):
     yield Limit("and over its edge by", caught(seen)[1], 0.0, "m", least=True)
     yield from seen.hooked
     yield from rig_hard.separated(result.machine)
-    yield from honest(result, share)
+    yield from honest(result)
     peaks = ", ".join(f"{phase} {force:.0f}" for phase, force in result.watch.force.items())
     print(f"      greatest force between the vehicles by phase, N: {peaks}")
     print(
@@ -70,7 +68,7 @@ def caught(seen):
 def trained():
     """Level training, and what it costs."""
     began = time.process_time()
-    yield from whole(d.TRAINING, 2e-2)
+    yield from whole(d.TRAINING)
     print(f"      {time.process_time() - began:.1f} s of processor time with the account of energy")
 
 
@@ -79,7 +77,7 @@ def restarts():
     yield Fact("restarted while the hooks close: the same bits", docking.same_bits_while_hooking(d.TRAINING, 1.9, 0.2))
 
 
-def attenuation(level, share):
+def attenuation(level):
     """An aligned approach: when the vehicles no longer close in, the legs hold ½mv² less what capture took."""
     made, sequencer = docking.approach(replace(ALIGNED, level=level)), Sequencer()
     result = docking.Result(made, sequencer, docking.Watch())
@@ -94,7 +92,7 @@ def attenuation(level, share):
     yield Row("work on the legs over ½mv², when the vehicles stop", -work["motors"] / moving, 1.0, 0.05)
     yield Row("with what contacts, latches and closures took", -sum(work.values()) / moving, 1.0, 2e-3)
     yield Limit("stroke", result.watch.stroke, d.EXTENDED - d.IDSS.HARD_RING_HEIGHT, "m")
-    yield from honest(result, share)
+    yield from honest(result)
 
 
 def analysed():
@@ -104,7 +102,7 @@ def analysed():
         result = docking.run(replace(NOMINAL, level=level), "align")
         found[label] = result
         yield Fact("captured" + label, result.captured)
-        yield from honest(result, 1e-3)
+        yield from honest(result)
     one, half = found.values()
     yield Row("time of capture at half the step", half.sequencer.captured_at, one.sequencer.captured_at, 0.02, "s")
     for phase in ("capture", "attenuate"):
@@ -127,7 +125,7 @@ def hard_analysed():
         print(f"      step {level.step * 1e3:g} ms")
         yield from seen.hooked
         yield from rig_hard.separated(made)
-        yield from honest(result, 1e-3)
+        yield from honest(result)
 
 
 def latch_energy():
@@ -149,7 +147,7 @@ def too_slow():
     yield Fact(f"at {case.speed * 1e3:.2f} mm/s, 0.7 of √(2E/m): not captured", not result.captured)
     yield Limit("its latches were pushed aside by", -deepest[0], bound, "m")
     yield Limit("by more than", -deepest[0], 1e-3, "m", least=True)
-    yield from honest(result, 2e-2)
+    yield from honest(result)
 
 
 def failures():
@@ -157,13 +155,13 @@ def failures():
     yield Fact("with a dead latch: no capture, the approach is aborted", dead.sequencer.phase == "abort")
     parted = dead.machine.run(25.0, dead.sequencer, lambda m: m.place("target")[2] - m.place("ring")[2] > 0.15)
     yield Fact("and the vehicles part", parted)
-    yield from honest(dead, 2e-2)
+    yield from honest(dead)
     stuck = docking.run(replace(NOMINAL, stuck_leg=0), "align")
     yield Fact("with a stuck leg: captured all the same", stuck.captured)
     bound = max(stuck.watch.leg.values()) / d.STUCK.stiffness + 1e-4
     yield Limit("the stuck leg gave way by", abs(stuck.machine.joint("leg_0")), bound, "m")
     print(f"      greatest force of a leg: {max(stuck.watch.leg.values()):.0f} N")
-    yield from honest(stuck, 2e-2)
+    yield from honest(stuck)
 
 
 def limits():
@@ -223,7 +221,7 @@ def rows(thorough):
     yield "restarts", restarts()
     if thorough:
         yield "unequal pushers", rig_hard.unequal(d.ANALYSIS)
-        yield "attenuation", attenuation(d.ANALYSIS, 1e-3)
+        yield "attenuation", attenuation(d.ANALYSIS)
         yield "soft capture, level analysis", analysed()
         yield "hard capture, level analysis", hard_analysed()
         yield "too slow", too_slow()

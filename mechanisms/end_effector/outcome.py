@@ -16,6 +16,7 @@ import scene
 import snare
 import trade
 from dimensions import ARM, LARGE_FIXTURE, Fixture, Snare, training
+from kit import rules
 from kit.rows import Fact, Limit, Row
 
 ANALYSIS, TRAINING = Snare(), training(Snare())
@@ -28,12 +29,9 @@ def closed_forms():
     yield "curvic teeth", rig_teeth.rows()
 
 
-def honest(result, share):
+def honest(result):
     """What holds of every run: energy, reactions, no tunnelling."""
-    machine = result.machine
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
+    yield from rules.honest(result.machine)
 
 
 def released(result, mass=1000.0):
@@ -54,7 +52,7 @@ def nominal():
     whole_level = trade.measured(*whole_given, until="done", accounts=True)
     whole = whole_level.result
     yield from released(whole)
-    yield from honest(whole, 1e-3)
+    yield from honest(whole)
     half_level = trade.measured(*half_given)
     half = half_level.result
     yield Fact("captured at half the step", half.captured)
@@ -89,7 +87,7 @@ def trained():
     result = capture.run(LIGHT, watch=far)
     spent = (time.process_time() - began) / (result.machine.time / result.machine.step)
     yield from released(result)
-    yield from honest(result, 2e-2)
+    yield from honest(result)
     yield Limit("farthest that cables are from the axis before they open", far.held, 1.001 * TRAINING.ring_radius, "m")
     print(f"      and at most, when they open: {far.most:.4f} m")
     print(f"      processor time of a step of 1 ms, with the account of energy: {spent * 1e6:.0f} µs")
@@ -120,7 +118,7 @@ def held_by_an_arm():
     yield Fact("captured, pressed, released", result.captured)
     yield Row("preload", result.preload, scene.screw_force(), 0.01, "N")
     yield Limit("the payload is turned by", abs(result.turned_deg), 0.02, "deg")
-    yield from honest(result, 2e-2)
+    yield from honest(result)
     half = capture.run(replace(LIGHT, holder=scene.arm(), step=0.5e-3), until="release", accounts=False)
     yield Row("preload at half the step", half.preload, result.preload, 0.01, "N")
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import snare as s
 import numpy as np
 
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 SLOW = 0.2  # rad/s of a ring that closes without a blow
@@ -62,7 +63,7 @@ def free_cables(level):
             0.01,
             "N",
         )
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), 1e-3)
+    yield from honest(machine)
 
 
 def closes(level, fixture, aperture):
@@ -95,7 +96,7 @@ def squeeze(level, fixture):
     yield Row("mean tension round a shaft is τ/(3·(r + rc))", sum(pulls) / s.CABLES, predicted, 0.02, "N")
     across = math.hypot(*machine.wrench("payload")[:2])
     yield Limit("what the payload feels across the axis, of one tension", across / predicted, 0.02)
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), 1e-3)
+    yield from honest(machine)
 
 
 def segments_apart(p, q):
@@ -158,7 +159,7 @@ def crossing(level):
     )
     yield Limit("contacts of cables pushed against each other, at most", machine.contacts_most, 1, least=True)
     yield Limit("least distance of their axes, of their diameter", min(apart) / (2 * snare.radius), 0.97, least=True)
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), 1e-3)
+    yield from honest(machine)
 
 
 def rows(level, fixture):

@@ -1,8 +1,6 @@
 """What the account of energy must come to, under each integrator. Run by mechanisms/run.py, as a mechanism is."""
 
-import math
 
-import mujoco
 from kit import mjcf, ron
 from kit.machine import Machine
 from kit.rows import Limit, Row

@@ -8,6 +8,7 @@ from kit import mjcf
 from kit.arm import Arm, Law, body, kinematics
 from kit.arm.dimensions import READY
 from kit.machine import Machine
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 STEP = 2e-3  # s
@@ -65,9 +66,7 @@ def inserted(step=STEP):
         0.1,
         "m",
     )
-    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), 1e-3)
-    yield Limit("forces that have no reaction, of the greatest", made.imbalance, 1e-9)
-    yield Fact("no flag of tunnelling", made.flags == 0)
+    yield from honest(made)
     made, controller = machine(INSISTING, step)
     push(controller)
     made.run(20.0, controller.control, lambda m: rig.height(m) < -0.06)

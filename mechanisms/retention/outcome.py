@@ -8,16 +8,10 @@ import numpy as np
 import pull
 from dimensions import model
 from kit.arm.dimensions import LINKS, TORQUE
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 BEFORE, STANDS, END = 6.0, 15.0, 26.0  # s: before the stall; the truss stands against its latches; the end
-
-
-def honest(machine, share):
-    """What holds of every run: energy, reactions, no tunnelling."""
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
 
 
 def pulled(torque, step=d.TRAINING, prepare=None):
@@ -35,7 +29,7 @@ def pulled(torque, step=d.TRAINING, prepare=None):
     return made, early, torques, made.machine.place("truss") - stood
 
 
-def conclusion(step=d.TRAINING, share=5e-3):
+def conclusion(step=d.TRAINING):
     """Uncommanded motion where joints stall, and not with unlimited joints; the same commands."""
     limited, early, torques, went = pulled(TORQUE, step)
     joint, when, asked, _ = limited.stalled
@@ -45,17 +39,17 @@ def conclusion(step=d.TRAINING, share=5e-3):
         yield Row(f"while the truss stands: JᵀF of {LINKS[number].name}", abs(torques[number]), TORQUE, 0.02, "N m")
     yield Limit("the arm pulls aft; the truss goes forward by", -went[0], 0.005, "m", least=True)
     yield Limit("and to the side by", abs(went[1]), 0.005, "m", least=True)
-    yield from honest(limited.machine, share)
+    yield from honest(limited.machine)
     free, other, torques, stays = pulled(pull.UNLIMITED, step)
     yield Fact("with unlimited joints: the same bits before the stall", early == other)
     yield Limit("forward", -stays[0], 1e-3, "m")
     yield Limit("to the side", abs(stays[1]), 1e-3, "m")
     greatest = np.abs(free.torques()).max()
     yield Limit("greatest JᵀF at the end", greatest, 2 * TORQUE, "N m", least=True)
-    yield from honest(free.machine, share)
+    yield from honest(free.machine)
 
 
-def berthed(step=d.TRAINING, share=5e-3):
+def berthed(step=d.TRAINING):
     made = latch.Berthing(step)
     made.run()
     place = made.machine.place("truss")
@@ -63,7 +57,7 @@ def berthed(step=d.TRAINING, share=5e-3):
     yield Limit("off the middle sideways: the gap of the keel latch", abs(place[1]), model.KEEL_CLOSED_GAP + 2e-4, "m")
     for name, force in made.held().items():
         yield Row(f"force of the claw of {name}: torque over lever", force, latch.preload(place[0]), 0.01, "N")
-    yield from honest(made.machine, share)
+    yield from honest(made.machine)
 
 
 def off_nominal():
@@ -97,4 +91,4 @@ def rows(thorough):
     if thorough:
         yield "berthed and latched", berthed()
         yield "one claw does not close", off_nominal()
-        yield "joints that stall, level analysis at half the step", conclusion(d.ANALYSIS, 1e-3)
+        yield "joints that stall, level analysis at half the step", conclusion(d.ANALYSIS)

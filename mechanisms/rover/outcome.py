@@ -10,23 +10,17 @@ import scenes
 import statics
 from dimensions import model
 from kit.restart import same_bits
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 RADIUS = 5.0  # m
 ROLLED = 0.5  # s of driving after which bits are saved
 
 
-def honest(machine, share):
-    """What holds of every run: energy, reactions, no tunnelling."""
-    yield Limit("energy that does not close, of what went through", machine.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", machine.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", machine.flags == 0)
-
-
 def turning():
     radius, made = scenes.turned(RADIUS, d.RIGID)
     yield Row("radius of the circle with Ackermann's angles", radius, RADIUS, 2e-3, "m")
-    yield from honest(made, 1e-3)
+    yield from honest(made)
 
 
 def slopes():
@@ -41,7 +35,7 @@ def slopes():
         slid, made = scenes.slides(angle)
         closed = model.GRAVITY * (math.sin(angle) - model.FRICTION * math.cos(angle))
         yield Row(f"{more:g} deg above it: g·(sin − μ·cos)", slid, closed, 1e-2, "m/s²")
-    yield from honest(made, 1e-3)
+    yield from honest(made)
 
 
 def step_up(name, climbed, missed):
@@ -53,15 +47,15 @@ def step_up(name, climbed, missed):
     yield Row("torque at which they come off the ground", torque, statics.needed(name, climbed), 0.06, "N m")
     _, up, _ = scenes.climbs(name, missed)
     yield Fact(f"and not {missed * 1e3:g} mm", not up and missed > highest)
-    yield from honest(made, 1e-3)
+    yield from honest(made)
 
 
 def trade():
     """The stone with both tyres: what the coarse one costs and how far it is off."""
     fine, exact = timed(d.ANALYSIS)
     coarse, rough = timed(d.TRAINING)
-    yield from honest(fine, 1e-3)
-    yield from honest(coarse, 5e-3)
+    yield from honest(fine)
+    yield from honest(coarse)
     count = min(len(exact), len(rough))
     off = rough[:count] - exact[:count]
     print(
@@ -119,7 +113,7 @@ def restarted():
 def rocks():
     made = scenes.over_rocks(d.TRAINING)
     yield Limit("way over the rocks in 8 s", made.data.qpos[0] + 2.3, 6.0, "m", least=True)
-    yield from honest(made, 5e-3)
+    yield from honest(made)
 
 
 DRAWN = ("chassis", "rocker_*", "bogie_*")  # bodies that logs and films show beside what touches

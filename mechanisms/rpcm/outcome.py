@@ -7,16 +7,10 @@ import jam
 import numpy as np
 import rig
 import statics
+from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
 NEAR = 0.03  # loads so near to the sides of the parallelogram are left out: turned boxes and springs that sink in
-
-
-def honest(made, share):
-    """What holds of every run: energy, reactions, no tunnelling."""
-    yield Limit("energy that does not close, of what went through", made.ledger.open_share(), share)
-    yield Limit("forces that have no reaction, of the greatest", made.imbalance, 1e-9)
-    yield Fact("no contact tunnelled, no limit was met", made.flags == 0)
 
 
 def loads(random):
@@ -62,7 +56,7 @@ def jammed(level=d.TRAINING):
     yield Fact("accommodation frees it", freed)
     yield Row("moment of the wrist then", moment, jam.predicted_release(stood), 0.06, "N·m")
     yield from seated(made, wrist)
-    yield from honest(made, 1e-3)
+    yield from honest(made)
 
 
 def moved_push():
@@ -89,7 +83,7 @@ def opposite(level=d.TRAINING):
         expected = statics.feed(jam.depth(made), jam.TILT, 0.0)
         yield Row(f"push at the depth {deep * 1e3:.0f} mm", wrist.push, expected, 0.03, "N")
     yield from seated(made, wrist)
-    yield from honest(made, 1e-3)
+    yield from honest(made)
 
 
 def limit():
@@ -113,10 +107,10 @@ def cone():
     for way, word in ((1, "pulls it out"), (-1, "drives it in")):
         force, made = grip.drawn_through(way)
         yield Row(f"force that {word} against stalled motors", force, grip.predicted(way), 0.01, "N")
-        yield from honest(made, 1e-3)
+        yield from honest(made)
 
 
-def exchanged(level, share):
+def exchanged(level):
     """A gripper takes the box by its cone, pushes it home, pulls it out, lets go and backs away."""
     made, sequencer = exchange.run(level.step)
     force = d.ARM_FORCE - statics.spring()
@@ -125,7 +119,7 @@ def exchanged(level, share):
     yield Limit("the box is where it began: off by", abs(made.place("box")[0] - exchange.BEGIN), 2.5e-3, "m")
     apart = exchange.along(made) - d.LENGTH / 2
     yield Limit("the gripper has left it: distance", apart, 0.015, "m", least=True)
-    yield from honest(made, share)
+    yield from honest(made)
 
 
 def weak_jaws(voltage=0.6):
@@ -165,11 +159,11 @@ def rows(thorough):
     yield "the opposite: held in the middle", opposite()
     yield "restart", [Fact("restarted in the jam: the same bits", jam.same_bits_after_restart())]
     yield "cone and jaws", cone()
-    yield "the whole, with the gripper, level training", exchanged(d.TRAINING, 1e-2)
+    yield "the whole, with the gripper, level training", exchanged(d.TRAINING)
     yield "weak jaws", weak_jaws()
     yield "restart", [Fact("restarted on the way in: the same bits", exchange.same_bits_after_restart())]
     if thorough:
-        yield "the whole, level analysis", exchanged(d.ANALYSIS, 1e-3)
+        yield "the whole, level analysis", exchanged(d.ANALYSIS)
         yield "the limit of the jam", limit()
         yield "the jammed box is taken in the middle", moved_push()
         yield "jam and cure, level analysis", jammed(d.ANALYSIS)
