@@ -1,6 +1,5 @@
 """What the account of energy must come to, under each integrator. Run by mechanisms/run.py, as a mechanism is."""
 
-
 from kit import mjcf, ron
 from kit.machine import Machine
 from kit.rows import Limit, Row

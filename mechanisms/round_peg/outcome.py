@@ -93,20 +93,46 @@ def tip(made):
 TILT, STIFFNESS = rig.tilt_at(0.012), 50.0  # rad; N·m/rad of the spring that holds a peg
 
 
-def compliant():
+def compliant(step):
     """Held by a spring about its tip, the peg turns upright as it goes in; friction in two places is 2μ·K(θ₀ − θ)/l."""
-    tilt, stiffness = TILT, STIFFNESS
-    made = rig.machine(held(tilt, stiffness))
+    made = rig.machine(held(TILT, STIFFNESS), step=step)
     feed = driven(made)
-    drive = made.model.joint("down").dofadr[0]
     for depth in (0.03, 0.045, 0.06):
         made.run(10.0, feed, watch=lambda m: -tip(m) > depth)
-        angle = tilt + made.joint("turn")
-        push = stiffness * (tilt - angle) / -tip(made)
+        angle = TILT + made.joint("turn")
+        push = STIFFNESS * (TILT - angle) / -tip(made)
         yield Row(f"tilt at the depth {depth * 1e3:.0f} mm", angle, rig.tilt_at(-tip(made), push), 0.02, "rad")
-        predicted = 2 * rig.FRICTION * push
-        yield Row("force of the feed there", float(made.data.qfrc_applied[drive]), predicted, 0.03, "N")
+        yield Row("force of the feed there", feed_force(made), 2 * rig.FRICTION * push, 0.03, "N")
     yield from honest(made)
+
+
+def feed_force(made):
+    return float(made.data.qfrc_applied[made.model.joint("down").dofadr[0]])
+
+
+def half_step(depth=0.03):
+    for name, step in (("training", rig.TRAINING), ("analysis", rig.ANALYSIS)):
+        forces = []
+        for each in (step, step / 2):
+            made = rig.machine(held(TILT, STIFFNESS), step=each)
+            made.run(5.0, driven(made), watch=lambda m: -tip(m) > depth)
+            forces.append(feed_force(made))
+        yield Row(
+            f"level {name}, {depth * 1e3:g} mm deep: force of the feed at half the step", *forces[::-1], 2e-3, "N"
+        )
+
+
+def restarted():
+    """While both places touch."""
+    made = rig.machine(held(TILT, STIFFNESS), step=rig.TRAINING)
+    feed = driven(made)
+    made.run(5.0, feed, watch=lambda m: -tip(m) > 0.03)
+    middle = made.save()
+    made.run(0.1, feed)
+    end = made.save().tobytes()
+    made.restore(middle)
+    made.run(0.1, feed)
+    yield Fact("restarted while both places touch: the same bits", made.save().tobytes() == end)
 
 
 def shown(prepare):
@@ -118,5 +144,9 @@ def shown(prepare):
 
 def rows(thorough):
     yield "two places", two_places()
-    yield "compliant insertion", compliant()
+    yield "compliant insertion", compliant(rig.ANALYSIS)
     yield "Whitney's diagram", diagram(200 if thorough else 24)
+    yield "restart", restarted()
+    if thorough:
+        yield "compliant insertion, level training", compliant(rig.TRAINING)
+        yield "half the step", half_step()

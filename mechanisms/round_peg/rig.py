@@ -19,6 +19,7 @@ DAMPING = 200.0  # N·s/m
 SLID = (
     5e-3  # m: a peg that slides goes further in the time that it is given; one that jams may still tilt on its springs
 )
+TRAINING, ANALYSIS = 4e-4, 1e-4  # s
 MASS = 1.0  # kg, all in the middle of the tip, so that loads are given there
 
 
@@ -32,7 +33,7 @@ def hole():
     return ron.model("hole", ron.rigid(FRICTION), [part])
 
 
-def machine(body, more="", step=1e-4):
+def machine(body, more="", step=ANALYSIS):
     """`body`: text of the MuJoCo body `peg`."""
     extension = mjcf.contact_instance(
         {"hole": "text1", "peg": "text2"}, [("hole", "peg")], {"hole": "world"}, [hole(), peg()]
