@@ -111,7 +111,7 @@ def pushed(integrator):
     yield Limit("energy that does not close", made.ledger.open_share(), 1e-12)
 
 
-def put_in(integrator, more=0.02):
+def inserted(integrator, more=0.02):
     """Energy that comes from no force: the account must show it."""
     made = moving(ball(integrator, damping=100.0, height=RADIUS + 1.3e-4), 0.0, -1.0)
     made.run(0.05)
@@ -158,7 +158,7 @@ def account(integrator):
     yield from oscillator(integrator)
     yield from motor(integrator)
     yield from pushed(integrator)
-    yield from put_in(integrator)
+    yield from inserted(integrator)
     yield from pendulums(integrator)
 
 
