@@ -5,9 +5,11 @@
     python3 mechanisms/run.py NAME --thorough   all of them: minutes
     python3 mechanisms/run.py NAME --log DIR    a response log of the scene that the mechanism shows
     python3 mechanisms/run.py NAME --log DIR --drawn    with bodies that touch nothing, for viewers and films
+    python3 mechanisms/run.py NAME --campaign DIR --runs 1000      dispersed runs; rows go to DIR, what is there stays
 
 Needs mujoco, numpy and the plugin (docs/mujoco.md): its file in the variable PLUGIN, or the wheel pong_mujoco; for
-logs the wheel pong, too. `bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
+logs the wheel pong, too, and for campaigns the same with [campaign] (docs/campaigns.md).
+`bash ci/mechanisms NAME` installs and builds these. Exit code 1 if anything is off.
 """
 
 import argparse
@@ -27,8 +29,15 @@ def main():
         "--log", type=pathlib.Path, metavar="DIR", help="writes a response log, and checks nothing else"
     )
     parser.add_argument("--drawn", action="store_true", help="the log shows bodies that touch nothing, too")
+    parser.add_argument("--campaign", type=pathlib.Path, metavar="DIR", help="dispersed runs: checks nothing else")
+    parser.add_argument("--runs", type=int, default=1000, help="of the campaign")
+    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--keep", action="store_true", help="the worst case goes to worst_case.json of the mechanism")
     given = parser.parse_args()
     sys.path[:0] = [str(HERE / given.name), str(HERE)]
+    if given.campaign:
+        sys.exit(run_campaign(given, parser))
     import outcome
 
     if given.log:
@@ -46,6 +55,16 @@ def main():
     if off:
         sys.exit(f"{given.name}: {off} of its checks do not hold")
     print(f"{given.name}: all checks hold")
+
+
+def run_campaign(given, parser):
+    home = HERE / given.name
+    if not (home / "campaign.py").exists():
+        parser.error(f"{given.name} has no campaign: it lacks the file campaign.py")
+    import campaign
+    from kit import conclusion
+
+    conclusion.command(campaign.STUDY, home, given)
 
 
 def write_log(outcome, folder, drawn):

@@ -2,6 +2,7 @@
 
 import time
 
+import campaign
 import dimensions as d
 import handover
 import numpy as np
@@ -9,6 +10,7 @@ import rig
 import seat
 import statics
 from dimensions import ANALYSIS, TRAINING
+from kit import conclusion
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 from seat import PULL
@@ -208,3 +210,4 @@ def rows(thorough):
         yield "limits of capture at half the step", captures(TRAINING.step / 2, EDGES)
         yield "one seat, level analysis", seated(ANALYSIS.step)
         yield "from the trunk to the platform, level analysis", handed_over(ANALYSIS.step)
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

@@ -90,15 +90,19 @@ def holder(group, h):
     )
 
 
-def machine(step, holders=(), friction=None, missing=None, pose=(0.0,) * 6, opened=d.OPEN):
-    """The payload at a pose (m and a rotation vector, from its seat), the claw at an angle; arms lead to where they are."""
+def machine(step, holders=(), friction=None, missing=None, pose=(0.0,) * 6, opened=d.OPEN, mu=None):
+    """The payload at a pose (m and a rotation vector, from its seat), the claw at an angle; arms lead to where they are.
+
+    `friction`: see `platform_text`; `mu`: coefficient of friction of all surfaces.
+    """
     bodies = {"platform": "world", **{f"platform/{name}": name for name in VANES}}
     bodies |= {"platform/claw": "claw", "payload": "payload"}
+    texts = (platform_text(friction), payload_text(missing))
     extension = mjcf.contact_instance(
         {"platform": "text1", "payload": "text2"},
         [("platform", "payload")],
         bodies,
-        texts=(platform_text(friction), payload_text(missing)),
+        texts=texts if mu is None else [mjcf.with_friction(text, mu) for text in texts],
     )
     sites = "".join(f'<site name="at_{h.name}" pos="{mjcf.numbers(h.fixture)}"/>' for h in holders)
     arms = "".join(holder(1 + i, h) for i, h in enumerate(holders))

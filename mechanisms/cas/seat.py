@@ -42,17 +42,20 @@ def turned(step, most, rise=3.0):
 
 
 class Capture:
-    """A payload, beside the vanes and level, is led in; the claw closes when the bar is near. `voltage`: of the claw."""
+    """A payload, beside the vanes and level, is led in; the claw closes when the bar is near. `voltage`: of the claw.
 
-    FEED, ABOVE, BELOW = 0.04, 0.075, -0.020  # m/s, m, m
+    `feed`: speed with which it is led, m/s; `mu`: coefficient of friction, where it is another than that of the model.
+    """
 
-    def __init__(self, step, offset=(0.0, 0.0), yaw=0.0, voltage=-1.0):
-        self.voltage, self.closing = voltage, False
+    ABOVE, BELOW = 0.075, -0.020  # m
+
+    def __init__(self, step, offset=(0.0, 0.0), yaw=0.0, voltage=-1.0, feed=0.04, mu=None):
+        self.voltage, self.feed, self.closing = voltage, feed, False
         pose = (*offset, self.ABOVE, 0.0, 0.0, yaw)
-        self.machine = rig.machine(step, (d.LIMP,), pose=pose)
+        self.machine = rig.machine(step, (d.LIMP,), pose=pose, mu=mu)
 
     def control(self, machine):
-        z = max(self.ABOVE - self.FEED * machine.time, self.BELOW)
+        z = max(self.ABOVE - self.feed * machine.time, self.BELOW)
         rig.lead(machine, d.LIMP, (0.0, 0.0, z, 0.0, 0.0, 0.0))
         self.closing = self.closing or machine.place("payload")[2] < d.READY_Z
         rig.drive(machine, self.voltage if self.closing else 0.0)

@@ -1,105 +1,117 @@
-#!/usr/bin/env python3
-"""Dispersed approaches within the initial contact conditions: how often is the target captured, and with which loads?
+"""Approaches dispersed over the initial contact conditions: how often is the target captured, and with which loads?
 
-    python3 mechanisms/docking/campaign.py OUT --runs 10000 --workers 2       with the plugin as for mechanisms/run.py
-    python3 mechanisms/docking/campaign.py OUT --runs 300 --keep              the worst case goes to worst_case.json
-
-Level training, without hooks and pads, until capture or GIVE_UP. Run i draws from a generator of its own, so it is the
-same whatever the number of runs and workers. Rows go to OUT/approaches.csv as they come; what is there is not run again.
+Level training, without hooks and pads, until AFTER s from capture or until GIVE_UP. The sequencer has a tick of TICK
+and holds its commands between; loads are seen in each step. No closed form says which approach is captured.
 """
 
-import argparse
-import csv
-import json
 import math
-import multiprocessing
-import pathlib
-import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path[:0] = [path for path in (str(HERE), str(HERE.parent)) if path not in sys.path]
-import dimensions as d  # noqa: E402
-import docking  # noqa: E402
-import mujoco  # noqa: E402
-import numpy as np  # noqa: E402
-import stewart  # noqa: E402
-from kit.machine import TUNNELLED  # noqa: E402
-from sequence import Sequencer  # noqa: E402
+import dimensions as d
+import docking
+import mujoco
+import numpy as np
+import stewart
+from kit.campaign import ANY_WAY, OverDisc, Study, Uniform
+from kit.machine import TUNNELLED
+from sequence import Sequencer
 
-WORST = HERE / "worst_case.json"
 GIVE_UP = 12.0  # s
 AFTER = 2.5  # s from capture on: the vehicles have stopped
-SCALE = 1.0  # of the standard's limits
-QUANTILES = (0.5, 0.95, 0.99)
-COLUMNS = ("run", "captured", "time", "peak_force", "peak_moment", "peak_leg", "stroke", "touching", "tunnelled")
+TICK, SEEN = 5, 100  # steps
+DISPERSED = {
+    "speed": Uniform(*d.CLOSING),
+    "lateral": OverDisc(d.LATERAL),
+    "lateral_way": ANY_WAY,
+    "lateral_rate": OverDisc(d.LATERAL_RATE),
+    "lateral_rate_way": ANY_WAY,
+    "tilt": OverDisc(d.TILT),
+    "tilt_way": ANY_WAY,
+    "roll": Uniform(-d.ROLL, d.ROLL),
+    **{f"rate_{axis}": Uniform(-d.RATE, d.RATE) for axis in "xyz"},
+}
 
 
-def drawn(run, seed=1):
-    """Eleven numbers from 0 to 1: speed, lateral (2), lateral rate (2), tilt (2), roll, rates (3)."""
-    return np.random.default_rng([seed, run]).uniform(size=11)
+def polar(values, name):
+    length, way = values[name], values[f"{name}_way"]
+    return (length * math.cos(way), length * math.sin(way))
 
 
-def within_disc(radius, a, b):
-    """Even over a disc."""
-    r, angle = radius * math.sqrt(a), 2 * math.pi * b
-    return (r * math.cos(angle), r * math.sin(angle))
-
-
-def both_ways(limit, value):
-    """Even from −limit to limit."""
-    return limit * (2 * value - 1)
-
-
-def case(u, scale=SCALE):
+def case(values):
     return docking.Case(
-        speed=d.CLOSING[0] + (d.CLOSING[1] - d.CLOSING[0]) * u[0],
-        lateral=within_disc(scale * d.LATERAL, u[1], u[2]),
-        lateral_rate=within_disc(scale * d.LATERAL_RATE, u[3], u[4]),
-        tilt=within_disc(scale * d.TILT, u[5], u[6]),
-        roll=scale * both_ways(d.ROLL, u[7]),
-        rates=tuple(scale * both_ways(d.RATE, value) for value in u[8:11]),
+        speed=values["speed"],
+        lateral=polar(values, "lateral"),
+        lateral_rate=polar(values, "lateral_rate"),
+        tilt=polar(values, "tilt"),
+        roll=values["roll"],
+        rates=tuple(values[f"rate_{axis}"] for axis in "xyz"),
         give_up=GIVE_UP,
-        gap=docking.GAP + 0.1 * max(scale - 1.0, 0.0),  # m: no approach may begin in contact
     )
 
 
 class Peaks:
-    """What a row of results needs of each step, with little work."""
+    """What a row of results needs of each step, with little work: many steps are kept, and then looked at together."""
 
     def __init__(self, made):
-        self.legs = stewart.actuator_slice(made.model)
         self.force = self.moment = self.leg = self.stroke = 0.0
-        first = made.sensed.start + 3 + 6 * made.carriers.index(made.model.body("target").id)
-        self.wrench, self.slide = slice(first, first + 6), made.model.joint("ring_z").qposadr[0]
-        self.flags, self.status = made.sensed.start + 1, made.sensed.start + 2
+        first = 3 + 6 * made.carriers.index(made.model.body("target").id)
+        self.force_at, self.moment_at = slice(first, first + 3), slice(first + 3, first + 6)
+        # Views of MuJoCo's memory.
+        self.sensed, self.qpos = made.data.sensordata[made.sensed], made.data.qpos
+        self.legs = made.data.actuator_force[stewart.actuator_slice(made.model)]
+        self.slide = made.model.joint("ring_z").qposadr[0]
+        self.seen, self.pushed, self.kept = np.empty((SEEN, len(self.sensed))), np.empty((SEEN, stewart.LEGS)), 0
+
+    def go(self, made):
+        """One tick."""
+        for i in range(self.kept, self.kept + TICK):
+            mujoco.mj_step(made.model, made.data)
+            self.seen[i], self.pushed[i] = self.sensed, self.legs
+        self.kept += TICK
+        self.stroke = max(self.stroke, -self.qpos[self.slide])
+        if self.kept == SEEN:
+            self.look(made)
 
     def look(self, made):
-        wrench = made.data.sensordata[self.wrench]
-        self.force = max(self.force, math.sqrt(wrench[:3] @ wrench[:3]))
-        self.moment = max(self.moment, math.sqrt(wrench[3:] @ wrench[3:]))
-        self.leg = max(self.leg, float(np.abs(made.data.actuator_force[self.legs]).max()))
-        self.stroke = max(self.stroke, -float(made.data.qpos[self.slide]))
-        made.flags |= int(made.data.sensordata[self.flags])
-        if made.data.sensordata[self.status] != 0:
-            raise RuntimeError(f"at {made.time:.6f} s a step could not be computed")
+        seen, pushed, self.kept = self.seen[: self.kept], self.pushed[: self.kept], 0
+        if not len(seen):
+            return
+        made.judge(seen)
+        self.force = max(self.force, most(seen[:, self.force_at]))
+        self.moment = max(self.moment, most(seen[:, self.moment_at]))
+        self.leg = max(self.leg, float(np.abs(pushed).max()))
 
 
-def attempt(u, scale=SCALE):
-    """One approach: a row of results without its number."""
-    made = docking.approach(case(u, scale), hard=False)
+def most(vectors):
+    return math.sqrt((vectors * vectors).sum(axis=1).max())
+
+
+_made = []  # of this process: compiling the model takes as long as a second of the approach
+
+
+def begin(values):
+    if not _made:
+        _made.append(docking.approach(case(values), hard=False))
+    made = _made[0]
+    mujoco.mj_resetData(made.model, made.data)
+    made.flags = 0
+    return docking.placed(made, case(values), hard=False)
+
+
+def attempt(values):
+    made = begin(values)
     sequencer, peaks = Sequencer(give_up=GIVE_UP, hard=False), Peaks(made)
     touching = made.contacts()
     while sequencer.phase != "abort" and not ended(made, sequencer):
         sequencer(made)
-        mujoco.mj_step(made.model, made.data)
-        peaks.look(made)
+        peaks.go(made)
+    peaks.look(made)
     return {
-        "captured": int(sequencer.captured_at is not None),
-        "time": sequencer.captured_at or made.time,
+        "success": int(sequencer.captured_at is not None),
         "peak_force": peaks.force,
         "peak_moment": peaks.moment,
         "peak_leg": peaks.leg,
-        "stroke": peaks.stroke,
+        "stroke": float(peaks.stroke),
+        "time": sequencer.captured_at or made.time,
         "touching": touching,
         "tunnelled": int(bool(made.flags & TUNNELLED)),
     }
@@ -109,100 +121,18 @@ def ended(made, sequencer):
     return sequencer.captured_at is not None and made.time > sequencer.captured_at + AFTER
 
 
-def kept():
-    return json.loads(WORST.read_text(encoding="utf-8"))
-
-
-def job(task):
-    run, seed, scale = task
-    return {"run": run, **attempt(drawn(run, seed), scale)}
-
-
-def done(path):
-    """Rows that are there; one that was cut off when a campaign was stopped does not count."""
-    if not path.exists():
-        return {}
-    with path.open(newline="", encoding="utf-8") as file:
-        whole = [row for row in csv.DictReader(file) if row[COLUMNS[-1]]]
-    return {int(row["run"]): {key: float(value) for key, value in row.items()} for row in whole}
-
-
-def same_plan(folder, given):
-    """A folder holds one campaign: its rows are those of one seed and scale."""
-    plan, path = {"seed": given.seed, "scale": given.scale}, folder / "plan.json"
-    if path.exists() and json.loads(path.read_text(encoding="utf-8")) != plan:
-        sys.exit(f"{folder} has rows of another seed or scale; name another folder")
-    path.write_text(json.dumps(plan), encoding="utf-8")
-
-
-def run_all(path, tasks, workers):
-    """Writes each row when it comes."""
-    fresh = not path.exists()
-    with (
-        path.open("a", newline="", encoding="utf-8") as file,
-        multiprocessing.get_context("spawn").Pool(workers) as pool,
-    ):
-        writer = csv.DictWriter(file, COLUMNS)
-        if fresh:
-            writer.writeheader()
-        for row in pool.imap_unordered(job, tasks):
-            writer.writerow(row)
-            file.flush()
-
-
-def conclude(rows):
-    from pong.campaign import quantile_interval, wilson
-
-    captured = int(sum(row["captured"] for row in rows))
-    low, high = wilson(captured, len(rows), 0.95)
-    print(
-        f"{len(rows)} approaches, {captured} captured: {captured / len(rows):.4f}, with 95 % confidence {low:.4f} to {high:.4f}"
-    )
-    print(
-        f"{sum(row['tunnelled'] for row in rows):.0f} tunnelled, {sum(row['touching'] > 0 for row in rows)} began in contact"
-    )
-    for name, unit in (("peak_force", "N"), ("peak_moment", "N·m"), ("peak_leg", "N"), ("stroke", "m"), ("time", "s")):
-        values = np.array([row[name] for row in rows])
-        for share in QUANTILES:
-            bounds = [f"{bound:.5g}" if bound is not None else "?" for bound in quantile_interval(values, share, 0.95)]
-            print(f"{name} {share:.0%}: {np.quantile(values, share):.5g} {unit} ({bounds[0]} to {bounds[1]})")
-
-
-def worst_of(rows):
-    """A lost approach if there is one, else the one with the greatest force."""
-    return max(rows, key=lambda row: (not row["captured"], row["peak_force"]))
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("--runs", type=int, default=10000)
-    parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--scale", type=float, default=SCALE, help="of the standard's limits")
-    parser.add_argument("--keep", action="store_true", help="writes the worst case beside this file")
-    given = parser.parse_args()
-    given.out.mkdir(parents=True, exist_ok=True)
-    same_plan(given.out, given)
-    path = given.out / "approaches.csv"
-    before = done(path)
-    run_all(path, [(i, given.seed, given.scale) for i in range(given.runs) if i not in before], given.workers)
-    rows = [row for i, row in sorted(done(path).items()) if i < given.runs]
-    conclude(rows)
-    worst = worst_of(rows)
-    print(f"worst: run {worst['run']:.0f}, {'captured' if worst['captured'] else 'lost'}, {worst['peak_force']:.1f} N")
-    if given.keep:
-        found = {
-            "run": int(worst["run"]),
-            "seed": given.seed,
-            "scale": given.scale,
-            "drawn": drawn(int(worst["run"]), given.seed).tolist(),
-        }
-        WORST.write_text(
-            json.dumps({**found, "peak_force": worst["peak_force"], "captured": worst["captured"]}, indent=1) + "\n",
-            encoding="utf-8",
-        )
-
-
-if __name__ == "__main__":
-    main()
+STUDY = Study(
+    "docking",
+    DISPERSED,
+    attempt,
+    {
+        "peak_force": ("greatest force between the vehicles", "N", 1.0),
+        "peak_moment": ("greatest moment about the target's port", "N·m", 1.0),
+        "peak_leg": ("greatest force of a leg", "N", 1.0),
+        "stroke": ("stroke of the ring", "mm", 1e3),
+        "time": ("time of capture", "s", 1.0),
+        "touching": ("contacts at the start", "", 1.0),
+    },
+    success="captured",
+    predicts=False,
+)

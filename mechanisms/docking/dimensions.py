@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from kit.files import module_of
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
 
 
 def _interface():

@@ -35,8 +35,12 @@ class Case:
 
 
 def approach(case, hard=True, drawn=None, assets=""):
-    """The machine before the first contact. The middle of the ring's face is where lateral and speed are meant."""
-    made = vehicles.machine(case.level, hard, drawn, assets)
+    """The machine before the first contact."""
+    return placed(vehicles.machine(case.level, hard, drawn, assets), case, hard)
+
+
+def placed(made, case, hard):
+    """Both vehicles where the case begins. The middle of the ring's face is where lateral and speed are meant."""
     ahead = max(case.gap - MEETING, 0.0) / case.speed
     angles = [angle - rate * ahead for angle, rate in zip((*case.tilt, case.roll), case.rates)]
     frame = vehicles.about("z", angles[2]) @ vehicles.about("y", angles[1]) @ vehicles.about("x", angles[0])

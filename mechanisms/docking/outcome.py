@@ -4,6 +4,7 @@ import math
 import time
 from dataclasses import replace
 
+import campaign
 import dimensions as d
 import docking
 import numpy as np
@@ -11,7 +12,7 @@ import rig_hard
 import rig_ring
 import vehicles
 from docking import Case
-from kit import rules
+from kit import conclusion, rules
 from kit.rows import Fact, Limit, Row
 from sequence import STRIKER_EDGE, TIMES, Sequencer, catch
 
@@ -199,14 +200,6 @@ def elsewhere():
         )
 
 
-def worst():
-    import campaign
-
-    kept = campaign.kept()
-    again = campaign.attempt(np.array(kept["drawn"]))
-    yield Row("worst case of the campaign: its peak force again", again["peak_force"], kept["peak_force"], 1e-9, "N")
-
-
 DRAWN = ("cylinder_*", "rod_*")  # bodies that logs and films show beside what touches
 
 
@@ -228,4 +221,4 @@ def rows(thorough):
         yield "failures", failures()
         yield "limits", limits()
         yield "turned", elsewhere()
-        yield "worst case", worst()
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

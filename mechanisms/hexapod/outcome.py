@@ -4,12 +4,14 @@ import copy
 import math
 import random
 
+import campaign
 import dimensions as d
 import leg
 import numpy as np
 import rig
 import scenes
 
+from kit import conclusion
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
@@ -156,5 +158,6 @@ def rows(thorough):
     yield "restart", restarted()
     yield "half the step", half_step(20.0 if thorough else 6.0)
     if thorough:
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)
         yield "tipping, stiff servos", tipping_stiff()
         yield "plane, level analysis", analysed(d.ANALYSIS, 0)

@@ -91,14 +91,14 @@ def ground(tiles):
     return drawn, dict.fromkeys(names, "terrain.ron"), {name: name for name in names}
 
 
-def text(step, tiles=0, gravity=LEVEL, stiffer=1.0):
+def text(step, tiles=0, gravity=LEVEL, stiffer=1.0, friction=None):
     """MJCF, and the bodies that carry what touches."""
     drawn, objects, bodies = ground(tiles)
     under = list(objects)
     for i in LEGS:
         objects[f"foot_{i}"], bodies[f"foot_{i}"] = "foot.ron", f"tibia_{i}"
     pairs = [(f"foot_{i}", name) for i in LEGS for name in under]
-    extension = mjcf.contact_instance(objects, pairs, bodies, folder=str(d.HERE), capacity=64)
+    extension = mjcf.contact_instance(objects, pairs, bodies, folder=str(d.HERE), capacity=64, friction=friction)
     mesh = f'<asset><mesh name="terrain" file="{d.HERE / "terrain.obj"}" inertia="shell"/></asset>' if tiles else ""
     more = f"<actuator>{servos(stiffer)}</actuator>{mesh}"
     return mjcf.model("hexapod", extension, drawn + body(), more, step, gravity=gravity), list(bodies.values())
@@ -109,12 +109,12 @@ def sunk():
     return d.MASS * d.GRAVITY / (6 * d.STIFFNESS)
 
 
-def machine(step, tiles=0, gravity=LEVEL, height=d.HEIGHT, above=0.0, stiffer=1.0, made=None):
+def machine(step, tiles=0, gravity=LEVEL, height=d.HEIGHT, above=0.0, stiffer=1.0, made=None, friction=None):
     """Standing with all feet; `above`: how much higher than where they just touch the plane, m.
 
-    `stiffer`: by what its servos are stiffer. `made`: the class of machine, for other contacts.
+    `stiffer`: by what its servos are stiffer. `made`: the class of machine, for other contacts. `friction`: of feet and ground.
     """
-    hexapod = (made or Hexapod)(*text(step, tiles, gravity, stiffer))
+    hexapod = (made or Hexapod)(*text(step, tiles, gravity, stiffer, friction))
     pose(hexapod, [leg.neutral(i, height) for i in LEGS], height + d.FOOT_RADIUS + above)
     return hexapod
 

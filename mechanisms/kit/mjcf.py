@@ -1,5 +1,8 @@
 """Pieces of MJCF text."""
 
+import pathlib
+import re
+
 
 def numbers(values):
     return " ".join(f"{value:.12g}" for value in values)
@@ -33,8 +36,15 @@ def motor(name, joint, stall, free_speed, gear=1.0):
     )
 
 
-def contact_instance(objects, pairs, bodies, texts=(), folder=None, capacity=64):
-    """An instance of the plugin. `objects`: name → model file or text1 … text4; `bodies`: group → body."""
+def contact_instance(objects, pairs, bodies, texts=(), folder=None, capacity=64, friction=None):
+    """An instance of the plugin. `objects`: name → model file or text1 … text4; `bodies`: group → body.
+
+    `friction`: of all surfaces, in place of what the files say; there may be four files at most.
+    """
+    if friction is not None:
+        files = list(dict.fromkeys(objects.values()))
+        texts = [with_friction((pathlib.Path(folder) / file).read_text(encoding="utf-8"), friction) for file in files]
+        objects = {name: f"text{1 + files.index(file)}" for name, file in objects.items()}
     keys = {
         "objects": "; ".join(f"{name} = {model}" for name, model in objects.items()),
         "pairs": "; ".join(f"{a}, {b}" for a, b in pairs),
@@ -48,6 +58,14 @@ def contact_instance(objects, pairs, bodies, texts=(), folder=None, capacity=64)
     return (
         f'<extension><plugin plugin="pong.contact"><instance name="contact">{inside}</instance></plugin></extension>'
     )
+
+
+def with_friction(text, friction):
+    """The text of a contact model whose surfaces all have this coefficient of friction."""
+    changed, count = re.subn(r"\bmu: [-+.0-9e]+", f"mu: {friction:.12g}", text)
+    if not count:
+        raise ValueError("no surface of the model has friction")
+    return changed
 
 
 def model(name, extension, world, more="", step=1e-3, integrator="RK4", gravity=(0, 0, 0)):

@@ -2,9 +2,11 @@
 
 import time
 
+import campaign
 import drawer
 import stowage
-from dimensions import ANALYSIS, LEVER, TRAINING, HOOK_STALL, model
+from dimensions import ANALYSIS, HERE, LEVER, TRAINING, HOOK_STALL, model
+from kit import campaign_check, conclusion
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
@@ -95,7 +97,9 @@ def rows(thorough):
     yield "stowed and released, level training", stowed(stowage.Case())
     restart = stowage.same_bits_after_restart
     yield "restart", [Fact("restarted while it is pressed: the same bits", restart(stowage.Case(), 7.0, 0.5))]
+    yield "a campaign of three runs", campaign_check.rows(campaign.STUDY)
     if thorough:
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, HERE)
         yield "a harder push", harder()
         yield "stowed and released, level analysis", stowed(stowage.Case(level=ANALYSIS))
         yield "from outside of the rails", stowed(stowage.Case(start=OUTSIDE))

@@ -2,12 +2,14 @@
 
 import time
 
+import campaign
 import dimensions as d
 import latch
 import numpy as np
 import pull
 from dimensions import model
 from kit.arm.dimensions import LINKS, TORQUE
+from kit.conclusion import again
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
@@ -92,3 +94,4 @@ def rows(thorough):
         yield "berthed and latched", berthed()
         yield "one claw does not close", off_nominal()
         yield "joints that stall, level analysis at half the step", conclusion(d.ANALYSIS)
+        yield "worst case of the campaign", again(campaign.STUDY, d.HERE)

@@ -67,8 +67,11 @@ def carried():
     return {"bay": "world", **claws, **jaws, "payload": "truss"}
 
 
-def machine(off=(0.0, 0.0, 0.0), step=d.TRAINING):
-    """The truss at an offset from its seat, held by the arm in its posture READY; claws and keel jaws open."""
+def machine(off=(0.0, 0.0, 0.0), step=d.TRAINING, friction=None):
+    """The truss at an offset from its seat, held by the arm in its posture READY; claws and keel jaws open.
+
+    `friction`: of all surfaces.
+    """
     _, _, tip, attitude = kinematics.forward(READY)
     base = np.array(model.GRAPPLE) + off - tip
     arm = body(place=base, payload=truss(attitude))
@@ -77,13 +80,17 @@ def machine(off=(0.0, 0.0, 0.0), step=d.TRAINING):
     motors += "".join(
         mjcf.motor(f"keel_jaw_{label}", f"keel_jaw_{label}", d.JAW_STALL, d.JAW_FREE_SPEED) for label in JAWS
     )
-    extension = mjcf.contact_instance(OBJECTS, [("bay", "payload")], carried(), folder=str(d.HERE))
+    extension = mjcf.contact_instance(OBJECTS, [("bay", "payload")], carried(), folder=str(d.HERE), friction=friction)
     more = f"{arm.more}<actuator>{motors}</actuator>"
     made = Machine(mjcf.model("retention", extension, arm.world + latches, more, step), carriers())
-    for name in CLAWS:
-        made.data.qpos[made.model.joint(name).qposadr[0]] = d.OPEN
+    open_claws(made)
     made.start()
     return made
+
+
+def open_claws(made, angle=d.OPEN):
+    for name in CLAWS:
+        made.data.qpos[made.model.joint(name).qposadr[0]] = angle
 
 
 def drive(machine, name, voltage):

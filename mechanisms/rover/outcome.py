@@ -3,12 +3,14 @@
 import math
 import time
 
+import campaign
 import dimensions as d
 import numpy as np
 import rig
 import scenes
 import statics
 from dimensions import model
+from kit import conclusion
 from kit.restart import same_bits
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
@@ -136,3 +138,4 @@ def rows(thorough):
         yield "one motor does not drive", off_nominal()
         yield "rocks", rocks()
         yield "half the step", half_step()
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

@@ -92,10 +92,12 @@ def slope(angle):
     return (-model.GRAVITY * math.sin(angle), 0.0, -model.GRAVITY * math.cos(angle))
 
 
-def machine(level, ground="floor", angle=0.0, x=0.0, more_ground="", locked=False, step=None, height=0.0):
+def machine(
+    level, ground="floor", angle=0.0, x=0.0, more_ground="", locked=False, step=None, height=0.0, friction=None
+):
     """On the floor, with rigid wheels, or on a ground of models/rover. `more_ground`: height of a step up at x = 0, m, if any.
 
-    `angle`: of a slope that rises ahead. `locked`: wheels and steering do not turn.
+    `angle`: of a slope that rises ahead. `locked`: wheels and steering do not turn. `friction`: of all surfaces.
     """
     tyre = d.TYRES[level.tyre]
     objects = {"ground": "floor.ron" if ground == "floor" else f"{d.OF_MODEL}{ground}.ron"}
@@ -113,7 +115,7 @@ def machine(level, ground="floor", angle=0.0, x=0.0, more_ground="", locked=Fals
         carriers += [f"hub_{name}", f"wheel_{name}"]
     under = ["ground", "step"] if more_ground else ["ground"]
     pairs = [(name, other) for name in WHEELS for other in under]
-    extension = mjcf.contact_instance(objects, pairs, bodies, folder=str(d.HERE), capacity=256)
+    extension = mjcf.contact_instance(objects, pairs, bodies, folder=str(d.HERE), capacity=256, friction=friction)
     motors = "".join(mjcf.motor(f"drive_{n}", f"drive_{n}", d.STALL_TORQUE, d.FREE_SPEED) for n in WHEELS)
     motors += "".join(steering(name) for name in CORNERS)
     actuators = "" if locked else f"<actuator>{motors}</actuator>"

@@ -31,23 +31,26 @@ def cross(a, b):
     return a[0] * b[1] - a[1] * b[0]
 
 
-def contacts(climbs, height):
-    """Of the three wheels when `climbs` is at the edge; those ahead stand on the step. And pivot and centre of mass."""
+def contacts(climbs, height, ahead=0.0):
+    """Of the three wheels when `climbs` is at the edge; those ahead stand on the step. And pivot and centre of mass.
+
+    `ahead`: by how much the mass centre of the chassis is ahead of its middle, m.
+    """
     up = {name: height if NAMES.index(name) < NAMES.index(climbs) else 0.0 for name in NAMES}
     axles = {name: np.array((d.AXLE_X[name], model.WHEEL_RADIUS + up[name])) for name in NAMES}
     bogie = 0.5 * (axles["middle"] + axles["rear"])
     along = axles["front"] - bogie
     pitch = math.atan2(along[1], along[0])
     turn = np.array(((math.cos(pitch), -math.sin(pitch)), (math.sin(pitch), math.cos(pitch))))
-    center = bogie + turn @ (np.array(mass_center()) - (d.BOGIE_X, 0.0))
+    center = bogie + turn @ (np.array(mass_center(ahead)) - (d.BOGIE_X, 0.0))
     made = [at_edge(axles[n], height) if n == climbs else on_ground(axles[n]) for n in NAMES]
     return made, bogie, center
 
 
-def mass_center():
+def mass_center(ahead=0.0):
     """Of the rover on level ground, x and z from the axles."""
     parts = [
-        (d.CHASSIS_MASS, 0.0, d.CHASSIS_Z),
+        (d.CHASSIS_MASS, ahead, d.CHASSIS_Z),
         (2 * d.ROCKER_MASS, 0.0, d.ROCKER_Z),
         (2 * d.BOGIE_MASS, d.BOGIE_X, d.BOGIE_Z),
     ]
@@ -56,9 +59,9 @@ def mass_center():
     return tuple(sum(m * place[i] for m, *place in parts) / mass for i in (0, 1))
 
 
-def can_climb(climbs, height, torque):
+def can_climb(climbs, height, torque, friction=model.FRICTION, ahead=0.0):
     """Whether there is a balance; torque of each motor, N·m. Forces in weights of one side of the rover."""
-    made, bogie, center = contacts(climbs, height)
+    made, bogie, center = contacts(climbs, height, ahead)
     pull = torque / model.WHEEL_RADIUS / (model.GROSS_MASS * model.GRAVITY / 2)
     columns, limits, room = [], [], []
     for i, (place, normal, tangent) in enumerate(made):
@@ -67,7 +70,7 @@ def can_climb(climbs, height, torque):
             columns.append((*direction, about, about if i else 0.0))
         bear, draw = np.zeros(6), np.zeros(6)
         bear[2 * i], draw[2 * i + 1] = 1.0, 1.0
-        limits += [-bear, draw - model.FRICTION * bear, -draw - model.FRICTION * bear, draw, -draw]
+        limits += [-bear, draw - friction * bear, -draw - friction * bear, draw, -draw]
         room += [0.0, 0.0, 0.0, pull, pull]
     balance = np.array(columns).T
     loads = np.array((0.0, 1.0, center[0] - bogie[0], 0.0))
@@ -97,10 +100,10 @@ def highest(torque, climbs=NAMES, most=1.0):
     return low
 
 
-def needed(name, height):
-    """The least torque of each motor with which a wheel can come off the ground, N·m."""
-    low, high = 0.0, 500.0
-    for _ in range(40):
+def needed(name, height, friction=model.FRICTION, ahead=0.0, most=500.0, halvings=40):
+    """The least torque of each motor with which a wheel can come off the ground, N·m; `most` if none is enough."""
+    low, high = 0.0, most
+    for _ in range(halvings):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if can_climb(name, height, middle) else (middle, high)
+        low, high = (low, middle) if can_climb(name, height, middle, friction, ahead) else (middle, high)
     return high

@@ -15,11 +15,12 @@ FREED = 1e-4  # m: a box that went so far is free
 class Wrist:
     """A six-axis drive that holds a body, the box at its rear or else the gripper: a feed along x with a limit, free across, springs against turning.
 
-    `accommodating`: the attitude that it holds turns at a rate in proportion to the moment about the middle line of the rails.
+    `most`: of its push; `turning`: of the springs. `accommodating`: the attitude that it holds turns at a rate in proportion to the moment about the middle line of the rails.
     What it remembers is all in its attributes.
     """
 
-    def __init__(self, grip, tilt, body="box"):
+    def __init__(self, grip, tilt, body="box", most=d.ARM_FORCE, turning=d.ARM_TURNING):
+        self.most, self.turning = most, turning
         self.grip, self.tilt, self.body, self.way = np.array(grip), tilt, body, 1.0
         self.accommodating, self.goal = False, None
         self.push, self.moment, self.sensed = 0.0, 0.0, 0.0
@@ -39,22 +40,22 @@ class Wrist:
 
     def _feed(self, made, x, speed):
         """The goal goes on evenly, but never further ahead than the greatest push needs."""
-        rate, ahead = self.way * d.SPEED, d.ARM_FORCE / d.ARM_STIFFNESS
+        rate, ahead = self.way * d.SPEED, self.most / d.ARM_STIFFNESS
         goal = x if self.goal is None else self.goal + rate * made.step
         self.goal = float(np.clip(goal, x - ahead, x + ahead))
         wanted = d.ARM_STIFFNESS * (self.goal - x) + d.ARM_DAMPING * (rate - speed)
-        return float(np.clip(wanted, -d.ARM_FORCE, d.ARM_FORCE))
+        return float(np.clip(wanted, -self.most, self.most))
 
     def _turning(self, turned, spin):
         held = np.array((-turned[2, 1], turned[2, 0], self.tilt - np.arctan2(turned[1, 0], turned[0, 0])))
-        return d.ARM_TURNING * held - d.ARM_TURNING_DAMPING * spin
+        return self.turning * held - d.ARM_TURNING_DAMPING * spin
 
 
-def depth(made):
-    """Of the left front corner, m."""
+def depth(made, side=1):
+    """Of the left front corner, or with −1 of the right one, m."""
     x, y = d.LENGTH / 2 - d.ROUNDING, d.WIDTH / 2 - d.ROUNDING
     angle = rig.yaw(made)
-    return float(made.place("box")[0] + x * np.cos(angle) - y * np.sin(angle))
+    return float(made.place("box")[0] + x * np.cos(angle) - side * y * np.sin(angle))
 
 
 def start(offset, tilt=TILT, step=d.TRAINING.step):

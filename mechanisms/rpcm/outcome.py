@@ -1,5 +1,6 @@
 """What box, connector and gripper must come to. Run by mechanisms/run.py: `rows(thorough)` yields (title, rows)."""
 
+import campaign
 import dimensions as d
 import exchange
 import grip
@@ -7,6 +8,7 @@ import jam
 import numpy as np
 import rig
 import statics
+from kit import conclusion
 from kit.rules import honest
 from kit.rows import Fact, Limit, Row
 
@@ -169,3 +171,4 @@ def rows(thorough):
         yield "jam and cure, level analysis", jammed(d.ANALYSIS)
         yield "the opposite, level analysis", opposite(d.ANALYSIS)
         yield "half the step", half_step()
+        yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)

@@ -58,14 +58,14 @@ def body(place, yaw=0.0, inside="", joint=FREE, slope=d.HALF_ANGLE):
     )
 
 
-def machine(place, yaw=0.0, connector=True, step=d.TRAINING.step):
+def machine(place, yaw=0.0, connector=True, step=d.TRAINING.step, friction=None):
     objects, pairs = {"rails": "rails.ron", "box": "box.ron"}, [("rails", "box")]
     carried = {"rails": "world", "box": "box"}
     if connector:
         objects |= {"socket": "socket.ron", "plug": "plug.ron"}
         pairs.append(("socket", "plug"))
         carried |= {"socket": "world", "plug": "box"}
-    extension = mjcf.contact_instance(objects, pairs, carried, folder=str(d.HERE))
+    extension = mjcf.contact_instance(objects, pairs, carried, folder=str(d.HERE), friction=friction)
     text = mjcf.model("rpcm", extension, drawn_rails() + body(place, yaw), step=step)
     return Machine(text, list(carried.values()))
 

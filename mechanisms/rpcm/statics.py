@@ -52,13 +52,13 @@ def tilt_at(depth, push=0.0):
     return low
 
 
-def wedge(depth, tilt, offset):
+def wedge(depth, tilt, offset, friction=d.FRICTION):
     """(F/N, M/N) while the box slides: the push F at `offset` to the right of the middle of the rear, and the moment M of the
     wrist, over the force N at the mouth. With M/N below zero no push moves a box that nothing turns back: it jams.
     """
     sine, cosine = math.sin(tilt), math.cos(tilt)
-    mouth_force = np.array((-sine - d.FRICTION * cosine, cosine - d.FRICTION * sine))
-    push = d.FRICTION * mouth_force[1] - mouth_force[0]
+    mouth_force = np.array((-sine - friction * cosine, cosine - friction * sine))
+    push = friction * mouth_force[1] - mouth_force[0]
     corner = np.array((depth, d.GAP / 2))
     mouth = np.array((-d.ROUNDING * sine, -d.GAP / 2 - d.ROUNDING * (1 - cosine)))
     along, aside = -(d.LENGTH - d.ROUNDING), -(d.WIDTH / 2 - d.ROUNDING + offset)
@@ -67,16 +67,16 @@ def wedge(depth, tilt, offset):
     return push, push * lever - (arm[0] * mouth_force[1] - arm[1] * mouth_force[0])
 
 
-def jams_from(tilt):
+def jams_from(tilt, friction=d.FRICTION, turning=d.ARM_TURNING):
     """Offset from which a box held at this tilt jams, where it touches the second place.
 
-    A force N at the mouth sinks in and turns the box further by N·give; the wrist then turns it back with K·N·give. So the
-    limit is not at M/N = 0, but at M/N = −K·give.
+    A force N at the mouth sinks in and turns the box further by N·give; the wrist then turns it back with K·N·give (K: `turning`).
+    So the limit is not at M/N = 0, but at M/N = −K·give.
     """
     depth = second_touch(tilt)
     give = math.cos(tilt) / (d.GAP * math.sin(tilt) + depth * math.cos(tilt)) / d.STIFFNESS
-    (_, at_zero), (_, at_one) = wedge(depth, tilt, 0.0), wedge(depth, tilt, 1.0)
-    return (at_zero + d.ARM_TURNING * give) / (at_zero - at_one)
+    (_, at_zero), (_, at_one) = (wedge(depth, tilt, offset, friction) for offset in (0.0, 1.0))
+    return (at_zero + turning * give) / (at_zero - at_one)
 
 
 def turning_back(depth, tilt):
