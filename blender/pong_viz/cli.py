@@ -68,6 +68,8 @@ def _add_how_it_is_rendered(parser) -> None:
                         help="default workbench; `scene` takes engine, size and samples from the graphics")
     parser.add_argument("--no-caption", dest="caption", action="store_false",
                         help="leave time, largest force and scale of the arrows out of the pictures")
+    parser.add_argument("--quick", action="store_true",
+                        help="workbench without shadows and with edges smoothed after rendering: less time")
     parser.add_argument("--samples", type=int, default=8, help="of eevee and cycles; default 8")
 
 
@@ -153,7 +155,7 @@ def _show(log, given):
     from .scene import Options, show
     import bpy
 
-    prepare(bpy.context.scene, Picture(*given.size, given.engine, given.samples))
+    prepare(bpy.context.scene, Picture(*given.size, given.engine, given.samples, given.quick))
     return show(log, Options(
         fps=given.fps, speed=given.speed, start=given.start, end=given.end, relative_to=given.relative_to,
         arrow_length=given.arrow, most_contacts=given.most_contacts, alpha=given.alpha, shapes=given.shapes,

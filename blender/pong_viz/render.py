@@ -24,6 +24,7 @@ class Picture:
     height: int = 720
     engine: str = "workbench"
     samples: int = 8
+    quick: bool = False  # Workbench without shadows and with one sample
 
 
 def prepare(scene, picture: Picture) -> None:
@@ -46,8 +47,8 @@ def prepare(scene, picture: Picture) -> None:
     if picture.engine == "workbench":
         shading = scene.display.shading
         shading.light, shading.color_type = "STUDIO", "OBJECT"
-        shading.show_shadows, shading.show_cavity = True, True
-        scene.display.render_aa = "8"
+        shading.show_shadows, shading.show_cavity = not picture.quick, True
+        scene.display.render_aa = "FXAA" if picture.quick else "8"
     elif picture.engine == "cycles":
         scene.cycles.device, scene.cycles.samples, scene.cycles.use_denoising = "CPU", picture.samples, False
     else:

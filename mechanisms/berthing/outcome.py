@@ -149,7 +149,7 @@ def stalled(thorough):
             yield from off_nominal.stalled_latch(mechanism.Load(), "module", smooth)
 
 
-DRAWN = ("crank_*", "coupler_*", "follower_*")  # bodies that logs and films show beside what touches
+DRAWN = ("world", "crank_*", "coupler_*", "follower_*")  # bodies that logs and films show beside what touches
 
 
 def shown(prepare):

@@ -266,6 +266,14 @@ class Renders(WithScene):
         clip = bpy.data.movieclips.load(str(film))
         self.assertEqual((tuple(clip.size), clip.frame_duration), ((160, 90), 6))
 
+    def test_a_quick_film_has_no_shadows(self):
+        for words, shadows in ((["--quick"], False), ([], True)):
+            made = self.folder / "made.blend"
+            self.assertEqual(main([str(self.log_folder), *words, "--blend", str(made)]), 0)
+            bpy.ops.wm.open_mainfile(filepath=str(made))
+            display = bpy.context.scene.display
+            self.assertEqual((display.shading.show_shadows, display.render_aa), (shadows, "8" if shadows else "FXAA"))
+
     def test_odd_sizes_make_a_film_too_and_old_pictures_go(self):
         frames, film = self.folder / "frames", self.folder / "film.mp4"
         for fps, count in ((5, 6), (2, 3)):
