@@ -7,6 +7,7 @@ from dataclasses import replace
 import campaign
 import dimensions as d
 import docking
+import flagged
 import numpy as np
 import rig_hard
 import rig_ring
@@ -221,4 +222,5 @@ def rows(thorough):
         yield "failures", failures()
         yield "limits", limits()
         yield "turned", elsewhere()
+        yield "a catch goes round the edge of its striker", flagged.rows()
         yield "worst case of the campaign", conclusion.again(campaign.STUDY, d.HERE)
