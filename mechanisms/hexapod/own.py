@@ -7,76 +7,40 @@ python3 mechanisms/hexapod/own.py        with the plugin as for mechanisms/run.p
 import math
 import pathlib
 import sys
-import xml.etree.ElementTree as xml
+from dataclasses import replace
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import dimensions as d  # noqa: E402
-import mujoco  # noqa: E402
 import numpy as np  # noqa: E402
 import rig  # noqa: E402
 import scenes  # noqa: E402
 
-# Set before anything was compared: MuJoCo's defaults with an elliptic cone, and as hard as a step of 1 ms allows.
-DEFAULT = {"solref": "0.02 1", "solimp": "0.9 0.95 0.001 0.5 2", "impratio": "1"}
-HARD = {"solref": "0.002 1", "solimp": "0.99 0.999 0.0001 0.5 2", "impratio": "100"}
-# Added after: which of the differences come from the friction's regularization alone.
-FIRM = {**DEFAULT, "impratio": "100"}
+from kit import own_contact  # noqa: E402
+
 STEP, SECONDS = d.TRAINING.step, 10.0
+SETS = {
+    "MuJoCo": own_contact.DEFAULT,
+    "springs": own_contact.SPRINGS,
+    "hard": own_contact.hard(STEP),
+    # Added after the comparison: which of the differences come from the friction's regularization alone.
+    "impratio": replace(own_contact.DEFAULT, impratio=100.0),
+}
+FEET = {f"foot_{i}": own_contact.Surface(d.STIFFNESS, d.DAMPING, d.FRICTION) for i in rig.LEGS}
 
 
-class Own:
-    """What the scenes need of a `Machine`, without the plugin."""
-
-    def __init__(self, text, _carriers, values):
-        self.model = mujoco.MjModel.from_xml_string(_with_own_contact(text, values))
-        self.data = mujoco.MjData(self.model)
-        self.step = self.model.opt.timestep
-        self.feet = [self.model.geom(f"foot_{i}").id for i in rig.LEGS]
-
-    def start(self):
-        mujoco.mj_forward(self.model, self.data)
-
-    @property
-    def time(self):
-        return self.data.time
-
-    def place(self, body):
-        return self.data.body(body).xpos.copy()
-
-    def hurry(self, control=None):
-        if control is not None:
-            control(self)
-        mujoco.mj_step(self.model, self.data)
-
+class Own(own_contact.Own):
     def forces(self):
         """On each foot, along the axes of the world, N."""
-        forces, wrench = np.zeros((6, 3)), np.empty(6)
-        for k, contact in enumerate(self.data.contact):
-            mujoco.mj_contactForce(self.model, self.data, k, wrench)
-            # Of the first geom on the second; the feet come after the ground.
-            forces[self.feet.index(contact.geom2)] += contact.frame.reshape(3, 3).T @ wrench[:3]
+        forces, feet = np.zeros((6, 3)), [self.model.geom(name).id for name in FEET]
+        for _, foot, _, force in self.pushes():
+            forces[feet.index(foot)] += force
         return forces
 
 
-def _with_own_contact(text, values):
-    root = xml.fromstring(text)
-    root.remove(root.find("extension"))
-    root.remove(root.find("sensor"))
-    option = root.find("option")
-    option.remove(option.find("flag"))
-    option.set("cone", "elliptic")
-    option.set("impratio", values["impratio"])
-    for geom in root.iter("geom"):
-        geom.set("solref", values["solref"])
-        geom.set("solimp", values["solimp"])
-        geom.set("friction", f"{d.FRICTION} 0 0")
-    return xml.tostring(root, encoding="unicode")
-
-
-def own(values):
-    return lambda text, carriers: Own(text, carriers, values)
+def own(contact):
+    return lambda text, carriers: Own(text, carriers, contact, FEET, ["ground"])
 
 
 def settled(made):
@@ -133,10 +97,9 @@ def figures(made):
 
 
 def main():
-    columns = [list(figures(made)) for made in (None, own(DEFAULT), own(FIRM), own(HARD))]
-    print(f"{'':46} {'Pong':>12} {'MuJoCo':>12} {'impratio 100':>12} {'hard':>12}")
-    for rows in zip(*columns):
-        print(f"{rows[0][0]:46} " + " ".join(f"{value:12.5g}" for _, value in rows))
+    columns = {"Pong": list(figures(None))}
+    columns |= {name: list(figures(own(contact))) for name, contact in SETS.items()}
+    own_contact.table(columns)
 
 
 if __name__ == "__main__":

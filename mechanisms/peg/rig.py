@@ -41,7 +41,7 @@ def hole(place, quaternion):
 
 
 def shaft():
-    return f'<geom type="cylinder" size="{RADIUS:g}" fromto="0 0 0 0 0 {LENGTH:g}" mass="0" rgba="0.8 0.6 0.3 1"/>'
+    return f'<geom name="shaft" type="cylinder" size="{RADIUS:g}" fromto="0 0 0 0 0 {LENGTH:g}" mass="0" rgba="0.8 0.6 0.3 1"/>'
 
 
 def wrist(centre, offset=OFFSET, tilt=TILT, start=ABOVE, inside=""):
@@ -64,8 +64,8 @@ def extension():
     return mjcf.contact_instance({"hole": "hole.ron", "peg": "peg.ron"}, [("hole", "peg")], {}, folder=str(HERE))
 
 
-def machine(centre, step, limit=2000.0):
-    """On a feed that pushes with at most `limit`, N."""
+def machine(centre, step, limit=2000.0, made=Machine):
+    """On a feed that pushes with at most `limit`, N. `made`: the class of machine, for other contacts."""
     feed = (
         f'<body name="stand" pos="{mjcf.numbers(STAND[0])}" quat="{mjcf.numbers(STAND[1])}"><body name="feed">'
         '<joint name="feed" type="slide" axis="0 0 -1"/><inertial pos="0 0 0.3" mass="2" diaginertia="0.01 0.01 0.01"/>'
@@ -75,7 +75,7 @@ def machine(centre, step, limit=2000.0):
         '<actuator><general name="feed" joint="feed" gaintype="fixed" gainprm="1e5" biastype="affine" '
         f'biasprm="0 -1e5 -2e3" forcelimited="true" forcerange="{-limit:g} {limit:g}"/></actuator>'
     )
-    return Machine(mjcf.model("peg", extension(), hole(*STAND) + feed, drive, step), ["hole", "peg"])
+    return made(mjcf.model("peg", extension(), hole(*STAND) + feed, drive, step), ["hole", "peg"])
 
 
 def axes(machine):
