@@ -26,11 +26,15 @@ from kit.machine import Machine
 
 @dataclass(frozen=True)
 class Contact:
-    """`solref`: None where it follows from stiffness and damping of each surface."""
+    """`solref`: None where it follows from stiffness and damping of each surface.
+
+    `one_point`: only the deepest point of two convex geoms, instead of up to four where faces and edges meet.
+    """
 
     solref: tuple | None
     solimp: tuple
     impratio: float
+    one_point: bool = False
 
 
 DEFAULT = Contact((0.02, 1.0), (0.9, 0.95, 0.001, 0.5, 2.0), 1.0)
@@ -120,6 +124,8 @@ def _prepared(text, contact, movers, grounds):
     option.remove(option.find("flag"))
     option.set("cone", "elliptic")
     option.set("impratio", repr(contact.impratio))
+    if contact.one_point:
+        xml.SubElement(option, "flag", multiccd="disable")
     for geom in root.iter("geom"):
         _let_touch(geom, contact, (geom.get("name") in movers) + 2 * (geom.get("name") in grounds))
     return xml.tostring(root, encoding="unicode")

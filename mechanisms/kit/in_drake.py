@@ -1,0 +1,241 @@
+"""The same machine in Drake (`pip install drake`): Drake moves the bodies and computes the contacts.
+
+Drake's own reader takes bodies, joints and masses from the MJCF. Motors, springs and dampers of joints and what a host
+applies are computed by MuJoCo at the same state, and given to Drake as forces on the joints at the beginning of each step.
+So the inputs are the same numbers, and controllers and rigs need not know who moves the machine.
+
+Contact is Drake's point contact: one pair of points for two convex shapes. Two ways of Drake, fixed beforehand:
+
+`SAP`      with the stiffness K and the time of relaxation C/K: K·(r + v·C/K) is the law of Pong's linear damper.
+`LAGGED`   what Drake takes if nothing is said, with the stiffness K and Drake's own dissipation (Hunt and Crossley).
+"""
+
+import xml.etree.ElementTree as xml
+
+import mujoco
+import numpy as np
+
+from kit.own_contact import DEFAULT, Own
+
+SAP, LAGGED = "sap", "lagged"
+GEOM = mujoco.mjtGeom
+
+
+def at_hand():
+    try:
+        import pydrake.multibody.plant  # noqa: F401
+    except ImportError:
+        print("Drake is not installed, so its columns are missing: pip install drake")
+        return False
+    return True
+
+
+class InDrake(Own):
+    """Stands for a `Machine`. Its MuJoCo model holds the state that Drake came to, and computes forces of joints."""
+
+    def __init__(self, text, carriers, way, movers, grounds):
+        self.simulator = None
+        super().__init__(text, carriers, DEFAULT, movers, grounds)
+        self.model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+        self._build(way, movers, grounds)
+        self.start()
+
+    def start(self):
+        """After positions or velocities were set in the MuJoCo model."""
+        mujoco.mj_forward(self.model, self.data)
+        if self.simulator is not None:
+            self._give_state()
+            self._give_forces()
+
+    def hurry(self, control=None):
+        if control is not None:
+            control(self)
+        mujoco.mj_forward(self.model, self.data)
+        self._give_forces()
+        self.simulator.AdvanceTo(self.simulator.get_context().get_time() + self.step)
+        self._take_state()
+
+    def pushes(self):
+        """(geom, geom, place, force on the second) of each contact, along the axes of the world."""
+        mujoco.mj_forward(self.model, self.data)
+        self._give_forces()
+        found = self.plant.get_contact_results_output_port().Eval(self.context)
+        for k in range(found.num_point_pair_contacts()):
+            info = found.point_pair_contact_info(k)
+            first, second = (self.geoms[i] for i in (info.point_pair().id_A, info.point_pair().id_B))
+            yield first, second, info.contact_point(), info.contact_force()
+
+    def contacts(self):
+        return len(list(self.pushes()))
+
+    def _build(self, way, movers, grounds):
+        from pydrake.multibody.parsing import Parser
+        from pydrake.multibody.plant import AddMultibodyPlant, MultibodyPlantConfig
+        from pydrake.systems.analysis import Simulator
+        from pydrake.systems.framework import DiagramBuilder
+
+        builder = DiagramBuilder()
+        how = MultibodyPlantConfig(time_step=self.step, contact_model="point", discrete_contact_approximation=way)
+        self.plant, self.scene = AddMultibodyPlant(how, builder)
+        Parser(self.plant).AddModelsFromString(_for_drake(self.text), "xml")
+        self.plant.mutable_gravity_field().set_gravity_vector(np.zeros(3))
+        self._shapes(way, movers, grounds)
+        self._rotors()
+        self.plant.Finalize()
+        self.simulator = Simulator(builder.Build())
+        self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
+        self.places = list(self._places())
+        self.port = self.plant.get_applied_generalized_force_input_port()
+
+    def _shapes(self, way, movers, grounds):
+        """Grounds are rigid; movers have the stiffness of the pair."""
+        from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
+
+        self.geoms, surface = {}, next(iter(movers.values()))
+        for name in (*movers, *grounds):
+            geom = self.model.geom(name).id
+            about = _properties(movers.get(name), surface.friction, way)
+            self.geoms[self._register(geom, name, about)] = geom
+        sides = [[i for i, g in self.geoms.items() if self.model.geom(g).name in side] for side in (movers, grounds)]
+        for side in sides:
+            self.scene.collision_filter_manager().Apply(CollisionFilterDeclaration().ExcludeWithin(GeometrySet(side)))
+
+    def _register(self, geom, name, about):
+        from pydrake.math import RigidTransform
+        from pydrake.common.eigen_geometry import Quaternion
+
+        body = self.model.body(self.model.geom_bodyid[geom]).name
+        quaternion = self.model.geom_quat[geom] / np.linalg.norm(self.model.geom_quat[geom])
+        place = RigidTransform(Quaternion(quaternion), self.model.geom_pos[geom])
+        carrier = self.plant.world_body() if body == "world" else self.plant.GetBodyByName(body)
+        return self.plant.RegisterCollisionGeometry(carrier, place, _shape(self.model, geom), name, about)
+
+    def _rotors(self):
+        """MuJoCo's `armature` is the inertia of a rotor without a gear."""
+        for j in range(self.model.njnt):
+            inertia = self.model.dof_armature[self.model.jnt_dofadr[j]]
+            if inertia > 0.0:
+                name = self.model.joint(j).name
+                motor = self.plant.AddJointActuator(f"rotor_{name}", self.plant.GetJointByName(name))
+                motor.set_default_rotor_inertia(inertia)
+                motor.set_default_gear_ratio(1.0)
+
+    def _places(self):
+        """Of each joint: whether it is free, and where its numbers begin: MuJoCo's two, Drake's two."""
+        for j in range(self.model.njnt):
+            joint, own = self.model.joint(j), (self.model.jnt_qposadr[j], self.model.jnt_dofadr[j])
+            if joint.type[0] == mujoco.mjtJoint.mjJNT_FREE:
+                body = self.plant.GetBodyByName(self.model.body(self.model.jnt_bodyid[j]).name)
+                yield True, *own, body.floating_positions_start(), body.floating_velocities_start_in_v()
+            else:
+                other = self.plant.GetJointByName(joint.name)
+                yield False, *own, other.position_start(), other.velocity_start()
+
+    def _give_state(self):
+        """Drake has the quaternion before the place, the spin before the velocity, and the spin in the world."""
+        d, positions, speeds = self.data, np.zeros(self.plant.num_positions()), np.zeros(self.plant.num_velocities())
+        for free, q, v, to_q, to_v in self.places:
+            if free:
+                positions[to_q : to_q + 7] = np.r_[d.qpos[q + 3 : q + 7], d.qpos[q : q + 3]]
+                spin = _turned(d.qpos[q + 3 : q + 7]) @ d.qvel[v + 3 : v + 6]
+                speeds[to_v : to_v + 6] = np.r_[spin, d.qvel[v : v + 3]]
+            else:
+                positions[to_q], speeds[to_v] = d.qpos[q], d.qvel[v]
+        self.plant.SetPositionsAndVelocities(self.context, np.r_[positions, speeds])
+
+    def _take_state(self):
+        d, state = self.data, self.plant.GetPositionsAndVelocities(self.context)
+        positions, speeds = np.split(state, [self.plant.num_positions()])
+        for free, q, v, from_q, from_v in self.places:
+            if free:
+                d.qpos[q : q + 7] = np.r_[positions[from_q + 4 : from_q + 7], positions[from_q : from_q + 4]]
+                spin = _turned(d.qpos[q + 3 : q + 7]).T @ speeds[from_v : from_v + 3]
+                d.qvel[v : v + 6] = np.r_[speeds[from_v + 3 : from_v + 6], spin]
+            else:
+                d.qpos[q], d.qvel[v] = positions[from_q], speeds[from_v]
+        d.time += self.step
+        mujoco.mj_kinematics(self.model, d)
+
+    def _give_forces(self):
+        """Those of motors, springs, dampers, hosts and gravity on the joints."""
+        d, forces = self.data, np.zeros(self.plant.num_velocities())
+        given = d.qfrc_actuator + d.qfrc_passive + d.qfrc_applied + self._weight()
+        for body in np.flatnonzero(np.any(d.xfrc_applied != 0.0, axis=1)):
+            pushed = d.xfrc_applied[body]
+            mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, given)
+        for free, q, v, _, to in self.places:
+            if free:
+                moment = _turned(d.qpos[q + 3 : q + 7]) @ given[v + 3 : v + 6]
+                forces[to : to + 6] = np.r_[moment, given[v : v + 3]]
+            else:
+                forces[to] = given[v]
+        self.port.FixValue(self.context, forces)
+
+    def _weight(self):
+        """Gravity may turn while a machine runs; Drake's does not, so it has none."""
+        if not self.model.opt.gravity.any():
+            return 0.0
+        gravity, without = self.model.opt.gravity.copy(), np.empty(self.model.nv)
+        self.model.opt.gravity[:] = 0.0
+        mujoco.mj_rne(self.model, self.data, 0, without)
+        self.model.opt.gravity[:] = gravity
+        return without - self.data.qfrc_bias
+
+
+def _for_drake(text):
+    """Bodies, joints and masses; all else is given in other ways."""
+    root = xml.fromstring(text)
+    for child in list(root):
+        if child.tag not in ("compiler", "worldbody"):
+            root.remove(child)
+    for parent in list(root.iter()):
+        for child in list(parent):
+            if child.tag in ("geom", "site"):
+                parent.remove(child)
+            elif child.tag == "joint":
+                for key in ("stiffness", "damping", "armature"):
+                    child.attrib.pop(key, None)
+    return xml.tostring(root, encoding="unicode")
+
+
+def _properties(surface, friction, way):
+    """`surface` is None for a rigid ground, which has the friction of what touches it."""
+    from pydrake.geometry import AddContactMaterial, ProximityProperties
+    from pydrake.multibody.plant import CoulombFriction
+
+    made = ProximityProperties()
+    mu = surface.friction if surface else friction
+    # Infinite is as good as a thousand million times the other.
+    stiffness = surface.stiffness if surface else 1e16
+    AddContactMaterial(made, point_stiffness=stiffness, friction=CoulombFriction(mu, mu))
+    if way == SAP:
+        # Times of relaxation of a pair add.
+        made.AddProperty("material", "relaxation_time", surface.damping / surface.stiffness if surface else 0.0)
+    return made
+
+
+def _shape(model, geom):
+    from pydrake import geometry as g
+
+    size, kind = model.geom_size[geom], model.geom_type[geom]
+    if kind == GEOM.mjGEOM_MESH:
+        mesh = model.geom_dataid[geom]
+        first = model.mesh_vertadr[mesh]
+        return g.Convex(
+            points=model.mesh_vert[first : first + model.mesh_vertnum[mesh]].T.astype(float), label="piece"
+        )
+    if kind == GEOM.mjGEOM_PLANE:
+        return g.HalfSpace()
+    if kind == GEOM.mjGEOM_SPHERE:
+        return g.Sphere(size[0])
+    if kind == GEOM.mjGEOM_CYLINDER:
+        return g.Cylinder(size[0], 2 * size[1])
+    if kind == GEOM.mjGEOM_ELLIPSOID:
+        return g.Ellipsoid(*size)
+    raise ValueError(f"this geom is not among those that are given to Drake: {kind}")
+
+
+def _turned(quaternion):
+    matrix = np.empty(9)
+    mujoco.mju_quat2Mat(matrix, quaternion)
+    return matrix.reshape(3, 3)
