@@ -13,9 +13,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 import dimensions as d  # noqa: E402
 import docking  # noqa: E402
 import vehicles  # noqa: E402
-from kit import picture  # noqa: E402
-from kit.files import module_of  # noqa: E402
-from kit.mjcf import numbers  # noqa: E402
+from kit import picture, shapes  # noqa: E402
 from sequence import Sequencer  # noqa: E402
 
 COLOURS = {"chaser": "0.75 0.75 0.8 1", "ring": "0.85 0.7 0.35 1", "target": "0.4 0.5 0.65 0.35"}
@@ -23,28 +21,13 @@ LATCH = "0.8 0.3 0.2 1"
 CHOSEN = {**vehicles.SOFT, "target ": vehicles.HARD["hard_target"]}
 
 
-def read(path):
-    reader = module_of(d.ROOT / "hosts/mujoco/docking/ron.py", "ron_of_models")
-    return reader.read((d.ROOT / path).read_text(encoding="utf-8"))
-
-
-def polyhedra(group, carrier):
-    """(body, vertices) of all polyhedra of a group and those below it."""
-    for primitive in group.get("primitives", []):
-        if primitive["is"] == "Polyhedron":
-            yield carrier, primitive["vertices"]
-    for below in group.get("groups", []):
-        yield from polyhedra(below, below["name"] if below.get("movable") else carrier)
-
-
-def shapes():
+def drawn():
     """(assets, body → geoms) of what is to be seen of the contact models."""
     assets, geoms = "", {}
     for name, path in CHOSEN.items():
-        for index, (carrier, vertices) in enumerate(polyhedra(read(path)["root"], name.strip())):
+        for index, (carrier, solid) in enumerate(shapes.polyhedra(shapes.read(path)["root"], name.strip())):
             mesh = f"{name.strip()}_{len(name)}_{index}"
-            flat = numbers(value for vertex in vertices for value in vertex)
-            assets += f'<mesh name="{mesh}" inertia="legacy" vertex="{flat}"/>'
+            assets += shapes.mesh(mesh, solid["vertices"])
             colour = COLOURS.get(carrier, LATCH)
             text = f'<geom type="mesh" mesh="{mesh}" rgba="{colour}" mass="0"/>'
             geoms[carrier] = geoms.get(carrier, "") + text
@@ -52,7 +35,7 @@ def shapes():
 
 
 def main():
-    assets, geoms = shapes()
+    assets, geoms = drawn()
     made, sequencer = docking.approach(docking.Case(), drawn=geoms, assets=assets), Sequencer()
     made.run(20.0, sequencer, watch=lambda m: sequencer.phase == "attenuate" and m.time > sequencer.since + 0.5)
     made.model.stat.meansize = 0.1  # of discs and arrows; the vehicles are much larger than what is seen

@@ -151,11 +151,6 @@ def with_geoms(text, geoms, assets=""):
     return xml.tostring(root, encoding="unicode")
 
 
-def mesh(name, vertices):
-    """An asset: the convex hull of these places."""
-    return f'<mesh name="{name}" inertia="legacy" vertex="{" ".join(f"{x:.12g}" for v in vertices for x in v)}"/>'
-
-
 def processor_time(made, seconds, control=None):
     """Per simulated second, of steps without any account."""
     began = time.process_time()

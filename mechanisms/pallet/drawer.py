@@ -10,6 +10,8 @@ import numpy as np
 import rig
 from dimensions import model
 
+from kit.machine import Machine
+
 DRAG = 200.0  # N, in the middle of the pallet
 SHORT = 0.600  # m: base of the rollers with which a push within the pallet's width jams
 LONG = 2 * model.SIDE_ROLLER_X
@@ -41,8 +43,8 @@ class Push:
         return self.arm.at(machine)[2][1] - self.arm.moment[2] / self.arm.force[0]
 
 
-def machine(base, level, step=None):
-    return rig.machine(model.SEATED_X - BEFORE_STOPS[base], level, base, seized=True, step=step)
+def machine(base, level, step=None, kind=Machine):
+    return rig.machine(model.SEATED_X - BEFORE_STOPS[base], level, base, seized=True, step=step, kind=kind)
 
 
 def share(made, push):
@@ -51,9 +53,9 @@ def share(made, push):
     return 2.0 * model.FRICTION * push.lever(made) / (front[0] - rear[0])
 
 
-def steady(offset, base, level, step=None, seconds=5.5):
+def steady(offset, base, level, step=None, seconds=5.5, kind=Machine):
     """Push, and what the law makes of lever and base, while it slides evenly; and the machine."""
-    made, push = machine(base, level, step), Push(offset, base, 1e6)
+    made, push = machine(base, level, step, kind), Push(offset, base, 1e6)
     made.run(seconds - 0.5, push)
     seen = []
     made.run(0.5, push, watch=lambda m: seen.append((push.arm.force[0], share(m, push))))
@@ -61,9 +63,9 @@ def steady(offset, base, level, step=None, seconds=5.5):
     return pushed, DRAG / (1.0 - shared), made
 
 
-def jammed(offset, base, most, level, step=None):
+def jammed(offset, base, most, level, step=None, kind=Machine):
     """A pallet that a push of so much does not move: machine, push, and how far it went in the last second, m."""
-    made, push = machine(base, level, step), Push(offset, base, most)
+    made, push = machine(base, level, step, kind), Push(offset, base, most)
     made.run(3.5, push)
     before = made.place("pallet")[0]
     made.run(1.0, push)

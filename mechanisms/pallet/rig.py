@@ -81,14 +81,17 @@ def carried():
     return {"rails": "world", "pallet": "pallet", **wheels, "tie_downs": "world", **hooks, "pins": "pallet"}
 
 
-def machine(x, level, base=2 * model.SIDE_ROLLER_X, seized=False, step=None, friction=None):
-    """A pallet whose origin is at `x`, its hooks open. `base`: see `wheel`; `friction`: of all surfaces."""
+def machine(x, level, base=2 * model.SIDE_ROLLER_X, seized=False, step=None, friction=None, kind=Machine):
+    """A pallet whose origin is at `x`, its hooks open. `base`: see `wheel`; `friction`: of all surfaces.
+
+    `kind`: of machine, for other contacts.
+    """
     extension = mjcf.contact_instance(OBJECTS, PAIRS, carried(), folder=str(d.HERE), friction=friction)
     hooks = "".join(hook(*entry) for entry in d.SIDES.items())
     motors = "".join(mjcf.motor(name, name, d.HOOK_STALL, d.HOOK_FREE_SPEED) for name in HOOKS)
     world = drawn_rails() + pallet(x, base, seized) + hooks
     more = f"<actuator>{motors}</actuator>"
-    made = Machine(mjcf.model("pallet", extension, world, more, step or level.step), carriers())
+    made = kind(mjcf.model("pallet", extension, world, more, step or level.step), carriers())
     for name in HOOKS:
         made.data.qpos[made.model.joint(name).qposadr[0]] = d.HOOK_OPEN
     made.start()

@@ -22,7 +22,7 @@ import rig  # noqa: E402
 import whitney  # noqa: E402
 
 from kit import in_drake as drake  # noqa: E402
-from kit import own_contact  # noqa: E402
+from kit import own_contact, shapes  # noqa: E402
 
 STEP = rig.ANALYSIS
 SIDES, THICK = 16, 0.02  # m of the wall
@@ -46,7 +46,7 @@ def pieces(sides=SIDES):
 def with_hole(text, sides):
     names = [f"piece_{k}" for k in range(sides)]
     geoms = "".join(f'<geom name="{name}" type="mesh" mesh="{name}" mass="0"/>' for name in names)
-    assets = "".join(own_contact.mesh(name, piece) for name, piece in zip(names, pieces(sides)))
+    assets = "".join(shapes.mesh(name, piece) for name, piece in zip(names, pieces(sides)))
     return own_contact.with_geoms(text, {"hole": geoms}, assets), names
 
 
