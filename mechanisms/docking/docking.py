@@ -9,7 +9,7 @@ import numpy as np
 import stewart
 import vehicles
 from kit import mjcf
-from kit.machine import TUNNELLED
+from kit.machine import TUNNELLED, Machine
 from kit.restart import same_bits
 from sequence import Sequencer
 
@@ -34,9 +34,9 @@ class Case:
     gap: float = GAP
 
 
-def approach(case, hard=True, drawn=None, assets=""):
+def approach(case, hard=True, drawn=None, assets="", kind=Machine):
     """The machine before the first contact."""
-    return placed(vehicles.machine(case.level, hard, drawn, assets), case, hard)
+    return placed(vehicles.machine(case.level, hard, drawn, assets, kind=kind), case, hard)
 
 
 def placed(made, case, hard):

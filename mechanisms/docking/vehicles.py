@@ -86,10 +86,11 @@ def without_pusher():
     return before + 'name: "pusher_0"' + after.replace(f"length: {d.PUSHER_LENGTH}", "length: 1e-4", 1)
 
 
-def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=True):
+def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=True, kind=Machine):
     """`hard`: with pads, pushers and hooks; without, for approaches until capture. `drawn`: body → geoms to be seen.
 
     `dead_pusher`: pusher 0 does not push. Without `petals` these, strikers and latches touch nothing.
+    `kind`: of machine, for other contacts.
     """
     objects = {**SOFT, **(HARD if hard else {}), **({"hard_chaser": "text1"} if dead_pusher else {})}
     texts = [without_pusher()] if dead_pusher else []
@@ -113,7 +114,7 @@ def machine(level, hard=True, drawn=None, assets="", dead_pusher=False, petals=T
         level.step,
         level.integrator,
     )
-    return Machine(text, carriers)
+    return kind(text, carriers)
 
 
 def set_vehicle(made, name, place, frame, velocity=(0, 0, 0), spin=(0, 0, 0)):

@@ -24,7 +24,7 @@ import whitney  # noqa: E402
 from kit import in_drake as drake  # noqa: E402
 from kit import own_contact, shapes  # noqa: E402
 
-STEP = rig.ANALYSIS
+STEP = 5e-4  # s
 SIDES, THICK = 16, 0.02  # m of the wall
 DEPTHS = {"near": (-1e-3, 0.01, 0.03, 0.05, 0.07), "far": (-1.5e-3, 0.01, 0.03, 0.05, 0.07)}  # m, as in outcome.py
 SETS = {"MuJoCo": own_contact.DEFAULT, "springs": own_contact.SPRINGS, "hard": own_contact.hard(STEP)}
