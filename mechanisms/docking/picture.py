@@ -10,7 +10,6 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
-import dimensions as d  # noqa: E402
 import docking  # noqa: E402
 import vehicles  # noqa: E402
 from kit import picture, shapes  # noqa: E402

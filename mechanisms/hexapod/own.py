@@ -17,6 +17,7 @@ import numpy as np  # noqa: E402
 import rig  # noqa: E402
 import scenes  # noqa: E402
 
+from kit import in_drake as drake  # noqa: E402
 from kit import own_contact  # noqa: E402
 
 STEP, SECONDS = d.TRAINING.step, 10.0
@@ -30,17 +31,29 @@ SETS = {
 FEET = {f"foot_{i}": own_contact.Surface(d.STIFFNESS, d.DAMPING, d.FRICTION) for i in rig.LEGS}
 
 
-class Own(own_contact.Own):
+class Feet:
+    """What the scenes ask of a hexapod."""
+
     def forces(self):
         """On each foot, along the axes of the world, N."""
         forces, feet = np.zeros((6, 3)), [self.model.geom(name).id for name in FEET]
-        for _, foot, _, force in self.pushes():
-            forces[feet.index(foot)] += force
+        for first, second, _, force in self.pushes():
+            foot, sign = (second, 1.0) if second in feet else (first, -1.0)
+            forces[feet.index(foot)] += sign * force
         return forces
 
 
-def own(contact):
-    return lambda text, carriers: Own(text, carriers, contact, FEET, ["ground"])
+class Own(Feet, own_contact.Own):
+    pass
+
+
+class InDrake(Feet, drake.InDrake):
+    pass
+
+
+def other(engine, how):
+    """A class of machine. `engine`: Own or InDrake; `how`: its set of parameters."""
+    return lambda text, carriers: engine(text, carriers, how, FEET, ["ground"])
 
 
 def settled(made):
@@ -94,11 +107,14 @@ def figures(made):
     walk.go(4 * d.PERIOD)
     yield "walk: speed over stride/period", (walk.way() - start) / (4 * d.STRIDE)
     yield "walk: feet slid, of the way", walk.slip_share()
+    yield "processor time of a simulated second, s", own_contact.processor_time(settled(made), 5.0)
 
 
 def main():
     columns = {"Pong": list(figures(None))}
-    columns |= {name: list(figures(own(contact))) for name, contact in SETS.items()}
+    columns |= {name: list(figures(other(Own, contact))) for name, contact in SETS.items()}
+    if drake.at_hand():
+        columns |= {f"Drake {way}": list(figures(other(InDrake, way))) for way in (drake.SAP, drake.LAGGED)}
     own_contact.table(columns)
 
 
