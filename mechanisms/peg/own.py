@@ -96,7 +96,7 @@ def around(peg, depth, greatest):
             seen.append((rig.resistance(peg), rig.lean(peg)))
         elif greatest and height > -3e-3:
             greatest.append(rig.resistance(peg))
-    greatest.append(seen[-1][0])
+    greatest += [force for force, _ in seen if depth < 3e-3]
     return np.mean(seen, axis=0)
 
 
