@@ -20,6 +20,8 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import dimensions as d  # noqa: E402
 import numpy as np  # noqa: E402
+import own  # noqa: E402
+import rig  # noqa: E402
 
 from kit import in_drake as drake  # noqa: E402
 from kit import mjcf, own_contact  # noqa: E402
@@ -81,12 +83,36 @@ def engines():
     yield "Drake lagged", lambda t, c: drake.InDrake(t, c, drake.LAGGED, FOOT, ["ground"]), lambda v: still
 
 
+def limits():
+    """Of a foot of the standing hexapod with each set of own.py: what it is as a spring, and the speed N/(μ·C)."""
+    load = d.MASS * d.GRAVITY / 6
+    for name in ("MuJoCo", "springs", "hard"):
+        stands, contact = own.settled(own.other(own.Own, own.SETS[name])), own.SETS[name]
+        deep = float(np.mean(d.FOOT_RADIUS - rig.feet(stands)[:, 2]))
+        inverse_mass = stands.model.body_invweight0[stands.model.body("tibia_0").id, 0]
+        stiffness, damping = d.STIFFNESS, d.DAMPING
+        if contact.solref:
+            stiffness, damping = own_contact.as_springs(contact, inverse_mass, deep)
+        yield (
+            name,
+            [
+                ("as a spring, N/m", stiffness),
+                ("as a damper, N·s/m", damping),
+                ("load over that spring, µm", 1e6 * load / stiffness),
+                ("depth at rest, µm", 1e6 * deep),
+                ("it hops from N/(μ·C), mm/s", 1e3 * load / (d.FRICTION * damping)),
+            ],
+        )
+
+
 def main():
     columns = {}
     for name, kind, predicted in engines():
         columns[name] = [(f"{v:g} m/s: depth, µm", 1e6 * depth(kind, v)) for v in SPEEDS]
         columns["predicted" + " " * len(columns)] = [("", 1e6 * predicted(v)) for v in SPEEDS]
-    own_contact.table(columns)
+    own_contact.table(columns, 28)
+    print("\na foot of the standing hexapod with MuJoCo's own contact")
+    own_contact.table(dict(limits()), 28)
 
 
 if __name__ == "__main__":

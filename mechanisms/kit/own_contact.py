@@ -54,6 +54,24 @@ class Surface:
     friction: float
 
 
+def impedance(contact, depth):
+    """MuJoCo's d: from the first to the second number of `solimp` while the depth grows by the third."""
+    least, most, width, middle, power = contact.solimp
+    share = min(1.0, depth / width)
+    if share < middle:
+        rise = share**power / middle ** (power - 1)
+    else:
+        rise = 1.0 - (1.0 - share) ** power / (1.0 - middle) ** (power - 1)
+    return least + rise * (most - least)
+
+
+def as_springs(contact, inverse_mass, depth):
+    """N/m and N·s/m that a set with a time constant has at rest at a depth; see the head of this file."""
+    (constant, ratio), most, d = contact.solref, contact.solimp[1], impedance(contact, depth)
+    stiffness, damping = 1.0 / (most * constant * ratio) ** 2, 2.0 / (most * constant)
+    return stiffness * d**2 / ((1.0 - d) * inverse_mass), damping * d / ((1.0 - d) * inverse_mass)
+
+
 class Own(Machine):
     """Stands for a `Machine`; it has no account of energy and no flags.
 
