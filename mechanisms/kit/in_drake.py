@@ -84,7 +84,7 @@ class InDrake(Own):
         self.plant.Finalize()
         self.simulator = Simulator(builder.Build())
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
-        self.places = list(self._places())
+        self.places = self._places()
         self.port = self.plant.get_applied_generalized_force_input_port()
 
     def _shapes(self, way, movers, grounds):
@@ -121,54 +121,59 @@ class InDrake(Own):
                 motor.set_default_gear_ratio(1.0)
 
     def _places(self):
-        """Of each joint: whether it is free, and where its numbers begin: MuJoCo's two, Drake's two."""
+        """Where the numbers of joints begin: of free ones and, as columns, of all others MuJoCo's two and Drake's two."""
+        free, others = [], []
         for j in range(self.model.njnt):
             joint, own = self.model.joint(j), (self.model.jnt_qposadr[j], self.model.jnt_dofadr[j])
             if joint.type[0] == mujoco.mjtJoint.mjJNT_FREE:
                 body = self.plant.GetBodyByName(self.model.body(self.model.jnt_bodyid[j]).name)
-                yield True, *own, body.floating_positions_start(), body.floating_velocities_start_in_v()
+                free.append((*own, body.floating_positions_start(), body.floating_velocities_start_in_v()))
             else:
                 other = self.plant.GetJointByName(joint.name)
-                yield False, *own, other.position_start(), other.velocity_start()
+                others.append((*own, other.position_start(), other.velocity_start()))
+        return free, np.array(others, dtype=int).reshape(-1, 4).T
 
     def _give_state(self):
         """Drake has the quaternion before the place, the spin before the velocity, and the spin in the world."""
         d, positions, speeds = self.data, np.zeros(self.plant.num_positions()), np.zeros(self.plant.num_velocities())
-        for free, q, v, to_q, to_v in self.places:
-            if free:
-                positions[to_q : to_q + 7] = np.r_[d.qpos[q + 3 : q + 7], d.qpos[q : q + 3]]
-                spin = _turned(d.qpos[q + 3 : q + 7]) @ d.qvel[v + 3 : v + 6]
-                speeds[to_v : to_v + 6] = np.r_[spin, d.qvel[v : v + 3]]
-            else:
-                positions[to_q], speeds[to_v] = d.qpos[q], d.qvel[v]
-        self.plant.SetPositionsAndVelocities(self.context, np.r_[positions, speeds])
+        free, (q, v, to_q, to_v) = self.places
+        positions[to_q], speeds[to_v] = d.qpos[q], d.qvel[v]
+        for q, v, to_q, to_v in free:
+            positions[to_q : to_q + 4], positions[to_q + 4 : to_q + 7] = d.qpos[q + 3 : q + 7], d.qpos[q : q + 3]
+            speeds[to_v : to_v + 3] = _turned(d.qpos[q + 3 : q + 7]) @ d.qvel[v + 3 : v + 6]
+            speeds[to_v + 3 : to_v + 6] = d.qvel[v : v + 3]
+        self.plant.SetPositions(self.context, positions)
+        self.plant.SetVelocities(self.context, speeds)
 
     def _take_state(self):
-        d, state = self.data, self.plant.GetPositionsAndVelocities(self.context)
-        positions, speeds = np.split(state, [self.plant.num_positions()])
-        for free, q, v, from_q, from_v in self.places:
-            if free:
-                d.qpos[q : q + 7] = np.r_[positions[from_q + 4 : from_q + 7], positions[from_q : from_q + 4]]
-                spin = _turned(d.qpos[q + 3 : q + 7]).T @ speeds[from_v : from_v + 3]
-                d.qvel[v : v + 6] = np.r_[speeds[from_v + 3 : from_v + 6], spin]
-            else:
-                d.qpos[q], d.qvel[v] = positions[from_q], speeds[from_v]
+        d, positions, speeds = self.data, *self._found()
+        free, (q, v, from_q, from_v) = self.places
+        d.qpos[q], d.qvel[v] = positions[from_q], speeds[from_v]
+        for q, v, from_q, from_v in free:
+            d.qpos[q : q + 3], d.qpos[q + 3 : q + 7] = (
+                positions[from_q + 4 : from_q + 7],
+                positions[from_q : from_q + 4],
+            )
+            d.qvel[v : v + 3] = speeds[from_v + 3 : from_v + 6]
+            d.qvel[v + 3 : v + 6] = _turned(d.qpos[q + 3 : q + 7]).T @ speeds[from_v : from_v + 3]
         d.time += self.step
         mujoco.mj_kinematics(self.model, d)
+
+    def _found(self):
+        return self.plant.GetPositions(self.context), self.plant.GetVelocities(self.context)
 
     def _give_forces(self):
         """Those of motors, springs, dampers, hosts and gravity on the joints."""
         d, forces = self.data, np.zeros(self.plant.num_velocities())
         given = d.qfrc_actuator + d.qfrc_passive + d.qfrc_applied + self._weight()
-        for body in np.flatnonzero(np.any(d.xfrc_applied != 0.0, axis=1)):
+        for body in np.flatnonzero(d.xfrc_applied.any(axis=1)):
             pushed = d.xfrc_applied[body]
             mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, given)
-        for free, q, v, _, to in self.places:
-            if free:
-                moment = _turned(d.qpos[q + 3 : q + 7]) @ given[v + 3 : v + 6]
-                forces[to : to + 6] = np.r_[moment, given[v : v + 3]]
-            else:
-                forces[to] = given[v]
+        free, (_, v, _, to) = self.places
+        forces[to] = given[v]
+        for q, v, _, to in free:
+            forces[to : to + 3] = _turned(d.qpos[q + 3 : q + 7]) @ given[v + 3 : v + 6]
+            forces[to + 3 : to + 6] = given[v : v + 3]
         self.port.FixValue(self.context, forces)
 
     def _weight(self):
