@@ -10,6 +10,8 @@ as convex meshes; edges and pads, which are primitives of their own in Pong, are
 import pathlib
 import sys
 import time
+from dataclasses import replace
+from functools import partial
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
@@ -40,7 +42,7 @@ def solids(vehicle):
         yield f"{vehicle}_{index}", carrier, solid["vertices"]
 
 
-def own(contact):
+def own(contact, structure=STRUCTURE):
     def made(text, carriers):
         geoms, assets, movers, grounds = {}, "", {}, []
         for vehicle in vehicles.SOFT:
@@ -50,7 +52,7 @@ def own(contact):
                 if vehicle == "target":
                     grounds.append(name)
                 else:
-                    movers[name] = LATCH if body.startswith("latch") else STRUCTURE
+                    movers[name] = LATCH if body.startswith("latch") else structure
         return own_contact.Own(own_contact.with_geoms(text, geoms, assets), carriers, contact, movers, grounds)
 
     return made
@@ -84,9 +86,14 @@ def figures(kind):
 
 
 def main():
-    columns = {"Pong": list(figures(Machine))}
-    columns |= {name: list(figures(own(contact))) for name, contact in SETS.items()}
-    own_contact.table(columns)
+    """One column after another: `own.py Pong hard` makes these two."""
+    columns = {"Pong": lambda: figures(Machine)}
+    columns |= {name: partial(figures, own(contact)) for name, contact in SETS.items()}
+    # Added after the comparison, to explain it.
+    columns["damped/10"] = partial(
+        figures, own(own_contact.SPRINGS, replace(STRUCTURE, damping=STRUCTURE.damping / 10))
+    )
+    own_contact.compare(columns)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import math
 import pathlib
 import sys
 from dataclasses import replace
+from functools import partial
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
@@ -111,11 +112,12 @@ def figures(made):
 
 
 def main():
-    columns = {"Pong": list(figures(None))}
-    columns |= {name: list(figures(other(Own, contact))) for name, contact in SETS.items()}
+    """One column after another: `own.py Pong hard` makes these two."""
+    columns = {"Pong": partial(figures, None)}
+    columns |= {name: partial(figures, other(Own, contact)) for name, contact in SETS.items()}
     if drake.at_hand():
-        columns |= {f"Drake {way}": list(figures(other(InDrake, way))) for way in (drake.SAP, drake.LAGGED)}
-    own_contact.table(columns)
+        columns |= {f"Drake-{way}": partial(figures, other(InDrake, way)) for way in (drake.SAP, drake.LAGGED)}
+    own_contact.compare(columns)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ within what a step of 1 ms carries. Friction is regularized by R/impratio: under
 f/(impratio·C).
 """
 
+import sys
 import time
 import xml.etree.ElementTree as xml
 from dataclasses import dataclass
@@ -175,6 +176,12 @@ def processor_time(made, seconds, control=None):
     for _ in range(round(seconds / made.step)):
         made.hurry(control)
     return (time.process_time() - began) / seconds
+
+
+def compare(columns):
+    """`columns`: name → function that yields (what, value). Those named on the command line, or all of them."""
+    names = sys.argv[1:] or list(columns)
+    table({name: list(columns[name]()) for name in names})
 
 
 def table(columns, width=46):

@@ -8,6 +8,7 @@ Wheels are ellipsoids and rails are the polyhedra of models/htv_pallet for all o
 
 import pathlib
 import sys
+from functools import partial
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
@@ -80,11 +81,12 @@ def apart(kind):
 
 
 def main():
-    columns = {"Pong": list(figures(rig.Machine))}
-    columns |= {name: list(figures(other(own_contact.Own, contact))) for name, contact in SETS.items()}
+    """One column after another: `own.py Pong hard` makes these two."""
+    columns = {"Pong": partial(figures, rig.Machine)}
+    columns |= {name: partial(figures, other(own_contact.Own, contact)) for name, contact in SETS.items()}
     if drake.at_hand():
-        columns |= {f"Drake {way}": list(figures(other(drake.InDrake, way))) for way in (drake.SAP, drake.LAGGED)}
-    own_contact.table(columns)
+        columns |= {f"Drake-{way}": partial(figures, other(drake.InDrake, way)) for way in (drake.SAP, drake.LAGGED)}
+    own_contact.compare(columns)
 
 
 if __name__ == "__main__":

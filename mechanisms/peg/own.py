@@ -12,6 +12,7 @@ import math
 import pathlib
 import sys
 from dataclasses import replace
+from functools import partial
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
@@ -118,17 +119,16 @@ def predicted(spring):
 
 
 def main():
-    with_drake = drake.at_hand()
-    columns = {"theory": list(predicted(d.STIFFNESS / 2)), "Pong": list(figures(rig.Machine))}
-    columns |= {name: list(figures(own(contact))) for name, contact in SETS.items()}
-    if with_drake:
-        columns |= {f"Drake {way}": list(figures(in_drake(way))) for way in (drake.SAP, drake.LAGGED)}
-    own_contact.table(columns)
-    print("\nwhat explains the differences: four flats, and one point for each of them; a rigid contact")
-    columns = {"theory": columns["theory"], "springs": list(figures(own(ONE_POINT, 4)))}
-    if with_drake:
-        columns |= {"Drake sap": list(figures(in_drake(drake.SAP, 4)))}
-    own_contact.table({**columns, "rigid theory": list(predicted(math.inf))})
+    """One column after another: `own.py theory Pong` makes these two."""
+    columns = {"theory": lambda: predicted(d.STIFFNESS / 2), "Pong": partial(figures, rig.Machine)}
+    columns |= {name: partial(figures, own(contact)) for name, contact in SETS.items()}
+    ways = (drake.SAP, drake.LAGGED) if drake.at_hand() else ()
+    columns |= {f"Drake-{way}": partial(figures, in_drake(way)) for way in ways}
+    # What explains the differences: four flats, and one point for each of them; a rigid contact.
+    columns["4-springs"] = partial(figures, own(ONE_POINT, 4))
+    columns |= {f"4-Drake-{way}": partial(figures, in_drake(way, 4)) for way in ways[:1]}
+    columns["rigid theory"] = lambda: predicted(math.inf)
+    own_contact.compare(columns)
 
 
 if __name__ == "__main__":
