@@ -102,19 +102,22 @@ def around(peg, depth, greatest):
 
 
 def predicted(spring):
-    """By Whitney's theory with springs of contact, N/m; a rigid contact is an infinite one."""
-    whitney.SPRING = spring
+    """By Whitney's theory with springs of contact, N/m. `None`: rigid, for depths only; not where one place becomes two."""
+    whitney.SPRING = spring or 1e9
     for name, depths in DEPTHS.items():
         support = whitney.Support(rig.CENTRES[name])
         for depth in depths:
             _, force, lean = whitney.insertion(support, -depth)
             yield f"{name}, {depth * 1e3:g} mm deep: force, N", force
             yield f"{name}, {depth * 1e3:g} mm deep: lean, mrad", 1e3 * lean
-        on_the_way = [whitney.insertion(support, -z)[1] for z in np.arange(depths[0], 3e-3, 1e-5)]
+        on_the_way = [whitney.insertion(support, -z)[1] for z in np.arange(depths[0], 3e-3, 1e-5)] if spring else ["–"]
         yield f"{name}: greatest force from there to 3 mm deep, N", max(on_the_way)
     for name, centre in rig.CENTRES.items():
         jam = whitney.jams(whitney.Support(centre), d.LIMIT)
-        yield f"{name}, at most {d.LIMIT:g} N: depth after 8 s, mm", 1e3 * jam if jam else "through"
+        yield (
+            f"{name}, at most {d.LIMIT:g} N: depth after 8 s, mm",
+            (1e3 * jam if jam else "through") if spring else "–",
+        )
     yield "", "–"
 
 
@@ -127,7 +130,7 @@ def main():
     # What explains the differences: four flats, and one point for each of them; a rigid contact.
     columns["4-springs"] = partial(figures, own(ONE_POINT, 4))
     columns |= {f"4-Drake-{way}": partial(figures, in_drake(way, 4)) for way in ways[:1]}
-    columns["rigid theory"] = lambda: predicted(math.inf)
+    columns["rigid theory"] = lambda: predicted(None)
     own_contact.compare(columns)
 
 
