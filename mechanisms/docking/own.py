@@ -3,10 +3,12 @@
 
 python3 mechanisms/docking/own.py        with the plugin as for mechanisms/run.py
 
-The first RUNS of the campaign (campaign.py), level training. MuJoCo's geoms are the polyhedra of the same contact models,
+RUNS approaches within the initial contact conditions, level training, dispersed as in campaign.py but drawn here, so that
+they stay the same. MuJoCo's geoms are the polyhedra of the same contact models,
 as convex meshes; edges and pads, which are primitives of their own in Pong, are edges and faces of these.
 """
 
+import math
 import pathlib
 import sys
 import time
@@ -58,9 +60,29 @@ def own(contact, structure=STRUCTURE):
     return made
 
 
+def within_disc(radius, a, b):
+    """Even over a disc, of two numbers from 0 to 1."""
+    way = 2 * math.pi * b
+    return (radius * math.sqrt(a) * math.cos(way), radius * math.sqrt(a) * math.sin(way))
+
+
+def case(run):
+    """Each run has a generator of its own."""
+    u = np.random.default_rng([1, run]).uniform(size=11)
+    return docking.Case(
+        speed=d.CLOSING[0] + (d.CLOSING[1] - d.CLOSING[0]) * u[0],
+        lateral=within_disc(d.LATERAL, u[1], u[2]),
+        lateral_rate=within_disc(d.LATERAL_RATE, u[3], u[4]),
+        tilt=within_disc(d.TILT, u[5], u[6]),
+        roll=d.ROLL * (2 * u[7] - 1),
+        rates=tuple(d.RATE * (2 * u[8:11] - 1)),
+        give_up=campaign.GIVE_UP,
+    )
+
+
 def attempt(run, kind):
     """One approach: captured, when, greatest force between the vehicles, stroke, processor time of a simulated second."""
-    made = docking.approach(campaign.case(campaign.drawn(run)), hard=False, kind=kind)
+    made = docking.approach(case(run), hard=False, kind=kind)
     sequencer, spent, force, stroke = Sequencer(give_up=campaign.GIVE_UP, hard=False), 0.0, 0.0, 0.0
     while sequencer.phase != "abort" and not campaign.ended(made, sequencer):
         began = time.process_time()

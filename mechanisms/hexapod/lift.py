@@ -12,6 +12,7 @@ function, in which a place that slides is pushed away as well: by μ·C·v, and 
 and a foot that slides faster than N/(μ·C) cannot stay on the ground.
 """
 
+import math
 import pathlib
 import sys
 
@@ -84,8 +85,9 @@ def engines():
 
 
 def limits():
-    """Of a foot of the standing hexapod with each set of own.py: what it is as a spring, and the speed N/(μ·C)."""
+    """Of a foot of the standing hexapod with each set of own.py: what it is as a spring, and what follows."""
     load = d.MASS * d.GRAVITY / 6
+    across = load * math.sin(math.atan(0.5 * d.FRICTION))
     for name in ("MuJoCo", "springs", "hard"):
         stands, contact = own.settled(own.other(own.Own, own.SETS[name])), own.SETS[name]
         deep = float(np.mean(d.FOOT_RADIUS - rig.feet(stands)[:, 2]))
@@ -101,6 +103,7 @@ def limits():
                 ("load over that spring, µm", 1e6 * load / stiffness),
                 ("depth at rest, µm", 1e6 * deep),
                 ("it hops from N/(μ·C), mm/s", 1e3 * load / (d.FRICTION * damping)),
+                ("creep on half the slope, mm/s", 1e3 * across / (contact.impratio * damping)),
             ],
         )
 

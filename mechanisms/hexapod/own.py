@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The same hexapod with MuJoCo's own contact beside Pong's: standing, slopes, a walk on the plane.
+"""The same hexapod with MuJoCo's own contact and in Drake, beside Pong's: standing, slopes, a walk on the plane.
 
-python3 mechanisms/hexapod/own.py        with the plugin as for mechanisms/run.py: half a minute
+python3 mechanisms/hexapod/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
 """
 
 import math
