@@ -18,6 +18,7 @@ import time
 import mujoco
 import numpy as np
 
+STARTED = 0.01  # s: a scene that begins in contact may begin with a blow, which is not looked at
 HERE = pathlib.Path(__file__).resolve().parent
 
 
@@ -48,6 +49,8 @@ class Timed:
         machine.watchers.append(self.look)
 
     def look(self, machine):
+        if machine.time < STARTED:
+            return
         forces = machine.data.sensordata[machine.sensed][3:].reshape(-1, 6)[:, :3]
         self.peak = max(self.peak, float(np.einsum("ij,ij->i", forces, forces).max()) ** 0.5)
 
