@@ -49,8 +49,10 @@ def main():
 
     tally = Tally()
     off = sum(show(title, tally.watch(title, rows)) for title, rows in outcome.rows(given.thorough))
-    print("\n".join(tally.lines()))
-    if given.thorough and given.name != "kit" and tally.missing():
+    mechanism = given.name != "kit"  # what they share has no rules to keep
+    if mechanism:
+        print("\n".join(tally.lines()))
+    if given.thorough and mechanism and tally.missing():
         sys.exit(f"{given.name}: no check of {', '.join(tally.missing())}")
     if off:
         sys.exit(f"{given.name}: {off} of its checks do not hold")

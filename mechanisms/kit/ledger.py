@@ -27,9 +27,6 @@ class Ledger:
 
     def __init__(self, model, data):
         self.model, self.data = model, data
-        if model.opt.integrator not in WEIGHTS:
-            raise ValueError("the account of energy knows the integrators Euler, RK4 and implicitfast")
-        self._weights = WEIGHTS[model.opt.integrator]
         self._forces, self._before = np.zeros((len(self.NAMES), model.nv)), np.zeros(model.nv)
         self.work = dict.fromkeys(self.NAMES, 0.0)
         self.through = 0.0
@@ -49,6 +46,9 @@ class Ledger:
         return float(self.data.energy.sum())
 
     def __enter__(self):
+        self._weights = WEIGHTS.get(self.model.opt.integrator)
+        if self._weights is None:
+            raise ValueError("the account of energy knows the integrators Euler, RK4 and implicitfast")
         self._before[:] = self.data.qvel
         self._forces[:] = 0.0
         self._stage = 0
