@@ -20,7 +20,7 @@ use crate::random::Random;
 use crate::twin::Twin;
 use displaced::{beside, reshaped};
 use pong_engine::State;
-use pong_geometry::Wrench;
+use pong_geometry::{Vec3, Wrench};
 
 /// How many places around are tried at a time, and how often more of them: where three surfaces meet, or a direction turns
 /// through a wide angle, few places say little.
@@ -158,8 +158,32 @@ impl Around<'_> {
         let near = 0.25 * self.difference.max(self.spread()) + self.allowance.force;
         let is_beside =
             |answer: &[Wrench; 2]| self.settled.iter().any(|there| distance(there, answer, lever) < near);
-        if self.is_jump() && self.answers.iter().all(is_beside) { Seen::Both } else { Seen::Some }
+        // What is exactly at the jump may have an answer between those on its sides.
+        let is_between = |answer: &[Wrench; 2]| {
+            let pairs = self.settled.iter().enumerate().flat_map(|(i, one)| {
+                self.settled[..i].iter().map(move |other| between(one, other, answer, lever))
+            });
+            pairs.into_iter().any(|there| distance(&there, answer, lever) < near)
+        };
+        let [first, twin] = &self.answers;
+        let is_seen = (is_beside(first) && (is_beside(twin) || is_between(twin)))
+            || (is_beside(twin) && is_between(first));
+        if self.is_jump() && is_seen { Seen::Both } else { Seen::Some }
     }
+}
+
+/// Of all wrenches between two the one that is nearest to an answer.
+fn between(one: &[Wrench; 2], other: &[Wrench; 2], answer: &[Wrench; 2], lever: f64) -> [Wrench; 2] {
+    let arrow = |from: &Wrench, to: &Wrench| (to.force - from.force, (to.moment - from.moment) / lever);
+    let dot = |x: (Vec3, Vec3), y: (Vec3, Vec3)| x.0.dot(&y.0) + x.1.dot(&y.1);
+    let way = [0, 1].map(|i| arrow(&one[i], &other[i]));
+    let square: f64 = way.iter().map(|&way| dot(way, way)).sum();
+    let along: f64 = [0, 1].into_iter().map(|i| dot(way[i], arrow(&one[i], &answer[i]))).sum();
+    let share = if square > 0.0 { (along / square).clamp(0.0, 1.0) } else { 0.0 };
+    std::array::from_fn(|i| Wrench {
+        force: one[i].force + (other[i].force - one[i].force) * share,
+        moment: one[i].moment + (other[i].moment - one[i].moment) * share,
+    })
 }
 
 /// The wrenches of the last frame of a history.

@@ -261,7 +261,8 @@ impl<'a> WayOut<'a> {
         for (v, least) in [(self.frustum.axis, 1e-6), (arm, 1e-9 * arm.norm())] {
             let part = across(&v);
             if part.norm() > least {
-                return part.normalize();
+                // Once more: what rounding leaves along the segment is much of a short part.
+                return across(&part.normalize()).normalize();
             }
         }
         any_perpendicular(along)

@@ -16,11 +16,13 @@ pub(super) struct Circle {
 }
 
 impl Circle {
-    /// The place that is farthest along a vector. Along the axis all are: the centre stands for them.
+    /// The place that is farthest along a unit vector. Along the axis all are: the centre stands for them.
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
+        /// What is left across is rounding: it has no direction, and may even lie along the axis.
+        const LEAST: f64 = 1e-12;
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        let scale = if length > 0.0 { self.radius / length } else { 0.0 };
+        let scale = if length > LEAST { self.radius / length } else { 0.0 };
         self.center_b + across * scale
     }
 }
