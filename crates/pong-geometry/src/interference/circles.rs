@@ -20,10 +20,26 @@ impl Circle {
     pub fn farthest(&self, direction: &Vec3) -> Vec3 {
         /// What is left across is rounding: it has no direction, and may even lie along the axis.
         const LEAST: f64 = 1e-12;
+        self.rim_toward(direction, LEAST).unwrap_or(self.center_b)
+    }
+
+    /// The same for a line along a unit vector that lies in the plane of the circle, or beside it, and passes the centre at
+    /// `beside`: both ends of the chord are as far. `None` where they are not.
+    pub fn chord(&self, direction: &Vec3, line: &Vec3, beside: &Vec3) -> Option<[Vec3; 2]> {
+        /// Wider than the directions between which a search for the axis stops.
+        const LEAST: f64 = 1e-10;
+        if self.rim_toward(direction, LEAST).is_some() {
+            return None;
+        }
+        let off = beside - self.axis_b * self.axis_b.dot(beside);
+        let half = (self.radius * self.radius - off.norm_squared()).max(0.0).sqrt();
+        Some([-half, half].map(|along| self.center_b + off + line * along))
+    }
+
+    fn rim_toward(&self, direction: &Vec3, least: f64) -> Option<Vec3> {
         let across = direction - self.axis_b * self.axis_b.dot(direction);
         let length = across.norm();
-        let scale = if length > LEAST { self.radius / length } else { 0.0 };
-        self.center_b + across * scale
+        (length > least).then(|| self.center_b + across * (self.radius / length))
     }
 }
 
@@ -128,20 +144,25 @@ pub(super) fn shares(depths: [f64; 2], cosine: f64) -> [f64; 2] {
 
 /// The direction between three that follow each other in which the slope is zero.
 fn turned(reach: &impl Fn(&Vec3) -> Reach, [before, middle, after]: [Vec3; 3]) -> Vec3 {
-    const STEPS: usize = 60;
+    /// Two of them halve what is left.
+    const STEPS: usize = 110;
     let at_middle = reach(&middle).slope;
     let (mut low, mut high) = if at_middle > 0.0 {
         ((middle, at_middle), (after, reach(&after).slope))
     } else {
         ((before, reach(&before).slope), (middle, at_middle))
     };
-    for step in 0..STEPS {
+    let mut was_wide = f64::INFINITY;
+    for _ in 0..STEPS {
         let ((from, rises), (to, falls)) = (low, high);
-        if !(rises > 0.0 && falls < 0.0) || (to - from).norm_squared() <= f64::EPSILON * f64::EPSILON {
+        let is_wide = (to - from).norm_squared();
+        if !(rises > 0.0 && falls < 0.0) || is_wide <= f64::EPSILON * f64::EPSILON {
             break;
         }
-        // A secant that stays at one side crawls: every third step halves.
-        let share = if step % 3 == 2 { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
+        // A secant that stays at one side crawls, as where the slope steps: then the next step halves.
+        let crawls = is_wide > 0.25 * was_wide;
+        was_wide = if crawls { f64::INFINITY } else { is_wide };
+        let share = if crawls { 0.5 } else { (rises / (rises - falls)).clamp(1e-3, 1.0 - 1e-3) };
         let between = (from + (to - from) * share).normalize();
         let slope = reach(&between).slope;
         *(if slope > 0.0 { &mut low } else { &mut high }) = (between, slope);

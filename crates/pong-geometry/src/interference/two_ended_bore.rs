@@ -96,7 +96,7 @@ impl RodEnd<'_> {
         let wall = self.at_wall();
         if self.rod.skin > 0.0 && wall.depth <= 0.0 {
             let tip = Sphere { center: self.rod.ends[self.end], radius: self.rod.skin };
-            return deeper(ball_bore(&tip, self.bore), self.side_at_mouth());
+            return self.deeper(ball_bore(&tip, self.bore), self.side_at_mouth());
         }
         self.limited(self.with_corner(&wall))
     }
@@ -115,9 +115,9 @@ impl RodEnd<'_> {
         }
         let line = self.line_at_mouth();
         if is_inside {
-            return if line == NOTHING { wall.contacts } else { shallower(wall.contacts, line) };
+            return if line == NOTHING { wall.contacts } else { self.shallower(wall.contacts, line) };
         }
-        if line == NOTHING || wall.outward || -own > wall.depth { line } else { deeper(line, wall.contacts) }
+        if line == NOTHING || wall.outward || -own > wall.depth { line } else { self.deeper(line, wall.contacts) }
     }
 
     fn at_wall(&self) -> AtWall {
@@ -184,7 +184,7 @@ impl RodEnd<'_> {
             let tip = Sphere { center: self.rod.ends[end], radius: self.rod.skin };
             [ball_mouth(&tip, self.bore, self.mouth), None]
         });
-        tips.into_iter().fold(side, deeper)
+        tips.into_iter().fold(side, |one, other| self.deeper(one, other))
     }
 
     /// The line of the side against the mouth, past its own end as well.
@@ -210,16 +210,25 @@ impl RodEnd<'_> {
             let turning = rod.axis_b.cross(side);
             Reach { depth: rod.side() + side.dot(&apart), slope: turning.dot(&apart) }
         };
-        let off = (arm - rod.axis_b * rod.axis_b.dot(&arm)).norm();
-        if rod.side() + off <= circle.radius * rod.axis_b.dot(&circle.axis_b).abs() {
+        let beside = arm - rod.axis_b * rod.axis_b.dot(&arm);
+        if rod.side() + beside.norm() <= circle.radius * rod.axis_b.dot(&circle.axis_b).abs() {
             return NOTHING;
         }
+        let is_on = |place: &Vec3| counts(rod.axis_b.dot(&(place - rod.ends[0])));
+        // A rod that lies flat over the mouth touches it in two places; what they share acts in the middle.
+        let place_on = |side: &Vec3| match circle.chord(side, &rod.axis_b, &beside) {
+            None => Some(circle.farthest(side)).filter(is_on),
+            Some([one, other]) => match (is_on(&one), is_on(&other)) {
+                (true, true) => Some(0.5 * (one + other)),
+                (true, false) => Some(one),
+                (false, true) => Some(other),
+                (false, false) => None,
+            },
+        };
         let touched = |side: Option<Vec3>| {
             let side = side?.normalize();
-            let (place, depth) = (circle.farthest(&side), reach(&side).depth);
-            let holds = depth > 0.0
-                && counts(rod.axis_b.dot(&(place - rod.ends[0])))
-                && (depth <= rod.side() || self.is_crossed_behind(&counts));
+            let (place, depth) = (place_on(&side)?, reach(&side).depth);
+            let holds = depth > 0.0 && (depth <= rod.side() || self.is_crossed_behind(&counts));
             holds.then(|| Interference {
                 depth,
                 normal_b: -side,
@@ -282,7 +291,27 @@ impl RodEnd<'_> {
             };
             self.bore.mouths[mouth].then_some([Some(contact), None])
         };
-        [0, 1].into_iter().filter_map(leaves).fold(contacts, shallower)
+        [0, 1].into_iter().filter_map(leaves).fold(contacts, |one, other| self.shallower(one, other))
+    }
+
+    /// The deeper of two; the first unless the second is so by more than rounding. A rod along the wall is as deep in both.
+    fn deeper(&self, one: BallContacts, other: BallContacts) -> BallContacts {
+        if energy(&other) > energy(&one) + self.rounding_of(&one) { other } else { one }
+    }
+
+    /// The less deep of two, likewise.
+    fn shallower(&self, one: BallContacts, other: BallContacts) -> BallContacts {
+        if energy(&other) < energy(&one) - self.rounding_of(&one) { other } else { one }
+    }
+
+    /// What rounding makes of an energy, m².
+    fn rounding_of(&self, contacts: &BallContacts) -> f64 {
+        /// How far off a direction may be at which the slope steps.
+        const DIRECTION: f64 = 4e-12;
+        let places = [&self.rod.ends, &self.bore.hole.ends].into_iter().flatten().map(|place| place.amax());
+        let reach = places.fold(self.rod.length, f64::max);
+        let depth = contacts.iter().flatten().map(|contact| contact.depth).fold(0.0, f64::max);
+        2.0 * depth * DIRECTION * reach
     }
 }
 
@@ -293,12 +322,4 @@ fn energy(contacts: &BallContacts) -> f64 {
     let cosine = one.zip(*two).map_or(0.0, |(one, two)| one.normal_b.dot(&two.normal_b));
     let shares = shares(depths, cosine);
     shares[0] * depths[0] + shares[1] * depths[1]
-}
-
-fn deeper(one: BallContacts, other: BallContacts) -> BallContacts {
-    if energy(&other) > energy(&one) { other } else { one }
-}
-
-fn shallower(one: BallContacts, other: BallContacts) -> BallContacts {
-    if energy(&other) < energy(&one) { other } else { one }
 }
