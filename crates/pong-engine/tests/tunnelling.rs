@@ -255,3 +255,19 @@ fn what_slides_over_a_ball_is_not_told() {
     let places = [(-0.055, 0.12), (-0.055, 0.08), (0.055, 0.095), (0.3, 0.095)];
     assert_eq!(told_at(&mut rig, places.map(|(x, y)| Vec3::new(x, y, 0.0))), [false; 4]);
 }
+
+/// The faces are 135° apart: no wall. One end of the bar goes from one to the other while the other end crosses an edge.
+#[test]
+fn a_bar_that_goes_round_the_edge_of_a_wedge_goes_through_nothing() {
+    let wedge = "Polyhedron(name: \"w\", vertices: [(0,-0.05,0),(0,0.05,0),(0.03,-0.05,0),(0.03,0.05,0),(0.03,-0.05,-0.03),\
+                 (0.03,0.05,-0.03)], faces: [[0,2,3,1],[0,1,5,4],[2,4,5,3],[0,4,2],[1,3,5]])";
+    let bar = "LineSegment(name: \"l\", ends: ((0,-0.02,0),(0,0.02,0)))";
+    let mut rig = rig(bar, wedge);
+    let orientation =
+        Quat::from_axis_angle(&Vec3::x_axis(), 0.01) * Quat::from_axis_angle(&Vec3::z_axis(), 0.03);
+    for step in 0..60 {
+        rig.place_a(Vec3::new(0.0, 0.0, -4e-4 + 2e-5 * f64::from(step)), orientation);
+        let report = rig.world.step().unwrap();
+        assert!(!report.status.contains(StatusBits::TUNNELLED), "step {step}");
+    }
+}

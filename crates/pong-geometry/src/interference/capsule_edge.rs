@@ -42,6 +42,11 @@ pub fn capsule_edge(capsule: &Capsule, edge: &ConvexEdge) -> Option<Interference
     let arm = axis.at(at) - corner;
     let is_outside = edge.normals_b.iter().sum::<Vec3>().dot(&arm) > 0.0;
     let distance = square.sqrt();
+    let is_in_axis = distance <= rounding(&axis, &of_edge);
+    if is_between && is_in_axis && axis.across(&of_edge).is_some() {
+        // The way to it is noise: it counts as a place of the edge.
+        return over(capsule, edge, &axis, &of_edge, at, if corner == edge.ends_b[0] { 0.0 } else { 1.0 });
+    }
     if !(is_between && is_outside && distance < capsule.radius) {
         return None;
     }
@@ -64,10 +69,18 @@ fn over(
     // Of an axis along a face rounding decides whether the way out is beside that face's normal: it counts as if it were not.
     let is_between = |outward: &Vec3| outward.dot(&normal) > -ROUNDING;
     let leaves_there = || edge.outwards_b.is_some_and(|outwards| outwards.iter().all(is_between));
-    if height >= capsule.radius || (height <= 0.0 && !leaves_there()) {
+    // An axis in the edge has not passed it.
+    let lowest = if edge.outwards_b.is_some() { 0.0 } else { -rounding(axis, of_edge) };
+    if height >= capsule.radius || (height <= lowest && !leaves_there()) {
         return None;
     }
     Some(touched(capsule, edge, normal, height, &axis.at(at)))
+}
+
+/// What rounding makes of a distance between the two, m.
+fn rounding(axis: &Segment, of_edge: &Segment) -> f64 {
+    let reach = |segment: &Segment| segment.start.amax() + segment.along.amax();
+    ROUNDING * reach(axis).max(reach(of_edge))
 }
 
 /// The edge lies so far below a place of the axis, against the normal.
@@ -99,14 +112,19 @@ impl Segment {
         (place - self.start).dot(&self.along) / self.along.norm_squared()
     }
 
+    /// Across both, of any length, if they are not parallel.
+    fn across(&self, other: &Self) -> Option<Vec3> {
+        let across = self.along.cross(&other.along);
+        let least =
+            f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
+        (across.norm_squared() > least).then_some(across)
+    }
+
     /// The feet of the common perpendicular, if both lie between the ends.
     fn crossing(&self, other: &Self) -> Option<(f64, f64)> {
         let (u, v, between) = (self.along, other.along, other.start - self.start);
-        let across = u.cross(&v);
+        let across = self.across(other)?;
         let square = across.norm_squared();
-        if square <= f64::EPSILON * f64::EPSILON * u.norm_squared() * v.norm_squared() {
-            return None;
-        }
         let at = between.cross(&v).dot(&across) / square;
         let on_other = between.cross(&u).dot(&across) / square;
         let inside = |share: f64| share > 0.0 && share < 1.0;

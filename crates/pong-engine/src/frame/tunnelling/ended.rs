@@ -102,7 +102,9 @@ impl Seen<'_> {
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
         let (body, shell, primitive_a) = (self.context.body_b, record.key.shell_b, record.key.primitive_a);
         if solids::holds(body, shell, &line.to_b) {
-            return self.pushing(primitive_a, shell).any(|normal| are_both_sides(normal, &record.normal_b))
+            // What the other end of a segment meets, as an edge that it crosses, tells nothing about this one.
+            let mut pushing = self.pushing_at_end(record.key);
+            return pushing.any(|normal| are_both_sides(normal, &record.normal_b))
                 && !self.pushes_to(&record.normal_b, primitive_a, shell);
         }
         let out = solids::way_out(body, shell, line).filter(|_| solids::holds(body, shell, &line.from_b));

@@ -150,6 +150,11 @@ impl<'a> Seen<'a> {
         pushing(self.frame, self.key(primitive_a, shell_b))
     }
 
+    /// The same of one end of a segment.
+    pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
+        pushing_at_end(self.frame, key)
+    }
+
     /// What the status tells.
     pub fn passed(&self, primitive_a: u32) -> TunnellingEvent {
         TunnellingEvent { body_a: self.bodies.0, primitive_a, body_b: self.bodies.1 }
@@ -158,6 +163,18 @@ impl<'a> Seen<'a> {
 
 /// Normals of the contacts under a key, whatever end of a segment they are at.
 pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Vec3> + use<'_> {
+    found(frame, key).map(|found| &found.normal_b)
+}
+
+/// Normals of the contacts under a key at its end of a segment.
+pub(super) fn pushing_at_end(
+    frame: &EvaluationBuffers,
+    key: ContactKey,
+) -> impl Iterator<Item = &Vec3> + use<'_> {
+    found(frame, key).filter(move |found| found.key.end == key.end).map(|found| &found.normal_b)
+}
+
+fn found(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactCandidate> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
     let same_head = frame.order[first..].iter().take_while(move |place| place.head == head);
@@ -165,7 +182,7 @@ pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterat
     let counts = move |found: &&ContactCandidate| {
         found.role == ContactRole::Active && found.key.shell_b == key.shell_b
     };
-    found.filter(counts).map(|found| &found.normal_b)
+    found.filter(counts)
 }
 
 /// Where an element of A is followed, in A's frame, m.
