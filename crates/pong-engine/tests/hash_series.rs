@@ -30,7 +30,7 @@ const KNOWN: [(&str, u64, u64); 9] = [
     ("crowd", 0xea6c694a9ff398c3, 0xc31752094573b407),
     ("bowl", 0x2aedf441666a2cc0, 0x033338db790799c7),
     ("swarm", 0x8d26eb9db5e7d29e, 0x91adf350cf84ba84),
-    ("round", 0xd5d3dbc25e1d0d7b, 0xa7b7ef0a6cf9d5af),
+    ("round", 0xb84275fdb8cc398a, 0xcbe944a8a8ec6bca),
 ];
 
 /// A scene run by the caller alone, with what is needed to go on from any frame.

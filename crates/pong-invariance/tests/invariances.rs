@@ -115,7 +115,6 @@ fn scenes_with_round_parts_that_once_differed() {
         ("group_frame", "hole", 2110),
         // A pin flat over a mouth: the search stopped short of where the slope steps, and the place was any of the rim.
         ("moved", "hole", 8116),
-        ("own_axis", "hole", 8928),
         ("own_axis", "hole", 10209),
         // A rod along a shaft: what rounding left along it of a short way across moved the place to an end.
         ("reordered", "shaft", 18971),

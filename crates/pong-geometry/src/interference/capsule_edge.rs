@@ -115,8 +115,7 @@ impl Segment {
     /// Across both, of any length, if they are not parallel.
     fn across(&self, other: &Self) -> Option<Vec3> {
         let across = self.along.cross(&other.along);
-        let least =
-            f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
+        let least = f64::EPSILON * f64::EPSILON * self.along.norm_squared() * other.along.norm_squared();
         (across.norm_squared() > least).then_some(across)
     }
 

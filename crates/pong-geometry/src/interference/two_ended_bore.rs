@@ -117,7 +117,11 @@ impl RodEnd<'_> {
         if is_inside {
             return if line == NOTHING { wall.contacts } else { self.shallower(wall.contacts, line) };
         }
-        if line == NOTHING || wall.outward || -own > wall.depth { line } else { self.deeper(line, wall.contacts) }
+        if line == NOTHING || wall.outward || -own > wall.depth {
+            line
+        } else {
+            self.deeper(line, wall.contacts)
+        }
     }
 
     fn at_wall(&self) -> AtWall {
