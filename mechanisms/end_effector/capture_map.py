@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The capture map over misalignment and rate, at level training; draws capture_map.png.
 
-python3 mechanisms/end_effector/capture_map.py        with the plugin as for mechanisms/run.py, and matplotlib
+python3 mechanisms/end_effector/capture_map.py          with the plugin as for mechanisms/run.py, and matplotlib
+python3 mechanisms/end_effector/capture_map.py --all    every case again at half the step, not a part of them
 
 Each case runs to its end: *seated* (pressed with the preload), *snared* only (the plate does not come to rest on the
 pads), or *missed*. Prediction of what is snared by geometry alone: the knob goes in if its edge is inside of the open cables, and does not if its edge is beyond the crest of the lip's rounding, unless it is tilted so that its face
@@ -9,6 +10,7 @@ slides off the lip to the inside. Of what is inside, a payload that moves away i
 cables when they are as narrow as it, and missed if it is above them by then.
 """
 
+import argparse
 import math
 import pathlib
 import random
@@ -139,15 +141,15 @@ def found():
     return [(point, ran(point.case)) for point in points()]
 
 
-def repeated(results):
+def repeated(results, share):
     """How many of a random part were run again at half the step, and which came to something else."""
-    chosen = random.Random(SEED).sample(results, round(REPEATED * len(results)))
+    chosen = random.Random(SEED).sample(results, round(share * len(results)))
     halves = [(point, came, ran(replace(point.case, step=TRAINING.step / 2))) for point, came in chosen]
     return len(chosen), [f"{point.panel} {point.x:g}, {point.y:g}: {a}, {b}" for point, a, b in halves if a != b]
 
 
-def rows(picture=None):
-    """`picture`: the file that the map is drawn into."""
+def rows(picture=None, share=REPEATED):
+    """`picture`: the file that the map is drawn into. `share`: of the cases, what is run again at half the step."""
     results = found()
     if picture is not None:
         plot(results, picture)
@@ -161,7 +163,7 @@ def rows(picture=None):
     yield Fact("every case of which geometry says whether it is snared comes out so", not wrong)
     upright = [came for point, came in results if point.panel == "offset" and point.predicted]
     yield Fact("what clears the cables, upright and without a rate across, is seated", set(upright) == {"seated"})
-    count, other = repeated(results)
+    count, other = repeated(results, share)
     print("".join(f"      {line}, at half the step\n" for line in other), end="")
     yield Fact(f"{count} of them, drawn by chance, come to the same at half the step", not other)
 
@@ -201,7 +203,10 @@ def plot(results, path):
 
 
 def main():
-    for row in rows(HERE / "capture_map.png"):
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--all", action="store_true", help="every case again at half the step")
+    share = 1.0 if parser.parse_args().all else REPEATED
+    for row in rows(HERE / "capture_map.png", share):
         print(line(row))
 
 
