@@ -17,6 +17,7 @@ import time
 
 import mujoco
 import numpy as np
+from kit.machine import wrenches
 
 STARTED = 0.01  # s: a scene that begins in contact may begin with a blow, which is not looked at
 HERE = pathlib.Path(__file__).resolve().parent
@@ -51,7 +52,7 @@ class Timed:
     def look(self, machine):
         if machine.time < STARTED:
             return
-        forces = machine.data.sensordata[machine.sensed][3:].reshape(-1, 6)[:, :3]
+        forces = wrenches(machine.data.sensordata[machine.sensed])[:, :3]
         self.peak = max(self.peak, float(np.einsum("ij,ij->i", forces, forces).max()) ** 0.5)
 
     def step_us(self):

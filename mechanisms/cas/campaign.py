@@ -14,7 +14,7 @@ import rig
 import seat
 import statics
 from kit.campaign import ANY_WAY, OverDisc, Study, Uniform
-from kit.machine import TUNNELLED
+from kit.machine import wrenches
 
 TICK = 0.01  # s
 NOT_BELOW = 4.0  # s after which a payload that stands on a crest is given up
@@ -36,10 +36,8 @@ def place(values):
 
 def begin(values):
     made = seat.Capture(d.TRAINING.step, place(values), values["yaw"], feed=values["feed"], mu=values["friction"])
-    model, body = made.machine.model, made.machine.model.body("payload").id
-    model.body_mass[body] *= values["mass"]
-    model.body_inertia[body] *= values["mass"]
-    mujoco.mj_setConst(model, made.machine.data)
+    made.machine.scale_mass("payload", values["mass"])
+    mujoco.mj_setConst(made.machine.model, made.machine.data)
     rig.place(made.machine, (*place(values), made.ABOVE, 0.0, 0.0, values["yaw"]), d.OPEN)
     made.machine.start()
     return made
@@ -50,7 +48,7 @@ def attempt(values):
     machine, load = made.machine, 0.0
     while machine.time < (END if made.closing else NOT_BELOW) - 1e-9:
         made.control(machine)
-        forces = machine.stride(TICK)[:, 3:].reshape(round(TICK / machine.step), -1, 6)[:, VANES, :3]
+        forces = wrenches(machine.stride(TICK))[:, VANES, :3]
         load = max(load, float(np.sqrt((forces * forces).sum(axis=2).max())))
         if machine.time > CLOSES and abs(machine.speed("claw")) < STILL:
             break
@@ -60,7 +58,7 @@ def attempt(values):
         "margin": 1.0 - statics.out_of_line(place(values), values["yaw"]),
         "load": load,
         "preload": seat.claw_force(machine) if seated else math.nan,
-        "tunnelled": int(bool(machine.flags & TUNNELLED)),
+        "tunnelled": int(machine.tunnelled),
     }
 
 

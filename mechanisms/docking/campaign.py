@@ -12,7 +12,6 @@ import mujoco
 import numpy as np
 import stewart
 from kit.campaign import ANY_WAY, OverDisc, Study, Uniform
-from kit.machine import TUNNELLED
 from sequence import Sequencer
 
 GIVE_UP = 12.0  # s
@@ -113,7 +112,7 @@ def attempt(values):
         "stroke": float(peaks.stroke),
         "time": sequencer.captured_at or made.time,
         "touching": touching,
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

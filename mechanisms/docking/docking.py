@@ -9,7 +9,7 @@ import numpy as np
 import stewart
 import vehicles
 from kit import mjcf
-from kit.machine import TUNNELLED, Machine
+from kit.machine import Machine
 from kit.restart import same_bits
 from sequence import Sequencer
 
@@ -161,7 +161,7 @@ class Result:
 
     @property
     def tunnelled(self):
-        return bool(self.machine.flags & TUNNELLED)
+        return self.machine.tunnelled
 
     def relative_speed(self):
         return motion(self.machine, "chaser")[0] - motion(self.machine, "target")[0]

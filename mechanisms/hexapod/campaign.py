@@ -15,7 +15,7 @@ import numpy as np
 import rig
 import scenes
 from kit.campaign import ANY_WAY, Study, Uniform
-from kit.machine import TUNNELLED
+from kit.machine import wrenches
 
 RISE, END, TICK = 1.5, 2.5, 0.01  # s: the slope is there; the end
 WENT = 0.020  # m in the last second: beyond the limit by 5 % it slides five times as far
@@ -35,10 +35,8 @@ DISPERSED = {
 def begin(values):
     places = scenes.on_three(shift=(values["ahead"], values["left"]))
     made = rig.machine(STEP, friction=values["friction"])
-    body = made.model.body("body").id
-    made.model.body_mass[body] *= values["mass"]
-    made.model.body_inertia[body] *= values["mass"]
-    made.model.body_ipos[body] = (0.0, 0.0, values["raised"])
+    made.scale_mass("body", values["mass"])
+    made.model.body("body").ipos[:] = (0.0, 0.0, values["raised"])
     mujoco.mj_setConst(made.model, made.data)
     rig.pose(made, places, d.HEIGHT + d.FOOT_RADIUS)
     return made
@@ -61,8 +59,7 @@ def attempt(values):
     while made.time < END - 1e-9 and np.linalg.norm(made.place("body") - began) < LOST:
         share = min(1.0, (made.time + TICK) / RISE)
         made.model.opt.gravity[:] = rig.slope(share * values["slope"], values["azimuth"])
-        wrenches = made.stride(TICK)[:, 3:].reshape(round(TICK / STEP), -1, 6)
-        load = max(load, float(wrenches[:, -6:, 2].max()))
+        load = max(load, float(wrenches(made.stride(TICK))[:, -6:, 2].max()))
         torque = max(torque, float(np.abs(made.data.actuator_force).max()))
         if stood is None and made.time > RISE:
             stood = made.place("body")
@@ -71,7 +68,7 @@ def attempt(values):
         "margin": 1.0 - math.tan(values["slope"]) / allowed,
         "load": load,
         "torque": torque,
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

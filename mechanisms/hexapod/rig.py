@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 
 from kit import mjcf
-from kit.machine import Machine
+from kit.machine import Machine, wrenches
 
 LEGS = range(6)
 JOINTS = ("coxa", "femur", "tibia")
@@ -20,7 +20,7 @@ BEHIND = 1.0  # m of terrain behind the start
 class Hexapod(Machine):
     def forces(self):
         """On each foot, along the axes of the world, N."""
-        return self.data.sensordata[self.sensed][3:].reshape(-1, 6)[-6:, :3]
+        return wrenches(self.data.sensordata[self.sensed])[-6:, :3]
 
 
 def rod(length, mass):

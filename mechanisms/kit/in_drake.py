@@ -15,6 +15,7 @@ import xml.etree.ElementTree as xml
 import mujoco
 import numpy as np
 
+from kit.ledger import add_applied
 from kit.own_contact import DEFAULT, Own
 
 SAP, LAGGED = "sap", "lagged"
@@ -166,9 +167,7 @@ class InDrake(Own):
         """Those of motors, springs, dampers, hosts and gravity on the joints."""
         d, forces = self.data, np.zeros(self.plant.num_velocities())
         given = d.qfrc_actuator + d.qfrc_passive + d.qfrc_applied + self._weight()
-        for body in np.flatnonzero(d.xfrc_applied.any(axis=1)):
-            pushed = d.xfrc_applied[body]
-            mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, given)
+        add_applied(self.model, d, given)
         free, (_, v, _, to) = self.places
         forces[to] = given[v]
         for q, v, _, to in free:

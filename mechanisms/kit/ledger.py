@@ -10,6 +10,13 @@ WEIGHTS = {EULER: (1.0,), IMPLICITFAST: (1.0,), RK4: (1 / 6, 1 / 3, 1 / 3, 1 / 6
 MOTORS, CONTACT, DAMPERS, CONSTRAINTS = range(4)
 
 
+def add_applied(model, data, forces):
+    """Adds the wrenches that a host applies to bodies, as forces on the joints."""
+    for body in np.flatnonzero(data.xfrc_applied.any(axis=1)):
+        applied = data.xfrc_applied[body]
+        mujoco.mj_applyFT(model, data, applied[:3], applied[3:], data.xipos[body], body, forces)
+
+
 class Ledger:
     """Energies in and out, J. `with ledger: mujoco.mj_step(model, data)` adds those of a step.
 
@@ -84,19 +91,13 @@ class Ledger:
         if d.qfrc_applied.any():
             self._forces[MOTORS] += weight * d.qfrc_applied
         if d.xfrc_applied.any():
-            self._forces[MOTORS] += weight * self._pushed()
+            pushed = np.zeros(self.model.nv)
+            add_applied(self.model, d, pushed)
+            self._forces[MOTORS] += weight * pushed
 
     def _active(self, weight):
         self._forces[MOTORS] += weight * self.data.qfrc_actuator
         self._forces[CONSTRAINTS] += weight * self.data.qfrc_constraint
-
-    def _pushed(self):
-        """Wrenches that a host applies to bodies, as forces on the joints."""
-        d, forces = self.data, np.zeros(self.model.nv)
-        for body in np.flatnonzero(np.any(d.xfrc_applied != 0.0, axis=1)):
-            pushed = d.xfrc_applied[body]
-            mujoco.mj_applyFT(self.model, d, pushed[:3], pushed[3:], d.xipos[body], body, forces)
-        return forces
 
     def _implicit(self, change):
         """What forces become by the change of speed in the step, where the integrator takes that into account."""

@@ -12,6 +12,11 @@ TUNNELLED = 4  # flag of the plugin's sensor, docs/mujoco.md
 _loaded = False
 
 
+def wrenches(sensed):
+    """Of each movable group force (N) and moment (N·m), from what the sensor says in one step or in many, row by row."""
+    return sensed[..., 3:].reshape(*sensed.shape[:-1], -1, 6)
+
+
 def load_plugin():
     """From the file in PLUGIN, as ci/mechanisms sets it, or from the wheel pong_mujoco."""
     global _loaded
@@ -114,8 +119,8 @@ class Machine:
         if not np.all(np.isfinite(self.data.qpos)):
             raise RuntimeError(f"at {self.time:.6f} s positions are no longer finite: the step is too long")
         self.contacts_most = max(self.contacts_most, int(sensed[0]))
-        wrenches = sensed[3:].reshape(-1, 6)
-        forces, moments = wrenches[:, :3], wrenches[:, 3:]
+        found = wrenches(sensed)
+        forces, moments = found[:, :3], found[:, 3:]
         arms = self.data.xpos[self.carriers]
         about_origin = (moments + np.cross(arms, forces)).sum(axis=0)
         greatest = np.abs(forces).max(initial=0.0)
@@ -123,14 +128,18 @@ class Machine:
             off = max(np.abs(forces.sum(axis=0)).max(), np.abs(about_origin).max())
             self.imbalance = max(self.imbalance, off / greatest)
 
+    @property
+    def tunnelled(self):
+        return bool(self.flags & TUNNELLED)
+
     def contacts(self):
         return int(self.data.sensordata[self.sensed][0])
 
     def wrench(self, carrier):
         """Force (N) and moment (N·m) about the origin of the body, along the axes of the world, summed over its groups."""
         body = self.model.body(carrier).id
-        wrenches = self.data.sensordata[self.sensed][3:].reshape(-1, 6)
-        return wrenches[[i for i, other in enumerate(self.carriers) if other == body]].sum(axis=0)
+        found = wrenches(self.data.sensordata[self.sensed])
+        return found[[i for i, other in enumerate(self.carriers) if other == body]].sum(axis=0)
 
     def on(self, group):
         """Force (N) and moment (N·m) on one of the movable groups that were named."""
@@ -142,6 +151,12 @@ class Machine:
 
     def speed(self, name):
         return float(self.data.qvel[self.model.joint(name).dofadr[0]])
+
+    def scale_mass(self, body, factor):
+        """A body so many times as heavy. `mujoco.mj_setConst` is the caller's: it puts joints to their reference."""
+        number = self.model.body(body).id
+        self.model.body_mass[number] *= factor
+        self.model.body_inertia[number] *= factor
 
     def place(self, body):
         return self.data.xpos[self.model.body(body).id].copy()

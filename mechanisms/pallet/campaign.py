@@ -1,9 +1,10 @@
 """Pushes beside the middle, dispersed: does the pallet go in, or does it jam as the law of a drawer says?
 
 A push F at e beside the middle, a drag D in the middle, and seized side rollers a base L apart. The pallet stands turned
-against its rails; both loads rise together, and stay; a damper takes its momentum. It goes where 2·μ·e/L < 1 − D/F, with lever and base of a pallet
-that is turned as far as clearance and yielding rollers let it. Near the limit friction need not be shared evenly by
-both rollers (README.md), so cases within 5 % of it are counted apart. All dispersions are chosen.
+against its rails; both loads rise together, and stay; a damper takes its momentum. It goes where 2·μ·e/L < 1 − D/F,
+with lever and base of a pallet that is turned as far as clearance and yielding rollers let it. Near the limit friction
+need not be shared evenly by both rollers (README.md), so cases within 5 % of it are counted apart. All dispersions are
+chosen.
 """
 
 import math
@@ -13,7 +14,7 @@ import drawer
 import rig
 from dimensions import model
 from kit.campaign import Study, Uniform
-from kit.machine import TUNNELLED
+from kit.machine import wrenches
 
 RISE, TURNED, END, TICK = 1.0, 1.7, 2.2, 0.01  # s: loads are there; the wrist's damper has let it turn; the end
 DAMPER = 1e4  # N·s/m along the way in: it takes the momentum that the pallet has before it jams
@@ -54,9 +55,7 @@ def margin(values):
 
 def begin(values, side):
     made = rig.machine(model.SEATED_X - 0.35, d.TRAINING, values["base"], True, friction=values["friction"])
-    body = made.model.body("pallet").id
-    made.model.body_mass[body] *= values["mass"]
-    made.model.body_inertia[body] *= values["mass"]
+    made.scale_mass("pallet", values["mass"])
     # The wrist gives way, damped, as that of the push of drawer.py does.
     made.model.dof_damping[:6] = (DAMPER, 10.0, 10.0, *[drawer.STRUT_TURNING] * 3)
     half = -side * turned(values["base"]) / 2
@@ -77,15 +76,15 @@ def attempt(values):
     made, load, turned_at = begin(values, side), 0.0, None
     while made.time < END - 1e-9:
         pushed(made, values, side, min(1.0, (made.time + TICK) / RISE))
-        wrenches = made.stride(TICK)[:, 3:].reshape(round(TICK / made.step), -1, 6)
-        load = max(load, float(abs(wrenches[:, ROLLERS, 1]).max()))
+        sides = wrenches(made.stride(TICK))[:, ROLLERS, 1]
+        load = max(load, float(abs(sides).max()))
         if turned_at is None and made.time > TURNED:
             turned_at = made.place("pallet")[0]
     return {
         "success": int(made.place("pallet")[0] - turned_at > WENT),
         "margin": margin(values),
         "peak_load": load,
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

@@ -17,7 +17,6 @@ from dimensions import model
 from kit.arm import Arm, kinematics
 from kit.arm.dimensions import LINKS, READY, SERVO_DAMPING, SERVO_STIFFNESS, TORQUE
 from kit.campaign import Study, Uniform
-from kit.machine import TUNNELLED
 
 TICK = 0.01  # s: period of the controller
 NEARLY, LATCHED = 0.02, 1.0  # rad from where claws are closed; s until they have and hold
@@ -44,9 +43,7 @@ def begin(values):
     """The machine and its arm, whose servos are actuators with limits of their own."""
     made = rig.machine(pull.START, friction=values["friction"])
     made.model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
-    truss = made.model.body("truss").id
-    made.model.body_mass[truss] *= values["mass"]
-    made.model.body_inertia[truss] *= values["mass"]
+    made.scale_mass("truss", values["mass"])
     mujoco.mj_setConst(made.model, made.data)
     rig.open_claws(made, NEARLY)  # the line above has put all joints to zero
     for name in rig.CLAWS:
@@ -93,7 +90,7 @@ def attempt(values):
         "load": load,
         "share": share,
         "moved": float(np.linalg.norm(made.place("truss") - stood)),
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

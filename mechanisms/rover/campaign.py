@@ -15,7 +15,6 @@ import scenes
 import statics
 from dimensions import model
 from kit.campaign import Study, Uniform
-from kit.machine import TUNNELLED
 
 GAP = 2e-3  # m from the tyre to the edge when a run begins
 STANDS, RISE, END, TICK = 0.8, 1.4, 3.2, 0.02  # s: it stands at the edge; in which torques rise; the end
@@ -35,10 +34,8 @@ def begin(values):
     reach = math.sqrt(model.WHEEL_RADIUS**2 - (model.WHEEL_RADIUS - height) ** 2)
     x = -d.AXLE_X["front"] - reach - GAP
     made = rig.machine(d.RIGID, x=x, more_ground=values["height"], friction=values["friction"])
-    chassis = made.model.body("chassis").id
-    made.model.body_mass[chassis] *= values["cargo"]
-    made.model.body_inertia[chassis] *= values["cargo"]
-    made.model.body_ipos[chassis, 0] = values["ahead"]
+    made.scale_mass("chassis", values["cargo"])
+    made.model.body("chassis").ipos[0] = values["ahead"]
     mujoco.mj_setConst(made.model, made.data)
     made.start()
     return made
@@ -79,7 +76,7 @@ def attempt(values):
         "success": int(made.time < END - 1e-9),
         "margin": 1.0 - torque_needed(values) / values["torque"],
         "load": load,
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

@@ -12,7 +12,6 @@ import jam
 import rig
 import statics
 from kit.campaign import Study, Uniform
-from kit.machine import TUNNELLED
 
 BEFORE = 2e-3  # m before the second touch
 RISE, END = 0.6, 0.9  # s: the push has risen to what the arm can; the end
@@ -39,9 +38,7 @@ def place(tilt, side):
 def begin(values, side):
     tilt = side * values["tilt"]
     made = rig.machine(place(values["tilt"], side), tilt, connector=False, friction=values["friction"])
-    body = made.model.body("box").id
-    made.model.body_mass[body] *= values["mass"]
-    made.model.body_inertia[body] *= values["mass"]
+    made.scale_mass("box", values["mass"])
     grip = (-d.LENGTH / 2, -side * values["offset"], 0.0)
     return made, jam.Wrist(grip, tilt, most=values["push"], turning=values["turning"])
 
@@ -63,7 +60,7 @@ def attempt(values):
         "success": int(jam.depth(made, side) - before > WENT),
         "margin": margin(values),
         "peak_moment": peak,
-        "tunnelled": int(bool(made.flags & TUNNELLED)),
+        "tunnelled": int(made.tunnelled),
     }
 
 

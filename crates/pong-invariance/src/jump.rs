@@ -158,16 +158,15 @@ impl Around<'_> {
         let near = 0.25 * self.difference.max(self.spread()) + self.allowance.force;
         let is_beside =
             |answer: &[Wrench; 2]| self.settled.iter().any(|there| distance(there, answer, lever) < near);
-        // What is exactly at the jump may have an answer between those on its sides.
         let is_between = |answer: &[Wrench; 2]| {
-            let pairs = self.settled.iter().enumerate().flat_map(|(i, one)| {
+            let mut pairs = self.settled.iter().enumerate().flat_map(|(i, one)| {
                 self.settled[..i].iter().map(move |other| between(one, other, answer, lever))
             });
-            pairs.into_iter().any(|there| distance(&there, answer, lever) < near)
+            pairs.any(|there| distance(&there, answer, lever) < near)
         };
-        let [first, twin] = &self.answers;
-        let is_seen = (is_beside(first) && (is_beside(twin) || is_between(twin)))
-            || (is_beside(twin) && is_between(first));
+        // What is exactly at the jump may have an answer between those on its sides.
+        let is_seen = self.answers.iter().any(is_beside)
+            && self.answers.iter().all(|answer| is_beside(answer) || is_between(answer));
         if self.is_jump() && is_seen { Seen::Both } else { Seen::Some }
     }
 }

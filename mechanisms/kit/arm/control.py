@@ -17,6 +17,7 @@ import numpy as np
 
 from . import dimensions as d
 from . import kinematics
+from ..machine import wrenches
 
 
 @dataclass(frozen=True)
@@ -202,7 +203,7 @@ class Arm:
         data = machine.data
         axes = data.site_xmat[self.site].reshape(3, 3)
         own = data.sensordata[self.wrench_at]
-        touching = data.sensordata[machine.sensed][3:].reshape(-1, 6)[self.carried]
+        touching = wrenches(data.sensordata[machine.sensed])[self.carried]
         forces, arms = touching[:, :3], data.xpos[self.carriers] - data.xpos[self.tip]
         moments = touching[:, 3:] + np.cross(arms, forces)
         force, moment = forces.sum(axis=0) - axes @ own[:3], moments.sum(axis=0) - axes @ own[3:]

@@ -152,7 +152,8 @@ impl<'a> Seen<'a> {
 
     /// The same of one end of a segment.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
-        pushing_at_end(self.frame, key)
+        let at_end = found(self.frame, key).filter(move |found| found.key.end == key.end);
+        at_end.map(|found| &found.normal_b)
     }
 
     /// What the status tells.
@@ -166,14 +167,7 @@ pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterat
     found(frame, key).map(|found| &found.normal_b)
 }
 
-/// Normals of the contacts under a key at its end of a segment.
-pub(super) fn pushing_at_end(
-    frame: &EvaluationBuffers,
-    key: ContactKey,
-) -> impl Iterator<Item = &Vec3> + use<'_> {
-    found(frame, key).filter(move |found| found.key.end == key.end).map(|found| &found.normal_b)
-}
-
+/// Contacts that push under a key.
 fn found(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactCandidate> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
