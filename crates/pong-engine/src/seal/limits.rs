@@ -6,7 +6,7 @@ use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{FrameContact, Place, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
-use crate::state::ContactRecord;
+use crate::state::Records;
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
@@ -76,7 +76,7 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     // The committed contact state, the next one, and one that a stuck worker may still read.
     let states = if lanes > 0 { 3 } else { 2 };
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
-    let remembered = states * (size_of::<ContactRecord>() + numbers + energies) + energies + energies / 8;
+    let remembered = states * (Records::BYTES + numbers + energies) + energies + energies / 8;
     // The lane's contacts, an eighth more than records, their ranks and order, and what rays and the ledger ask for.
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>() + size_of::<Place>() + size_of::<u32>();
     let lane = size_of::<FrameContact>() + numbers + per_contact;

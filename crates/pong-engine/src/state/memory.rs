@@ -1,6 +1,7 @@
 //! Contact records under their keys, with all else that is remembered.
 
 use super::poses::CommittedPoses;
+use super::records::Records;
 use crate::energy::contact::{ContactEnergies, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
 use crate::sealed::Direction;
@@ -133,7 +134,7 @@ pub(crate) struct ContactMemory {
     /// Pairs of movable groups.
     pub group_pairs: usize,
     /// Sorted by key, then piece and feature.
-    pub records: Table<ContactRecord>,
+    pub records: Records,
     /// What registered friction laws remember: `law_state_len` numbers per record.
     pub law_state: Table<f64>,
     /// Energies of the records; none unless the world keeps accounts.
@@ -181,7 +182,7 @@ impl ContactMemory {
         Self {
             poses,
             group_pairs,
-            records: Table::with_capacity(records, ContactRecord::blank()),
+            records: Records::with_capacity(records),
             law_state: Table::with_capacity(records * law_state_len, 0.0),
             law_state_len,
             energies: ContactEnergies::default(),
@@ -208,7 +209,6 @@ impl ContactMemory {
     #[inline]
     pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
         debug_assert_eq!(remembered.law_state.len(), self.law_state_len);
-        debug_assert!(self.records.last().is_none_or(|last| last.key <= remembered.record.key));
         self.records.push(remembered.record)?;
         self.law_state.extend_from_slice(remembered.law_state)?;
         self.energies.push(remembered.energy)
@@ -227,7 +227,7 @@ impl ContactMemory {
         self.clear_records();
         let fits = self
             .records
-            .extend_from_slice(&other.records)
+            .extend(&other.records)
             .and_then(|()| self.law_state.extend_from_slice(&other.law_state));
         fits.expect("memories of one world have room for the same");
         self.energies.copy_from(&other.energies);
@@ -246,13 +246,8 @@ impl ContactMemory {
 
     /// The records under one key, with the index of the first.
     pub fn under(&self, key: &ContactKey) -> (usize, &[ContactRecord]) {
-        let head = key.head();
-        let mut first = self.records.partition_point(|record| record.key.head() < head);
-        while self.records.get(first).is_some_and(|record| record.key < *key) {
-            first += 1;
-        }
-        let count = self.records[first..].iter().take_while(|record| record.key == *key).count();
-        (first, &self.records[first..first + count])
+        let found = self.records.under(key);
+        (found.start, &self.records[found])
     }
 
     /// The record of the given role that a present contact with normal `n` continues: the one under its key with
@@ -311,7 +306,7 @@ impl ContactMemory {
         let mut kept = 0;
         for index in 0..self.records.len() {
             if !cleared(self.records[index].key.group_pair) {
-                self.records[kept] = self.records[index];
+                self.records.copy_within(index, kept);
                 self.law_state.copy_within(index * stride..(index + 1) * stride, kept * stride);
                 self.energies.copy_within(index, kept);
                 kept += 1;

@@ -4,6 +4,7 @@ mod block;
 mod memory;
 mod merge;
 mod poses;
+mod records;
 #[cfg(test)]
 mod tests;
 
@@ -13,3 +14,4 @@ pub(crate) use memory::{
     ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, Remembered, SAME_WAY_COSINE_MIN,
 };
 pub(crate) use poses::{CommittedPoses, Past};
+pub(crate) use records::Records;
