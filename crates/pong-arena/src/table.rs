@@ -8,8 +8,9 @@ use std::ops::{Deref, DerefMut};
 /// The memory is taken, and each of its pages written to, when the table is made; it never grows and never shrinks.
 #[derive(Debug)]
 pub struct Table<T: Copy> {
-    items: Vec<T>,
-    capacity: usize,
+    /// As many as fit; those beyond `len` are left over.
+    items: Box<[T]>,
+    len: usize,
     refused: usize,
     /// Of the past: what is there now is looked at when somebody asks.
     peak: usize,
@@ -21,10 +22,9 @@ impl<T: Copy> Table<T> {
     /// # Panics
     /// If the machine has not that much memory.
     pub fn with_capacity(capacity: usize, fill: T) -> Self {
-        let mut items = vec![fill; capacity];
-        std::hint::black_box(items.as_mut_slice());
-        items.clear();
-        Self { items, capacity, refused: 0, peak: 0 }
+        let mut items = vec![fill; capacity].into_boxed_slice();
+        std::hint::black_box(&mut items[..]);
+        Self { items, len: 0, refused: 0, peak: 0 }
     }
 
     /// Appends an element.
@@ -33,108 +33,130 @@ impl<T: Copy> Table<T> {
     /// [`Full`] if there is no room; the table stays as it is.
     #[inline]
     pub fn push(&mut self, value: T) -> Result<(), Full> {
-        if self.items.len() == self.capacity {
+        *self.slot()? = value;
+        Ok(())
+    }
+
+    /// Appends an element that holds anything: what was left over from before. The caller is to write all of it, and where it
+    /// is large that is quicker in place than beside.
+    ///
+    /// # Errors
+    /// [`Full`] if there is no room; the table stays as it is.
+    #[inline]
+    pub fn slot(&mut self) -> Result<&mut T, Full> {
+        if self.len == self.items.len() {
             return Err(self.refuse(1));
         }
-        self.items.push(value);
-        Ok(())
+        let slot = &mut self.items[self.len];
+        self.len += 1;
+        Ok(slot)
     }
 
     /// Appends all of `values`, or none.
     ///
     /// # Errors
     /// [`Full`] if there is no room for all; the table stays as it is.
+    #[inline]
     pub fn extend_from_slice(&mut self, values: &[T]) -> Result<(), Full> {
-        if values.len() > self.capacity - self.items.len() {
+        let Some(room) = self.items[self.len..].get_mut(..values.len()) else {
             return Err(self.refuse(values.len()));
-        }
-        self.items.extend_from_slice(values);
+        };
+        room.copy_from_slice(values);
+        self.len += values.len();
         Ok(())
     }
 
     /// Takes all elements out.
     pub fn clear(&mut self) {
-        self.peak = self.peak();
-        self.items.clear();
+        self.truncate(0);
         self.refused = 0;
     }
 
     /// Keeps the first `len` elements.
     pub fn truncate(&mut self, len: usize) {
         self.peak = self.peak();
-        self.items.truncate(len);
+        self.len = self.len.min(len);
     }
 
     /// Keeps the elements that `keep` names, in their order.
-    pub fn retain(&mut self, keep: impl FnMut(&T) -> bool) {
+    pub fn retain(&mut self, mut keep: impl FnMut(&T) -> bool) {
         self.peak = self.peak();
-        self.items.retain(keep);
+        let mut kept = 0;
+        for index in 0..self.len {
+            if keep(&self.items[index]) {
+                self.items[kept] = self.items[index];
+                kept += 1;
+            }
+        }
+        self.len = kept;
     }
 
     /// The elements.
+    #[inline]
     pub fn as_slice(&self) -> &[T] {
-        &self.items
+        &self.items[..self.len]
     }
 
     /// The elements, to be changed.
+    #[inline]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.items
+        &mut self.items[..self.len]
     }
 
     /// How many elements fit.
     pub fn capacity(&self) -> usize {
-        self.capacity
+        self.items.len()
     }
 
     /// The most elements there were since the table was made, with those refused since it was last cleared: the
     /// capacity that would have been enough.
     pub fn peak(&self) -> usize {
-        self.peak.max(self.items.len().saturating_add(self.refused))
+        self.peak.max(self.len.saturating_add(self.refused))
     }
 
     #[cold]
     fn refuse(&mut self, count: usize) -> Full {
         self.refused = self.refused.saturating_add(count);
         let size = size_of::<T>();
-        let free = self.capacity - self.items.len();
-        Full { asked: count.saturating_mul(size), free: free * size, capacity: self.capacity * size }
+        let free = self.capacity() - self.len;
+        Full { asked: count.saturating_mul(size), free: free * size, capacity: self.capacity() * size }
     }
 }
 
 impl<T: Copy> Default for Table<T> {
     /// No room at all.
     fn default() -> Self {
-        Self { items: Vec::new(), capacity: 0, refused: 0, peak: 0 }
+        Self { items: Box::default(), len: 0, refused: 0, peak: 0 }
     }
 }
 
 impl<T: Copy> Clone for Table<T> {
     /// A table of the same capacity. This allocates: it is for setting up.
     fn clone(&self) -> Self {
-        let mut items = Vec::with_capacity(self.capacity);
-        items.extend_from_slice(&self.items);
-        Self { items, ..*self }
+        Self { items: self.items.clone(), ..*self }
     }
 }
 
 impl<T: Copy + PartialEq> PartialEq for Table<T> {
     /// Whether the elements are equal; how many would fit does not matter.
     fn eq(&self, other: &Self) -> bool {
-        self.items == other.items
+        self.as_slice() == other.as_slice()
     }
 }
 
 impl<T: Copy> Deref for Table<T> {
     type Target = [T];
 
+    #[inline]
     fn deref(&self) -> &[T] {
-        &self.items
+        self.as_slice()
     }
 }
 
 impl<T: Copy> DerefMut for Table<T> {
+    #[inline]
     fn deref_mut(&mut self) -> &mut [T] {
-        &mut self.items
+        self.as_mut_slice()
     }
 }
 
@@ -150,6 +172,19 @@ mod tests {
         assert_eq!(table.push(3).unwrap_err(), Full { asked: 4, free: 0, capacity: 8 });
         assert_eq!(*table, [1, 2]);
         assert_eq!(table.as_slice().as_ptr(), place);
+    }
+
+    #[test]
+    fn a_slot_is_an_element_that_its_caller_writes() {
+        let mut table = Table::with_capacity(2, 7_u8);
+        *table.slot().unwrap() = 1;
+        table.push(2).unwrap();
+        assert!(table.slot().is_err());
+        assert_eq!((table.as_slice(), table.peak()), (&[1, 2][..], 3));
+        table.clear();
+        // What was there is left over.
+        assert_eq!(*table.slot().unwrap(), 1);
+        assert_eq!(table.len(), 1);
     }
 
     #[test]

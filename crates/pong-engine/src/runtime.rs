@@ -156,7 +156,7 @@ impl Runtime {
         let Self { memory, spares, frame, .. } = self;
         take_turns(memory, spares, |old, next| {
             next.poses.commit(&old.poses, &frame.poses, &states.enabled);
-            next.replace(fresh(frame));
+            remember(frame, next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
@@ -349,6 +349,18 @@ fn take_turns(
     let spare = free.expect("at most one contact state is held by a worker that is stuck");
     write(memory, Arc::get_mut(spare).expect("nobody else has it"));
     std::mem::swap(memory, spare);
+}
+
+/// Replaces all records by those of the frame's contacts.
+fn remember(frame: &EvaluationBuffers, next: &mut ContactMemory) {
+    let out = &frame.caller.out;
+    next.clear_records();
+    for place in frame.order.iter() {
+        let index = place.index as usize;
+        let (law_state, energy) = (out.law_state_of(index), frame.energy.contacts.get(index));
+        let remembered = next.push_with(law_state, energy, |slot| out.contacts[index].write_record(slot));
+        remembered.expect("a frame keeps no more contacts than there is room to remember");
+    }
 }
 
 /// What a commit would remember of the frame's contacts, in order.

@@ -150,7 +150,7 @@ pub(crate) fn read_block(
     memory.clear_records();
     for _ in 0..count {
         let record = reader.record().expect("checked before");
-        memory.records.push(record).expect("no more than the capacity");
+        memory.records.push_with(|slot| *slot = record).expect("no more than the capacity");
         for _ in 0..memory.law_state_len {
             memory.law_state.push(reader.f64()).expect("as many as the records have");
         }

@@ -208,10 +208,27 @@ impl ContactMemory {
     /// [`Full`] if there is no room; the memory stays as it is.
     #[inline]
     pub fn push(&mut self, remembered: &Remembered<'_>) -> Result<(), Full> {
-        debug_assert_eq!(remembered.law_state.len(), self.law_state_len);
-        self.records.push(remembered.record)?;
-        self.law_state.extend_from_slice(remembered.law_state)?;
-        self.energies.push(remembered.energy)
+        let Remembered { record, law_state, energy } = remembered;
+        self.push_with(law_state, *energy, |slot| *slot = *record)
+    }
+
+    /// As [`push`](Self::push), of a record that `write` writes in place.
+    ///
+    /// # Errors
+    /// As there.
+    #[inline(always)]
+    pub fn push_with(
+        &mut self,
+        law_state: &[f64],
+        energy: Option<ContactEnergyRef<'_>>,
+        write: impl FnOnce(&mut ContactRecord),
+    ) -> Result<(), Full> {
+        debug_assert_eq!(law_state.len(), self.law_state_len);
+        self.records.push_with(write)?;
+        if !law_state.is_empty() {
+            self.law_state.extend_from_slice(law_state)?;
+        }
+        self.energies.push(energy)
     }
 
     /// Drops all records; everything else stays.
@@ -255,6 +272,7 @@ impl ContactMemory {
     ///
     /// Nearest is told by |n − n'|, which is exact: the cosines of normals 1e-8 apart and nearer are all one, and among
     /// the faces of a plate folded by so little a contact would continue another's bristle.
+    #[inline(always)]
     pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: ContactRole) -> Option<usize> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;

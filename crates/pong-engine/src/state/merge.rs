@@ -9,13 +9,6 @@ use crate::energy::episodes::PairEnergies;
 use std::iter::Peekable;
 
 impl ContactMemory {
-    /// Takes over all records that a frame would remember, in key order. All else stays.
-    ///
-    /// Answers how many records were left out because there is no room for them.
-    pub fn replace<'a>(&mut self, fresh: impl Iterator<Item = Remembered<'a>> + Clone) -> usize {
-        self.fill(fresh)
-    }
-
     /// Writes into `next` what is remembered of contacts after a commit of the pairs of movable groups that `accepted`
     /// names: of those `fresh` and `energies`, of all others what is remembered now. The totals are the present ones.
     ///

@@ -31,15 +31,17 @@ impl Records {
         self.records.capacity()
     }
 
-    /// Appends a record; keys must come in order.
+    /// Appends a record that `write` writes, all of it, in place; keys must come in order.
     ///
     /// # Errors
     /// [`Full`] if there is no room; the records stay as they are.
-    #[inline]
-    pub fn push(&mut self, record: ContactRecord) -> Result<(), Full> {
-        debug_assert!(self.records.last().is_none_or(|last| last.key <= record.key));
-        self.records.push(record)?;
-        self.heads.push(record.key.head())
+    #[inline(always)]
+    pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
+        let record = self.records.slot()?;
+        write(record);
+        self.heads.push(record.key.head())?;
+        debug_assert!(self.records.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
+        Ok(())
     }
 
     /// Appends all records of another list.

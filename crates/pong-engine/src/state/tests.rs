@@ -272,7 +272,8 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
     for round in 0..300 {
         let (mut memory, trial) = two_memories(&mut random, round);
         let totals = (memory.work, memory.dissipated);
-        assert_eq!(memory.replace(fresh_of(&trial)), 0);
+        memory.clear_records();
+        fresh_of(&trial).for_each(|remembered| memory.push(&remembered).unwrap());
         assert_eq!(listed(&memory), listed(&trial));
         assert_eq!((memory.work, memory.dissipated), totals);
         let mut copy = memory_with_energies(&mut random, CAPACITY, memory.law_state_len);

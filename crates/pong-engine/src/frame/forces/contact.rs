@@ -37,11 +37,18 @@ pub(crate) struct FrameContact {
 }
 
 impl FrameContact {
-    /// A contact whose forces are not known yet.
-    pub fn new(found: ContactCandidate) -> Self {
+    /// Something to fill memory with.
+    pub fn blank() -> Self {
+        let nothing = Interference {
+            depth: 0.0,
+            normal_b: Vec3::zeros(),
+            deepest_b: Vec3::zeros(),
+            feature: Feature::WHOLE,
+        };
+        let key = ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 };
         Self {
-            found,
-            point_b: found.deepest_b,
+            found: ContactCandidate::new(key, &nothing),
+            point_b: Vec3::zeros(),
             rate: 0.0,
             normal_force: 0.0,
             friction_force_b: Vec3::zeros(),
@@ -56,18 +63,6 @@ impl FrameContact {
         }
     }
 
-    /// Something to fill memory with.
-    pub fn blank() -> Self {
-        let nothing = Interference {
-            depth: 0.0,
-            normal_b: Vec3::zeros(),
-            deepest_b: Vec3::zeros(),
-            feature: Feature::WHOLE,
-        };
-        let key = ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 };
-        Self::new(ContactCandidate::new(key, &nothing))
-    }
-
     /// Force on A, N.
     pub fn force(&self) -> Vec3 {
         self.found.normal_b * self.normal_force + self.friction_force_b
@@ -75,21 +70,36 @@ impl FrameContact {
 
     /// What a commit remembers of the contact.
     pub fn record(&self) -> ContactRecord {
+        let mut record = ContactRecord::blank();
+        self.write_record(&mut record);
+        record
+    }
+
+    /// Writes all of that.
+    #[inline(always)]
+    pub fn write_record(&self, record: &mut ContactRecord) {
         let found = &self.found;
-        ContactRecord {
-            key: found.key,
-            feature: found.feature.0,
-            element_b: found.element_b,
-            entry_face: found.entry_face,
-            sticks: self.sticks,
-            role: found.role,
-            normal_b: found.normal_b,
-            point_b: self.point_b,
-            bristle_b: self.bristle_b,
-            force_b: self.force(),
-            stored: self.stored,
-            work: self.work,
-            dissipated: self.dissipated,
-        }
+        // Whoever gives a record one more field is told here.
+        let ContactRecord {
+            key,
+            feature,
+            element_b,
+            entry_face,
+            sticks,
+            role,
+            normal_b,
+            point_b,
+            bristle_b,
+            force_b,
+            stored,
+            work,
+            dissipated,
+        } = record;
+        *key = found.key;
+        (*feature, *element_b, *entry_face) = (found.feature.0, found.element_b, found.entry_face);
+        (*sticks, *role) = (self.sticks, found.role);
+        (*normal_b, *point_b) = (found.normal_b, self.point_b);
+        (*bristle_b, *force_b) = (self.bristle_b, self.force());
+        (*stored, *work, *dissipated) = (self.stored, self.work, self.dissipated);
     }
 }

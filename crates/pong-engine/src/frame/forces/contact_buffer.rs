@@ -115,11 +115,12 @@ impl ContactBuffer {
         room && !other.demand.overflowed
     }
 
-    /// Adds a contact, whose numbers the caller adds. Where there is no room the deepest so far stay, if this
-    /// buffer can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
+    /// A place for one more contact of this role. The caller writes all of it, and adds its numbers. Where there is no room the
+    /// deepest so far stay, if this buffer can rank them; else the contact is lost (`None`) and the whole phase must be done
+    /// again by one that can.
     #[inline]
-    pub fn add(&mut self, contact: FrameContact, sealed: &Sealed) -> Option<&mut FrameContact> {
-        self.demand.count(contact.found.role);
+    pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<&mut FrameContact> {
+        self.demand.count(role);
         if self.contacts.len() == self.contacts.capacity() {
             self.demand.overflowed = true;
             if self.ranked.capacity() == 0 {
@@ -127,8 +128,7 @@ impl ContactBuffer {
             }
             self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
         }
-        self.contacts.push(contact).expect("ranking makes room");
-        self.contacts.last_mut()
+        Some(self.contacts.slot().expect("ranking makes room"))
     }
 
     /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties

@@ -27,6 +27,7 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 /// Computes the forces of what was found for a chunk of A, in the order of sums, and hands it to the buffer.
 ///
 /// `law_state` has room for the numbers of one contact's registered friction law.
+#[inline(always)]
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
@@ -37,8 +38,9 @@ pub(crate) fn compute_forces(
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
-            let Some(contact) = out.add(FrameContact::new(*one), sealed) else { continue };
-            context.compute_force(contact, bristle_share(one, counts()), law_state);
+            let Some(contact) = out.slot(one.role, sealed) else { continue };
+            contact.found = *one;
+            context.compute_force(one, contact, bristle_share(one, counts()), law_state);
             out.law_state.extend_from_slice(law_state).expect("as much room as for contacts");
         }
     }
@@ -66,9 +68,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             let found = out.contacts[index].found;
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
-            let mut contact = FrameContact::new(found);
-            context.compute_force(&mut contact, share, law_state);
-            out.contacts[index] = contact;
+            context.compute_force(&found, &mut out.contacts[index], share, law_state);
             let first = index * out.law_state_len;
             out.law_state[first..first + out.law_state_len].copy_from_slice(law_state);
         }
@@ -76,6 +76,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
+#[inline(always)]
 pub(crate) fn bristle_share<'f>(
     contact: &ContactCandidate,
     same_key: impl Iterator<Item = &'f ContactCandidate>,
@@ -92,6 +93,19 @@ pub(crate) fn bristle_share<'f>(
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
 
+/// A contact whose friction is asked for.
+struct Slipping<'f> {
+    found: &'f ContactCandidate,
+    /// c, m, in B's frame, as the next.
+    point: Vec3,
+    /// Of A past B in the tangent plane, m/s.
+    slip_velocity: Vec3,
+    /// Normal force, N.
+    pressed: f64,
+    /// The committed record that it continues.
+    continues: Option<usize>,
+}
+
 impl PairContext<'_> {
     /// The values of the two surfaces of a contact.
     pub(crate) fn props(&self, found: &ContactCandidate) -> &PairProps {
@@ -100,50 +114,73 @@ impl PairContext<'_> {
         self.table.props(surface_a, surface_b)
     }
 
-    /// Fills in the forces of a contact.
-    fn compute_force(&self, contact: &mut FrameContact, share: f64, law_state: &mut [f64]) {
+    /// Fills in all of a contact but what was found.
+    ///
+    /// Every number is written once, and what is needed again is not read back from there: the processor would wait for it.
+    #[inline(always)]
+    fn compute_force(
+        &self,
+        found: &ContactCandidate,
+        contact: &mut FrameContact,
+        share: f64,
+        law_state: &mut [f64],
+    ) {
         law_state.fill(0.0);
-        let found = contact.found;
-        let props = self.props(&found);
-        contact.point_b = found.deepest_b + found.normal_b * (props.share_a * found.depth);
-        let velocity = self.motion.velocity_at(&contact.point_b);
+        let props = self.props(found);
+        let point = found.deepest_b + found.normal_b * (props.share_a * found.depth);
+        let velocity = self.motion.velocity_at(&point);
         let closing = -found.normal_b.dot(&velocity);
-        contact.rate = closing;
-        contact.slip_velocity_b = velocity + found.normal_b * closing;
-        contact.continues = self
-            .memory
-            .matching(&found.key, &found.normal_b, ContactRole::Active)
-            .map(|record| record as u32);
+        let slip_velocity = velocity + found.normal_b * closing;
+        let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
+        let (mut pressed, mut stored, mut wrenches) = (0.0, 0.0, [Wrench::zero(); 2]);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
-            contact.normal_force = normal_force(props, weight, found.depth, closing);
-            contact.stored = stored_energy(props, weight, found.depth);
-            if contact.normal_force > 0.0 {
-                output = self.friction_force(contact, props, share, law_state);
+            pressed = normal_force(props, weight, found.depth, closing);
+            stored = stored_energy(props, weight, found.depth);
+            if pressed > 0.0 {
+                let slipping = Slipping { found, point, slip_velocity, pressed, continues };
+                output = self.friction_force(&slipping, props, share, law_state);
             }
+            wrenches = self.wrenches(&(found.normal_b * pressed + output.force_b), &point);
         }
-        contact.friction_force_b = output.force_b;
-        contact.bristle_b = output.bristle_b;
-        contact.sticks = output.sticks;
-        contact.stored += output.stored;
-        if found.role == ContactRole::Active {
-            contact.wrenches = self.wrenches(contact);
-        }
+        // Whoever gives a contact one more field is told here.
+        let FrameContact {
+            found: _,
+            point_b,
+            rate,
+            normal_force,
+            friction_force_b,
+            slip_velocity_b,
+            bristle_b,
+            wrenches: of_force,
+            stored: in_springs,
+            sticks,
+            continues: continued,
+            work,
+            dissipated,
+        } = contact;
+        (*point_b, *rate, *normal_force) = (point, closing, pressed);
+        (*friction_force_b, *slip_velocity_b) = (output.force_b, slip_velocity);
+        (*bristle_b, *sticks) = (output.bristle_b, output.sticks);
+        (*of_force, *in_springs) = (wrenches, stored + output.stored);
+        *continued = continues.map(|record| record as u32);
+        (*work, *dissipated) = (0.0, 0.0);
     }
 
-    /// What the force of a contact is to its movable groups.
-    fn wrenches(&self, contact: &FrameContact) -> [Wrench; 2] {
+    /// What a force on A at a point is to the movable groups; both in B's frame.
+    #[inline(always)]
+    fn wrenches(&self, force_b: &Vec3, point_b: &Vec3) -> [Wrench; 2] {
         let x_ba = &self.motion.x_ba;
-        let force_b = contact.force();
-        let force_a = x_ba.rotation.tr_mul(&force_b);
-        let arm_a = x_ba.rotation.tr_mul(&(contact.point_b - x_ba.translation));
-        [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, &contact.point_b)]
+        let force_a = x_ba.rotation.tr_mul(force_b);
+        let arm_a = x_ba.rotation.tr_mul(&(point_b - x_ba.translation));
+        [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, point_b)]
     }
 
+    #[inline(always)]
     fn friction_force(
         &self,
-        contact: &FrameContact,
+        contact: &Slipping<'_>,
         props: &PairProps,
         share: f64,
         law_state: &mut [f64],
@@ -152,24 +189,24 @@ impl PairContext<'_> {
             return FrictionOutput::free();
         }
         let mut input = FrictionInput {
-            normal_force: contact.normal_force,
+            normal_force: contact.pressed,
             normal_b: contact.found.normal_b,
             slip_b: Vec3::zeros(),
-            slip_velocity_b: contact.slip_velocity_b,
+            slip_velocity_b: contact.slip_velocity,
             share,
             stiffness: 0.0,
             carried_b: Vec3::zeros(),
             stuck: true,
             parameters: &[],
         };
-        let record = contact.continues.map(|index| &self.memory.records[index as usize]);
+        let record = contact.continues.map(|index| &self.memory.records[index]);
         if let Some(record) = record {
             input.carried_b =
                 carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b);
             input.stuck = record.sticks;
         }
         if let Some(index) = contact.continues {
-            law_state.copy_from_slice(self.memory.law_state_of(index as usize));
+            law_state.copy_from_slice(self.memory.law_state_of(index));
         }
         // Coulomb's law asks for the velocity alone.
         if !matches!(props.friction, FrictionProps::Coulomb { .. }) {
@@ -196,12 +233,13 @@ impl PairContext<'_> {
     /// with the mean of the levers then and now: the lever of the start alone lets a ball that rolls and spins slip by the
     /// spin times the way that its contact has moved. A contact that is born has only the present lever, and of its
     /// displacement the part since the touch, as if the approach Δn had been even.
-    fn slip(&self, contact: &FrameContact, earlier: Option<&ContactRecord>) -> Vec3 {
+    #[inline(always)]
+    fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
         let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
-        let present = contact.point_b - now;
+        let present = contact.point - now;
         let lever = earlier.map_or(present, |earlier| ((earlier.point_b - before) + present) * 0.5);
         let displacement = now - before + self.rotation(since).cross(&lever);
         let approach = -contact.found.normal_b.dot(&displacement);

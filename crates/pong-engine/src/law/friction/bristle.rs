@@ -39,6 +39,7 @@ pub(super) struct Bristle {
 }
 
 impl Bristle {
+    #[inline(always)]
     pub(super) fn evaluate(&self, input: &FrictionInput<'_>) -> FrictionOutput {
         let trial = input.carried_b + input.slip_b;
         let pull = self.stiffness * trial.norm();
@@ -64,6 +65,7 @@ impl Bristle {
 
     /// Whether what slipped sticks: its motion has turned back or no longer fills the circle, and the static limit would
     /// leave its force as it is.
+    #[inline(always)]
     fn sticks_again(&self, trial: &Vec3, pull: f64, length: f64, input: &FrictionInput<'_>) -> bool {
         let turned_back = trial.dot(&input.slip_velocity_b) < 0.0;
         let within = pull < self.kinetic_limit * (1.0 - LIMIT_ROUNDING);
@@ -75,6 +77,7 @@ impl Bristle {
 ///
 /// The quotient is 1, exactly, where nothing is cut, and is computed in any case: behind a branch a compiler may compute it
 /// before the branch, and then nothing over nothing would be an invalid operation.
+#[inline(always)]
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };
     vector * (limit / longer.max(f64::MIN_POSITIVE))

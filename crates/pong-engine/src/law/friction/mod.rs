@@ -11,6 +11,7 @@ pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 use super::props::FrictionProps;
 
 /// Friction force of one contact with `input.normal_force > 0`.
+#[inline(always)]
 pub(crate) fn friction_force(
     props: &FrictionProps,
     input: &FrictionInput<'_>,

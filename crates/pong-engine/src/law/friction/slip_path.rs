@@ -24,6 +24,7 @@ const SERIES_MAX: f64 = 0.25;
 
 /// The bristle on the circle of radius `radius`, m, after a displacement that took it over the circle of radius `left_at`,
 /// which is larger where it stuck until then.
+#[inline(always)]
 pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) -> Vec3 {
     if radius <= 0.0 {
         return Vec3::zeros();
@@ -64,6 +65,7 @@ impl Traversal {
     ///
     /// The place is built from the point of the line that is nearest to the middle. Summed up from the start it would be
     /// rounding alone where the circle is far smaller than the bristle was: under a load that has all but gone.
+    #[inline(always)]
     fn after_leaving(start: &Vec3, along: &Vec3, length: f64, circle: f64) -> Self {
         let advance = start.dot(along);
         let nearest = start - along * advance;
@@ -79,12 +81,14 @@ impl Traversal {
 }
 
 /// The unit vector along `v`; `other` where `v` is too short to have a direction.
+#[inline(always)]
 fn unit_or(v: &Vec3, other: Vec3) -> Vec3 {
     let length = v.norm();
     if length > 0.0 { v / length.max(f64::MIN_POSITIVE) } else { other }
 }
 
 /// `direction` after ψ has become 2·atan(tan(ψ/2)·decay), ψ its angle to `along`, at most 90°; all unit vectors.
+#[inline(always)]
 fn turned_towards(direction: &Vec3, along: &Vec3, decay: f64) -> Vec3 {
     let cosine = direction.dot(along);
     let across = direction - along * cosine;
@@ -94,12 +98,14 @@ fn turned_towards(direction: &Vec3, along: &Vec3, decay: f64) -> Vec3 {
 }
 
 /// A vector across `normal`, turned about it by an angle, rad.
+#[inline(always)]
 fn turned_by(vector: &Vec3, normal: &Vec3, angle: f64) -> Vec3 {
     let (sine, cosine) = libm::sincos(angle);
     vector * cosine + normal.cross(vector) * sine
 }
 
 /// 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, which is Σ (k − 1)·(−z)ᵏ/(k + 1)! over k from 2.
+#[inline(always)]
 fn lag_of_turn(z: f64, decay: f64) -> f64 {
     if z >= SERIES_MAX {
         return 1.0 - 2.0 * (1.0 - decay) / z + decay;
