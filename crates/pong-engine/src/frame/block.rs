@@ -7,8 +7,6 @@ use crate::frame::broad_phase::candidate_pairs::{
 use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::{Block, PairContext, WorkerInput};
-use crate::frame::load_sharing::solver::SharedContact;
-use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
@@ -16,25 +14,19 @@ use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
 use crate::scene::Scene;
 use crate::sealed::{Direction, Sealed};
-use pong_arena::List;
+use pong_arena::Table;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
 use std::sync::atomic::{Ordering, compiler_fence};
 
-/// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches, with room for so many
-/// interferences of one chunk, and laws of so many numbers per contact.
-pub(crate) fn arena_bytes(nodes: usize, batches: usize, found: usize, law_state_len: usize) -> usize {
+/// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches.
+pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
     /// The arena rounds every piece up to its grain.
-    const PIECES: usize = 7;
+    const PIECES: usize = 3;
     const GRAIN: usize = 16;
-    batches * (size_of::<&Batch>() + size_of::<Reach<'_>>())
-        + nodes * size_of::<u32>()
-        + LANES * size_of::<TransformedPrimitive>()
-        + found * (size_of::<ContactCandidate>() + size_of::<SharedContact>())
-        + law_state_len * size_of::<f64>()
-        + PIECES * GRAIN
+    batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
 }
 
 /// Runs one block; what it finds goes to the context of the thread. Where no clock was lent, there is no trace of one either.
@@ -74,17 +66,15 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let motion = &input.motions[block.slot as usize][flipped as usize];
         let context = PairContext::new(scene, sealed, input, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, deferred, out } = worker;
+        let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, law_state, out } =
+            worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
         let mut stack = arena.list(tree_b.nodes.len()).expect(room);
         batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
-        let mut carried = arena.list(LANES).expect(room);
-        let mut found = ChunkCandidates::new(arena.list(sealed.limits.found).expect(room), deferred);
-        let law_state = arena.slice(sealed.law_state_len, 0.0).expect(room);
-        let mut shared_contacts = arena.list(sealed.limits.found).expect(room);
+        let mut found = ChunkCandidates::new(found, deferred);
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
@@ -104,7 +94,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     &of_a,
                     &reach,
                     (traversal, candidates),
-                    &mut carried,
+                    carried,
                     &mut found,
                     counts,
                     &mut watch,
@@ -114,15 +104,10 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     out.demand.at_once = out.demand.at_once.max(found.seen);
                 }
                 if !found.list.is_empty() {
-                    let shared = load_sharing::assign_weights(
-                        &context,
-                        &mut found.list,
-                        &mut shared_contacts,
-                        scratch,
-                    );
+                    let shared = load_sharing::assign_weights(&context, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, &found.list, law_state, out);
+                    forces::compute_forces(&context, sealed, found.list, law_state, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }
@@ -165,7 +150,7 @@ fn test_chunk<S: Simd, L: Laps>(
     of_a: &ChunkOfA<'_>,
     reach: &[Reach<'_>],
     (mut traversal, candidates): (Option<Traversal>, &mut CandidatePairs),
-    carried: &mut List<'_, TransformedPrimitive>,
+    carried: &mut Table<TransformedPrimitive>,
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
     watch: &mut Watched<'_, L>,

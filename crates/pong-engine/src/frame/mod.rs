@@ -26,6 +26,7 @@ pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
 pub use output::preload::FrictionPreload;
 pub(crate) use tunnelling::events::TunnellingEvent;
 pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
+pub(crate) use worker_context::WorkerContext;
 pub(crate) use worker_pool::WorkerPool;
 
 use crate::report::{Stage, Work, WorkTimes};
@@ -34,7 +35,6 @@ use input::relative::Motions;
 use input::states;
 use output::{order, reduce};
 use std::sync::Arc;
-use worker_context::WorkerContext;
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
 pub(crate) fn evaluate(

@@ -1,31 +1,60 @@
 //! What the calling thread or a worker writes while it works.
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::forces::contact_buffer::ContactBuffer;
+use crate::frame::load_sharing::solver::SharedContact;
+use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
 use crate::sealed::Sealed;
-use pong_arena::Arena;
+use pong_arena::{Arena, Table};
+use pong_geometry::simd::LANES;
 
 /// The memory of the calling thread or of a worker.
+///
+/// What a block fills one chunk after another stands in tables: they are there before it begins.
 #[derive(Debug)]
 pub(crate) struct WorkerContext {
-    /// Contact testers at work: gone with the block.
+    /// The broad phase at work: gone with the block.
     pub arena: Arena,
     /// For one solution among contacts of one key.
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
+    /// A chunk of A in B's frame.
+    pub(crate) carried: Table<TransformedPrimitive>,
     pub(crate) deferred: DeferredPairs,
+    /// What contact testers find for a chunk.
+    pub(crate) found: Table<ContactCandidate>,
+    /// Those that share a spring.
+    pub(crate) shared: Table<SharedContact>,
+    /// Numbers of one contact's registered friction law.
+    pub(crate) law_state: Box<[f64]>,
     pub out: ContactBuffer,
 }
 
 impl WorkerContext {
+    /// Bytes of what does not grow with the contacts of a frame, the arenas aside: with room for so many interferences of one
+    /// chunk, and laws of so many numbers per contact.
+    pub fn table_bytes(found: usize, law_state_len: usize) -> usize {
+        LANES * size_of::<TransformedPrimitive>()
+            + found * Self::BYTES_PER_FOUND
+            + law_state_len * size_of::<f64>()
+    }
+
+    /// Bytes of one interference of a chunk.
+    pub const BYTES_PER_FOUND: usize = size_of::<ContactCandidate>() + size_of::<SharedContact>();
+
     /// A context with room for so many contacts, and to rank them if it is to keep the deepest by itself.
     pub fn new(sealed: &Sealed, contacts: usize, ranks: bool) -> Self {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
+            carried: Table::with_capacity(LANES, TransformedPrimitive::NOTHING),
             deferred: DeferredPairs::default(),
+            found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
+            shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
+            law_state: vec![0.0; sealed.law_state_len].into(),
             out: ContactBuffer::new(sealed.law_state_len, contacts, ranks),
         }
     }

@@ -3,7 +3,7 @@
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
-use crate::frame::{FrameContact, Place, arena_bytes};
+use crate::frame::{FrameContact, Place, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
 use crate::state::Records;
@@ -36,7 +36,7 @@ pub(super) fn limits(
         bodies.max().unwrap_or(0)
     };
     let (nodes, batches) = (in_tree(|tree| tree.nodes.len()), in_tree(|tree| tree.batches.len()));
-    let arena_bytes = arena_bytes(nodes, batches, found, law_state_len);
+    let arena_bytes = arena_bytes(nodes, batches);
     /// Every piece is rounded up to a grain.
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
@@ -48,6 +48,7 @@ pub(super) fn limits(
 /// What a worker's lane takes however small the capacity is, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
     limits.least_worker_contacts() * (size_of::<FrameContact>() + law_state_len * size_of::<f64>())
+        + WorkerContext::table_bytes(limits.found, law_state_len)
 }
 
 /// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
@@ -80,7 +81,7 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     // The lane's contacts, an eighth more than records, their ranks and order, and what rays and the ledger ask for.
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>() + size_of::<Place>() + size_of::<u32>();
     let lane = size_of::<FrameContact>() + numbers + per_contact;
-    let found = arena_bytes(0, 0, 1, 0) - arena_bytes(0, 0, 0, 0);
+    let found = WorkerContext::BYTES_PER_FOUND;
     // The workers' lanes together hold twice what the caller's does.
     let shared = if lanes > 0 { 2 * (lane + lane / 8) + lanes * found } else { 0 };
     RECORDS * (remembered + lane + lane / 8 + found + shared)

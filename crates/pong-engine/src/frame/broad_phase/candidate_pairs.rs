@@ -236,7 +236,7 @@ impl CandidatePairs {
         simd: S,
         traversal: &mut Traversal,
         reach: &[Reach<'_>],
-        chunk: &Chunk<'_, '_, '_>,
+        chunk: &Chunk<'_, '_>,
         counts: &mut FrameCounts,
     ) -> bool {
         self.clear();

@@ -1,7 +1,7 @@
 //! Up to eight elements of one kind as A, carried into B's frame together, and the boxes around them there.
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use pong_arena::List;
+use pong_arena::Table;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
@@ -11,7 +11,7 @@ use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
 
 /// The elements and where they are.
-pub(crate) struct Chunk<'a, 'l, 'm> {
+pub(crate) struct Chunk<'a, 'l> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
     /// Points and spheres: their centres in B's frame.
@@ -19,7 +19,7 @@ pub(crate) struct Chunk<'a, 'l, 'm> {
     /// Points and spheres: their radii, m.
     pub radii: &'a [f64; LANES],
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
-    carried: &'l List<'m, TransformedPrimitive>,
+    carried: &'l [TransformedPrimitive],
     pub boxes: LaneBoxes,
     /// Balls around spheres and ellipsoids that may meet triangles.
     balls: Option<LaneBalls>,
@@ -48,7 +48,7 @@ pub(crate) struct LaneBoxes {
     high: [[f64; LANES]; 3],
 }
 
-impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
+impl<'a, 'l, 'm> Chunk<'a, 'l> {
     /// The chunk of a batch that begins with its element `first`, a multiple of eight. Against triangles, many of
     /// which lie in the corners of a ball's box, balls are kept as well.
     #[inline(always)]
@@ -58,7 +58,7 @@ impl<'a, 'l, 'm> Chunk<'a, 'l, 'm> {
         first: u32,
         x_ba: &Transform,
         meets_triangles: bool,
-        carried: &'l mut List<'m, TransformedPrimitive>,
+        carried: &'l mut Table<TransformedPrimitive>,
     ) -> Self {
         let start = batch.items.start + first;
         let end = batch.items.end.min(start + LANES as u32);
@@ -142,7 +142,7 @@ fn carry_each(
     body: &MovableGroup,
     items: &[Item],
     x_ba: &Transform,
-    carried: &mut List<'_, TransformedPrimitive>,
+    carried: &mut Table<TransformedPrimitive>,
 ) {
     carried.clear();
     for &item in items {

@@ -18,6 +18,9 @@ pub(crate) enum TransformedPrimitive {
 }
 
 impl TransformedPrimitive {
+    /// Something to fill memory with.
+    pub const NOTHING: Self = Self::Point(Point { position: Vec3::new(0.0, 0.0, 0.0) });
+
     /// `None` for kinds that are never A in the table.
     #[inline(always)]
     pub fn new(body: &MovableGroup, item: Item, x_ba: &Transform) -> Option<Self> {

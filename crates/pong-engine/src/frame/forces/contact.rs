@@ -1,8 +1,7 @@
 //! A contact with its forces.
 
 use crate::frame::narrow_phase::candidate::ContactCandidate;
-use crate::state::{ContactKey, ContactRecord};
-use pong_geometry::interference::{Feature, Interference};
+use crate::state::ContactRecord;
 use pong_geometry::{Vec3, Wrench};
 
 /// A contact that counts, with its forces.
@@ -39,15 +38,8 @@ pub(crate) struct FrameContact {
 impl FrameContact {
     /// Something to fill memory with.
     pub fn blank() -> Self {
-        let nothing = Interference {
-            depth: 0.0,
-            normal_b: Vec3::zeros(),
-            deepest_b: Vec3::zeros(),
-            feature: Feature::WHOLE,
-        };
-        let key = ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 };
         Self {
-            found: ContactCandidate::new(key, &nothing),
+            found: ContactCandidate::NOTHING,
             point_b: Vec3::zeros(),
             rate: 0.0,
             normal_force: 0.0,

@@ -17,7 +17,7 @@ use pieces::{
     are_convex, are_in_both_planes, are_one_place, drop_second_of_edges, drop_what_the_body_lacks,
     next_deeper, pushes_before, touch_convexly, touched,
 };
-use pong_arena::{Arena, Full, List};
+use pong_arena::{Arena, Full, Table};
 use pong_geometry::Vec3;
 use pong_geometry::interference::nearest_on_triangle::nearest_in_plane;
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
@@ -36,8 +36,8 @@ const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 /// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
-    found: &mut List<'_, ContactCandidate>,
-    shared_contacts: &mut List<'_, SharedContact>,
+    found: &mut Table<ContactCandidate>,
+    shared_contacts: &mut Table<SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     if let [alone] = &mut found[..]
@@ -80,7 +80,7 @@ pub(crate) fn assign_weights(
 fn share_capsules(
     found: &mut [ContactCandidate],
     context: &PairContext<'_>,
-    shared_contacts: &mut List<'_, SharedContact>,
+    shared_contacts: &mut Table<SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     let mut outcome = Ok(());
@@ -240,7 +240,7 @@ fn has_neighbors_at_walls(found: &ContactCandidate, place: &Vec3, context: &Pair
 fn find_shares(
     group: &mut [ContactCandidate],
     triangles: &TriangleSet,
-    shared_contacts: &mut List<'_, SharedContact>,
+    shared_contacts: &mut Table<SharedContact>,
     scratch: &mut Arena,
 ) -> Result<(), Full> {
     drop_deeper_of_convex_faces(group, triangles);

@@ -1,9 +1,10 @@
 //! A contact as a contact tester finds it, before anything is decided about it.
 
-use crate::state::{ContactKey, ContactRole};
+use crate::state::{ContactKey, ContactRole, NO_FACE};
 use pong_geometry::Vec3;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
+use pong_model::Item;
 
 /// The order of every sum: by key, then by what of B pushes.
 pub(crate) type ContactOrder = (ContactKey, u32, u32, Feature);
@@ -61,25 +62,45 @@ pub(crate) enum CandidateStatus {
 }
 
 impl ContactCandidate {
-    /// A whole contact, as most are.
-    pub fn new(key: ContactKey, interference: &Interference) -> Self {
+    /// Of no two elements; whole, in front and alone, as most contacts are. Something to fill memory with.
+    pub const NOTHING: Self = Self {
+        key: ContactKey { group_pair: 0, flipped: 0, primitive_a: 0, shell_b: 0, end: 0 },
+        primitive_b: 0,
+        element_a: 0,
+        element_b: 0,
+        feature: Feature::WHOLE,
+        entry_face: NO_FACE,
+        kind_b: PrimitiveKind::Plane,
+        half: false,
+        shares: false,
+        status: CandidateStatus::Front,
+        role: ContactRole::Active,
+        depth: 0.0,
+        normal_b: Vec3::new(0.0, 0.0, 0.0),
+        deepest_b: Vec3::new(0.0, 0.0, 0.0),
+        ray_distance: f64::INFINITY,
+        weight: 1.0,
+    };
+
+    /// A whole contact, as most are, of an element of A and one of B.
+    #[inline(always)]
+    pub fn new(
+        key: ContactKey,
+        [item_a, item_b]: [Item; 2],
+        kind_b: PrimitiveKind,
+        found: &Interference,
+    ) -> Self {
         Self {
             key,
-            primitive_b: 0,
-            element_a: 0,
-            element_b: 0,
-            feature: interference.feature,
-            entry_face: crate::state::NO_FACE,
-            kind_b: PrimitiveKind::Plane,
-            half: false,
-            shares: false,
-            status: CandidateStatus::Front,
-            role: ContactRole::Active,
-            depth: interference.depth,
-            normal_b: interference.normal_b,
-            deepest_b: interference.deepest_b,
-            ray_distance: f64::INFINITY,
-            weight: 1.0,
+            primitive_b: item_b.primitive,
+            element_a: item_a.element,
+            element_b: item_b.element,
+            feature: found.feature,
+            kind_b,
+            depth: found.depth,
+            normal_b: found.normal_b,
+            deepest_b: found.deepest_b,
+            ..Self::NOTHING
         }
     }
 

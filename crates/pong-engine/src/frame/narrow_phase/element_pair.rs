@@ -7,7 +7,7 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::Motion;
 use crate::state::ContactKey;
-use pong_arena::List;
+use pong_arena::Table;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
@@ -17,7 +17,7 @@ use pong_model::{Item, MovableGroup, PrimitiveInfo};
 
 /// The candidates that contact testers find for one chunk of A.
 pub(crate) struct ChunkCandidates<'m> {
-    pub list: List<'m, ContactCandidate>,
+    pub list: &'m mut Table<ContactCandidate>,
     /// How many there were, those without room included.
     pub seen: u64,
     /// Whether there was no room for all: then at least the deeper half of what there is room for stays, which is no
@@ -43,8 +43,9 @@ impl Default for DeferredPairs {
 }
 
 impl<'m> ChunkCandidates<'m> {
-    pub fn new(list: List<'m, ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
+    pub fn new(list: &'m mut Table<ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
         // A panic may have left some.
+        list.clear();
         deferred.pairs.clear();
         Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
     }
@@ -60,8 +61,8 @@ impl<'m> ChunkCandidates<'m> {
         self.deferred.pairs.count() > 0
     }
 
-    /// One candidate more.
-    pub fn add(&mut self, found: ContactCandidate) {
+    /// A place for one candidate more; the caller writes all of it.
+    pub fn slot(&mut self) -> &mut ContactCandidate {
         self.seen += 1;
         if self.list.len() == self.list.capacity() {
             self.overflowed = true;
@@ -72,7 +73,7 @@ impl<'m> ChunkCandidates<'m> {
             self.list.select_nth_unstable_by(half, deeper_first);
             self.list.truncate(half);
         }
-        self.list.push(found).expect("halving makes room");
+        self.list.slot().expect("halving makes room")
     }
 }
 
@@ -196,13 +197,9 @@ impl<'a> ElementPair<'a> {
         found: &mut ChunkCandidates<'_>,
         adjust: impl FnOnce(&mut ContactCandidate),
     ) {
-        let mut out = ContactCandidate::new(self.key(), contact);
-        out.primitive_b = self.item_b.primitive;
-        out.element_a = self.item_a.element;
-        out.element_b = self.item_b.element;
-        out.kind_b = self.kind_b;
-        adjust(&mut out);
-        found.add(out);
+        let out = found.slot();
+        *out = ContactCandidate::new(self.key(), [self.item_a, self.item_b], self.kind_b, contact);
+        adjust(out);
     }
 }
 

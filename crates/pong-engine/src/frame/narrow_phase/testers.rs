@@ -25,7 +25,7 @@ impl<'a> Target<'a> {
     pub fn test_lanes<S: Simd>(
         &self,
         simd: S,
-        chunk: &Chunk<'_, '_, '_>,
+        chunk: &Chunk<'_, '_>,
         near: LaneBits,
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
@@ -50,7 +50,7 @@ impl<'a> Target<'a> {
     #[inline(always)]
     fn defer(
         &self,
-        chunk: &Chunk<'_, '_, '_>,
+        chunk: &Chunk<'_, '_>,
         near: LaneBits,
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
@@ -70,7 +70,7 @@ impl<'a> Target<'a> {
 
     /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
     #[inline(always)]
-    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_, '_>, near: LaneBits) -> LaneBits {
+    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
             return near;
         }
@@ -86,7 +86,7 @@ impl<'a> Target<'a> {
     fn test_one(
         &self,
         test: Option<Test>,
-        chunk: &Chunk<'_, '_, '_>,
+        chunk: &Chunk<'_, '_>,
         lane: usize,
         found: &mut ChunkCandidates<'_>,
     ) {
@@ -115,7 +115,7 @@ impl<'a> Target<'a> {
 #[inline(never)]
 pub(crate) fn test_deferred(
     context: &PairContext<'_>,
-    chunk: &Chunk<'_, '_, '_>,
+    chunk: &Chunk<'_, '_>,
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {

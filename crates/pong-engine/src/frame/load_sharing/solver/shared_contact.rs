@@ -18,6 +18,9 @@ pub struct SharedContact {
 }
 
 impl SharedContact {
+    /// Something to fill memory with.
+    pub const NOTHING: Self = Self { normal_b: Vec3::new(0.0, 0.0, 0.0), depth: 0.0, lambda: 0.0 };
+
     /// A contact whose share is not known yet.
     pub fn new(normal: Vec3, depth: f64) -> Self {
         Self { normal_b: normal, depth, lambda: 0.0 }
