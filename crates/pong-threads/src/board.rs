@@ -193,6 +193,11 @@ impl Board {
         self.asleep.fetch_or(0, AcqRel).count_ones()
     }
 
+    /// Whether a worker seemed awake a moment ago: a hint, on which nothing rests but time.
+    pub fn seems_awake(&self) -> bool {
+        (self.asleep.load(Relaxed).count_ones() as usize) < self.workers()
+    }
+
     /// Wakes up to `at_most` sleeping workers. Whoever clears a worker's bit wakes it, so nobody pays twice.
     pub fn wake(&self, at_most: u32) {
         let mut left = at_most;

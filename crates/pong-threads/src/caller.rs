@@ -21,6 +21,8 @@ pub struct Caller {
     handed_out: u64,
     /// Whether an alert stands that the next phase ends.
     alert_stands: bool,
+    /// When all workers were found asleep, ns since the start.
+    found_asleep_ns: Option<u64>,
 }
 
 impl Caller {
@@ -32,7 +34,22 @@ impl Caller {
             shared_out: false,
             handed_out: 0,
             alert_stands: false,
+            found_asleep_ns: None,
         }
+    }
+
+    /// See [`Pool::has_workers_at_hand`](crate::Pool::has_workers_at_hand).
+    pub fn has_workers_at_hand(&mut self) -> bool {
+        if self.shared.board.workers() == 0 {
+            return false;
+        }
+        if self.shared.board.seems_awake() {
+            return true;
+        }
+        let now_ns = self.shared.origin.elapsed_ns();
+        let earlier_ns = self.found_asleep_ns.replace(now_ns);
+        // Had they been awake then, they would be now.
+        earlier_ns.is_some_and(|earlier_ns| now_ns - earlier_ns < self.shared.spin_ns)
     }
 
     pub fn run(&mut self, blocks: u32) -> Outcome {

@@ -105,6 +105,14 @@ impl Pool {
         self.threads.len()
     }
 
+    /// Whether a short phase is worth sharing: a worker is awake, or, if all sleep, this was asked so short a time ago that a
+    /// worker that is woken now would stay awake between phases ([`Settings::spin`]). If not, waking one would cost every
+    /// phase more than a worker takes off it. Ask it before each phase that is short beside a wake-up, and do the work of
+    /// the phase alone where the answer is no.
+    pub fn has_workers_at_hand(&mut self) -> bool {
+        self.caller.has_workers_at_hand()
+    }
+
     /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
     /// in time. A panic of a block goes on here, after the other blocks that were claimed have ended or the worker timeout has.
     ///
@@ -310,5 +318,28 @@ mod tests {
             pool.prewake(Duration::from_millis(1));
             wait_until_asleep(&pool, 3);
         }
+    }
+
+    #[test]
+    fn workers_are_at_hand_while_one_is_awake_or_if_one_that_is_woken_would_stay_so() {
+        let mut awake = pool(HOUR);
+        assert_eq!(awake.run(100), Outcome::Complete);
+        assert!(awake.has_workers_at_hand());
+        awake.quiesce();
+        wait_until_asleep(&awake, 3);
+        // The first time nobody knows how soon the next phase comes; the second time it has come within an hour.
+        assert!(!awake.has_workers_at_hand());
+        assert!(awake.has_workers_at_hand());
+
+        let mut sleepy = pool(Duration::ZERO);
+        wait_until_asleep(&sleepy, 3);
+        assert!((0..3).all(|_| !sleepy.has_workers_at_hand()));
+        sleepy.prewake(HOUR);
+        wait_until_asleep(&sleepy, 0);
+        assert!(sleepy.has_workers_at_hand());
+
+        let alone = Settings { workers: 0, spin: HOUR, ..Settings::default() };
+        let mut alone = Pool::start(Arc::new(Idle), &alone).unwrap();
+        assert!((0..3).all(|_| !alone.has_workers_at_hand()));
     }
 }

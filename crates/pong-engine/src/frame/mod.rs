@@ -98,15 +98,18 @@ fn find_contacts(
     }
 }
 
-/// Whether the workers have done this round. If it could not, the buffer is as it was before.
+/// Whether the workers have done this round, which may cost so much, ns. If not, the buffer is as it was before.
 fn run_parallel(
     pool: &mut WorkerPool,
     input: &WorkerInput,
     cost_ns: u64,
     caller: &mut WorkerContext,
 ) -> bool {
+    if !pool.is_worth(input, cost_ns) {
+        return false;
+    }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(input, cost_ns, caller);
+    let done = pool.run_parallel(input, caller);
     if !done {
         caller.out.restore(&before);
     }

@@ -18,6 +18,13 @@ use std::time::Duration;
 /// Work below this is done by the caller alone, ns: waking nobody is quicker.
 const WORTH_SHARING_NS: u64 = 5_000;
 
+/// Work below this wakes no worker, unless frames follow each other so closely that it will stay awake, ns: to wake one takes
+/// 10 µs and more, and it comes with cold caches.
+const WORTH_WAKING_NS: u64 = 60_000;
+
+/// What a contact costs beside its tests, ns.
+const CONTACT_NS: u64 = 200;
+
 /// Workers and what they share with the caller.
 pub(crate) struct WorkerPool {
     pool: Pool,
@@ -77,12 +84,18 @@ impl WorkerPool {
         Ok(Self { pool, shared, timeouts: 0, lent: false, times })
     }
 
+    /// Whether a round whose tests may cost so much, ns, is sooner done by all than by the caller alone. What touched at the
+    /// last commit, as a rule touches now, and costs as much again.
+    pub fn is_worth(&mut self, input: &WorkerInput, cost_ns: u64) -> bool {
+        let cost_ns = cost_ns + input.memory.records.len() as u64 * CONTACT_NS;
+        cost_ns >= WORTH_SHARING_NS
+            && input.blocks.len() >= 2
+            && (self.pool.has_workers_at_hand() || (cost_ns >= WORTH_WAKING_NS && self.pool.workers() > 0))
+    }
+
     /// Runs the blocks of `input` with all workers and gathers in `context` what was found; whether that is whole.
     /// If not, the caller does it all again by itself.
-    pub fn run_parallel(&mut self, input: &WorkerInput, cost_ns: u64, context: &mut WorkerContext) -> bool {
-        if cost_ns < WORTH_SHARING_NS || input.blocks.len() < 2 || self.pool.workers() == 0 {
-            return false;
-        }
+    pub fn run_parallel(&mut self, input: &WorkerInput, context: &mut WorkerContext) -> bool {
         self.lent = true;
         match self.shared.input.try_write() {
             Ok(mut shared) => shared.copy_from(input),

@@ -9,16 +9,18 @@ use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
+use crate::state::ContactRole;
 
 /// Puts the contacts in order, whoever found them.
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, .. } = *given;
-    list(frame);
+    let mut pushing = list(frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
+        pushing = frame.pushing().count();
     }
-    let pushing = frame.pushing().count();
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
+    let mut kept = pushing;
     let found = (pushing as u64, (frame.order.len() - pushing) as u64);
     let demand = frame.caller.out.demand;
     let (pushing, remembered) = if demand.overflowed { (demand.pushing, demand.remembered) } else { found };
@@ -28,22 +30,25 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
-        list(frame);
+        kept = list(frame);
         forces::recompute_forces(given, frame);
     }
     if demand.unshared {
         frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
     }
-    frame.report.contacts = frame.pushing().count() as u32;
+    frame.report.contacts = kept as u32;
 }
 
 fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
-fn list(frame: &mut EvaluationBuffers) {
+/// Lists all contacts in order; how many of them push.
+fn list(frame: &mut EvaluationBuffers) -> usize {
     frame.order.clear();
+    let mut pushing = 0;
     for (index, contact) in frame.caller.out.contacts.iter().enumerate() {
+        pushing += usize::from(contact.found.role == ContactRole::Active);
         let place = Place { head: contact.found.key.head(), index: index as u32 };
         frame.order.push(place).expect("as many places as contacts");
     }
@@ -52,6 +57,7 @@ fn list(frame: &mut EvaluationBuffers) {
     for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
     }
+    pushing
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
