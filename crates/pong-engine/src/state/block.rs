@@ -12,8 +12,9 @@
 //! Little-endian. The block is as long as what is remembered; the sealed world alone says how long it can become. A buffer of
 //! any size between the two holds a block: behind it are zeros.
 
-use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole};
+use super::memory::ContactMemory;
 use super::poses::{CommittedPoses, NEVER};
+use super::record::{ContactKey, ContactRecord, ContactRole};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::{PairEnergies, PairEnergy};

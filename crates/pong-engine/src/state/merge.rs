@@ -4,7 +4,8 @@
 //! parts was small enough once, but at different times: together they may be more than the memory has room for. Then
 //! those with the largest force stay, ties in key order; of what is only remembered, the force is zero.
 
-use super::memory::{ContactMemory, ContactRecord, Remembered};
+use super::memory::{ContactMemory, Remembered};
+use super::record::ContactRecord;
 use crate::energy::episodes::PairEnergies;
 use std::iter::Peekable;
 

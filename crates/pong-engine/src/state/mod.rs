@@ -4,14 +4,14 @@ mod block;
 mod memory;
 mod merge;
 mod poses;
+mod record;
 mod records;
 #[cfg(test)]
 mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
-pub(crate) use memory::{
-    ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, Remembered, SAME_WAY_COSINE_MIN,
-};
+pub(crate) use memory::{ContactMemory, Remembered, SAME_WAY_COSINE_MIN};
 pub(crate) use poses::{CommittedPoses, Past};
+pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
 pub(crate) use records::Records;

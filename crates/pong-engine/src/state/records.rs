@@ -1,6 +1,6 @@
 //! Contact records in the order of their keys.
 
-use super::memory::{ContactKey, ContactRecord};
+use super::record::{ContactKey, ContactRecord};
 use pong_arena::{Full, Table};
 use std::ops::{Deref, DerefMut, Range};
 

@@ -1,8 +1,9 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
 use super::block::{StateError, largest_len, needed_len, write_block};
-use super::memory::{ContactKey, ContactMemory, ContactRecord, ContactRole, Remembered};
+use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
+use super::record::{ContactKey, ContactRecord, ContactRole};
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -283,14 +284,25 @@ fn a_commit_of_everything_takes_everything_over_but_the_totals() {
 }
 
 #[test]
-fn records_of_one_key_are_found_together() {
+fn records_of_one_key_are_found_together_whatever_was_done_before() {
     let mut random = Random(4);
-    let memory = memory_of(&mut random, CAPACITY, 2);
-    for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
-        let (first, same) = memory.under(&record.key);
-        assert!(first <= index && index < first + same.len());
-        assert!(same.iter().all(|other| other.key == record.key));
-        assert_eq!(memory.law_state_of(index), law_state);
+    for cleared in 0..1 << GROUP_PAIRS {
+        let mut memory = memory_of(&mut random, CAPACITY, 2);
+        let all: Vec<ContactKey> = memory.records.iter().map(|record| record.key).collect();
+        let is_cleared = |pair: usize| cleared >> pair & 1 == 1;
+        memory.clear_history(is_cleared, |group_pair| group_pair as usize);
+        let mut copy = memory_of(&mut random, CAPACITY, 2);
+        copy.copy_from(&memory);
+        for memory in [&memory, &copy] {
+            for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
+                let (first, same) = memory.under(&record.key);
+                assert!(first <= index && index < first + same.len());
+                assert!(same.iter().all(|other| other.key == record.key));
+                assert_eq!(memory.law_state_of(index), law_state);
+            }
+            let mut gone = all.iter().filter(|key| is_cleared(key.group_pair as usize));
+            assert!(gone.all(|key| memory.under(key).1.is_empty()));
+        }
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) struct LaneBoxes {
     high: [[f64; LANES]; 3],
 }
 
-impl<'a, 'l, 'm> Chunk<'a, 'l> {
+impl<'a, 'l> Chunk<'a, 'l> {
     /// The chunk of a batch that begins with its element `first`, a multiple of eight. Against triangles, many of
     /// which lie in the corners of a ball's box, balls are kept as well.
     #[inline(always)]

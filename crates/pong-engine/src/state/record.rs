@@ -1,0 +1,130 @@
+//! What is remembered of one contact, and under which key.
+
+use crate::sealed::Direction;
+use pong_geometry::Vec3;
+
+/// In [`ContactRecord::entry_face`]: no side of entry is remembered.
+pub(crate) const NO_FACE: u32 = u32::MAX;
+
+/// What a contact is remembered under. Its order is the order of every sum.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct ContactKey {
+    /// Index of the pair of movable groups.
+    pub group_pair: u32,
+    /// 0 if A belongs to the pair's first group, 1 if to its second.
+    pub flipped: u32,
+    /// Primitive of A.
+    pub primitive_a: u32,
+    /// Shell of B.
+    pub shell_b: u32,
+    /// End of a two-ended body, or 2 and above between its ends; 0 otherwise.
+    pub end: u32,
+}
+
+impl ContactKey {
+    /// The fields one after another, as two numbers: they compare faster than five.
+    #[inline]
+    fn rank(&self) -> (u64, u64) {
+        (self.head(), u64::from(self.shell_b) << 32 | u64::from(self.end))
+    }
+
+    /// The pair of movable groups, and which of them holds A.
+    #[inline]
+    pub fn direction(&self) -> Direction {
+        Direction { group_pair: self.group_pair, flipped: self.flipped }
+    }
+
+    /// The first number: few contacts have it in common.
+    #[inline]
+    pub fn head(&self) -> u64 {
+        u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
+    }
+}
+
+impl Ord for ContactKey {
+    #[inline]
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.rank().cmp(&other.rank())
+    }
+}
+
+impl PartialOrd for ContactKey {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// Why a contact is remembered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ContactRole {
+    /// It pushes.
+    Active,
+    /// Its centre came through the surface from behind: overlaps, but is not pushed to the front.
+    WrongSide,
+    /// Its share of the spring is zero; only its side of entry matters.
+    Tracked,
+}
+
+impl ContactRole {
+    pub fn to_word(self) -> u32 {
+        self as u32
+    }
+
+    /// `None` for a word that no role has.
+    pub fn from_word(word: u32) -> Option<Self> {
+        [Self::Active, Self::WrongSide, Self::Tracked].into_iter().find(|role| role.to_word() == word)
+    }
+}
+
+/// What is remembered of one contact. Vectors are in the frame of B's movable group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ContactRecord {
+    pub key: ContactKey,
+    /// Feature of B, for ties.
+    pub feature: u32,
+    /// Primitive element of B (the piece of a shell).
+    pub element_b: u32,
+    /// Face reached by the walk from the side of entry, in that piece.
+    pub entry_face: u32,
+    /// Whether the bristle sticks.
+    pub sticks: bool,
+    /// Whether the contact pushes, or is only remembered.
+    pub role: ContactRole,
+    /// Unit vector n from B to A.
+    pub normal_b: Vec3,
+    /// c, m.
+    pub point_b: Vec3,
+    /// p, m.
+    pub bristle_b: Vec3,
+    /// Force on A, N: the ledger's trapezoid needs it.
+    pub force_b: Vec3,
+    /// Energy stored in the normal spring and in the bristle, J.
+    pub stored: f64,
+    /// Work done on the two bodies since the contact began, J.
+    pub work: f64,
+    /// Energy dissipated since the contact began, J.
+    pub dissipated: f64,
+}
+
+impl ContactRecord {
+    /// Something to fill memory with.
+    pub fn blank() -> Self {
+        let zero = Vec3::zeros();
+        Self {
+            key: ContactKey::default(),
+            feature: 0,
+            element_b: 0,
+            entry_face: NO_FACE,
+            sticks: false,
+            role: ContactRole::Tracked,
+            normal_b: zero,
+            point_b: zero,
+            bristle_b: zero,
+            force_b: zero,
+            stored: 0.0,
+            work: 0.0,
+            dissipated: 0.0,
+        }
+    }
+}
