@@ -2,6 +2,7 @@
 """The same approaches with the contact of MuJoCo and of Drake: captured or not, when, and with which forces?
 
 python3 mechanisms/docking/own.py        with the plugin as for mechanisms/run.py; with Drake where `pip install drake` was
+python3 mechanisms/docking/own.py Drake-sap/2 6    this column, and of the ten approaches this one
 python3 mechanisms/docking/own.py free   the ring on its legs touches nothing: MuJoCo and Drake must move it alike
 
 RUNS approaches within the initial contact conditions, level training, dispersed as in campaign.py but drawn here, so that
@@ -35,6 +36,8 @@ from kit.machine import Machine  # noqa: E402
 from kit.rows import Limit, Row, show  # noqa: E402
 
 RUNS = 10
+TABLE = ("Pong", "MuJoCo", "springs", "hard", "damped/10", "converged-springs", "Drake-sap", "Drake-lagged")
+IMPRATIOS = ("1000", "10000", "100000")
 STEP = d.TRAINING.step
 SETS = {"MuJoCo": own_contact.DEFAULT, "springs": own_contact.SPRINGS, "hard": own_contact.hard(STEP)}
 # Of a pair, by the rules for two surfaces (docs/theory.md, 3): structure on structure, latch on structure.
@@ -64,6 +67,22 @@ def other(engine, how, structure=STRUCTURE):
                 else:
                     movers[name] = LATCH if body.startswith("latch") else structure
         return engine(own_contact.with_geoms(text, geoms, assets), carriers, how, movers, grounds)
+
+    return made
+
+
+def converged(kind):
+    """The same with a solver of MuJoCo that goes on until nothing changes.
+
+    Its tolerance is a share of the mean inertia, and the target has 420 t: by default it ends when legs of 2.5 kg may
+    still be far off.
+    """
+
+    def made(text, carriers):
+        machine = kind(text, carriers)
+        options = machine.model.opt
+        options.tolerance, options.iterations, options.ls_tolerance, options.ls_iterations = 0.0, 200, 1e-6, 200
+        return machine
 
     return made
 
@@ -108,9 +127,9 @@ def attempt(run, kind):
     return sequencer.captured_at, force, stroke, opened, spent / made.time
 
 
-def figures(kind):
+def figures(kind, runs=range(RUNS)):
     results = []
-    for run in range(RUNS):
+    for run in runs:
         results.append(attempt(run, kind))
         at, force, stroke, *_ = results[-1]
         yield f"run {run}: captured at, s", at or "no"
@@ -118,7 +137,7 @@ def figures(kind):
         yield f"run {run}: stroke, mm", 1e3 * stroke
     times, forces, strokes, gaps, spent = zip(*results)
     caught = [at for at in times if at is not None]
-    yield f"captured, of {RUNS}", len(caught)
+    yield f"captured, of {len(runs)}", len(caught)
     yield "mean time of capture, s", float(np.mean(caught)) if caught else "none"
     yield "median of the greatest force, N", float(np.median(forces))
     yield "median of the stroke, mm", 1e3 * float(np.median(strokes))
@@ -164,19 +183,31 @@ def free():
     yield Row("half the step makes the difference", differences[1] / differences[0], 0.5, 0.1)
 
 
-def main():
-    """One column after another: `own.py Pong hard` makes these two."""
-    if sys.argv[1:] == ["free"]:
-        sys.exit(show("the ring let go, nothing touches", free()) if drake.at_hand() else 0)
-    columns = {"Pong": lambda: figures(Machine)}
-    columns |= {name: partial(figures, other(own_contact.Own, contact)) for name, contact in SETS.items()}
+def kinds():
+    """Name of a column → class of machine."""
+    springs, damped = own_contact.SPRINGS, replace(STRUCTURE, damping=STRUCTURE.damping / 10)
+    made = {"Pong": Machine, **{name: other(own_contact.Own, contact) for name, contact in SETS.items()}}
     # Added after the comparison, to explain it.
-    columns["damped/10"] = partial(
-        figures, other(own_contact.Own, own_contact.SPRINGS, replace(STRUCTURE, damping=STRUCTURE.damping / 10))
-    )
+    made["damped/10"] = other(own_contact.Own, springs, damped)
+    made |= {f"impratio-{n}": other(own_contact.Own, replace(springs, impratio=float(n))) for n in IMPRATIOS}
+    made |= {f"converged-{name}": converged(other(own_contact.Own, contact)) for name, contact in SETS.items()}
+    made["one-point"] = other(own_contact.Own, replace(springs, one_point=True))
     if drake.at_hand():
-        columns |= {f"Drake-{way}": partial(figures, other(drake.InDrake, way)) for way in (drake.SAP, drake.LAGGED)}
-    own_contact.compare(columns)
+        for way in (drake.SAP, drake.LAGGED):
+            made[f"Drake-{way}"] = other(drake.InDrake, way)
+            made[f"Drake-{way}/2"] = other(drake.InDrake, way, replace(STRUCTURE, friction=STRUCTURE.friction / 2))
+    return made
+
+
+def main():
+    """Columns and numbers of approaches may be named. If no column is, those of the table on the page are made."""
+    named = sys.argv[1:]
+    if named == ["free"]:
+        sys.exit(show("the ring let go, nothing touches", free()) if drake.at_hand() else 0)
+    runs = [int(word) for word in named if word.isdigit()] or range(RUNS)
+    columns = {name: partial(figures, kind, runs) for name, kind in kinds().items()}
+    wanted = [word for word in named if not word.isdigit()] or [name for name in TABLE if name in columns]
+    own_contact.table({name: list(columns[name]()) for name in wanted})
 
 
 if __name__ == "__main__":
