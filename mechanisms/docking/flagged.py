@@ -1,9 +1,8 @@
-"""An approach in which the engine says that something went through something else, and what it was.
+"""An approach in which the engine once said that something went through something else: it must not say so.
 
 A catch snaps over the edge of its striker, as it shall: in one step its end is in front of the inclined face, in the
-next behind the back face. The two meet at 45°, a wedge, round whose edge a catch may go. The engine takes it for a wall,
-because where the catch lies on the edge it is pushed along a normal more than 150° from that of the inclined face. When
-the flag no longer comes, this file has done its work.
+next behind the back face. The two meet at 45°, a wedge, round whose edge a catch may go. The engine took it for a wall,
+because of what the other end of the catch's segment met.
 """
 
 from dataclasses import replace
@@ -12,7 +11,6 @@ import dimensions as d
 import docking
 import mujoco
 import numpy as np
-from kit.machine import TUNNELLED
 from kit.rows import Fact, Limit, Row
 from sequence import STRIKER_EDGE, Sequencer, catch
 from vehicles import LATCHES
@@ -31,29 +29,26 @@ NEAR = 2e-4  # m
 
 
 def passage(step):
-    """(time of the flag or None, how far each catch is behind and over the edge of its striker then, time of capture)."""
+    """(flagged, how near a catch came to the edge of its striker, time of capture)."""
     made = docking.approach(replace(CASE, level=replace(d.TRAINING, step=step)), hard=False)
-    sequencer, at, places = Sequencer(hard=False), None, None
+    sequencer, nearest = Sequencer(hard=False), np.inf
     while sequencer.phase == "capture":
-        before = [beside_edge(made, i) for i in LATCHES]
+        nearest = min(nearest, *(beside_edge(made, i) for i in LATCHES))
         sequencer(made)
         mujoco.mj_step(made.model, made.data)
-        if at is None and int(made.data.sensordata[made.sensed][1]) & TUNNELLED:
-            at, places = made.time, before
-    return at, places, sequencer.captured_at
+        made.judge(made.data.sensordata[made.sensed][None])
+    return made.tunnelled, nearest, sequencer.captured_at
 
 
 def beside_edge(made, i):
     x, y, z = catch(made, i)
-    return z + d.IDSS.STRIKER_BACK, np.hypot(x, y) - STRIKER_EDGE
+    return max(abs(z + d.IDSS.STRIKER_BACK), abs(np.hypot(x, y) - STRIKER_EDGE))
 
 
 def rows():
     found = [passage(step) for step in STEPS]
-    for step, (at, places, captured) in zip(STEPS, found):
+    for step, (flagged, nearest, captured) in zip(STEPS, found):
         what = f"step {step * 1e3:g} ms"
-        yield Fact(f"{what}: flagged once a catch passes, and captured", at is not None and captured is not None)
-        nearest = min(max(abs(place[0]), abs(place[1])) for place in places)
-        yield Limit(f"{what}: the catch that passes is from the edge of its striker", nearest, NEAR, "m")
-    yield Row("time of the flag at a quarter of the step", found[1][0], found[0][0], 1e-3, "s")
-    yield Row("time of capture", found[1][2], found[0][2], 1e-3, "s")
+        yield Fact(f"{what}: captured, and nothing tunnelled", captured is not None and not flagged)
+        yield Limit(f"{what}: a catch goes round the edge of its striker as near as", nearest, NEAR, "m")
+    yield Row("time of capture at a quarter of the step", found[1][2], found[0][2], 1e-3, "s")

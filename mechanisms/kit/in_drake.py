@@ -2,7 +2,8 @@
 
 Drake's own reader takes bodies, joints and masses from the MJCF. Motors, springs and dampers of joints and what a host
 applies are computed by MuJoCo at the same state, and given to Drake as forces on the joints at the beginning of each step.
-So the inputs are the same numbers, and controllers and rigs need not know who moves the machine.
+So the inputs are the same numbers, and controllers and rigs need not know who moves the machine. Limits of joints and
+loops that MuJoCo closes by `connect` are Drake's own: its solver holds them as hard as the step allows.
 
 Contact is Drake's point contact: one pair of points for two convex shapes. Two ways of Drake, fixed beforehand:
 
@@ -35,7 +36,7 @@ class InDrake(Own):
     """Stands for a `Machine`. Its MuJoCo model holds the state that Drake came to, and computes forces of joints."""
 
     def __init__(self, text, carriers, way, movers, grounds):
-        self.simulator = None
+        self.simulator, self.steps = None, 0
         super().__init__(text, carriers, DEFAULT, movers, grounds)
         self.model.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
         self._build(way, movers, grounds)
@@ -53,7 +54,9 @@ class InDrake(Own):
             control(self)
         mujoco.mj_forward(self.model, self.data)
         self._give_forces()
-        self.simulator.AdvanceTo(self.simulator.get_context().get_time() + self.step)
+        # Drake steps at whole multiples of the step; half a step beyond, rounding can neither lose a step nor add one.
+        self.simulator.AdvanceTo((self.steps + 0.5) * self.step)
+        self.steps += 1
         self._take_state()
 
     def pushes(self):
@@ -82,6 +85,7 @@ class InDrake(Own):
         self.plant.mutable_gravity_field().set_gravity_vector(np.zeros(3))
         self._shapes(way, movers, grounds)
         self._rotors()
+        self._loops()
         self.plant.Finalize()
         self.simulator = Simulator(builder.Build())
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
@@ -89,14 +93,14 @@ class InDrake(Own):
         self.port = self.plant.get_applied_generalized_force_input_port()
 
     def _shapes(self, way, movers, grounds):
-        """Grounds are rigid; movers have the stiffness of the pair."""
+        """Grounds are rigid; movers have the stiffness of the pair. Friction: of the pair, see `_of_mover`."""
         from pydrake.geometry import CollisionFilterDeclaration, GeometrySet
 
-        self.geoms, surface = {}, next(iter(movers.values()))
+        self.geoms, ground = {}, max(surface.friction for surface in movers.values())
         for name in (*movers, *grounds):
-            geom = self.model.geom(name).id
-            about = _properties(movers.get(name), surface.friction, way)
-            self.geoms[self._register(geom, name, about)] = geom
+            geom, surface = self.model.geom(name).id, movers.get(name)
+            friction = _of_mover(surface.friction, ground) if surface else ground
+            self.geoms[self._register(geom, name, _properties(surface, friction, way))] = geom
         sides = [[i for i, g in self.geoms.items() if self.model.geom(g).name in side] for side in (movers, grounds)]
         for side in sides:
             self.scene.collision_filter_manager().Apply(CollisionFilterDeclaration().ExcludeWithin(GeometrySet(side)))
@@ -121,9 +125,28 @@ class InDrake(Own):
                 motor.set_default_rotor_inertia(inertia)
                 motor.set_default_gear_ratio(1.0)
 
+    def _loops(self):
+        """Of MuJoCo's `connect`: a point of one body stays at a point of another."""
+        for k in range(self.model.neq):
+            if self.model.eq_type[k] != mujoco.mjtEq.mjEQ_CONNECT:
+                raise ValueError("this constraint is not among those that are given to Drake")
+            names = (self.model.body(b).name for b in (self.model.eq_obj1id[k], self.model.eq_obj2id[k]))
+            one, other = (self.plant.GetBodyByName(name) for name in names)
+            self.plant.AddBallConstraint(one, self.model.eq_data[k, :3], other, self.model.eq_data[k, 3:6])
+
+    def open_by(self):
+        """The greatest gap of a loop, m."""
+        d, gaps = self.data, [0.0]
+        for k in range(self.model.neq):
+            bodies, points = (self.model.eq_obj1id[k], self.model.eq_obj2id[k]), self.model.eq_data[k, :6].reshape(2, 3)
+            one, other = (d.xpos[b] + d.xmat[b].reshape(3, 3) @ point for b, point in zip(bodies, points))
+            gaps.append(float(np.linalg.norm(one - other)))
+        return max(gaps)
+
     def _places(self):
-        """Where the numbers of joints begin: of free ones and, as columns, of all others MuJoCo's two and Drake's two."""
-        free, others = [], []
+        """Where the numbers of joints begin, MuJoCo's two and Drake's two: of free ones, of balls, and, as columns, of all
+        others."""
+        free, balls, others = [], [], []
         for j in range(self.model.njnt):
             joint, own = self.model.joint(j), (self.model.jnt_qposadr[j], self.model.jnt_dofadr[j])
             if joint.type[0] == mujoco.mjtJoint.mjJNT_FREE:
@@ -131,24 +154,34 @@ class InDrake(Own):
                 free.append((*own, body.floating_positions_start(), body.floating_velocities_start_in_v()))
             else:
                 other = self.plant.GetJointByName(joint.name)
-                others.append((*own, other.position_start(), other.velocity_start()))
-        return free, np.array(others, dtype=int).reshape(-1, 4).T
+                kind = balls if joint.type[0] == mujoco.mjtJoint.mjJNT_BALL else others
+                kind.append((*own, other.position_start(), other.velocity_start()))
+        return free, balls, np.array(others, dtype=int).reshape(-1, 4).T
 
     def _give_state(self):
-        """Drake has the quaternion before the place, the spin before the velocity, and the spin in the world."""
+        """Drake has the quaternion before the place, the spin before the velocity, and the spin in the world. A ball has
+        roll, pitch and yaw, and its spin in the axes of what carries it."""
+        from pydrake.math import RollPitchYaw, RotationMatrix
+
         d, positions, speeds = self.data, np.zeros(self.plant.num_positions()), np.zeros(self.plant.num_velocities())
-        free, (q, v, to_q, to_v) = self.places
+        free, balls, (q, v, to_q, to_v) = self.places
         positions[to_q], speeds[to_v] = d.qpos[q], d.qvel[v]
         for q, v, to_q, to_v in free:
             positions[to_q : to_q + 4], positions[to_q + 4 : to_q + 7] = d.qpos[q + 3 : q + 7], d.qpos[q : q + 3]
             speeds[to_v : to_v + 3] = _turned(d.qpos[q + 3 : q + 7]) @ d.qvel[v + 3 : v + 6]
             speeds[to_v + 3 : to_v + 6] = d.qvel[v : v + 3]
+        for q, v, to_q, to_v in balls:
+            turned = _turned(d.qpos[q : q + 4])
+            positions[to_q : to_q + 3] = RollPitchYaw(RotationMatrix(turned)).vector()
+            speeds[to_v : to_v + 3] = turned @ d.qvel[v : v + 3]
         self.plant.SetPositions(self.context, positions)
         self.plant.SetVelocities(self.context, speeds)
 
     def _take_state(self):
+        from pydrake.math import RollPitchYaw
+
         d, positions, speeds = self.data, *self._found()
-        free, (q, v, from_q, from_v) = self.places
+        free, balls, (q, v, from_q, from_v) = self.places
         d.qpos[q], d.qvel[v] = positions[from_q], speeds[from_v]
         for q, v, from_q, from_v in free:
             d.qpos[q : q + 3], d.qpos[q + 3 : q + 7] = (
@@ -157,6 +190,9 @@ class InDrake(Own):
             )
             d.qvel[v : v + 3] = speeds[from_v + 3 : from_v + 6]
             d.qvel[v + 3 : v + 6] = _turned(d.qpos[q + 3 : q + 7]).T @ speeds[from_v : from_v + 3]
+        for q, v, from_q, from_v in balls:
+            d.qpos[q : q + 4] = RollPitchYaw(positions[from_q : from_q + 3]).ToQuaternion().wxyz()
+            d.qvel[v : v + 3] = _turned(d.qpos[q : q + 4]).T @ speeds[from_v : from_v + 3]
         d.time += self.step
         mujoco.mj_kinematics(self.model, d)
 
@@ -168,11 +204,13 @@ class InDrake(Own):
         d, forces = self.data, np.zeros(self.plant.num_velocities())
         given = d.qfrc_actuator + d.qfrc_passive + d.qfrc_applied + self._weight()
         add_applied(self.model, d, given)
-        free, (_, v, _, to) = self.places
+        free, balls, (_, v, _, to) = self.places
         forces[to] = given[v]
         for q, v, _, to in free:
             forces[to : to + 3] = _turned(d.qpos[q + 3 : q + 7]) @ given[v + 3 : v + 6]
             forces[to + 3 : to + 6] = given[v : v + 3]
+        for q, v, _, to in balls:
+            forces[to : to + 3] = _turned(d.qpos[q : q + 4]) @ given[v : v + 3]
         self.port.FixValue(self.context, forces)
 
     def _weight(self):
@@ -199,19 +237,40 @@ def _for_drake(text):
             elif child.tag == "joint":
                 for key in ("stiffness", "damping", "armature"):
                     child.attrib.pop(key, None)
+    for parent in list(root.iter()):
+        for body in parent.findall("body"):
+            _split(parent, body)
     return xml.tostring(root, encoding="unicode")
 
 
+def _split(parent, body):
+    """A body with several joints becomes bodies with one each: of several, Drake's reader gives the last one the place."""
+    *first, _ = body.findall("joint") or [None]
+    for number, joint in enumerate(first):
+        place = {key: body.attrib.pop(key) for key in ("pos", "quat") if key in body.attrib}
+        outer = xml.Element("body", name=f"{body.get('name')}_before_{number}", **place)
+        body.remove(joint)
+        outer.append(joint)
+        parent.remove(body)
+        parent.append(outer)
+        outer.append(body)
+        parent = outer
+
+
+def _of_mover(pair, ground):
+    """Coefficient of friction of a mover: of two surfaces Drake takes 2·a·b/(a + b), and the pair must have its own."""
+    return pair * ground / (2.0 * ground - pair) if pair else 0.0
+
+
 def _properties(surface, friction, way):
-    """`surface` is None for a rigid ground, which has the friction of what touches it."""
+    """`surface` is None for a rigid ground."""
     from pydrake.geometry import AddContactMaterial, ProximityProperties
     from pydrake.multibody.plant import CoulombFriction
 
     made = ProximityProperties()
-    mu = surface.friction if surface else friction
     # Infinite is as good as a thousand million times the other.
     stiffness = surface.stiffness if surface else 1e16
-    AddContactMaterial(made, point_stiffness=stiffness, friction=CoulombFriction(mu, mu))
+    AddContactMaterial(made, point_stiffness=stiffness, friction=CoulombFriction(friction, friction))
     if way == SAP:
         # Times of relaxation of a pair add.
         made.AddProperty("material", "relaxation_time", surface.damping / surface.stiffness if surface else 0.0)
