@@ -134,15 +134,6 @@ class InDrake(Own):
             one, other = (self.plant.GetBodyByName(name) for name in names)
             self.plant.AddBallConstraint(one, self.model.eq_data[k, :3], other, self.model.eq_data[k, 3:6])
 
-    def open_by(self):
-        """The greatest gap of a loop, m."""
-        d, gaps = self.data, [0.0]
-        for k in range(self.model.neq):
-            bodies, points = (self.model.eq_obj1id[k], self.model.eq_obj2id[k]), self.model.eq_data[k, :6].reshape(2, 3)
-            one, other = (d.xpos[b] + d.xmat[b].reshape(3, 3) @ point for b, point in zip(bodies, points))
-            gaps.append(float(np.linalg.norm(one - other)))
-        return max(gaps)
-
     def _places(self):
         """Where the numbers of joints begin, MuJoCo's two and Drake's two: of free ones, of balls, and, as columns, of all
         others."""
