@@ -66,8 +66,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let motion = &input.motions[block.slot as usize][flipped as usize];
         let context = PairContext::new(scene, sealed, input, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
-        let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, law_state, out } =
-            worker;
+        let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, out } = worker;
         let room = "sealing has sized the arena";
         let tree_b = &context.body_b.tree;
         let mut batches_b = arena.list(tree_b.batches.len()).expect(room);
@@ -107,12 +106,14 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     let shared = load_sharing::assign_weights(&context, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, found.list, law_state, out);
+                    forces::collect(&context, sealed, found.list, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }
             }
         }
+        forces::compute_forces(&context, out);
+        laps.lap(Work::Forces, &mut out.times);
         laps.lap(Work::BroadPhase, &mut out.times);
     }
 }

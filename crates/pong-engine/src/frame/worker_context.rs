@@ -27,18 +27,14 @@ pub(crate) struct WorkerContext {
     pub(crate) found: Table<ContactCandidate>,
     /// Those that share a spring.
     pub(crate) shared: Table<SharedContact>,
-    /// Numbers of one contact's registered friction law.
-    pub(crate) law_state: Box<[f64]>,
     pub out: ContactBuffer,
 }
 
 impl WorkerContext {
     /// Bytes of what does not grow with the contacts of a frame, the arenas aside: with room for so many interferences of one
-    /// chunk, and laws of so many numbers per contact.
-    pub fn table_bytes(found: usize, law_state_len: usize) -> usize {
-        LANES * size_of::<TransformedPrimitive>()
-            + found * Self::BYTES_PER_FOUND
-            + law_state_len * size_of::<f64>()
+    /// chunk.
+    pub fn table_bytes(found: usize) -> usize {
+        LANES * size_of::<TransformedPrimitive>() + found * Self::BYTES_PER_FOUND
     }
 
     /// Bytes of one interference of a chunk.
@@ -54,7 +50,6 @@ impl WorkerContext {
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
-            law_state: vec![0.0; sealed.law_state_len].into(),
             out: ContactBuffer::new(sealed.law_state_len, contacts, ranks),
         }
     }

@@ -48,7 +48,7 @@ pub(super) fn limits(
 /// What a worker's lane takes however small the capacity is, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
     limits.least_worker_contacts() * (size_of::<FrameContact>() + law_state_len * size_of::<f64>())
-        + WorkerContext::table_bytes(limits.found, law_state_len)
+        + WorkerContext::table_bytes(limits.found)
 }
 
 /// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.

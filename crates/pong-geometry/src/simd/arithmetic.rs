@@ -30,6 +30,8 @@ pub trait Simd: BoxSimd {
         self.div(a, self.select(self.equal(b, self.splat(0.0)), self.splat(2.0), b))
     }
     fn sqrt(self, values: Self::Eight) -> Self::Eight;
+    /// `values · 2ⁿ`, exactly, with `n` in the lowest twelve bits of the other number. The products must be normal numbers.
+    fn scaled(self, values: Self::Eight, power: Self::Eight) -> Self::Eight;
     /// `a < b`.
     fn below(self, a: Self::Eight, b: Self::Eight) -> Self::Mask;
     /// `a ≥ b`.

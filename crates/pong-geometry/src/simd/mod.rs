@@ -8,7 +8,9 @@
 mod arithmetic;
 mod boxes;
 mod first;
+mod functions;
 mod lanes;
+mod numbers;
 mod portable;
 mod splat;
 #[cfg(target_arch = "x86_64")]
@@ -20,6 +22,7 @@ pub use arithmetic::{Kernel, Simd};
 pub use boxes::{BoxSimd, EightBoxes};
 pub use first::{Finder, First, FirstOf, Found};
 pub use lanes::{LANES, LaneBits};
+pub use numbers::{Numbers, Vectors};
 pub use portable::Portable;
 pub use splat::{MODERATE, Splat, is_moderate};
 

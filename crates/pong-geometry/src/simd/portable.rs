@@ -71,6 +71,10 @@ impl Simd for Portable {
         compare(a, b, |a, b| a == b)
     }
     #[inline(always)]
+    fn scaled(self, values: Self::Eight, power: Self::Eight) -> Self::Eight {
+        zip(values, power, |value, power| f64::from_bits(value.to_bits().wrapping_add(power.to_bits() << 52)))
+    }
+    #[inline(always)]
     fn sqrt(self, values: Self::Eight) -> Self::Eight {
         values.map(f64::sqrt)
     }

@@ -72,6 +72,11 @@ impl Simd for Avx512 {
         self.0.avx512f._mm512_sqrt_pd(values)
     }
     #[inline(always)]
+    fn scaled(self, values: __m512d, power: __m512d) -> __m512d {
+        let power = self.0.avx512f._mm512_slli_epi64::<52>(cast(power));
+        cast(self.0.avx512f._mm512_add_epi64(cast(values), power))
+    }
+    #[inline(always)]
     fn larger(self, a: __m512d, b: __m512d) -> __m512d {
         self.0.avx512f._mm512_max_pd(a, b)
     }
@@ -160,6 +165,14 @@ impl Simd for Avx2 {
     #[inline(always)]
     fn sqrt(self, [a, b]: Halves) -> Halves {
         [self.0.avx._mm256_sqrt_pd(a), self.0.avx._mm256_sqrt_pd(b)]
+    }
+    #[inline(always)]
+    fn scaled(self, values: Halves, power: Halves) -> Halves {
+        let of = |values: __m256d, power: __m256d| {
+            let power = self.0.avx2._mm256_slli_epi64::<52>(cast(power));
+            cast(self.0.avx2._mm256_add_epi64(cast(values), power))
+        };
+        [of(values[0], power[0]), of(values[1], power[1])]
     }
     #[inline(always)]
     fn larger(self, [a, b]: Halves, [c, d]: Halves) -> Halves {

@@ -12,8 +12,10 @@ use pong_arena::Table;
 pub(crate) struct ContactBuffer {
     /// The phase that the contents belong to.
     pub phase: u64,
-    /// Contacts found and pressed, in no order.
+    /// Contacts, in no order.
     pub contacts: Table<FrameContact>,
+    /// How many of them have their forces: the first.
+    pub settled: usize,
     /// Numbers of registered friction laws, as many for every contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
@@ -69,6 +71,7 @@ impl ContactBuffer {
         Self {
             phase: 0,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
+            settled: 0,
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
@@ -82,15 +85,27 @@ impl ContactBuffer {
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
+        self.settled = 0;
         self.law_state.clear();
         self.demand = CapacityDemand::default();
         self.counts.clear();
         self.times = WorkTimes::default();
     }
 
+    /// Whether there is no room for one contact more.
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.contacts.len() == self.contacts.capacity()
+    }
+
     /// The numbers of a contact.
     pub fn law_state_of(&self, contact: usize) -> &[f64] {
         &self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
+    }
+
+    /// The same, to be written.
+    pub fn law_state_mut(&mut self, contact: usize) -> &mut [f64] {
+        &mut self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
     }
 
     /// How far the buffer has got.
@@ -101,6 +116,7 @@ impl ContactBuffer {
     /// Forgets all that came after a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
+        self.settled = checkpoint.contacts;
         self.law_state.truncate(checkpoint.contacts * self.law_state_len);
         self.demand = checkpoint.demand;
         self.counts = checkpoint.counts;
@@ -110,23 +126,27 @@ impl ContactBuffer {
     pub fn absorb(&mut self, other: &Self) -> bool {
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
+        self.settled = self.contacts.len();
         self.demand.add(&other.demand);
         self.counts.add(&other.counts);
         room && !other.demand.overflowed
     }
 
-    /// A place for one more contact of this role. The caller writes all of it, and adds its numbers. Where there is no room the
-    /// deepest so far stay, if this buffer can rank them; else the contact is lost (`None`) and the whole phase must be done
+    /// A place for one more contact of this role. The caller writes what was found. Where there is no room the deepest so far stay,
+    /// which must have their forces, if this buffer can rank them; else the contact is lost (`None`) and the whole phase must be done
     /// again by one that can.
     #[inline]
     pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<&mut FrameContact> {
         self.demand.count(role);
-        if self.contacts.len() == self.contacts.capacity() {
+        if self.is_full() {
             self.demand.overflowed = true;
             if self.ranked.capacity() == 0 {
                 return None;
             }
             self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
+        }
+        for _ in 0..self.law_state_len {
+            self.law_state.push(0.0).expect("as much room as for contacts");
         }
         Some(self.contacts.slot().expect("ranking makes room"))
     }
@@ -163,6 +183,7 @@ impl ContactBuffer {
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);
         }
         self.contacts.truncate(ranked.len());
+        self.settled = ranked.len();
         self.law_state.truncate(ranked.len() * self.law_state_len);
     }
 }

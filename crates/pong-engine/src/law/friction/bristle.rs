@@ -1,4 +1,4 @@
-//! The reset-integrator bristle in two dimensions, under a varying load.
+//! The reset-integrator bristle in two dimensions, under a varying load: of eight contacts at a time.
 //!
 //! ```text
 //! p_s = μ_s·F_n/K      p_k = μ_k·F_n/K      p* = carried p + u
@@ -18,58 +18,93 @@
 //!
 //! Products with K stand for the lengths p_s and p_k, so that K = 0 needs no case of its own.
 
-use super::force::{FrictionInput, FrictionOutput};
-use super::slip_path::on_circle;
+use super::slip_path::SlipPath;
 use pong_geometry::Vec3;
+use pong_geometry::simd::{LaneBits, Numbers, Simd, Vectors};
 
 /// What rounding may do to a force that stands on its limit, as a part of the limit: a carried bristle and the product
 /// with K are off by a few times 1e-16. Friction may exceed its limit by no more than this.
 const LIMIT_ROUNDING: f64 = 1e-13;
 
-/// One contact's bristle.
-pub(super) struct Bristle {
+/// The bristles of eight contacts, and what has happened to them. A lane of zeros that sticks is one without friction.
+pub(crate) struct Bristles<S: Simd> {
     /// K, N/m.
-    pub stiffness: f64,
+    pub stiffness: Numbers<S>,
     /// c, N·s/m.
-    pub damping: f64,
+    pub damping: Numbers<S>,
     /// μ_k·F_n, N.
-    pub kinetic_limit: f64,
+    pub kinetic_limit: Numbers<S>,
     /// μ_s·F_n, N.
-    pub static_limit: f64,
+    pub static_limit: Numbers<S>,
+    /// Unit normals; these and the vectors below are in the frame of B's movable group.
+    pub normal: Vectors<S>,
+    /// Deflections carried into the present contact planes, m.
+    pub carried: Vectors<S>,
+    /// u, m.
+    pub slip: Vectors<S>,
+    /// v_t, m/s.
+    pub slip_velocity: Vectors<S>,
+    /// Which of them stuck at the last commit.
+    pub stuck: LaneBits,
 }
 
-impl Bristle {
+/// What they do.
+pub(crate) struct BristleForces<S: Simd> {
+    /// On A, N.
+    pub force: Vectors<S>,
+    /// p, m.
+    pub bristle: Vectors<S>,
+    /// In the bristles, J.
+    pub stored: Numbers<S>,
+    /// Which of them stick.
+    pub sticks: LaneBits,
+}
+
+impl<S: Simd> Bristles<S> {
     #[inline(always)]
-    pub(super) fn evaluate(&self, input: &FrictionInput<'_>) -> FrictionOutput {
-        let trial = input.carried_b + input.slip_b;
-        let pull = self.stiffness * trial.norm();
-        let holds = input.stuck && pull <= self.static_limit * (1.0 + LIMIT_ROUNDING);
-        let (bristle, limit) = if holds {
-            (shortened(trial, pull, self.static_limit), self.static_limit)
-        } else if !input.stuck && pull <= self.kinetic_limit {
-            (trial, self.kinetic_limit)
-        } else {
-            let left_at = if input.stuck { self.static_limit } else { self.kinetic_limit };
-            let (left_at, radius) = (left_at / self.stiffness, self.kinetic_limit / self.stiffness);
-            (on_circle(input, left_at, radius), self.kinetic_limit)
-        };
-        let pushed = bristle * self.stiffness + input.slip_velocity_b * self.damping;
+    pub fn evaluate(&self, simd: S) -> BristleForces<S> {
+        let Self { stiffness, static_limit, kinetic_limit, slip_velocity, stuck, .. } = *self;
+        let trial = self.carried + self.slip;
+        let pull = stiffness * trial.norm();
+        let slack = Numbers::splat(simd, 1.0 + LIMIT_ROUNDING);
+        let holds = stuck & simd.bits((static_limit * slack).at_least(pull));
+        let over = !holds & (stuck | !simd.bits(kinetic_limit.at_least(pull)));
+        let is_held = simd.mask(holds);
+        let mut bristle = Vectors::select(is_held, shortened_each(trial, pull, static_limit), trial);
+        if over != 0 {
+            let is_over = simd.mask(over);
+            bristle = Vectors::select(is_over, self.path(simd, is_over).end(simd), bristle);
+        }
+        let limit = Numbers::select(is_held, static_limit, kinetic_limit);
+        let pushed = bristle * stiffness + slip_velocity * self.damping;
         let length = pushed.norm();
-        FrictionOutput {
-            force_b: -shortened(pushed, length, limit),
-            bristle_b: bristle,
-            sticks: holds || (!input.stuck && self.sticks_again(&trial, pull, length, input)),
-            stored: 0.5 * self.stiffness * bristle.norm_squared(),
+        // What slipped sticks again: its motion has turned back or no longer fills the circle, and the static limit would
+        // leave its force as it is.
+        let turned_back = simd.bits(trial.dot(slip_velocity).below(Numbers::splat(simd, 0.0)));
+        let within = simd.bits(pull.below(kinetic_limit * Numbers::splat(simd, 1.0 - LIMIT_ROUNDING)));
+        let again = (turned_back | within) & simd.bits((kinetic_limit * slack).at_least(length));
+        BristleForces {
+            force: -shortened_each(pushed, length, limit),
+            bristle,
+            stored: Numbers::splat(simd, 0.5) * stiffness * bristle.norm_squared(),
+            sticks: holds | (!stuck & again),
         }
     }
 
-    /// Whether what slipped sticks: its motion has turned back or no longer fills the circle, and the static limit would
-    /// leave its force as it is.
+    /// The paths of those that have come over their limits; of the others, something that can be worked out.
     #[inline(always)]
-    fn sticks_again(&self, trial: &Vec3, pull: f64, length: f64, input: &FrictionInput<'_>) -> bool {
-        let turned_back = trial.dot(&input.slip_velocity_b) < 0.0;
-        let within = pull < self.kinetic_limit * (1.0 - LIMIT_ROUNDING);
-        (turned_back || within) && length <= self.kinetic_limit * (1.0 + LIMIT_ROUNDING)
+    fn path(&self, simd: S, is_over: S::Mask) -> SlipPath<S> {
+        let (nothing, one) = (Vectors::splat(simd, &Vec3::zeros()), Numbers::splat(simd, 1.0));
+        let left_at = Numbers::select(simd.mask(self.stuck), self.static_limit, self.kinetic_limit);
+        let stiffness = Numbers::select(is_over, self.stiffness, one);
+        SlipPath {
+            normal: self.normal,
+            carried: Vectors::select(is_over, self.carried, nothing),
+            slip: Vectors::select(is_over, self.slip, nothing),
+            slip_velocity: self.slip_velocity,
+            left_at: Numbers::select(is_over, left_at, one).over(stiffness),
+            radius: Numbers::select(is_over, self.kinetic_limit, one).over(stiffness),
+        }
     }
 }
 
@@ -81,4 +116,15 @@ impl Bristle {
 pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
     let longer = if length > limit { length } else { limit };
     vector * (limit / longer.max(f64::MIN_POSITIVE))
+}
+
+/// The same of eight.
+#[inline(always)]
+pub(crate) fn shortened_each<S: Simd>(
+    vectors: Vectors<S>,
+    length: Numbers<S>,
+    limit: Numbers<S>,
+) -> Vectors<S> {
+    let longer = length.larger(limit).larger(limit.all(f64::MIN_POSITIVE));
+    vectors * limit.over(longer)
 }

@@ -1,33 +1,26 @@
-//! Friction laws (theory manual, section 4): the force in the contact plane.
+//! Friction laws (theory manual, section 4): the force in the contact plane. The bristle is worked out for eight contacts at a
+//! time; the others for one.
 
 mod bristle;
 mod coulomb;
 mod force;
 mod slip_path;
 
-pub(crate) use bristle::shortened;
+pub(crate) use bristle::{Bristles, shortened, shortened_each};
 pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 
 use super::props::FrictionProps;
 
-/// Friction force of one contact with `input.normal_force > 0`.
-#[inline(always)]
-pub(crate) fn friction_force(
+/// Friction force of one contact with `input.normal_force > 0` by a law that is worked out for one contact alone; `None`
+/// of the bristle.
+pub(crate) fn friction_alone(
     props: &FrictionProps,
     input: &FrictionInput<'_>,
     state: &mut [f64],
-) -> FrictionOutput {
-    match props {
+) -> Option<FrictionOutput> {
+    Some(match props {
         FrictionProps::None => FrictionOutput::free(),
-        FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } => {
-            let law = bristle::Bristle {
-                stiffness: input.share * stiffness,
-                damping: input.share * damping,
-                kinetic_limit: mu_kinetic * input.normal_force,
-                static_limit: mu_static * input.normal_force,
-            };
-            law.evaluate(input)
-        }
+        FrictionProps::Bristle { .. } => return None,
         FrictionProps::Coulomb { mu, slip_speed } => coulomb::evaluate(*mu, *slip_speed, input),
         FrictionProps::Custom { law, stiffness, parameters } => {
             let input = FrictionInput { stiffness: *stiffness, parameters, ..*input };
@@ -35,5 +28,5 @@ pub(crate) fn friction_force(
             let along_normal = input.normal_b * input.normal_b.dot(&output.force_b);
             FrictionOutput { force_b: output.force_b - along_normal, ..output }
         }
-    }
+    })
 }

@@ -1,4 +1,4 @@
-//! Where a bristle stands on the circle of its limit after a displacement.
+//! Where bristles stand on the circles of their limits after a displacement, eight at a time.
 //!
 //! A slipping bristle is dragged by its tip at a constant length p_k: its direction turns towards that of the motion.
 //! With ψ the angle between p and a straight displacement u,
@@ -16,128 +16,156 @@
 //!
 //! (own; theory manual, section 4). A radial return p_k·p*/|p*| lags behind by one order of the step.
 
-use super::force::FrictionInput;
-use pong_geometry::Vec3;
+use pong_geometry::simd::{Numbers, Simd, Vectors};
 
 /// Below this z the lag is summed as a series: its closed form cancels, and loses 2·10⁻¹⁶/z of a radian.
 const SERIES_MAX: f64 = 0.25;
 
-/// The bristle on the circle of radius `radius`, m, after a displacement that took it over the circle of radius `left_at`,
-/// which is larger where it stuck until then.
-#[inline(always)]
-pub(super) fn on_circle(input: &FrictionInput<'_>, left_at: f64, radius: f64) -> Vec3 {
-    if radius <= 0.0 {
-        return Vec3::zeros();
-    }
-    let length = input.slip_b.norm();
-    if length <= 0.0 {
-        return unit_or(&input.carried_b, Vec3::zeros()) * radius;
-    }
-    let along = input.slip_b / length.max(f64::MIN_POSITIVE);
-    let way = Traversal::after_leaving(&input.carried_b, &along, length, left_at);
-    if way.left <= 0.0 {
-        return way.direction * radius;
-    }
-    // Far beyond where anything is left of the first direction: a load that has all but gone leaves all but no radius.
-    const LARGEST_RATIO: f64 = 1e300;
-    let ratio = way.left.min(radius * LARGEST_RATIO) / radius;
-    let decay = libm::exp(-ratio);
-    let turned = turned_towards(&way.direction, &along, decay);
-    // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.
-    let angle = libm::atan2(
-        input.normal_b.dot(&along.cross(&input.slip_velocity_b)),
-        along.dot(&input.slip_velocity_b).abs(),
-    );
-    turned_by(&turned, &input.normal_b, angle * lag_of_turn(ratio, decay)) * radius
+/// Displacements that took eight bristles over a circle. Vectors are in one frame, in the contact planes.
+pub(super) struct SlipPath<S: Simd> {
+    /// Unit normals of the contacts.
+    pub normal: Vectors<S>,
+    /// Deflections before, m.
+    pub carried: Vectors<S>,
+    /// u, m.
+    pub slip: Vectors<S>,
+    /// v_t, m/s.
+    pub slip_velocity: Vectors<S>,
+    /// Radius of the circle that they left, m: larger than that of the other where one stuck until then.
+    pub left_at: Numbers<S>,
+    /// Radius of the circle that they stand on, p_k, m.
+    pub radius: Numbers<S>,
 }
 
-/// Where the circle was left on a straight way.
-struct Traversal {
-    /// Unit vector of the bristle there. It points along the way or across it, never back, where any of the way is left.
-    direction: Vec3,
+/// Where the circles were left on straight ways.
+struct Traversal<S: Simd> {
+    /// Unit vectors of the bristles there. They point along the way or across it, never back, where any of the way is left.
+    direction: Vectors<S>,
     /// The part of the way that was left, m.
-    left: f64,
+    left: Numbers<S>,
 }
 
-impl Traversal {
+impl<S: Simd> SlipPath<S> {
+    /// The bristles on the circles of `radius`, m. One without a way stays on its circle.
+    #[inline(always)]
+    pub fn end(&self, simd: S) -> Vectors<S> {
+        let zero = Numbers::splat(simd, 0.0);
+        let length = self.slip.norm();
+        let along = self.slip * zero.all(1.0).over(length);
+        let way = Traversal::after_leaving(self.carried, along, length, self.left_at);
+        let moves = zero.below(way.left);
+        // Far beyond where anything is left of the first direction: a load that has all but gone leaves all but no radius.
+        const LARGEST_RATIO: f64 = 1e300;
+        let ratio = way.left.over(self.radius.larger(way.left * zero.all(1.0 / LARGEST_RATIO)));
+        let decay = ratio.exp_of_minus();
+        let turned = turned_towards(way.direction, along, decay);
+        // A velocity that points back along the path is not the end of a smooth one; so mirrored, the angle has no jump there.
+        let velocity = self.slip_velocity;
+        let angle = self.normal.dot(along.cross(velocity)).angle_above(along.dot(velocity).abs());
+        let turned = turned_by(turned, self.normal, angle * lag_of_turn(ratio, decay));
+        Vectors::select(moves, turned, way.direction) * self.radius
+    }
+}
+
+impl<S: Simd> Traversal<S> {
     /// From `start` along a unit vector to an end outside of the circle of radius `circle`: where it leaves that circle for
     /// the last time, or comes nearest to it. The load may have fallen, so that all of the way lies outside.
     ///
     /// The place is built from the point of the line that is nearest to the middle. Summed up from the start it would be
     /// rounding alone where the circle is far smaller than the bristle was: under a load that has all but gone.
     #[inline(always)]
-    fn after_leaving(start: &Vec3, along: &Vec3, length: f64, circle: f64) -> Self {
+    fn after_leaving(
+        start: Vectors<S>,
+        along: Vectors<S>,
+        length: Numbers<S>,
+        circle: Numbers<S>,
+    ) -> Self {
+        let zero = length.all(0.0);
         let advance = start.dot(along);
         let nearest = start - along * advance;
-        let half_chord = (circle * circle - nearest.norm_squared()).max(0.0).sqrt();
+        let half_chord = (circle * circle - nearest.norm_squared()).larger(zero).sqrt();
         let passed = half_chord - advance;
-        if passed >= length {
-            let end = start + along * length;
-            return Self { direction: unit_or(&end, *along), left: 0.0 };
-        }
-        let place = if passed > 0.0 { nearest + along * half_chord } else { *start };
-        Self { direction: unit_or(&place, *along), left: length - passed.max(0.0) }
+        let is_at_end = passed.at_least(length);
+        let is_passed = zero.below(passed);
+        let place = Vectors::select(is_passed, nearest + along * half_chord, start);
+        let place = Vectors::select(is_at_end, start + along * length, place);
+        let left = Numbers::select(is_at_end, zero, length - passed.larger(zero));
+        Self { direction: place.unit_or(along), left }
     }
-}
-
-/// The unit vector along `v`; `other` where `v` is too short to have a direction.
-#[inline(always)]
-fn unit_or(v: &Vec3, other: Vec3) -> Vec3 {
-    let length = v.norm();
-    if length > 0.0 { v / length.max(f64::MIN_POSITIVE) } else { other }
 }
 
 /// `direction` after ψ has become 2·atan(tan(ψ/2)·decay), ψ its angle to `along`, at most 90°; all unit vectors.
 #[inline(always)]
-fn turned_towards(direction: &Vec3, along: &Vec3, decay: f64) -> Vec3 {
+fn turned_towards<S: Simd>(direction: Vectors<S>, along: Vectors<S>, decay: Numbers<S>) -> Vectors<S> {
+    let (one, two) = (decay.all(1.0), decay.all(2.0));
     let cosine = direction.dot(along);
     let across = direction - along * cosine;
-    let factor = decay / (1.0 + cosine);
+    // Where nothing of the way is left the angle may be more; nobody asks for that.
+    let factor = decay.over((one + cosine).larger(decay.all(0.5)));
     let tangent_squared = across.norm_squared() * factor * factor;
-    (along * (1.0 - tangent_squared) + across * (2.0 * factor)) / (1.0 + tangent_squared)
+    (along * (one - tangent_squared) + across * (two * factor)) * one.over(one + tangent_squared)
 }
 
-/// A vector across `normal`, turned about it by an angle, rad.
+/// Vectors across `normal`, turned about it by angles, rad.
 #[inline(always)]
-fn turned_by(vector: &Vec3, normal: &Vec3, angle: f64) -> Vec3 {
-    let (sine, cosine) = libm::sincos(angle);
-    vector * cosine + normal.cross(vector) * sine
+fn turned_by<S: Simd>(vectors: Vectors<S>, normal: Vectors<S>, angle: Numbers<S>) -> Vectors<S> {
+    let (sine, cosine) = angle.sin_cos();
+    vectors * cosine + normal.cross(vectors) * sine
 }
 
 /// 1 − 2(1 − e⁻ᶻ)/z + e⁻ᶻ, which is Σ (k − 1)·(−z)ᵏ/(k + 1)! over k from 2.
 #[inline(always)]
-fn lag_of_turn(z: f64, decay: f64) -> f64 {
-    if z >= SERIES_MAX {
-        return 1.0 - 2.0 * (1.0 - decay) / z + decay;
-    }
-    const TERMS: i32 = 10;
-    let (mut power, mut factorial, mut sum) = (-z, 2.0, 0.0);
-    for k in 2..2 + TERMS {
-        power *= -z;
-        factorial *= f64::from(k + 1);
-        sum += power * f64::from(k - 1) / factorial;
-    }
-    sum
+fn lag_of_turn<S: Simd>(z: Numbers<S>, decay: Numbers<S>) -> Numbers<S> {
+    let (one, two) = (z.all(1.0), z.all(2.0));
+    let closed = one - (two * (one - decay)).over(z) + decay;
+    let small = z.smaller(z.all(SERIES_MAX));
+    let series = small * small * small.series(&LAG);
+    Numbers::select(z.at_least(z.all(SERIES_MAX)), closed, series)
 }
+
+/// (k − 1)·(−1)ᵏ/(k + 1)!, for k from 2.
+const LAG: [f64; 10] = {
+    let mut coefficients = [0.0; 10];
+    let mut factorial = 2.0;
+    let mut index = 0;
+    while index < 10 {
+        let k = (index + 2) as f64;
+        factorial *= k + 1.0;
+        let sign = if index % 2 == 0 { 1.0 } else { -1.0 };
+        coefficients[index] = sign * (k - 1.0) / factorial;
+        index += 1;
+    }
+    coefficients
+};
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pong_geometry::Vec3;
+    use pong_geometry::simd::{LANES, Portable};
 
     const RADIUS: f64 = 3e-5;
 
-    fn input(carried: Vec3, slip: Vec3, slip_velocity: Vec3) -> FrictionInput<'static> {
-        FrictionInput {
-            normal_force: 1.0,
-            normal_b: Vec3::z(),
-            slip_b: slip,
-            slip_velocity_b: slip_velocity,
-            share: 1.0,
-            stiffness: 1.0,
-            carried_b: carried,
-            stuck: false,
-            parameters: &[],
-        }
+    /// Where one bristle ends, in every lane.
+    fn on_circle([carried, slip, slip_velocity]: [Vec3; 3], left_at: f64, radius: f64) -> Vec3 {
+        let all = |v: Vec3| Vectors::splat(Portable, &v);
+        let path = SlipPath {
+            normal: all(Vec3::z()),
+            carried: all(carried),
+            slip: all(slip),
+            slip_velocity: all(slip_velocity),
+            left_at: Numbers::splat(Portable, left_at),
+            radius: Numbers::splat(Portable, radius),
+        };
+        let [x, y, z] = path.end(Portable).store();
+        let of = |lane: usize| Vec3::new(x[lane], y[lane], z[lane]);
+        (1..LANES).for_each(|lane| assert_eq!(of(lane), of(0)));
+        of(0)
+    }
+
+    fn lag(z: f64) -> f64 {
+        let z = Numbers::splat(Portable, z);
+        lag_of_turn(z, z.exp_of_minus()).store()[0]
     }
 
     fn at_angle(angle: f64) -> Vec3 {
@@ -164,7 +192,7 @@ mod tests {
         for (angle, length) in [(0.3, 1e-6), (1.2, 2e-5), (1.57, 1e-4), (-0.8, 5e-5)] {
             let start = at_angle(angle) * RADIUS;
             let way = Vec3::x() * length;
-            let got = on_circle(&input(start, way, Vec3::x()), RADIUS, RADIUS);
+            let got = on_circle([start, way, Vec3::x()], RADIUS, RADIUS);
             let slow = dragged(start, |s| way * s);
             assert!((got - slow).norm() < 1e-9 * RADIUS, "{angle} {length}: {got:?}, slowly {slow:?}");
         }
@@ -175,7 +203,7 @@ mod tests {
     fn a_bristle_first_fills_its_circle() {
         for start in [Vec3::new(0.2, 0.7, 0.0), Vec3::zeros(), Vec3::new(-0.8, 0.6, 0.0)] {
             let (start, way) = (start * RADIUS, Vec3::x() * 2.5 * RADIUS);
-            let got = on_circle(&input(start, way, Vec3::x()), RADIUS, RADIUS);
+            let got = on_circle([start, way, Vec3::x()], RADIUS, RADIUS);
             let slow = dragged(start, |s| way * s);
             assert!((got - slow).norm() < 1e-9 * RADIUS, "{got:?}, slowly {slow:?}");
         }
@@ -194,7 +222,7 @@ mod tests {
                 Vec3::new(sine + libm::sin(turn), libm::cos(turn) - cosine, 0.0) * radius
             };
             let start = at_angle(-1.5 * turn) * RADIUS;
-            let got = on_circle(&input(start, place(1.0), at_angle(turn)), RADIUS, RADIUS);
+            let got = on_circle([start, place(1.0), at_angle(turn)], RADIUS, RADIUS);
             (got - dragged(start, place)).norm() / RADIUS
         };
         let errors = [0.2, 0.1, 0.05].map(error);
@@ -208,9 +236,9 @@ mod tests {
     fn the_series_of_the_lag_is_its_closed_form() {
         for z in [0.2, 0.2499, 0.25, 0.3] {
             let closed = 1.0 - 2.0 * (1.0 - libm::exp(-z)) / z + libm::exp(-z);
-            assert!((lag_of_turn(z, libm::exp(-z)) - closed).abs() < 1e-14, "{z}");
+            assert!((lag(z) - closed).abs() < 1e-14, "{z}");
         }
-        assert!((lag_of_turn(1e-6, libm::exp(-1e-6)) / (1e-12 / 6.0) - 1.0).abs() < 1e-6);
+        assert!((lag(1e-6) / (1e-12 / 6.0) - 1.0).abs() < 1e-6);
     }
 
     /// A load that has all but gone leaves a circle far smaller than the bristle, which the way crosses through its middle.
@@ -221,7 +249,7 @@ mod tests {
             for part in [1.0 / 3.0, 0.5, 0.7] {
                 let heading = Vec3::new(0.6, -0.8, 0.0);
                 let (start, way) = (heading * (-part * RADIUS), heading * RADIUS);
-                let got = on_circle(&input(start, way, heading), circle, circle);
+                let got = on_circle([start, way, heading], circle, circle);
                 assert!((got - heading * circle).norm() <= 1e-9 * circle, "{circle:e}: {got:?}");
             }
         }
@@ -235,7 +263,7 @@ mod tests {
         for step in 0..=200_000 {
             let height = 0.9 + 0.2 * f64::from(step) / 200_000.0;
             let start = Vec3::new(-1.2, height, 0.0) * RADIUS;
-            let got = on_circle(&input(start, Vec3::x() * 2.0 * RADIUS, Vec3::y()), RADIUS, RADIUS);
+            let got = on_circle([start, Vec3::x() * 2.0 * RADIUS, Vec3::y()], RADIUS, RADIUS);
             if let Some(last) = last {
                 // Where the way touches the circle the chord grows as a root: 2·√(2·1e-6).
                 assert!((got - last).norm() < 4e-3 * RADIUS, "{height}");

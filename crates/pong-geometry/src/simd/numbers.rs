@@ -1,0 +1,260 @@
+//! Eight numbers, and eight vectors, that are written as one is.
+
+use super::arithmetic::Simd;
+use super::lanes::LANES;
+use crate::{Mat3, Transform, Vec3};
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// Eight numbers in registers.
+#[derive(Clone, Copy)]
+pub struct Numbers<S: Simd> {
+    simd: S,
+    eight: S::Eight,
+}
+
+impl<S: Simd> Numbers<S> {
+    /// One number, eight times.
+    #[inline(always)]
+    pub fn splat(simd: S, value: f64) -> Self {
+        Self { simd, eight: simd.splat(value) }
+    }
+
+    /// Eight numbers from memory.
+    #[inline(always)]
+    pub fn load(simd: S, values: &[f64; LANES]) -> Self {
+        Self { simd, eight: simd.load(values) }
+    }
+
+    /// Into memory.
+    #[inline(always)]
+    pub fn store(self) -> [f64; LANES] {
+        self.simd.store(self.eight)
+    }
+
+    /// This number, eight times.
+    #[inline(always)]
+    pub fn all(self, value: f64) -> Self {
+        Self::splat(self.simd, value)
+    }
+
+    /// `self / divisor`, and a number of no meaning where the divisor is zero: see [`Simd::ratio`].
+    #[inline(always)]
+    pub fn over(self, divisor: Self) -> Self {
+        Self { eight: self.simd.ratio(self.eight, divisor.eight), ..self }
+    }
+
+    /// Square roots; none may be negative.
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        Self { eight: self.simd.sqrt(self.eight), ..self }
+    }
+
+    /// `if self > other { self } else { other }`.
+    #[inline(always)]
+    pub fn larger(self, other: Self) -> Self {
+        Self { eight: self.simd.larger(self.eight, other.eight), ..self }
+    }
+
+    /// `if self < other { self } else { other }`.
+    #[inline(always)]
+    pub fn smaller(self, other: Self) -> Self {
+        Self::select(self.below(other), self, other)
+    }
+
+    /// Without their signs.
+    #[inline(always)]
+    pub fn abs(self) -> Self {
+        self.larger(-self)
+    }
+
+    /// `self < other`.
+    #[inline(always)]
+    pub fn below(self, other: Self) -> S::Mask {
+        self.simd.below(self.eight, other.eight)
+    }
+
+    /// `self ≥ other`.
+    #[inline(always)]
+    pub fn at_least(self, other: Self) -> S::Mask {
+        self.simd.at_least(self.eight, other.eight)
+    }
+
+    /// `a` where the mask holds, else `b`.
+    #[inline(always)]
+    pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
+        Self { eight: a.simd.select(mask, a.eight, b.eight), ..a }
+    }
+
+    /// `self · 2ⁿ`, exactly, with `n` in the lowest bits of a number `n + 1.5·2⁵²`. The product must be a normal number.
+    #[inline(always)]
+    pub(super) fn scaled(self, power: Self) -> Self {
+        Self { eight: self.simd.scaled(self.eight, power.eight), ..self }
+    }
+}
+
+impl<S: Simd> Add for Numbers<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { eight: self.simd.add(self.eight, other.eight), ..self }
+    }
+}
+
+impl<S: Simd> Sub for Numbers<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { eight: self.simd.sub(self.eight, other.eight), ..self }
+    }
+}
+
+impl<S: Simd> Mul for Numbers<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Self { eight: self.simd.mul(self.eight, other.eight), ..self }
+    }
+}
+
+/// Zero less the number: of zero, plus zero.
+impl<S: Simd> Neg for Numbers<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        self.all(0.0) - self
+    }
+}
+
+/// Eight vectors in registers.
+#[derive(Clone, Copy)]
+#[allow(missing_docs)]
+pub struct Vectors<S: Simd> {
+    pub x: Numbers<S>,
+    pub y: Numbers<S>,
+    pub z: Numbers<S>,
+}
+
+impl<S: Simd> Vectors<S> {
+    /// One vector, eight times.
+    #[inline(always)]
+    pub fn splat(simd: S, v: &Vec3) -> Self {
+        Self { x: Numbers::splat(simd, v.x), y: Numbers::splat(simd, v.y), z: Numbers::splat(simd, v.z) }
+    }
+
+    /// Eight vectors from memory, coordinate by coordinate.
+    #[inline(always)]
+    pub fn load(simd: S, [x, y, z]: &[[f64; LANES]; 3]) -> Self {
+        Self { x: Numbers::load(simd, x), y: Numbers::load(simd, y), z: Numbers::load(simd, z) }
+    }
+
+    /// Into memory, coordinate by coordinate.
+    #[inline(always)]
+    pub fn store(self) -> [[f64; LANES]; 3] {
+        [self.x.store(), self.y.store(), self.z.store()]
+    }
+
+    /// The products with other vectors.
+    #[inline(always)]
+    pub fn dot(self, other: Self) -> Numbers<S> {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The vectors across these and others.
+    #[inline(always)]
+    pub fn cross(self, other: Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+
+    /// Squares of the lengths.
+    #[inline(always)]
+    pub fn norm_squared(self) -> Numbers<S> {
+        self.dot(self)
+    }
+
+    /// Lengths.
+    #[inline(always)]
+    pub fn norm(self) -> Numbers<S> {
+        self.norm_squared().sqrt()
+    }
+
+    /// Unit vectors along these; `other` where one is too short to have a direction.
+    #[inline(always)]
+    pub fn unit_or(self, other: Self) -> Self {
+        let length = self.norm();
+        let has_length = length.all(0.0).below(length);
+        Self::select(has_length, self * length.all(1.0).over(length), other)
+    }
+
+    /// `a` where the mask holds, else `b`.
+    #[inline(always)]
+    pub fn select(mask: S::Mask, a: Self, b: Self) -> Self {
+        Self {
+            x: Numbers::select(mask, a.x, b.x),
+            y: Numbers::select(mask, a.y, b.y),
+            z: Numbers::select(mask, a.z, b.z),
+        }
+    }
+
+    /// Carried by one rotation, or its inverse: the products with the rows of a matrix.
+    #[inline(always)]
+    pub fn turned(self, rotation: &Mat3) -> Self {
+        Self { x: self.times_row(rotation, 0), y: self.times_row(rotation, 1), z: self.times_row(rotation, 2) }
+    }
+
+    #[inline(always)]
+    fn times_row(self, rotation: &Mat3, row: usize) -> Numbers<S> {
+        let along_x = self.x.all(rotation[(row, 0)]) * self.x;
+        let along_y = self.y.all(rotation[(row, 1)]) * self.y;
+        along_x + along_y + self.z.all(rotation[(row, 2)]) * self.z
+    }
+
+    /// Points in another frame.
+    #[inline(always)]
+    pub fn carried(self, simd: S, transform: &Transform) -> Self {
+        self.turned(&transform.rotation) + Self::splat(simd, &transform.translation)
+    }
+}
+
+impl<S: Simd> Add for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { x: self.x + other.x, y: self.y + other.y, z: self.z + other.z }
+    }
+}
+
+impl<S: Simd> Sub for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { x: self.x - other.x, y: self.y - other.y, z: self.z - other.z }
+    }
+}
+
+impl<S: Simd> Mul<Numbers<S>> for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: Numbers<S>) -> Self {
+        Self { x: self.x * factor, y: self.y * factor, z: self.z * factor }
+    }
+}
+
+impl<S: Simd> Neg for Vectors<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self { x: -self.x, y: -self.y, z: -self.z }
+    }
+}
