@@ -32,6 +32,15 @@ impl Lanes {
         let points = Loaded::new(simd, self);
         Self { x: points.coordinate(x, 0), y: points.coordinate(x, 1), z: points.coordinate(x, 2) }
     }
+
+    /// The same, written in place.
+    #[inline(always)]
+    pub fn carry_in<S: Simd>(&self, simd: S, x: &Transform, out: &mut Self) {
+        let points = Loaded::new(simd, self);
+        out.x = points.coordinate(x, 0);
+        out.y = points.coordinate(x, 1);
+        out.z = points.coordinate(x, 2);
+    }
 }
 
 struct Carry<'a> {

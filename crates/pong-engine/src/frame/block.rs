@@ -4,7 +4,7 @@ use crate::frame::broad_phase::blocks::batches_of_b;
 use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
-use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::chunk::{Chunk, ChunkSpace};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
@@ -74,6 +74,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut found = ChunkCandidates::new(found, deferred);
+        let mut space = ChunkSpace::NOTHING;
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
@@ -93,7 +94,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     &of_a,
                     &reach,
                     (traversal, candidates),
-                    carried,
+                    (carried, &mut space),
                     &mut found,
                     counts,
                     &mut watch,
@@ -106,14 +107,12 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     let shared = load_sharing::assign_weights(&context, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::collect(&context, sealed, found.list, out);
+                    forces::compute_forces(&context, sealed, found.list, out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }
             }
         }
-        forces::compute_forces(&context, out);
-        laps.lap(Work::Forces, &mut out.times);
         laps.lap(Work::BroadPhase, &mut out.times);
     }
 }
@@ -151,7 +150,7 @@ fn test_chunk<S: Simd, L: Laps>(
     of_a: &ChunkOfA<'_>,
     reach: &[Reach<'_>],
     (mut traversal, candidates): (Option<Traversal>, &mut CandidatePairs),
-    carried: &mut Table<TransformedPrimitive>,
+    space: (&mut Table<TransformedPrimitive>, &mut ChunkSpace),
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
     watch: &mut Watched<'_, L>,
@@ -159,7 +158,7 @@ fn test_chunk<S: Simd, L: Laps>(
     let context = of_a.context;
     let meets_triangles = reach.iter().any(|reach| reach.batch.kind == PrimitiveKind::Triangle);
     let from = (context.body_a, of_a.batch);
-    let chunk = Chunk::new(simd, from, of_a.first, &context.motion.x_ba, meets_triangles, carried);
+    let chunk = Chunk::new(simd, from, of_a.first, &context.motion.x_ba, meets_triangles, space);
     loop {
         let mut through = true;
         if let Some(traversal) = &mut traversal {

@@ -90,6 +90,7 @@ fn find_contacts(
         blocks::lay_out(scene, sealed, pairs, input, counts, &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);
+    caller.out.settle();
     caller.out.times.add(&layout);
     counts.add(&caller.out.counts);
     times.work = caller.out.times;

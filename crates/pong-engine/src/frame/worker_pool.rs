@@ -111,8 +111,8 @@ impl WorkerPool {
         }
         let took_part = |other: &WorkerContext| other.out.phase == input.phase;
         let whole = self.shared.contexts.iter().all(|other| {
-            let other = locked(other);
-            !took_part(&other) || context.out.absorb(&other.out)
+            let mut other = locked(other);
+            !took_part(&other) || context.out.absorb(&mut other.out)
         });
         if whole {
             let contexts = self.times.iter_mut().zip(&self.shared.contexts);

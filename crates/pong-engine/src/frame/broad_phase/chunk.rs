@@ -5,7 +5,7 @@ use pong_arena::Table;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
 use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
-use pong_geometry::simd::{LANES, LaneBits, Simd};
+use pong_geometry::simd::{LANES, LaneBits, Numbers, Simd};
 use pong_geometry::{Transform, Vec3};
 use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
@@ -15,14 +15,29 @@ pub(crate) struct Chunk<'a, 'l> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
     /// Points and spheres: their centres in B's frame.
-    pub centers: Lanes,
+    pub centers: &'l Lanes,
     /// Points and spheres: their radii, m.
     pub radii: &'a [f64; LANES],
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
     carried: &'l [TransformedPrimitive],
-    pub boxes: LaneBoxes,
+    boxes: &'l LaneBoxes,
     /// Balls around spheres and ellipsoids that may meet triangles.
-    balls: Option<LaneBalls>,
+    balls: Option<&'l LaneBalls>,
+}
+
+/// Where a chunk is written: to move it costs more than to work it out.
+pub(crate) struct ChunkSpace {
+    centers: Lanes,
+    boxes: LaneBoxes,
+    balls: LaneBalls,
+}
+
+impl ChunkSpace {
+    pub const NOTHING: Self = Self {
+        centers: Lanes::ORIGIN,
+        boxes: LaneBoxes { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] },
+        balls: LaneBalls { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
+    };
 }
 
 /// A box of a tree in B's frame, m; infinite where it has no bound.
@@ -58,35 +73,37 @@ impl<'a, 'l> Chunk<'a, 'l> {
         first: u32,
         x_ba: &Transform,
         meets_triangles: bool,
-        carried: &'l mut Table<TransformedPrimitive>,
+        (carried, space): (&'l mut Table<TransformedPrimitive>, &'l mut ChunkSpace),
     ) -> Self {
         let start = batch.items.start + first;
         let end = batch.items.end.min(start + LANES as u32);
         let items = &body.tree.items[start as usize..end as usize];
-        let (mut centers, mut radii) = (Lanes::ORIGIN, &[0.0; LANES]);
-        let boxes = match &batch.balls {
+        let ChunkSpace { centers, boxes, balls } = space;
+        let mut radii = &[0.0; LANES];
+        match &batch.balls {
             Some(balls) => {
                 let place = first as usize / LANES;
-                centers = balls.centers[place].carried_in(simd, x_ba);
+                balls.centers[place].carry_in(simd, x_ba, centers);
                 radii = &balls.radii[place];
-                LaneBoxes::of_balls(&centers, radii)
+                boxes.set_to_balls(simd, centers, radii);
             }
             None => {
                 carry_each(body, items, x_ba, carried);
                 if carried.len() == items.len() {
-                    LaneBoxes::of_each(carried.iter().map(|one| one.bounds(meets_triangles)))
+                    boxes.set_to_each(carried.iter().map(|one| one.bounds(meets_triangles)));
                 } else {
                     let lanes = 0..items.len() as u32;
-                    LaneBoxes::of_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)))
+                    boxes.set_to_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)));
                 }
             }
-        };
-        let balls = match batch.kind {
-            PrimitiveKind::Sphere if meets_triangles => Some(LaneBalls::new(&centers, radii)),
-            PrimitiveKind::Ellipsoid if meets_triangles => Some(LaneBalls::around(carried)),
-            _ => None,
-        };
-        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }
+        }
+        let has_balls = meets_triangles && matches!(batch.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid);
+        match batch.kind {
+            PrimitiveKind::Sphere if has_balls => balls.set(centers, radii),
+            PrimitiveKind::Ellipsoid if has_balls => balls.set_around(carried),
+            _ => {}
+        }
+        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls: has_balls.then_some(&*balls) }
     }
 
     /// Which elements reach an element of B.
@@ -102,9 +119,9 @@ impl<'a, 'l> Chunk<'a, 'l> {
     /// The box around the first element, and the ball if there is one, as a tree sees them.
     #[inline(always)]
     pub fn first_narrowed(&self, tree: &BoxTree) -> (NarrowBox, Option<NarrowBall>) {
-        let LaneBoxes { low: [x, y, z], high: [u, v, w] } = &self.boxes;
+        let LaneBoxes { low: [x, y, z], high: [u, v, w] } = self.boxes;
         let around = tree.narrowed(&Vec3::new(x[0], y[0], z[0]), &Vec3::new(u[0], v[0], w[0]));
-        (around, self.balls.as_ref().map(|balls| balls.first_narrowed(tree)))
+        (around, self.balls.map(|balls| balls.first_narrowed(tree)))
     }
 
     /// The lanes that hold elements.
@@ -180,16 +197,14 @@ impl WideBox {
 
 impl LaneBoxes {
     #[inline(always)]
-    fn of_balls(centers: &Lanes, radii: &[f64; LANES]) -> Self {
-        let mut boxes = Self { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] };
+    fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
+        let radius = Numbers::load(simd, radii);
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
-            for lane in 0..LANES {
-                let half = radii[lane] + margin(center[lane].abs() + radii[lane]);
-                boxes.low[axis][lane] = center[lane] - half;
-                boxes.high[axis][lane] = center[lane] + half;
-            }
+            let center = Numbers::load(simd, center);
+            let half = radius + (center.abs() + radius) * radius.all(4.0 * RELATIVE_MARGIN);
+            self.low[axis] = (center - half).store();
+            self.high[axis] = (center + half).store();
         }
-        boxes
     }
 
     /// Boxes around turned boxes of A.
@@ -210,16 +225,15 @@ impl LaneBoxes {
         boxes
     }
 
-    fn of_each(bounds: impl Iterator<Item = (Vec3, Vec3)>) -> Self {
-        let mut boxes = Self { low: [[f64::MAX; LANES]; 3], high: [[-f64::MAX; LANES]; 3] };
+    fn set_to_each(&mut self, bounds: impl Iterator<Item = (Vec3, Vec3)>) {
+        *self = Self { low: [[f64::MAX; LANES]; 3], high: [[-f64::MAX; LANES]; 3] };
         for (lane, (low, high)) in bounds.enumerate() {
             for axis in 0..3 {
                 let extra = margin(low[axis].abs().max(high[axis].abs()));
-                boxes.low[axis][lane] = low[axis] - extra;
-                boxes.high[axis][lane] = high[axis] + extra;
+                self.low[axis][lane] = low[axis] - extra;
+                self.high[axis][lane] = high[axis] + extra;
             }
         }
-        boxes
     }
 
     /// Which of the boxes a box of a tree meets.
@@ -264,24 +278,20 @@ impl LaneBoxes {
 
 impl LaneBalls {
     #[inline(always)]
-    fn new(centers: &Lanes, radii: &[f64; LANES]) -> Self {
+    fn set(&mut self, centers: &Lanes, radii: &[f64; LANES]) {
         let with_room = |lane: usize| {
             let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
             radii[lane] + margin(size + radii[lane])
         };
-        let mut balls = Self {
-            centers: [centers.x, centers.y, centers.z],
-            squares: [0.0; LANES],
-            first_radius: with_room(0),
-        };
-        for (lane, square) in balls.squares.iter_mut().enumerate() {
+        self.centers = [centers.x, centers.y, centers.z];
+        self.first_radius = with_room(0);
+        for (lane, square) in self.squares.iter_mut().enumerate() {
             let radius = with_room(lane);
             *square = radius * radius;
         }
-        balls
     }
 
-    fn around(carried: &[TransformedPrimitive]) -> Self {
+    fn set_around(&mut self, carried: &[TransformedPrimitive]) {
         let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
         for (lane, one) in carried.iter().enumerate() {
             if let TransformedPrimitive::Ellipsoid(ellipsoid) = one {
@@ -290,7 +300,7 @@ impl LaneBalls {
                 radii[lane] = ellipsoid.semi_axes.max();
             }
         }
-        Self::new(&centers, &radii)
+        self.set(&centers, &radii);
     }
 
     /// Which of the balls reach a box of a tree.

@@ -9,8 +9,6 @@ use pong_geometry::{Vec3, Wrench};
 pub(crate) struct FrameContact {
     // testers, sharing
     pub found: ContactCandidate,
-    /// The part of the pair's bristle that the contact carries.
-    pub bristle_share: f64,
     // forces
     /// Contact point c, m. This and the vectors below are in B's frame.
     pub point_b: Vec3,
@@ -42,7 +40,6 @@ impl FrameContact {
     pub fn blank() -> Self {
         Self {
             found: ContactCandidate::NOTHING,
-            bristle_share: 1.0,
             point_b: Vec3::zeros(),
             rate: 0.0,
             normal_force: 0.0,

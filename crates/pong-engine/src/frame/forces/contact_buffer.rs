@@ -1,5 +1,6 @@
 //! Contacts as they are found, in no order, with room for so many and the demand for more.
 
+use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::report::{FrameCounts, WorkTimes};
@@ -14,8 +15,8 @@ pub(crate) struct ContactBuffer {
     pub phase: u64,
     /// Contacts, in no order.
     pub contacts: Table<FrameContact>,
-    /// How many of them have their forces: the first.
-    pub settled: usize,
+    /// Those of them whose friction is still to be worked out.
+    pub(super) bristles: WaitingBristles,
     /// Numbers of registered friction laws, as many for every contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
@@ -71,7 +72,7 @@ impl ContactBuffer {
         Self {
             phase: 0,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
-            settled: 0,
+            bristles: WaitingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
@@ -85,17 +86,11 @@ impl ContactBuffer {
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
-        self.settled = 0;
+        self.bristles.clear();
         self.law_state.clear();
         self.demand = CapacityDemand::default();
         self.counts.clear();
         self.times = WorkTimes::default();
-    }
-
-    /// Whether there is no room for one contact more.
-    #[inline]
-    pub fn is_full(&self) -> bool {
-        self.contacts.len() == self.contacts.capacity()
     }
 
     /// The numbers of a contact.
@@ -116,29 +111,40 @@ impl ContactBuffer {
     /// Forgets all that came after a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
-        self.settled = checkpoint.contacts;
         self.law_state.truncate(checkpoint.contacts * self.law_state_len);
         self.demand = checkpoint.demand;
         self.counts = checkpoint.counts;
     }
 
+    /// Works out all friction that waits.
+    pub fn settle(&mut self) {
+        self.bristles.settle(&mut self.contacts);
+    }
+
+    /// The same, if no more can wait.
+    #[inline(always)]
+    pub fn settle_if_full(&mut self) {
+        if self.bristles.is_full() {
+            self.settle();
+        }
+    }
+
     /// Takes over all that another buffer found; whether there was room.
-    pub fn absorb(&mut self, other: &Self) -> bool {
+    pub fn absorb(&mut self, other: &mut Self) -> bool {
+        other.settle();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
-        self.settled = self.contacts.len();
         self.demand.add(&other.demand);
         self.counts.add(&other.counts);
         room && !other.demand.overflowed
     }
 
-    /// A place for one more contact of this role. The caller writes what was found. Where there is no room the deepest so far stay,
-    /// which must have their forces, if this buffer can rank them; else the contact is lost (`None`) and the whole phase must be done
-    /// again by one that can.
+    /// A place for one more contact of this role; the caller writes it. Where there is no room the deepest so far stay, if this
+    /// buffer can rank them; else the contact is lost (`None`) and the whole phase must be done again by one that can.
     #[inline]
-    pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<&mut FrameContact> {
+    pub fn slot(&mut self, role: ContactRole, sealed: &Sealed) -> Option<usize> {
         self.demand.count(role);
-        if self.is_full() {
+        if self.contacts.len() == self.contacts.capacity() {
             self.demand.overflowed = true;
             if self.ranked.capacity() == 0 {
                 return None;
@@ -148,12 +154,14 @@ impl ContactBuffer {
         for _ in 0..self.law_state_len {
             self.law_state.push(0.0).expect("as much room as for contacts");
         }
-        Some(self.contacts.slot().expect("ranking makes room"))
+        self.contacts.slot().expect("ranking makes room");
+        Some(self.contacts.len() - 1)
     }
 
     /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties
     /// by the order of sums.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
+        self.settle();
         let ranked = &mut self.ranked;
         ranked.clear();
         let counts = |contact: &FrameContact| contact.found.status != CandidateStatus::Culled;
@@ -183,7 +191,6 @@ impl ContactBuffer {
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);
         }
         self.contacts.truncate(ranked.len());
-        self.settled = ranked.len();
         self.law_state.truncate(ranked.len() * self.law_state_len);
     }
 }

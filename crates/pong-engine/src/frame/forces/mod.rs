@@ -1,29 +1,34 @@
 //! Normal and friction force of every contact.
 
+mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
-mod eight;
-mod friction;
 pub(crate) mod reference_point;
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::buffers::Place;
+use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
-use crate::law::PairProps;
+use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone, shortened};
+use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::sealed::Sealed;
-use crate::state::{ContactKey, ContactRole};
+use crate::state::{ContactRecord, ContactRole};
+use bristles::{Bristle, wrenches};
+use contact::FrameContact;
 use contact_buffer::ContactBuffer;
-use eight::Forces;
-use pong_geometry::simd;
+use pong_geometry::pose::carry_by_smallest_rotation;
+use pong_geometry::{Vec3, Wrench};
+use reference_point::reference_point;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
 const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 
-/// Hands what was found for a chunk of A to the buffer, in the order of sums. Its forces are worked out when there is enough of it.
+/// Computes the forces of what was found for a chunk of A, in the order of sums, and hands it to the buffer. Bristles wait
+/// there for others.
 #[inline(always)]
-pub(crate) fn collect(
+pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
     found: &[ContactCandidate],
@@ -32,24 +37,11 @@ pub(crate) fn collect(
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
-            if out.is_full() {
-                // Whatever is kept then must have its forces: they are of this pair of groups alone.
-                compute_forces(context, out);
+            if let Some(place) = out.slot(one.role, sealed) {
+                context.compute_force(one, bristle_share(one, counts()), place, out);
             }
-            let Some(contact) = out.slot(one.role, sealed) else { continue };
-            contact.found = *one;
-            contact.bristle_share = bristle_share(one, counts());
         }
     }
-}
-
-/// Works out the forces of all contacts that have none yet; all of them are of one direction.
-pub(crate) fn compute_forces(context: &PairContext<'_>, out: &mut ContactBuffer) {
-    let (first, count) = (out.settled, out.contacts.len() - out.settled);
-    if count > 0 {
-        simd::run(Forces { context, out, count, index: |number| first + number });
-    }
-    out.settled = out.contacts.len();
 }
 
 /// Computes forces again, after some of their keys were left out by a limit: what is left carries the bristle.
@@ -58,37 +50,22 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
+    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index as usize].found.key;
     let mut rest = order.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
-        let of_direction = rest.iter().take_while(|place| key_of(out, place).direction() == key.direction());
-        let of_pair;
-        (of_pair, rest) = rest.split_at(of_direction.count());
-        share_bristles(out, of_pair);
+        let group;
+        (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
         let motion = motions.known(near, input, key.direction());
         let context = PairContext::new(scene, sealed, input, key.direction(), &motion);
-        let index = |number: usize| of_pair[number].index as usize;
-        simd::run(Forces { context: &context, out, count: of_pair.len(), index });
-    }
-}
-
-fn key_of(out: &ContactBuffer, place: &Place) -> ContactKey {
-    out.contacts[place.index as usize].found.key
-}
-
-/// Shares the bristles out among contacts of one key.
-fn share_bristles(out: &mut ContactBuffer, mut places: &[Place]) {
-    while let Some(first) = places.first() {
-        let key = key_of(out, first);
-        let of_key = places.iter().take_while(|place| key_of(out, place) == key).count();
-        let group;
-        (group, places) = places.split_at(of_key);
         for place in group {
-            let found = group.iter().map(|place| &out.contacts[place.index as usize].found);
-            let share = bristle_share(&out.contacts[place.index as usize].found, found);
-            out.contacts[place.index as usize].bristle_share = share;
+            let found = out.contacts[place.index as usize].found;
+            let share =
+                bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
+            context.compute_force(&found, share, place.index as usize, out);
         }
     }
+    out.settle();
 }
 
 /// h·w/Σw: the part of the pair's bristle that a contact carries.
@@ -109,6 +86,23 @@ pub(crate) fn bristle_share<'f>(
     if whole > contact.weight { half * contact.weight / whole } else { half }
 }
 
+/// A contact whose friction is asked for.
+struct Slipping<'f> {
+    found: &'f ContactCandidate,
+    /// c, m, in B's frame, as the next.
+    point: Vec3,
+    /// Of A past B in the tangent plane, m/s.
+    slip_velocity: Vec3,
+    /// Normal force, N.
+    pressed: f64,
+    /// The committed record that it continues.
+    continues: Option<usize>,
+    /// The part of the pair's bristle that it carries.
+    share: f64,
+    /// Where it stands in the buffer.
+    place: usize,
+}
+
 impl PairContext<'_> {
     /// The values of the two surfaces of a contact.
     #[inline]
@@ -116,5 +110,146 @@ impl PairContext<'_> {
         let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
         let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
         self.table.props(surface_a, surface_b)
+    }
+
+    /// Fills in all of a contact, but leaves the friction of a bristle to the buffer.
+    ///
+    /// Every number is written once, and what is needed again is not read back from there: the processor would wait for it.
+    #[inline(always)]
+    fn compute_force(&self, found: &ContactCandidate, share: f64, place: usize, out: &mut ContactBuffer) {
+        let props = self.props(found);
+        let point = found.deepest_b + found.normal_b * (props.share_a * found.depth);
+        let velocity = self.motion.velocity_at(&point);
+        let closing = -found.normal_b.dot(&velocity);
+        let slip_velocity = velocity + found.normal_b * closing;
+        let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
+        let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
+        let (mut pressed, mut stored, mut of_force) = (0.0, 0.0, [Wrench::zero(); 2]);
+        out.law_state_mut(place).fill(0.0);
+        if found.role == ContactRole::Active {
+            let weight = found.full_weight();
+            pressed = normal_force(props, weight, found.depth, closing);
+            stored = stored_energy(props, weight, found.depth);
+            let slipping = Slipping { found, point, slip_velocity, pressed, continues, share, place };
+            let waits = pressed > 0.0 && {
+                let friction = self.friction_force(&slipping, props, out);
+                output = friction.unwrap_or(output);
+                friction.is_none()
+            };
+            if !waits {
+                of_force =
+                    wrenches(&self.motion.x_ba, &(found.normal_b * pressed + output.force_b), &point);
+            }
+        }
+        // Whoever gives a contact one more field is told here.
+        let FrameContact {
+            found: as_found,
+            point_b,
+            rate,
+            normal_force,
+            friction_force_b,
+            slip_velocity_b,
+            bristle_b,
+            wrenches,
+            stored: in_springs,
+            sticks,
+            continues: continued,
+            work,
+            dissipated,
+        } = &mut out.contacts[place];
+        *as_found = *found;
+        (*point_b, *rate, *normal_force) = (point, closing, pressed);
+        (*friction_force_b, *slip_velocity_b) = (output.force_b, slip_velocity);
+        (*bristle_b, *sticks) = (output.bristle_b, output.sticks);
+        (*wrenches, *in_springs) = (of_force, stored + output.stored);
+        *continued = continues.map(|record| record as u32);
+        (*work, *dissipated) = (0.0, 0.0);
+        out.settle_if_full();
+    }
+
+    /// Friction of a contact that is pressed; `None` of a bristle, which waits for others.
+    #[inline(always)]
+    fn friction_force(
+        &self,
+        contact: &Slipping<'_>,
+        props: &PairProps,
+        out: &mut ContactBuffer,
+    ) -> Option<FrictionOutput> {
+        if matches!(props.friction, FrictionProps::None) {
+            return Some(FrictionOutput::free());
+        }
+        let record = contact.continues.map(|index| &self.memory.records[index]);
+        if let Some(index) = contact.continues {
+            out.law_state_mut(contact.place).copy_from_slice(self.memory.law_state_of(index));
+        }
+        let carried = record.map_or(Vec3::zeros(), |record| {
+            carry_by_smallest_rotation(&record.bristle_b, &record.normal_b, &contact.found.normal_b)
+        });
+        let stuck = record.is_none_or(|record| record.sticks);
+        if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction {
+            out.bristles.add(
+                contact.place,
+                &Bristle {
+                    x_ba: &self.motion.x_ba,
+                    normal: contact.found.normal_b,
+                    carried,
+                    slip: self.slip(contact, record),
+                    slip_velocity: contact.slip_velocity,
+                    stiffness: contact.share * stiffness,
+                    damping: contact.share * damping,
+                    kinetic_limit: mu_kinetic * contact.pressed,
+                    static_limit: mu_static * contact.pressed,
+                    stuck,
+                },
+            );
+            return None;
+        }
+        // Coulomb's law asks for the velocity alone.
+        let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
+        let input = FrictionInput {
+            normal_force: contact.pressed,
+            normal_b: contact.found.normal_b,
+            slip_b: if asks_slip { self.slip(contact, record) } else { Vec3::zeros() },
+            slip_velocity_b: contact.slip_velocity,
+            share: contact.share,
+            stiffness: 0.0,
+            carried_b: carried,
+            stuck,
+            parameters: &[],
+        };
+        Some(friction_alone(&props.friction, &input, out.law_state_mut(contact.place)))
+    }
+
+    /// φ, worked out once for all contacts of the pair.
+    fn rotation(&self, since: &SinceCommit) -> Vec3 {
+        self.rotation_b.get().unwrap_or_else(|| {
+            let rotation = since.rotation();
+            self.rotation_b.set(Some(rotation));
+            rotation
+        })
+    }
+
+    /// u, in the present contact plane: the displacement of A since the last commit where it touches,
+    ///
+    /// ```text
+    /// Δo + φ × ½[(c₀ − o₀) + (c₁ − o₁)]
+    /// ```
+    ///
+    /// with the mean of the levers then and now: the lever of the start alone lets a ball that rolls and spins slip by the
+    /// spin times the way that its contact has moved. A contact that is born has only the present lever, and of its
+    /// displacement the part since the touch, as if the approach Δn had been even.
+    #[inline(always)]
+    fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
+        let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
+        let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
+        let before = since.x_ba.point(&reference);
+        let now = self.motion.x_ba.point(&reference);
+        let present = contact.point - now;
+        let lever = earlier.map_or(present, |earlier| ((earlier.point_b - before) + present) * 0.5);
+        let displacement = now - before + self.rotation(since).cross(&lever);
+        let approach = -contact.found.normal_b.dot(&displacement);
+        let across = displacement + contact.found.normal_b * approach;
+        let depth = contact.found.depth;
+        if earlier.is_none() { shortened(across, approach, depth) } else { across }
     }
 }

@@ -47,3 +47,10 @@ impl SinceCommit {
         rotation_vector(&self.rotation)
     }
 }
+
+impl Motion {
+    /// Velocity of A's material point at `c` less that of B's, m/s.
+    pub fn velocity_at(&self, c: &Vec3) -> Vec3 {
+        self.linear_b + self.omega_a_b.cross(&(c - self.x_ba.translation)) - self.omega_b_b.cross(c)
+    }
+}

@@ -76,8 +76,8 @@ impl<'a> Target<'a> {
         }
         let polyhedron = &self.context.body_b.polyhedra[self.item_b.element as usize];
         match chunk.kind {
-            PrimitiveKind::Point => near & polyhedron.lanes_inside_or_at_wall_in(simd, &chunk.centers),
-            PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, &chunk.centers, chunk.radii),
+            PrimitiveKind::Point => near & polyhedron.lanes_inside_or_at_wall_in(simd, chunk.centers),
+            PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, chunk.centers, chunk.radii),
             _ => near,
         }
     }

@@ -120,7 +120,7 @@ pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
 
 /// The same of eight.
 #[inline(always)]
-pub(crate) fn shortened_each<S: Simd>(
+fn shortened_each<S: Simd>(
     vectors: Vectors<S>,
     length: Numbers<S>,
     limit: Numbers<S>,

@@ -6,21 +6,20 @@ mod coulomb;
 mod force;
 mod slip_path;
 
-pub(crate) use bristle::{Bristles, shortened, shortened_each};
+pub(crate) use bristle::{BristleForces, Bristles, shortened};
 pub use force::{FrictionForce, FrictionInput, FrictionOutput};
 
 use super::props::FrictionProps;
 
-/// Friction force of one contact with `input.normal_force > 0` by a law that is worked out for one contact alone; `None`
-/// of the bristle.
+/// Friction force of one contact with `input.normal_force > 0` by a law that is worked out for one contact alone. A bristle is
+/// not, and gives none here.
 pub(crate) fn friction_alone(
     props: &FrictionProps,
     input: &FrictionInput<'_>,
     state: &mut [f64],
-) -> Option<FrictionOutput> {
-    Some(match props {
-        FrictionProps::None => FrictionOutput::free(),
-        FrictionProps::Bristle { .. } => return None,
+) -> FrictionOutput {
+    match props {
+        FrictionProps::None | FrictionProps::Bristle { .. } => FrictionOutput::free(),
         FrictionProps::Coulomb { mu, slip_speed } => coulomb::evaluate(*mu, *slip_speed, input),
         FrictionProps::Custom { law, stiffness, parameters } => {
             let input = FrictionInput { stiffness: *stiffness, parameters, ..*input };
@@ -28,5 +27,5 @@ pub(crate) fn friction_alone(
             let along_normal = input.normal_b * input.normal_b.dot(&output.force_b);
             FrictionOutput { force_b: output.force_b - along_normal, ..output }
         }
-    })
+    }
 }

@@ -1,0 +1,162 @@
+//! The bristles of contacts that wait until there are eight of them, whichever pairs of movable groups they belong to.
+
+use super::contact::FrameContact;
+use crate::law::friction::{BristleForces, Bristles};
+use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Numbers, Simd, Vectors};
+use pong_geometry::{Transform, Vec3, Wrench};
+
+/// Vectors, coordinate by coordinate, one for each lane.
+type Lanes = [[f64; LANES]; 3];
+
+/// What the friction of one contact is worked out from. Vectors are in B's frame.
+pub(super) struct Bristle<'a> {
+    /// From A's frame to B's.
+    pub x_ba: &'a Transform,
+    /// Unit normal.
+    pub normal: Vec3,
+    /// Deflection carried into the present contact plane, m.
+    pub carried: Vec3,
+    /// u, m.
+    pub slip: Vec3,
+    /// v_t, m/s.
+    pub slip_velocity: Vec3,
+    /// K, N/m.
+    pub stiffness: f64,
+    /// c, N·s/m.
+    pub damping: f64,
+    /// μ_k·F_n, N.
+    pub kinetic_limit: f64,
+    /// μ_s·F_n, N.
+    pub static_limit: f64,
+    /// Whether it stuck at the last commit.
+    pub stuck: bool,
+}
+
+/// Up to eight contacts whose friction is still to be worked out.
+#[derive(Debug)]
+pub(super) struct WaitingBristles {
+    count: usize,
+    /// Where in their buffer the contacts stand.
+    places: [u32; LANES],
+    x_ba: [Transform; LANES],
+    normal: Lanes,
+    carried: Lanes,
+    slip: Lanes,
+    slip_velocity: Lanes,
+    stiffness: [f64; LANES],
+    damping: [f64; LANES],
+    kinetic_limit: [f64; LANES],
+    static_limit: [f64; LANES],
+    stuck: LaneBits,
+}
+
+impl WaitingBristles {
+    pub fn new() -> Self {
+        const NOTHING: Lanes = [[0.0; LANES]; 3];
+        Self {
+            count: 0,
+            places: [0; LANES],
+            x_ba: [Transform::identity(); LANES],
+            normal: NOTHING,
+            carried: NOTHING,
+            slip: NOTHING,
+            slip_velocity: NOTHING,
+            stiffness: [0.0; LANES],
+            damping: [0.0; LANES],
+            kinetic_limit: [0.0; LANES],
+            static_limit: [0.0; LANES],
+            stuck: 0,
+        }
+    }
+
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    pub fn is_full(&self) -> bool {
+        self.count == LANES
+    }
+
+    /// One more; there must be room.
+    #[inline(always)]
+    pub fn add(&mut self, place: usize, one: &Bristle<'_>) {
+        let lane = self.count;
+        self.count += 1;
+        self.places[lane] = place as u32;
+        self.x_ba[lane] = *one.x_ba;
+        put(&mut self.normal, lane, &one.normal);
+        put(&mut self.carried, lane, &one.carried);
+        put(&mut self.slip, lane, &one.slip);
+        put(&mut self.slip_velocity, lane, &one.slip_velocity);
+        self.stiffness[lane] = one.stiffness;
+        self.damping[lane] = one.damping;
+        self.kinetic_limit[lane] = one.kinetic_limit;
+        self.static_limit[lane] = one.static_limit;
+        self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
+    }
+
+    /// Works out all friction that waits.
+    #[inline]
+    pub fn settle(&mut self, contacts: &mut [FrameContact]) {
+        if self.count > 0 {
+            simd::run(Settle { bristles: self, contacts });
+            self.count = 0;
+        }
+    }
+}
+
+struct Settle<'a> {
+    bristles: &'a WaitingBristles,
+    contacts: &'a mut [FrameContact],
+}
+
+impl Kernel for Settle<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) {
+        let Self { bristles: waiting, contacts } = self;
+        // Lanes to spare hold what was worked out before, or nothing.
+        let forces = Bristles {
+            stiffness: Numbers::load(simd, &waiting.stiffness),
+            damping: Numbers::load(simd, &waiting.damping),
+            kinetic_limit: Numbers::load(simd, &waiting.kinetic_limit),
+            static_limit: Numbers::load(simd, &waiting.static_limit),
+            normal: Vectors::load(simd, &waiting.normal),
+            carried: Vectors::load(simd, &waiting.carried),
+            slip: Vectors::load(simd, &waiting.slip),
+            slip_velocity: Vectors::load(simd, &waiting.slip_velocity),
+            stuck: waiting.stuck | !(LaneBits::MAX >> (LANES - waiting.count)),
+        }
+        .evaluate(simd);
+        let BristleForces { force, bristle, stored, sticks } = forces;
+        let (force, bristle, stored) = (force.store(), bristle.store(), stored.store());
+        for lane in 0..waiting.count {
+            let contact = &mut contacts[waiting.places[lane] as usize];
+            contact.friction_force_b = get(&force, lane);
+            contact.bristle_b = get(&bristle, lane);
+            contact.stored += stored[lane];
+            contact.sticks = sticks >> lane & 1 == 1;
+            let whole = contact.found.normal_b * contact.normal_force + contact.friction_force_b;
+            contact.wrenches = wrenches(&waiting.x_ba[lane], &whole, &contact.point_b);
+        }
+    }
+}
+
+/// What a force on A at a point is to the movable groups; both in B's frame.
+#[inline(always)]
+pub(super) fn wrenches(x_ba: &Transform, force_b: &Vec3, point_b: &Vec3) -> [Wrench; 2] {
+    let force_a = x_ba.rotation.tr_mul(force_b);
+    let arm_a = x_ba.rotation.tr_mul(&(point_b - x_ba.translation));
+    [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, point_b)]
+}
+
+#[inline(always)]
+fn get(lanes: &Lanes, lane: usize) -> Vec3 {
+    Vec3::new(lanes[0][lane], lanes[1][lane], lanes[2][lane])
+}
+
+#[inline(always)]
+fn put(lanes: &mut Lanes, lane: usize, v: &Vec3) {
+    (lanes[0][lane], lanes[1][lane], lanes[2][lane]) = (v.x, v.y, v.z);
+}
