@@ -159,11 +159,14 @@ impl std::ops::AddAssign for Wrench {
 
 /// Rotation vector (axis times angle in rad, angle in 0…π) of a rotation.
 ///
-/// Uses +, −, ×, ÷ and √ alone, so that every machine gives the same bits: the half angle is halved three more
-/// times by the half-angle identity, where the arctangent's series converges to rounding in thirteen terms.
+/// Uses +, −, ×, ÷ and √ alone, so that every machine gives the same bits: the half angle is halved by the half-angle
+/// identity until its tangent is so small, as that of a frame's rotation is from the start, that the arctangent's series
+/// converges to rounding in thirteen terms. At most three halvings do.
 pub fn rotation_vector(q: &Quat) -> Vec3 {
-    const HALVINGS: i32 = 3;
+    /// Square of tan(π/16).
+    const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;
     const TERMS: i32 = 13;
+    let mut factor = 2.0;
     let mut w = q.w;
     let mut v = q.imag();
     if w < 0.0 {
@@ -171,11 +174,12 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
         v = -v;
     }
     // (1 + w, v) points along the square root of the rotation.
-    for _ in 0..HALVINGS {
+    while v.norm_squared() > SQUARE_MAX * (w * w) {
         let half = 1.0 + w;
         let norm = (half * half + v.norm_squared()).sqrt();
         w = half / norm;
         v /= norm;
+        factor *= 2.0;
     }
     let tangent = v / w;
     let square = tangent.norm_squared();
@@ -184,7 +188,7 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
         ratio = 1.0 / f64::from(2 * k + 1) - square * ratio;
     }
     // The quaternion's angle is half the rotation's.
-    tangent * (ratio * 2.0 * f64::from(1 << HALVINGS))
+    tangent * (ratio * factor)
 }
 
 /// Carries `p`, a vector across the unit normal `from`, by the smallest rotation that takes `from` into `to`.

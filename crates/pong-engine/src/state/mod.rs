@@ -1,6 +1,7 @@
 //! Contact state: all that the engine remembers between frames (docs/theory.md, 5).
 
 mod block;
+mod lookup;
 mod memory;
 mod merge;
 mod poses;
@@ -11,7 +12,8 @@ mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
-pub(crate) use memory::{ContactMemory, Remembered, SAME_WAY_COSINE_MIN};
+pub(crate) use lookup::{RecordLookup, SAME_WAY_COSINE_MIN};
+pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
 pub(crate) use records::Records;

@@ -71,14 +71,19 @@ impl Records {
         self.heads.truncate(len);
     }
 
-    /// Where the records under one key are.
+    /// Where the records are whose keys have one head.
     #[inline]
-    pub fn under(&self, key: &ContactKey) -> Range<usize> {
-        let head = key.head();
+    pub fn of_head(&self, head: u64) -> Range<usize> {
         let first = self.heads.partition_point(|&other| other < head);
         let same = self.heads[first..].iter().take_while(|&&other| other == head).count();
-        // Few keys have a head in common.
-        let of_head = &self.records[first..first + same];
+        first..first + same
+    }
+
+    /// Where the records under one key are, among those of its head: few keys have a head in common.
+    #[inline]
+    pub fn under(&self, key: &ContactKey, of_head: Range<usize>) -> Range<usize> {
+        let first = of_head.start;
+        let of_head = &self.records[of_head];
         let before = of_head.iter().take_while(|record| record.key < *key).count();
         let count = of_head[before..].iter().take_while(|record| record.key == *key).count();
         first + before..first + before + count

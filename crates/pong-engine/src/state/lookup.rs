@@ -1,0 +1,104 @@
+//! Looks up what is remembered of contacts while a frame is worked out.
+
+use super::memory::ContactMemory;
+use super::record::{ContactKey, ContactRecord, ContactRole};
+use pong_geometry::Vec3;
+use pong_geometry::interference::Feature;
+use std::cell::Cell;
+use std::ops::{Deref, Range};
+
+/// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
+pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
+
+/// Places that were found last: a tester asks for the records of a contact, and its force asks once more.
+const PLACES: usize = 8;
+
+/// Committed contact state, and where the records that were asked for last stand in it.
+#[derive(Clone, Debug)]
+pub(crate) struct RecordLookup<'a> {
+    memory: &'a ContactMemory,
+    /// By the lowest bits of the primitive of A. Nothing but the time depends on them.
+    recent: [Cell<Place>; PLACES],
+}
+
+/// Where the records of a head are.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    head: u64,
+    first: u32,
+    count: u32,
+}
+
+impl Place {
+    /// No key has this head: its pair would be beyond any.
+    const NONE: Self = Self { head: u64::MAX, first: 0, count: 0 };
+}
+
+impl<'a> RecordLookup<'a> {
+    pub fn new(memory: &'a ContactMemory) -> Self {
+        Self { memory, recent: [const { Cell::new(Place::NONE) }; PLACES] }
+    }
+
+    /// The records under one key, with the index of the first.
+    #[inline]
+    pub fn under(&self, key: &ContactKey) -> (usize, &'a [ContactRecord]) {
+        let found = self.memory.records.under(key, self.of_head(key.head()));
+        (found.start, &self.memory.records[found])
+    }
+
+    #[inline]
+    fn of_head(&self, head: u64) -> Range<usize> {
+        let recent = &self.recent[head as usize % PLACES];
+        let mut place = recent.get();
+        if place.head != head {
+            let found = self.memory.records.of_head(head);
+            place = Place { head, first: found.start as u32, count: found.len() as u32 };
+            recent.set(place);
+        }
+        place.first as usize..(place.first + place.count) as usize
+    }
+
+    /// The record of the given role that a present contact with normal `n` continues: the one under its key with
+    /// the normal n' nearest to it, ties by feature, if n·n' exceeds [`SAME_WAY_COSINE_MIN`].
+    ///
+    /// Nearest is told by |n − n'|, which is exact: the cosines of normals 1e-8 apart and nearer are all one, and among
+    /// the faces of a plate folded by so little a contact would continue another's bristle.
+    #[inline(always)]
+    pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: ContactRole) -> Option<usize> {
+        let (first, records) = self.under(key);
+        let mut best: Option<(usize, f64)> = None;
+        let same_way = |record: &ContactRecord| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
+        let all = records.iter().enumerate();
+        for (i, record) in all.filter(|(_, record)| record.role == role && same_way(record)) {
+            let apart = (record.normal_b - normal).norm_squared();
+            let closer = best.is_none_or(|(b, least)| {
+                apart < least || (apart == least && record.feature < records[b].feature)
+            });
+            if closer {
+                best = Some((i, apart));
+            }
+        }
+        best.map(|(i, _)| first + i)
+    }
+
+    /// The role of the record that is nearest to a present contact, of whatever role: of the nearest normal, as for
+    /// [`matching`](Self::matching), and where several have that normal, the contact's own feature.
+    pub fn role_of_nearest(&self, key: &ContactKey, normal: &Vec3, feature: Feature) -> Option<ContactRole> {
+        let (_, records) = self.under(key);
+        let same_way = records.iter().filter(|record| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN);
+        let apart = |record: &ContactRecord| (record.normal_b - normal).norm_squared();
+        let is_other = |record: &ContactRecord| record.feature != feature.0;
+        let nearest = same_way.min_by(|a, b| {
+            apart(a).total_cmp(&apart(b)).then(is_other(a).cmp(&is_other(b))).then(a.feature.cmp(&b.feature))
+        });
+        nearest.map(|record| record.role)
+    }
+}
+
+impl Deref for RecordLookup<'_> {
+    type Target = ContactMemory;
+
+    fn deref(&self) -> &ContactMemory {
+        self.memory
+    }
+}
