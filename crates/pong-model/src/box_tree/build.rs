@@ -61,7 +61,7 @@ impl BoxTree {
         }
         let parts = root_up(elements.len().div_ceil(WIDTH), levels);
         let mut lane = 0;
-        deal(elements, parts, &mut |part, start| {
+        deal(elements, (parts, WIDTH.pow(levels - 1)), &mut |part, start| {
             let (child, one) = self.add_node(part, first + start, levels - 1);
             self.nodes[index].set(lane, &one, child);
             around = around.join(&one);
@@ -85,19 +85,23 @@ fn root_up(bottoms: usize, levels: u32) -> usize {
     (1..).find(|width: &usize| width.pow(levels) >= bottoms).expect("numbers do not end")
 }
 
-/// Cuts elements into parts of as many bottom nodes each, give or take one, by halving across the longest side;
+/// Cuts elements into parts of nearly as many bottom nodes each, and no more than `most`, by halving across the longest side;
 /// hands out every part with its start.
 fn deal<T: Copy + Ord>(
     elements: &mut [Boxed<T>],
-    parts: usize,
+    (parts, most): (usize, usize),
     take: &mut dyn FnMut(&mut [Boxed<T>], usize),
 ) {
-    deal_from(elements, parts, 0, take);
+    deal_from(elements, (parts, most), 0, take);
 }
+
+/// Parts of so many bottom nodes, and larger ones, begin at multiples of eight of them: what asks a tree of as many chunks at
+/// a time then finds eight of one part together.
+const WHOLE_GROUPS_FROM: usize = 2 * WIDTH;
 
 fn deal_from<T: Copy + Ord>(
     elements: &mut [Boxed<T>],
-    parts: usize,
+    (parts, most): (usize, usize),
     start: usize,
     take: &mut dyn FnMut(&mut [Boxed<T>], usize),
 ) {
@@ -105,16 +109,22 @@ fn deal_from<T: Copy + Ord>(
         return take(elements, start);
     }
     let bottoms = elements.len().div_ceil(WIDTH);
-    let left_parts = parts / 2;
-    let left_bottoms = bottoms / parts * left_parts + (bottoms % parts).min(left_parts);
+    let (left_parts, right_parts) = (parts / 2, parts - parts / 2);
+    let mut left_bottoms = bottoms / parts * left_parts + (bottoms % parts).min(left_parts);
+    if bottoms / parts >= WHOLE_GROUPS_FROM {
+        let nearest = (left_bottoms + WIDTH / 2) / WIDTH * WIDTH;
+        if nearest <= left_parts * most && bottoms - nearest <= right_parts * most {
+            left_bottoms = nearest;
+        }
+    }
     let middle = left_bottoms * WIDTH;
     let axis = longest_axis(elements);
     elements.select_nth_unstable_by(middle, |a, b| {
         a.center(axis).total_cmp(&b.center(axis)).then(a.item.cmp(&b.item))
     });
     let (left, right) = elements.split_at_mut(middle);
-    deal_from(left, left_parts, start, take);
-    deal_from(right, parts - left_parts, start + middle, take);
+    deal_from(left, (left_parts, most), start, take);
+    deal_from(right, (right_parts, most), start + middle, take);
 }
 
 fn longest_axis<T>(elements: &[Boxed<T>]) -> usize {

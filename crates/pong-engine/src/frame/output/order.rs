@@ -9,12 +9,12 @@ use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::ContactRole;
+use crate::state::{ContactRole, Records};
 
 /// Puts the contacts in order, whoever found them.
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { scene, sealed, .. } = *given;
-    let mut pushing = list(frame);
+    let EvaluationInput { scene, sealed, memory, .. } = *given;
+    let mut pushing = list(&memory.records, frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
         pushing = frame.pushing().count();
@@ -30,7 +30,7 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
-        kept = list(frame);
+        kept = list(&memory.records, frame);
         forces::recompute_forces(given, frame);
     }
     if demand.unshared {
@@ -43,21 +43,64 @@ fn saturated(count: u64) -> u32 {
     count.try_into().unwrap_or(u32::MAX)
 }
 
+/// Contacts below this are simply sorted.
+const WORTH_COUNTING: usize = 24;
+
 /// Lists all contacts in order; how many of them push.
-fn list(frame: &mut EvaluationBuffers) -> usize {
+fn list(records: &Records, frame: &mut EvaluationBuffers) -> usize {
     frame.order.clear();
-    let mut pushing = 0;
+    let (mut pushing, mut lasting) = (0, 0);
     for (index, contact) in frame.caller.out.contacts.iter().enumerate() {
         pushing += usize::from(contact.found.role == ContactRole::Active);
+        lasting += usize::from(contact.continues.is_some());
         let place = Place { head: contact.found.key.head(), index: index as u32 };
         frame.order.push(place).expect("as many places as contacts");
     }
-    frame.order.sort_unstable_by_key(|place| place.head);
+    let count = frame.order.len();
+    if count < WORTH_COUNTING || lasting * 2 < count {
+        frame.order.sort_unstable_by_key(|place| place.head);
+    } else {
+        put_where_they_were(records, frame);
+    }
     let contacts = &frame.caller.out.contacts;
     for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
     }
     pushing
+}
+
+/// Sorts the contacts by the heads of their keys: most continue a record, and the records stand in order.
+///
+/// Each is put where its record stands, or where one of its head would, and few that stand at one place are then moved.
+fn put_where_they_were(records: &Records, frame: &mut EvaluationBuffers) {
+    let EvaluationBuffers { caller, order, .. } = frame;
+    let WorkerContext { scratch, out, .. } = caller;
+    scratch.reset();
+    let room = "sealing has sized the scratch";
+    let starts = scratch.slice(records.len() + 2, 0_u32).expect(room);
+    let ranks = scratch.slice(order.len(), (0_u32, 0_u64)).expect(room);
+    for ((rank, place), contact) in ranks.iter_mut().zip(order.iter()).zip(out.contacts.iter()) {
+        let place_of_head = || records.of_head(place.head).start as u32;
+        *rank = (contact.continues.unwrap_or_else(place_of_head), place.head);
+        starts[rank.0 as usize + 1] += 1;
+    }
+    let mut before = 0;
+    for start in starts.iter_mut() {
+        before += *start;
+        *start = before;
+    }
+    for (index, &(rank, head)) in ranks.iter().enumerate() {
+        let place = &mut starts[rank as usize];
+        order[*place as usize] = Place { head, index: index as u32 };
+        *place += 1;
+    }
+    for last in 1..order.len() {
+        let mut at = last;
+        while at > 0 && order[at - 1].head > order[at].head {
+            order.swap(at - 1, at);
+            at -= 1;
+        }
+    }
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
