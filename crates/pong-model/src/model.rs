@@ -46,6 +46,8 @@ pub struct MovableGroup {
     pub initial_pose: Option<Pose>,
     /// Every primitive in file order; a mesh is one primitive.
     pub primitives: Vec<PrimitiveInfo>,
+    /// The surface of every primitive once more, closely packed: a frame asks for little else of most.
+    pub surfaces: Vec<u32>,
     /// All points.
     pub points: Vec<Point>,
     /// All line segments.

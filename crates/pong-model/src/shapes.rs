@@ -132,6 +132,7 @@ fn body_of(corners: &[[Vec3; 3]]) -> MovableGroup {
         });
     }
     let count = corners.len() as u32;
+    body.surfaces.push(0);
     body.primitives.push(PrimitiveInfo {
         name: String::new(),
         path: String::new(),

@@ -107,7 +107,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     let shared = load_sharing::assign_weights(&context, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, found.list, out);
+                    forces::compute_forces(&context, sealed, (batch_a.kind, found.list), out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }

@@ -69,6 +69,7 @@ pub(super) fn read_primitive(
         && size::check(groups.reader, draft, &info, node.at)
     {
         place_items(draft, place.group, &info);
+        draft.body.surfaces.push(info.surface);
         draft.body.primitives.push(info);
         draft.primitive_at.push(node.at);
         draft.lone_triangle.push(kind == "Triangle");

@@ -71,7 +71,9 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         let mut work = 0.0;
         let displacement = motion.since_commit.as_ref().map(|since| {
             let (body_a, _) = sealed.bodies_of(found.key.direction());
-            let reference = reference_point(scene.body(body_a), &found.key, found.element_a);
+            let body_a = scene.body(body_a);
+            let kind_a = body_a.primitives[found.key.primitive_a as usize].kind;
+            let reference = reference_point((body_a, kind_a), &found.key, found.element_a);
             Displacement::new(since, &motion.x_ba, &reference)
         });
         if let Some(displacement) = &displacement {

@@ -19,6 +19,7 @@ use bristles::{Bristle, wrenches};
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
 use pong_geometry::pose::carry_by_smallest_rotation;
+use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::{Vec3, Wrench};
 use reference_point::reference_point;
 
@@ -31,14 +32,14 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
-    found: &[ContactCandidate],
+    (kind_a, found): (PrimitiveKind, &[ContactCandidate]),
     out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             if let Some(place) = out.slot(one.role, sealed) {
-                context.compute_force(one, bristle_share(one, counts()), place, out);
+                context.compute_force((kind_a, one), bristle_share(one, counts()), place, out);
             }
         }
     }
@@ -62,7 +63,8 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             let found = out.contacts[place.index as usize].found;
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
-            context.compute_force(&found, share, place.index as usize, out);
+            let kind_a = context.body_a.primitives[key.primitive_a as usize].kind;
+            context.compute_force((kind_a, &found), share, place.index as usize, out);
         }
     }
     out.settle();
@@ -88,6 +90,7 @@ pub(crate) fn bristle_share<'f>(
 
 /// A contact whose friction is asked for.
 struct Slipping<'f> {
+    kind_a: PrimitiveKind,
     found: &'f ContactCandidate,
     /// c, m, in B's frame, as the next.
     point: Vec3,
@@ -107,8 +110,8 @@ impl PairContext<'_> {
     /// The values of the two surfaces of a contact.
     #[inline]
     pub(crate) fn props(&self, found: &ContactCandidate) -> &PairProps {
-        let surface_a = self.body_a.primitives[found.key.primitive_a as usize].surface;
-        let surface_b = self.body_b.primitives[found.primitive_b as usize].surface;
+        let surface_a = self.body_a.surfaces[found.key.primitive_a as usize];
+        let surface_b = self.body_b.surfaces[found.primitive_b as usize];
         self.table.props(surface_a, surface_b)
     }
 
@@ -116,7 +119,13 @@ impl PairContext<'_> {
     ///
     /// Every number is written once, and what is needed again is not read back from there: the processor would wait for it.
     #[inline(always)]
-    fn compute_force(&self, found: &ContactCandidate, share: f64, place: usize, out: &mut ContactBuffer) {
+    fn compute_force(
+        &self,
+        (kind_a, found): (PrimitiveKind, &ContactCandidate),
+        share: f64,
+        place: usize,
+        out: &mut ContactBuffer,
+    ) {
         let props = self.props(found);
         let point = found.deepest_b + found.normal_b * (props.share_a * found.depth);
         let velocity = self.motion.velocity_at(&point);
@@ -130,7 +139,7 @@ impl PairContext<'_> {
             let weight = found.full_weight();
             pressed = normal_force(props, weight, found.depth, closing);
             stored = stored_energy(props, weight, found.depth);
-            let slipping = Slipping { found, point, slip_velocity, pressed, continues, share, place };
+            let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
             let waits = pressed > 0.0 && {
                 let friction = self.friction_force(&slipping, props, out);
                 output = friction.unwrap_or(output);
@@ -241,7 +250,7 @@ impl PairContext<'_> {
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
-        let reference = reference_point(self.body_a, &contact.found.key, contact.found.element_a);
+        let reference = reference_point((self.body_a, contact.kind_a), &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
         let present = contact.point - now;

@@ -7,9 +7,13 @@ use pong_model::MovableGroup;
 
 /// o: the point of A that carries the bristle's reference, in A's frame: the centre of a ball, the point itself,
 /// a segment's end, a ray's tip, the end of a round part's axis.
-pub(crate) fn reference_point(body_a: &MovableGroup, key: &ContactKey, element_a: u32) -> Vec3 {
+pub(crate) fn reference_point(
+    (body_a, kind_a): (&MovableGroup, PrimitiveKind),
+    key: &ContactKey,
+    element_a: u32,
+) -> Vec3 {
     let element = element_a as usize;
-    match body_a.primitives[key.primitive_a as usize].kind {
+    match kind_a {
         PrimitiveKind::Point => body_a.points[element].position,
         PrimitiveKind::LineSegment => on_axis(&body_a.segments[element].ends, key.end),
         PrimitiveKind::Ray => body_a.rays[element].tip(),

@@ -96,7 +96,7 @@ impl Seen<'_> {
     fn line_of(&self, record: &ContactRecord) -> Option<Line> {
         let info = &self.context.body_a.primitives[record.key.primitive_a as usize];
         let element = info.elements.start;
-        self.line(&reference_point(self.context.body_a, &record.key, element))
+        self.line(&reference_point((self.context.body_a, info.kind), &record.key, element))
     }
 
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {
