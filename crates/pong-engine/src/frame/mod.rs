@@ -55,7 +55,7 @@ pub(crate) fn evaluate(
     watch.lap(Stage::Order, &mut frame.times);
     energy::balance(given, frame);
     watch.lap(Stage::Energy, &mut frame.times);
-    reduce::sum(sealed, frame);
+    reduce::sum(given, frame);
     watch.lap(Stage::Output, &mut frame.times);
 }
 

@@ -3,15 +3,13 @@
 use super::contact::FrameContact;
 use crate::law::friction::{BristleForces, Bristles};
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Numbers, Simd, Vectors};
-use pong_geometry::{Transform, Vec3, Wrench};
+use pong_geometry::Vec3;
 
 /// Vectors, coordinate by coordinate, one for each lane.
 type Lanes = [[f64; LANES]; 3];
 
 /// What the friction of one contact is worked out from. Vectors are in B's frame.
-pub(super) struct Bristle<'a> {
-    /// From A's frame to B's.
-    pub x_ba: &'a Transform,
+pub(super) struct Bristle {
     /// Unit normal.
     pub normal: Vec3,
     /// Deflection carried into the present contact plane, m.
@@ -38,7 +36,6 @@ pub(super) struct WaitingBristles {
     count: usize,
     /// Where in their buffer the contacts stand.
     places: [u32; LANES],
-    x_ba: [Transform; LANES],
     normal: Lanes,
     carried: Lanes,
     slip: Lanes,
@@ -56,7 +53,6 @@ impl WaitingBristles {
         Self {
             count: 0,
             places: [0; LANES],
-            x_ba: [Transform::identity(); LANES],
             normal: NOTHING,
             carried: NOTHING,
             slip: NOTHING,
@@ -79,11 +75,10 @@ impl WaitingBristles {
 
     /// One more; there must be room.
     #[inline(always)]
-    pub fn add(&mut self, place: usize, one: &Bristle<'_>) {
+    pub fn add(&mut self, place: usize, one: &Bristle) {
         let lane = self.count;
         self.count += 1;
         self.places[lane] = place as u32;
-        self.x_ba[lane] = *one.x_ba;
         put(&mut self.normal, lane, &one.normal);
         put(&mut self.carried, lane, &one.carried);
         put(&mut self.slip, lane, &one.slip);
@@ -137,18 +132,8 @@ impl Kernel for Settle<'_> {
             contact.bristle_b = get(&bristle, lane);
             contact.stored += stored[lane];
             contact.sticks = sticks >> lane & 1 == 1;
-            let whole = contact.found.normal_b * contact.normal_force + contact.friction_force_b;
-            contact.wrenches = wrenches(&waiting.x_ba[lane], &whole, &contact.point_b);
         }
     }
-}
-
-/// What a force on A at a point is to the movable groups; both in B's frame.
-#[inline(always)]
-pub(super) fn wrenches(x_ba: &Transform, force_b: &Vec3, point_b: &Vec3) -> [Wrench; 2] {
-    let force_a = x_ba.rotation.tr_mul(force_b);
-    let arm_a = x_ba.rotation.tr_mul(&(point_b - x_ba.translation));
-    [Wrench::of_force_at(force_a, &arm_a), Wrench::of_force_at(-force_b, point_b)]
 }
 
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::state::ContactRecord;
-use pong_geometry::{Vec3, Wrench};
+use pong_geometry::Vec3;
 
 /// A contact that counts, with its forces.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +22,6 @@ pub(crate) struct FrameContact {
     pub slip_velocity_b: Vec3,
     /// Deflection p of the bristle, m.
     pub bristle_b: Vec3,
-    /// On A about and along A's frame, on B about and along B's.
-    pub wrenches: [Wrench; 2],
     /// In the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
@@ -46,7 +44,6 @@ impl FrameContact {
             friction_force_b: Vec3::zeros(),
             slip_velocity_b: Vec3::zeros(),
             bristle_b: Vec3::zeros(),
-            wrenches: [Wrench::zero(); 2],
             stored: 0.0,
             sticks: true,
             continues: None,
@@ -56,6 +53,7 @@ impl FrameContact {
     }
 
     /// Force on A, N.
+    #[inline]
     pub fn force(&self) -> Vec3 {
         self.found.normal_b * self.normal_force + self.friction_force_b
     }

@@ -15,12 +15,12 @@ use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone, shorte
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::sealed::Sealed;
 use crate::state::{ContactRecord, ContactRole};
-use bristles::{Bristle, wrenches};
+use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::{Vec3, Wrench};
+use pong_geometry::Vec3;
 use reference_point::reference_point;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
@@ -133,21 +133,15 @@ impl PairContext<'_> {
         let slip_velocity = velocity + found.normal_b * closing;
         let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
-        let (mut pressed, mut stored, mut of_force) = (0.0, 0.0, [Wrench::zero(); 2]);
+        let (mut pressed, mut stored) = (0.0, 0.0);
         out.law_state_mut(place).fill(0.0);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
             pressed = normal_force(props, weight, found.depth, closing);
             stored = stored_energy(props, weight, found.depth);
             let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
-            let waits = pressed > 0.0 && {
-                let friction = self.friction_force(&slipping, props, out);
-                output = friction.unwrap_or(output);
-                friction.is_none()
-            };
-            if !waits {
-                of_force =
-                    wrenches(&self.motion.x_ba, &(found.normal_b * pressed + output.force_b), &point);
+            if pressed > 0.0 {
+                output = self.friction_force(&slipping, props, out);
             }
         }
         // Whoever gives a contact one more field is told here.
@@ -159,7 +153,6 @@ impl PairContext<'_> {
             friction_force_b,
             slip_velocity_b,
             bristle_b,
-            wrenches,
             stored: in_springs,
             sticks,
             continues: continued,
@@ -170,22 +163,22 @@ impl PairContext<'_> {
         (*point_b, *rate, *normal_force) = (point, closing, pressed);
         (*friction_force_b, *slip_velocity_b) = (output.force_b, slip_velocity);
         (*bristle_b, *sticks) = (output.bristle_b, output.sticks);
-        (*wrenches, *in_springs) = (of_force, stored + output.stored);
+        *in_springs = stored + output.stored;
         *continued = continues.map(|record| record as u32);
         (*work, *dissipated) = (0.0, 0.0);
         out.settle_if_full();
     }
 
-    /// Friction of a contact that is pressed; `None` of a bristle, which waits for others.
+    /// Friction of a contact that is pressed. That of a bristle is none yet: it waits for others.
     #[inline(always)]
     fn friction_force(
         &self,
         contact: &Slipping<'_>,
         props: &PairProps,
         out: &mut ContactBuffer,
-    ) -> Option<FrictionOutput> {
+    ) -> FrictionOutput {
         if matches!(props.friction, FrictionProps::None) {
-            return Some(FrictionOutput::free());
+            return FrictionOutput::free();
         }
         let record = contact.continues.map(|index| &self.memory.records[index]);
         if let Some(index) = contact.continues {
@@ -199,7 +192,6 @@ impl PairContext<'_> {
             out.bristles.add(
                 contact.place,
                 &Bristle {
-                    x_ba: &self.motion.x_ba,
                     normal: contact.found.normal_b,
                     carried,
                     slip: self.slip(contact, record),
@@ -211,7 +203,7 @@ impl PairContext<'_> {
                     stuck,
                 },
             );
-            return None;
+            return FrictionOutput::free();
         }
         // Coulomb's law asks for the velocity alone.
         let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
@@ -226,7 +218,7 @@ impl PairContext<'_> {
             stuck,
             parameters: &[],
         };
-        Some(friction_alone(&props.friction, &input, out.law_state_mut(contact.place)))
+        friction_alone(&props.friction, &input, out.law_state_mut(contact.place))
     }
 
     /// φ, worked out once for all contacts of the pair.

@@ -2,20 +2,66 @@
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact::FrameContact;
+use crate::frame::input::EvaluationInput;
+use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
 use crate::state::ContactRole;
-use pong_geometry::Wrench;
+use pong_geometry::{Transform, Vec3, Wrench};
 
-/// Adds every contact to both of its movable groups.
-pub(crate) fn sum(sealed: &Sealed, frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { caller, order, wrenches, .. } = frame;
-    for place in order.iter() {
-        let contact = &caller.out.contacts[place.index as usize];
-        if contact.found.role == ContactRole::Active {
-            let (body_a, body_b) = sealed.bodies_of(contact.found.key.direction());
-            wrenches[body_a] += contact.wrenches[0];
-            wrenches[body_b] += contact.wrenches[1];
+/// Adds every contact to both of its movable groups: first those of one direction of a pair together, in B's axes.
+pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
+    let EvaluationInput { sealed, memory, .. } = *given;
+    let EvaluationBuffers { input, caller, order, near, poses, twists, wrenches, .. } = frame;
+    let motions = Motions { sealed, poses, twists, committed: &memory.poses };
+    let contacts = &caller.out.contacts;
+    let mut rest = order.iter().map(|place| &contacts[place.index as usize]).peekable();
+    while let Some(first) = rest.peek() {
+        let direction = first.found.key.direction();
+        let x_ba = motions.known(near, input, direction).x_ba;
+        let mut sums = Sums::of_nothing();
+        while let Some(contact) = rest.next_if(|contact| contact.found.key.direction() == direction) {
+            if contact.found.role == ContactRole::Active {
+                sums.add(contact, &x_ba.translation);
+            }
         }
+        let (body_a, body_b) = sealed.bodies_of(direction);
+        wrenches[body_a] += sums.on_a(&x_ba);
+        wrenches[body_b] += sums.on_b();
+    }
+}
+
+/// Sums over contacts of one direction, along B's axes.
+struct Sums {
+    /// On A, N.
+    force: Vec3,
+    /// On A about A's origin, N·m.
+    about_a: Vec3,
+    /// On A about B's origin, N·m.
+    about_b: Vec3,
+}
+
+impl Sums {
+    fn of_nothing() -> Self {
+        Self { force: Vec3::zeros(), about_a: Vec3::zeros(), about_b: Vec3::zeros() }
+    }
+
+    /// One contact more, with A's origin in B's frame, m.
+    #[inline]
+    fn add(&mut self, contact: &FrameContact, origin_a: &Vec3) {
+        let (force, point) = (contact.force(), contact.point_b);
+        self.force += force;
+        self.about_a += (point - origin_a).cross(&force);
+        self.about_b += point.cross(&force);
+    }
+
+    /// The wrench on A, about and along A's frame.
+    fn on_a(&self, x_ba: &Transform) -> Wrench {
+        Wrench { force: x_ba.rotation.tr_mul(&self.force), moment: x_ba.rotation.tr_mul(&self.about_a) }
+    }
+
+    /// The wrench on B, about and along B's frame.
+    fn on_b(&self) -> Wrench {
+        Wrench { force: -self.force, moment: -self.about_b }
     }
 }
 
