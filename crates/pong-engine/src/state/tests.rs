@@ -1,6 +1,7 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
 use super::block::{StateError, largest_len, needed_len, write_block};
+use super::lookup::RecordLookup;
 use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
@@ -294,14 +295,16 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
         let mut copy = memory_of(&mut random, CAPACITY, 2);
         copy.copy_from(&memory);
         for memory in [&memory, &copy] {
+            // One for all: what it has found of one key does not stand for another.
+            let lookup = RecordLookup::new(memory);
             for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
-                let (first, same) = RecordLookup::new(&memory).under(&record.key);
+                let (first, same) = lookup.under(&record.key);
                 assert!(first <= index && index < first + same.len());
                 assert!(same.iter().all(|other| other.key == record.key));
                 assert_eq!(memory.law_state_of(index), law_state);
             }
             let mut gone = all.iter().filter(|key| is_cleared(key.group_pair as usize));
-            assert!(gone.all(|key| RecordLookup::new(&memory).under(key).1.is_empty()));
+            assert!(gone.all(|key| lookup.under(key).1.is_empty()));
         }
     }
 }
@@ -326,7 +329,8 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
             })
             .unwrap();
     }
-    let found = |normal: Vec3, role| RecordLookup::new(&memory).matching(&model.key, &normal, role);
+    let lookup = RecordLookup::new(&memory);
+    let found = |normal: Vec3, role| lookup.matching(&model.key, &normal, role);
     assert_eq!(found(Vec3::x(), ContactRole::Active), Some(0));
     // Two alike: the lower feature.
     assert_eq!(found(Vec3::z(), ContactRole::Active), Some(2));
@@ -336,7 +340,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(found(Vec3::new(0.0, 0.75_f64.sqrt(), 0.5), ContactRole::Tracked), None);
     assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
-    assert_eq!(RecordLookup::new(&memory).matching(&elsewhere, &Vec3::z(), ContactRole::Tracked), None);
+    assert_eq!(lookup.matching(&elsewhere, &Vec3::z(), ContactRole::Tracked), None);
 }
 
 /// In a buffer that has room for the largest block.

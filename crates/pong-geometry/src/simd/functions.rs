@@ -114,8 +114,8 @@ const ARCTANGENT: [f64; 11] = [
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simd::{LANES, Level, Portable, level, set_level};
     use crate::simd::{Kernel, run};
+    use crate::simd::{LANES, Level, Portable, level, set_level};
 
     struct Each<'a, F> {
         values: &'a [f64; LANES],
@@ -147,7 +147,12 @@ mod tests {
     }
 
     /// Every function at many arguments, at every level of instructions: close to `libm`, and the same bits at all.
-    fn check(function: Function, argument: impl Fn(f64) -> [f64; 2], exact: impl Fn(f64, f64) -> f64, slack: f64) {
+    fn check(
+        function: Function,
+        argument: impl Fn(f64) -> [f64; 2],
+        exact: impl Fn(f64, f64) -> f64,
+        slack: f64,
+    ) {
         const STEPS: usize = 40_000;
         let before = level();
         for step in 0..STEPS {

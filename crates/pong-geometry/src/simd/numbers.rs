@@ -2,7 +2,7 @@
 
 use super::arithmetic::Simd;
 use super::lanes::LANES;
-use crate::{Mat3, Transform, Vec3};
+use crate::Vec3;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Eight numbers in registers.
@@ -201,25 +201,6 @@ impl<S: Simd> Vectors<S> {
             y: Numbers::select(mask, a.y, b.y),
             z: Numbers::select(mask, a.z, b.z),
         }
-    }
-
-    /// Carried by one rotation, or its inverse: the products with the rows of a matrix.
-    #[inline(always)]
-    pub fn turned(self, rotation: &Mat3) -> Self {
-        Self { x: self.times_row(rotation, 0), y: self.times_row(rotation, 1), z: self.times_row(rotation, 2) }
-    }
-
-    #[inline(always)]
-    fn times_row(self, rotation: &Mat3, row: usize) -> Numbers<S> {
-        let along_x = self.x.all(rotation[(row, 0)]) * self.x;
-        let along_y = self.y.all(rotation[(row, 1)]) * self.y;
-        along_x + along_y + self.z.all(rotation[(row, 2)]) * self.z
-    }
-
-    /// Points in another frame.
-    #[inline(always)]
-    pub fn carried(self, simd: S, transform: &Transform) -> Self {
-        self.turned(&transform.rotation) + Self::splat(simd, &transform.translation)
     }
 }
 

@@ -97,7 +97,8 @@ impl<'a, 'l> Chunk<'a, 'l> {
                 }
             }
         }
-        let has_balls = meets_triangles && matches!(batch.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid);
+        let has_balls =
+            meets_triangles && matches!(batch.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid);
         match batch.kind {
             PrimitiveKind::Sphere if has_balls => balls.set(centers, radii),
             PrimitiveKind::Ellipsoid if has_balls => balls.set_around(carried),

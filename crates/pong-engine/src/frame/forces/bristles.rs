@@ -2,8 +2,8 @@
 
 use super::contact::FrameContact;
 use crate::law::friction::{BristleForces, Bristles};
-use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Numbers, Simd, Vectors};
 use pong_geometry::Vec3;
+use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Numbers, Simd, Vectors};
 
 /// Vectors, coordinate by coordinate, one for each lane.
 type Lanes = [[f64; LANES]; 3];
@@ -11,13 +11,13 @@ type Lanes = [[f64; LANES]; 3];
 /// What the friction of one contact is worked out from. Vectors are in B's frame.
 pub(super) struct Bristle {
     /// Unit normal.
-    pub normal: Vec3,
+    pub normal_b: Vec3,
     /// Deflection carried into the present contact plane, m.
-    pub carried: Vec3,
+    pub carried_b: Vec3,
     /// u, m.
-    pub slip: Vec3,
+    pub slip_b: Vec3,
     /// v_t, m/s.
-    pub slip_velocity: Vec3,
+    pub slip_velocity_b: Vec3,
     /// K, N/m.
     pub stiffness: f64,
     /// c, N·s/m.
@@ -79,10 +79,10 @@ impl WaitingBristles {
         let lane = self.count;
         self.count += 1;
         self.places[lane] = place as u32;
-        put(&mut self.normal, lane, &one.normal);
-        put(&mut self.carried, lane, &one.carried);
-        put(&mut self.slip, lane, &one.slip);
-        put(&mut self.slip_velocity, lane, &one.slip_velocity);
+        put(&mut self.normal, lane, &one.normal_b);
+        put(&mut self.carried, lane, &one.carried_b);
+        put(&mut self.slip, lane, &one.slip_b);
+        put(&mut self.slip_velocity, lane, &one.slip_velocity_b);
         self.stiffness[lane] = one.stiffness;
         self.damping[lane] = one.damping;
         self.kinetic_limit[lane] = one.kinetic_limit;

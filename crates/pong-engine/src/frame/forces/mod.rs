@@ -18,9 +18,9 @@ use crate::state::{ContactRecord, ContactRole};
 use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
+use pong_geometry::Vec3;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
-use pong_geometry::Vec3;
 use reference_point::reference_point;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
@@ -192,10 +192,10 @@ impl PairContext<'_> {
             out.bristles.add(
                 contact.place,
                 &Bristle {
-                    normal: contact.found.normal_b,
-                    carried,
-                    slip: self.slip(contact, record),
-                    slip_velocity: contact.slip_velocity,
+                    normal_b: contact.found.normal_b,
+                    carried_b: carried,
+                    slip_b: self.slip(contact, record),
+                    slip_velocity_b: contact.slip_velocity,
                     stiffness: contact.share * stiffness,
                     damping: contact.share * damping,
                     kinetic_limit: mu_kinetic * contact.pressed,
@@ -242,7 +242,8 @@ impl PairContext<'_> {
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
-        let reference = reference_point((self.body_a, contact.kind_a), &contact.found.key, contact.found.element_a);
+        let reference =
+            reference_point((self.body_a, contact.kind_a), &contact.found.key, contact.found.element_a);
         let before = since.x_ba.point(&reference);
         let now = self.motion.x_ba.point(&reference);
         let present = contact.point - now;

@@ -3,6 +3,7 @@
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::buffers::Place;
 use crate::frame::forces;
+use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
@@ -10,6 +11,7 @@ use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
 use crate::state::{ContactRole, Records};
+use pong_arena::Arena;
 
 /// Puts the contacts in order, whoever found them.
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
@@ -60,7 +62,8 @@ fn list(records: &Records, frame: &mut EvaluationBuffers) -> usize {
     if count < WORTH_COUNTING || lasting * 2 < count {
         frame.order.sort_unstable_by_key(|place| place.head);
     } else {
-        put_where_they_were(records, frame);
+        let EvaluationBuffers { caller, order, .. } = &mut *frame;
+        put_where_they_were(records, &caller.out.contacts, order, &mut caller.scratch);
     }
     let contacts = &frame.caller.out.contacts;
     for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
@@ -72,14 +75,17 @@ fn list(records: &Records, frame: &mut EvaluationBuffers) -> usize {
 /// Sorts the contacts by the heads of their keys: most continue a record, and the records stand in order.
 ///
 /// Each is put where its record stands, or where one of its head would, and few that stand at one place are then moved.
-fn put_where_they_were(records: &Records, frame: &mut EvaluationBuffers) {
-    let EvaluationBuffers { caller, order, .. } = frame;
-    let WorkerContext { scratch, out, .. } = caller;
+fn put_where_they_were(
+    records: &Records,
+    contacts: &[FrameContact],
+    order: &mut [Place],
+    scratch: &mut Arena,
+) {
     scratch.reset();
     let room = "sealing has sized the scratch";
     let starts = scratch.slice(records.len() + 2, 0_u32).expect(room);
     let ranks = scratch.slice(order.len(), (0_u32, 0_u64)).expect(room);
-    for ((rank, place), contact) in ranks.iter_mut().zip(order.iter()).zip(out.contacts.iter()) {
+    for ((rank, place), contact) in ranks.iter_mut().zip(order.iter()).zip(contacts) {
         let place_of_head = || records.of_head(place.head).start as u32;
         *rank = (contact.continues.unwrap_or_else(place_of_head), place.head);
         starts[rank.0 as usize + 1] += 1;
@@ -130,4 +136,56 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
         }
     }
     order.retain(|place| out.contacts[place.index as usize].found.status != CandidateStatus::Culled);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::{ContactKey, ContactRecord};
+    use pong_testkit::Random;
+
+    /// Of random records some go on, some more than once, and new contacts come with heads of their own or of another's.
+    #[test]
+    fn contacts_stand_by_their_keys_whether_they_last_or_are_new() {
+        let mut random = Random::new(7, 0, 0);
+        for case in 0..200 {
+            let mut heads: Vec<u32> = (0..40 + case % 40).map(|_| random.below(60) as u32).collect();
+            heads.sort_unstable();
+            let key = |primitive_a| ContactKey { primitive_a, ..ContactKey::default() };
+            let mut records = Records::with_capacity(heads.len());
+            for &head in &heads {
+                let record = ContactRecord { key: key(head), ..ContactRecord::blank() };
+                records.push_with(|slot| *slot = record).unwrap();
+            }
+            let contact = |head: u32, continues: Option<u32>| {
+                let mut contact = FrameContact { continues, ..FrameContact::blank() };
+                contact.found.key = key(head);
+                contact
+            };
+            let count = 20 + random.below(80);
+            let contacts: Vec<_> = (0..count)
+                .map(|_| match random.below(4) {
+                    0 => contact(random.below(64) as u32, None),
+                    _ => {
+                        let record = random.below(heads.len());
+                        contact(heads[record], Some(record as u32))
+                    }
+                })
+                .collect();
+            let mut order: Vec<_> = contacts
+                .iter()
+                .enumerate()
+                .map(|(index, contact)| Place { head: contact.found.key.head(), index: index as u32 })
+                .collect();
+            let mut scratch = Arena::with_capacity(64 * (order.len() + heads.len()));
+            put_where_they_were(&records, &contacts, &mut order, &mut scratch);
+            assert!(order.is_sorted_by_key(|place| place.head), "case {case}: {order:?}");
+            let mut listed: Vec<_> = order.iter().map(|place| place.index).collect();
+            listed.sort_unstable();
+            assert!(listed.iter().copied().eq(0..contacts.len() as u32), "case {case}");
+            for place in &order {
+                assert_eq!(place.head, contacts[place.index as usize].found.key.head());
+            }
+        }
+    }
 }

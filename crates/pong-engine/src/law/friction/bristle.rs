@@ -120,11 +120,7 @@ pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
 
 /// The same of eight.
 #[inline(always)]
-fn shortened_each<S: Simd>(
-    vectors: Vectors<S>,
-    length: Numbers<S>,
-    limit: Numbers<S>,
-) -> Vectors<S> {
+fn shortened_each<S: Simd>(vectors: Vectors<S>, length: Numbers<S>, limit: Numbers<S>) -> Vectors<S> {
     let longer = length.larger(limit).larger(limit.all(f64::MIN_POSITIVE));
     vectors * limit.over(longer)
 }

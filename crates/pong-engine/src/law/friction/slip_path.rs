@@ -74,12 +74,7 @@ impl<S: Simd> Traversal<S> {
     /// The place is built from the point of the line that is nearest to the middle. Summed up from the start it would be
     /// rounding alone where the circle is far smaller than the bristle was: under a load that has all but gone.
     #[inline(always)]
-    fn after_leaving(
-        start: Vectors<S>,
-        along: Vectors<S>,
-        length: Numbers<S>,
-        circle: Numbers<S>,
-    ) -> Self {
+    fn after_leaving(start: Vectors<S>, along: Vectors<S>, length: Numbers<S>, circle: Numbers<S>) -> Self {
         let zero = length.all(0.0);
         let advance = start.dot(along);
         let nearest = start - along * advance;
