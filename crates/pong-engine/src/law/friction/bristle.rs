@@ -124,3 +124,50 @@ fn shortened_each<S: Simd>(vectors: Vectors<S>, length: Numbers<S>, limit: Numbe
     let longer = length.larger(limit).larger(limit.all(f64::MIN_POSITIVE));
     vectors * limit.over(longer)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_geometry::simd::{LANES, Portable};
+    use pong_testkit::Random;
+
+    /// Eight vectors in the plane across z, of lengths up to `size`.
+    fn in_plane(random: &mut Random, size: f64) -> Vectors<Portable> {
+        let mut coordinates = [[0.0; LANES]; 3];
+        for axis in &mut coordinates[..2] {
+            axis.iter_mut().for_each(|x| *x = random.between(-size, size));
+        }
+        Vectors::load(Portable, &coordinates)
+    }
+
+    /// It is asked for once more where it then is: what sticks again is held by the static limit from then on, and that may
+    /// not change its force.
+    #[test]
+    fn what_sticks_again_has_the_same_force_as_what_sticks() {
+        let mut random = Random::new(3, 0, 0);
+        let number = |value| Numbers::splat(Portable, value);
+        let mut stick_again = 0;
+        for _ in 0..4000 {
+            let slipping = Bristles {
+                stiffness: number(1e4),
+                damping: number(random.between(0.0, 200.0)),
+                kinetic_limit: number(4.0),
+                static_limit: number(6.0),
+                normal: Vectors::splat(Portable, &Vec3::z()),
+                carried: in_plane(&mut random, 4e-4),
+                slip: in_plane(&mut random, 4e-4),
+                slip_velocity: in_plane(&mut random, 0.05),
+                stuck: 0,
+            };
+            let now = slipping.evaluate(Portable);
+            let nothing = Vectors::splat(Portable, &Vec3::zeros());
+            let stuck = Bristles { carried: now.bristle, slip: nothing, stuck: LaneBits::MAX, ..slipping };
+            let change = (stuck.evaluate(Portable).force - now.force).norm().store();
+            for lane in (0..LANES).filter(|&lane| now.sticks >> lane & 1 == 1) {
+                stick_again += 1;
+                assert!(change[lane] <= 1e-12 * 4.0, "{} N", change[lane]);
+            }
+        }
+        assert!(stick_again > 1000, "{stick_again}");
+    }
+}
