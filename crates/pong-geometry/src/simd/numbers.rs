@@ -37,10 +37,14 @@ impl<S: Simd> Numbers<S> {
         Self::splat(self.simd, value)
     }
 
-    /// `self / divisor`, and a number of no meaning where the divisor is zero: see [`Simd::ratio`].
+    /// `self / divisor` for divisors that are not negative; zero counts as the least number that there is.
+    ///
+    /// A compiler may compute a quotient in every lane and choose afterwards, whatever was chosen before it: so no divisor is
+    /// left to a choice, and what nobody looks at raises no floating-point exception either.
     #[inline(always)]
     pub fn over(self, divisor: Self) -> Self {
-        Self { eight: self.simd.ratio(self.eight, divisor.eight), ..self }
+        let divisor = divisor.larger(self.all(f64::MIN_POSITIVE));
+        Self { eight: self.simd.div(self.eight, divisor.eight), ..self }
     }
 
     /// Square roots; none may be negative.
@@ -55,10 +59,10 @@ impl<S: Simd> Numbers<S> {
         Self { eight: self.simd.larger(self.eight, other.eight), ..self }
     }
 
-    /// `if self < other { self } else { other }`.
+    /// The smaller.
     #[inline(always)]
     pub fn smaller(self, other: Self) -> Self {
-        Self::select(self.below(other), self, other)
+        -(-self).larger(-other)
     }
 
     /// Without their signs.
@@ -129,6 +133,9 @@ impl<S: Simd> Neg for Numbers<S> {
     }
 }
 
+/// Vectors that are shorter have no direction: the squares of their coordinates are no numbers of full precision.
+const SHORTEST: f64 = 1e-150;
+
 /// Eight vectors in registers.
 #[derive(Clone, Copy)]
 #[allow(missing_docs)]
@@ -189,8 +196,14 @@ impl<S: Simd> Vectors<S> {
     #[inline(always)]
     pub fn unit_or(self, other: Self) -> Self {
         let length = self.norm();
-        let has_length = length.all(0.0).below(length);
-        Self::select(has_length, self * length.all(1.0).over(length), other)
+        let has_length = length.all(SHORTEST).below(length);
+        Self::select(has_length, self.along(length), other)
+    }
+
+    /// Vectors of these lengths as unit vectors; shorter ones where one is too short to have a direction.
+    #[inline(always)]
+    pub fn along(self, length: Numbers<S>) -> Self {
+        self * length.all(1.0).over(length.larger(length.all(SHORTEST)))
     }
 
     /// `a` where the mask holds, else `b`.

@@ -73,7 +73,7 @@ impl<S: Simd> Bristles<S> {
         let mut bristle = Vectors::select(is_held, shortened_each(trial, pull, static_limit), trial);
         if over != 0 {
             let is_over = simd.mask(over);
-            bristle = Vectors::select(is_over, self.path(simd, is_over).end(simd), bristle);
+            bristle = Vectors::select(is_over, self.path(simd).end(simd), bristle);
         }
         let limit = Numbers::select(is_held, static_limit, kinetic_limit);
         let pushed = bristle * stiffness + slip_velocity * self.damping;
@@ -93,18 +93,22 @@ impl<S: Simd> Bristles<S> {
 
     /// The paths of those that have come over their limits; of the others, something that can be worked out.
     #[inline(always)]
-    fn path(&self, simd: S, is_over: S::Mask) -> SlipPath<S> {
-        let (nothing, one) = (Vectors::splat(simd, &Vec3::zeros()), Numbers::splat(simd, 1.0));
+    fn path(&self, simd: S) -> SlipPath<S> {
         let left_at = Numbers::select(simd.mask(self.stuck), self.static_limit, self.kinetic_limit);
-        let stiffness = Numbers::select(is_over, self.stiffness, one);
         SlipPath {
             normal: self.normal,
-            carried: Vectors::select(is_over, self.carried, nothing),
-            slip: Vectors::select(is_over, self.slip, nothing),
+            carried: self.carried,
+            slip: self.slip,
             slip_velocity: self.slip_velocity,
-            left_at: Numbers::select(is_over, left_at, one).over(stiffness),
-            radius: Numbers::select(is_over, self.kinetic_limit, one).over(stiffness),
+            left_at: self.deflection_at(left_at),
+            radius: self.deflection_at(self.kinetic_limit),
         }
+    }
+
+    /// The deflection at which the bristle pulls so much, m; at most 1e120, which is far more than one that has come over it.
+    #[inline(always)]
+    fn deflection_at(&self, pull: Numbers<S>) -> Numbers<S> {
+        pull.over(self.stiffness.larger(pull * pull.all(1e-120)))
     }
 }
 
@@ -121,8 +125,7 @@ pub(crate) fn shortened(vector: Vec3, length: f64, limit: f64) -> Vec3 {
 /// The same of eight.
 #[inline(always)]
 fn shortened_each<S: Simd>(vectors: Vectors<S>, length: Numbers<S>, limit: Numbers<S>) -> Vectors<S> {
-    let longer = length.larger(limit).larger(limit.all(f64::MIN_POSITIVE));
-    vectors * limit.over(longer)
+    vectors * limit.over(length.larger(limit))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ impl<S: Simd> SlipPath<S> {
     pub fn end(&self, simd: S) -> Vectors<S> {
         let zero = Numbers::splat(simd, 0.0);
         let length = self.slip.norm();
-        let along = self.slip * zero.all(1.0).over(length);
+        let along = self.slip.along(length);
         let way = Traversal::after_leaving(self.carried, along, length, self.left_at);
         let moves = zero.below(way.left);
         // Far beyond where anything is left of the first direction: a load that has all but gone leaves all but no radius.
@@ -112,7 +112,7 @@ fn turned_by<S: Simd>(vectors: Vectors<S>, normal: Vectors<S>, angle: Numbers<S>
 #[inline(always)]
 fn lag_of_turn<S: Simd>(z: Numbers<S>, decay: Numbers<S>) -> Numbers<S> {
     let (one, two) = (z.all(1.0), z.all(2.0));
-    let closed = one - (two * (one - decay)).over(z) + decay;
+    let closed = one - (two * (one - decay)).over(z.larger(z.all(SERIES_MAX))) + decay;
     let small = z.smaller(z.all(SERIES_MAX));
     let series = small * small * small.series(&LAG);
     Numbers::select(z.at_least(z.all(SERIES_MAX)), closed, series)
