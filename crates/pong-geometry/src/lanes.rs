@@ -29,8 +29,9 @@ impl Lanes {
     /// [`carried`](Self::carried) within a kernel.
     #[inline(always)]
     pub fn carried_in<S: Simd>(&self, simd: S, x: &Transform) -> Self {
-        let points = Loaded::new(simd, self);
-        Self { x: points.coordinate(x, 0), y: points.coordinate(x, 1), z: points.coordinate(x, 2) }
+        let mut out = Self::ORIGIN;
+        self.carry_in(simd, x, &mut out);
+        out
     }
 
     /// The same, written in place.

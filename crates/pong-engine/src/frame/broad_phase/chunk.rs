@@ -97,14 +97,12 @@ impl<'a, 'l> Chunk<'a, 'l> {
                 }
             }
         }
-        let has_balls =
-            meets_triangles && matches!(batch.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid);
-        match batch.kind {
-            PrimitiveKind::Sphere if has_balls => balls.set(centers, radii),
-            PrimitiveKind::Ellipsoid if has_balls => balls.set_around(carried),
-            _ => {}
-        }
-        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls: has_balls.then_some(&*balls) }
+        let balls = match batch.kind {
+            PrimitiveKind::Sphere if meets_triangles => Some(balls.set(centers, radii)),
+            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
+            _ => None,
+        };
+        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }
     }
 
     /// Which elements reach an element of B.
@@ -201,11 +199,16 @@ impl LaneBoxes {
     fn set_to_balls<S: Simd>(&mut self, simd: S, centers: &Lanes, radii: &[f64; LANES]) {
         let radius = Numbers::load(simd, radii);
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
-            let center = Numbers::load(simd, center);
-            let half = radius + (center.abs() + radius) * radius.all(4.0 * RELATIVE_MARGIN);
-            self.low[axis] = (center - half).store();
-            self.high[axis] = (center + half).store();
+            self.set_along(axis, Numbers::load(simd, center), radius);
         }
+    }
+
+    /// What the boxes reach along one axis, from their middles and half widths, m, with room for rounding.
+    #[inline(always)]
+    fn set_along<S: Simd>(&mut self, axis: usize, center: Numbers<S>, half: Numbers<S>) {
+        let half = half + (center.abs() + half) * half.all(4.0 * RELATIVE_MARGIN);
+        self.low[axis] = (center - half).store();
+        self.high[axis] = (center + half).store();
     }
 
     /// Boxes around turned boxes of A.
@@ -217,11 +220,7 @@ impl LaneBoxes {
         let mut boxes = Self { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] };
         let axes = [(&center.x, &half.x), (&center.y, &half.y), (&center.z, &half.z)];
         for (axis, (center, half)) in axes.into_iter().enumerate() {
-            for lane in 0..LANES {
-                let half = half[lane] + margin(center[lane].abs() + half[lane]);
-                boxes.low[axis][lane] = center[lane] - half;
-                boxes.high[axis][lane] = center[lane] + half;
-            }
+            boxes.set_along(axis, Numbers::load(simd, center), Numbers::load(simd, half));
         }
         boxes
     }
@@ -279,7 +278,7 @@ impl LaneBoxes {
 
 impl LaneBalls {
     #[inline(always)]
-    fn set(&mut self, centers: &Lanes, radii: &[f64; LANES]) {
+    fn set(&mut self, centers: &Lanes, radii: &[f64; LANES]) -> &Self {
         let with_room = |lane: usize| {
             let size = centers.x[lane].abs() + centers.y[lane].abs() + centers.z[lane].abs();
             radii[lane] + margin(size + radii[lane])
@@ -290,9 +289,10 @@ impl LaneBalls {
             let radius = with_room(lane);
             *square = radius * radius;
         }
+        self
     }
 
-    fn set_around(&mut self, carried: &[TransformedPrimitive]) {
+    fn set_around(&mut self, carried: &[TransformedPrimitive]) -> &Self {
         let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
         for (lane, one) in carried.iter().enumerate() {
             if let TransformedPrimitive::Ellipsoid(ellipsoid) = one {
@@ -301,7 +301,7 @@ impl LaneBalls {
                 radii[lane] = ellipsoid.semi_axes.max();
             }
         }
-        self.set(&centers, &radii);
+        self.set(&centers, &radii)
     }
 
     /// Which of the balls reach a box of a tree.

@@ -64,6 +64,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
             let kind_a = context.body_a.primitives[key.primitive_a as usize].kind;
+            out.law_state_mut(place.index as usize).fill(0.0);
             context.compute_force((kind_a, &found), share, place.index as usize, out);
         }
     }
@@ -115,7 +116,7 @@ impl PairContext<'_> {
         self.table.props(surface_a, surface_b)
     }
 
-    /// Fills in all of a contact, but leaves the friction of a bristle to the buffer.
+    /// Fills in all of a contact, but leaves the friction of a bristle to the buffer. The numbers of its registered law are zero.
     ///
     /// Every number is written once, and what is needed again is not read back from there: the processor would wait for it.
     #[inline(always)]
@@ -134,7 +135,6 @@ impl PairContext<'_> {
         let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
         let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
         let (mut pressed, mut stored) = (0.0, 0.0);
-        out.law_state_mut(place).fill(0.0);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
             pressed = normal_force(props, weight, found.depth, closing);

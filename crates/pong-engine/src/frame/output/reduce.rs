@@ -1,6 +1,6 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
-use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::buffers::{EvaluationBuffers, Place};
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
@@ -14,12 +14,12 @@ pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { input, caller, order, near, poses, twists, wrenches, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let contacts = &caller.out.contacts;
-    let mut rest = order.iter().map(|place| &contacts[place.index as usize]).peekable();
-    while let Some(first) = rest.peek() {
-        let direction = first.found.key.direction();
+    let direction_of = |place: &Place| contacts[place.index as usize].found.key.direction();
+    for places in order.chunk_by(|a, b| direction_of(a) == direction_of(b)) {
+        let direction = direction_of(&places[0]);
         let x_ba = motions.known(near, input, direction).x_ba;
         let mut sums = Sums::of_nothing();
-        while let Some(contact) = rest.next_if(|contact| contact.found.key.direction() == direction) {
+        for contact in places.iter().map(|place| &contacts[place.index as usize]) {
             if contact.found.role == ContactRole::Active {
                 sums.add(contact, &x_ba.translation);
             }

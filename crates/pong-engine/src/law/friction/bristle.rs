@@ -105,10 +105,12 @@ impl<S: Simd> Bristles<S> {
         }
     }
 
-    /// The deflection at which the bristle pulls so much, m; at most 1e120, which is far more than one that has come over it.
+    /// The deflection at which the bristle pulls so much, m.
     #[inline(always)]
     fn deflection_at(&self, pull: Numbers<S>) -> Numbers<S> {
-        pull.over(self.stiffness.larger(pull * pull.all(1e-120)))
+        /// Far more than any that has come over its limit, whose square is still a number.
+        const FARTHEST_M: f64 = 1e120;
+        pull.over(self.stiffness.larger(pull * pull.all(1.0 / FARTHEST_M)))
     }
 }
 
