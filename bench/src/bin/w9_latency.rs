@@ -3,13 +3,15 @@
 
 use pong_bench::one_by_one::{quantile, seconds};
 use pong_bench::options::Options;
-use pong_bench::rig::bind_caller;
+use pong_bench::rig::{Rig, bind_caller};
 use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::scenes;
-use pong_bench::table::Table;
+use pong_bench::table::{Table, ratio_at_most};
 use pong_bench::timing::digits;
+use pong_engine::State;
 use std::error::Error;
 use std::hint::black_box;
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 const MICRO: f64 = 1e-6;
@@ -18,39 +20,96 @@ const PERIOD: Duration = Duration::from_millis(1);
 const AHEAD: Duration = Duration::from_micros(100);
 const SECONDS: u32 = 60;
 
+/// Frames of one world before those of the next: what else the machine does then falls on all alike.
+const TURN: u32 = 250;
+
+/// One way to run the frames.
+struct Way {
+    name: &'static str,
+    rig: Rig,
+    prewake: bool,
+    /// By frame, s.
+    times: Vec<f64>,
+    late: u32,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(1)?;
     let frames = if options.smoke { 50 } else { 1000 * SECONDS };
     let ring = Ring::new(ring::SIZES[1]);
     let states = scenes::ring_states();
-    let mut table =
-        Table::new(&["frame of Pong, µs", "p50", "p99", "p99.9", "greatest", "late for the next"]);
-    for (name, threads, prewake) in
-        [("alone", 1, false), ("with a worker", 2, false), ("with a worker, woken 0.1 ms before", 2, true)]
-    {
-        let mut rig = scenes::ring(&ring, Tip::Sphere, threads)?;
-        bind_caller();
-        let (mut times, mut late) = (Vec::with_capacity(frames as usize), 0);
+    let way = |name, threads, prewake| -> Result<Way, Box<dyn Error>> {
+        let rig = scenes::ring(&ring, Tip::Sphere, threads)?;
+        Ok(Way { name, rig, prewake, times: Vec::with_capacity(frames as usize), late: 0 })
+    };
+    let mut ways = [
+        way("alone", 1, false)?,
+        way("with a worker", 2, false)?,
+        way("with a worker, woken 0.1 ms before", 2, true)?,
+    ];
+    bind_caller();
+    for first in (0..frames).step_by(TURN as usize) {
+        for way in &mut ways {
+            way.run(first..frames.min(first + TURN), &states);
+        }
+    }
+    println!("Ring of 48 wedges and 1,000 spheres at 1 kHz, {frames} frames each, in turns of {TURN}\n");
+    println!("{}", told(&mut ways));
+    Ok(())
+}
+
+impl Way {
+    fn run(&mut self, numbers: Range<u32>, states: &[Vec<State>]) {
         let mut release = Instant::now();
-        for frame in 0..frames {
+        for frame in numbers {
             release += PERIOD;
             sleep_until(release - AHEAD);
-            if prewake {
-                rig.world.prewake(2 * AHEAD);
+            if self.prewake {
+                self.rig.world.prewake(2 * AHEAD);
             }
             while Instant::now() < release {
                 std::hint::spin_loop();
             }
             let states = &states[frame as usize % states.len()];
-            times.push(seconds(|| _ = black_box(rig.step(states))));
-            late += u32::from(release.elapsed() > PERIOD);
+            self.times.push(seconds(|| _ = black_box(self.rig.step(states))));
+            self.late += u32::from(release.elapsed() > PERIOD);
         }
-        let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut times, share) / MICRO));
-        table.row([name.to_owned()].into_iter().chain(told).chain([format!("{late} of {frames}")]));
+        self.rig.world.quiesce();
     }
-    println!("Ring of 48 wedges and 1,000 spheres at 1 kHz, {} frames each\n", frames);
-    println!("{table}");
-    Ok(())
+
+    /// The middle frame of each half of the run, s.
+    fn middles(&self) -> [f64; 2] {
+        let mut times = self.times.clone();
+        let (earlier, later) = times.split_at_mut(self.times.len() / 2);
+        [earlier, later].map(|half| quantile(half, 0.5))
+    }
+}
+
+fn told(ways: &mut [Way; 3]) -> Table {
+    let mut table = Table::new(&[
+        "frame of Pong, µs",
+        "p50",
+        "p99",
+        "p99.9",
+        "greatest",
+        "late for the next",
+        "p50 over alone",
+        "wanted",
+    ]);
+    let alone = ways[0].middles();
+    for way in ways {
+        let [earlier, later] = way.middles();
+        let ratios = [earlier / alone[0], later / alone[1]];
+        let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut way.times, share) / MICRO));
+        let wanted = match way.name {
+            "alone" => "–".to_owned(),
+            _ => ratio_at_most(1.0, Some([ratios[0].min(ratios[1]), ratios[0].max(ratios[1])])),
+        };
+        let row = [way.name.to_owned()].into_iter().chain(told);
+        let late = format!("{} of {}", way.late, way.times.len());
+        table.row(row.chain([late, digits(0.5 * (ratios[0] + ratios[1])), wanted]));
+    }
+    table
 }
 
 fn sleep_until(time: Instant) {

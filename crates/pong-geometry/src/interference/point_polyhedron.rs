@@ -102,8 +102,11 @@ pub struct Reached {
 /// by no more than the point has moved.
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
-    // Every step lowers the depth below the face reached, so no face is met twice.
-    while let Some(next) = less_deep_neighbor(p, polyhedron, here.face) {
+    // Every step lowers the depth below the face reached, so no face is met twice. Where that face pushes itself, no
+    // neighbour is less deep, and most contacts end here.
+    while here.pushes != here.face
+        && let Some(next) = less_deep_neighbor(p, polyhedron, here.face)
+    {
         let there = Reached::at(p, polyhedron, next);
         if there.depth > here.depth {
             break;

@@ -84,10 +84,23 @@ pub(crate) const BETWEEN_ENDS: u32 = 2;
 pub(crate) struct Ball {
     /// In B's frame.
     pub sphere: Sphere,
-    /// Its centre in A's frame, m.
-    pub center_a: Vec3,
     /// Of a capsule.
     pub end: Option<u32>,
+}
+
+impl Ball {
+    /// A sphere.
+    pub fn of(sphere: &Sphere) -> Self {
+        Self { sphere: *sphere, end: None }
+    }
+
+    /// The balls at the ends of a capsule.
+    pub fn at_ends(capsule: &Capsule) -> [Self; 2] {
+        [0, 1].map(|end: usize| Self {
+            sphere: Sphere { center: capsule.ends[end], radius: capsule.radius },
+            end: Some(end as u32),
+        })
+    }
 }
 
 /// One element as A against one element as B.
@@ -144,20 +157,13 @@ impl<'a> ElementPair<'a> {
         }
     }
 
-    /// A sphere of A.
-    pub fn ball(&self, sphere: &Sphere) -> Ball {
-        let local = self.body_a().spheres[self.item_a.element as usize].center;
-        Ball { sphere: *sphere, center_a: local, end: None }
-    }
-
-    /// The balls at the ends of a capsule of A.
-    pub fn balls(&self, capsule: &Capsule) -> [Ball; 2] {
-        let local = self.body_a().capsules[self.item_a.element as usize].ends;
-        [0, 1].map(|end: usize| Ball {
-            sphere: Sphere { center: capsule.ends[end], radius: capsule.radius },
-            center_a: local[end],
-            end: Some(end as u32),
-        })
+    /// The centre of a ball of A, in A's frame, m. Most tests end without it.
+    pub fn center_a(&self, ball: &Ball) -> Vec3 {
+        let element = self.item_a.element as usize;
+        match ball.end {
+            None => self.body_a().spheres[element].center,
+            Some(end) => self.body_a().capsules[element].ends[end as usize],
+        }
     }
 
     pub fn whole(&self, contact: Option<Interference>, found: &mut ChunkCandidates<'_>) {

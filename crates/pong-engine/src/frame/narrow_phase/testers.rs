@@ -1,6 +1,6 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
-use super::element_pair::{ChunkCandidates, DeferredPairs, ElementPair};
+use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
 use super::on_triangle::thickness_for_sphere;
 use super::pair_table::{Test, sphere_triangle, test_of};
 use super::registered;
@@ -126,7 +126,7 @@ pub(crate) fn test_deferred(
         let lane = usize::from(lane);
         let pair = ElementPair { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
         let over_face = told.over_face >> place & 1 == 1;
-        sphere_triangle::test_ball(&pair, &pair.ball(&chunk.sphere(lane)), over_face, found);
+        sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(lane)), over_face, found);
     }
     counts.note_testers(PrimitiveKind::Sphere, Triangle, 0, (found.seen - before) as u32);
 }

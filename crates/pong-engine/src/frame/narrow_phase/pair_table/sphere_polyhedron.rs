@@ -2,27 +2,26 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, status_of, wrong_kind};
-use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
+use pong_geometry::interference::sphere_polyhedron::{SphereAt, locate_sphere, sphere_inside_polyhedron};
 use pong_geometry::primitive::Containment;
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Sphere(sphere) = a else { wrong_kind(a) };
-    test_ball(pair, &pair.ball(sphere), found);
+    test_ball(pair, &Ball::of(sphere), found);
 }
 
 pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball, found: &mut ChunkCandidates<'_>) {
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     let sphere = &ball.sphere;
-    let containment = polyhedron.containment(&sphere.center);
-    if matches!(containment, Containment::Outside | Containment::BeyondWall)
-        && let Some(contact) = sphere_outside_polyhedron(sphere, polyhedron)
-    {
+    let SphereAt { containment, outside } = locate_sphere(sphere, polyhedron);
+    if let Some(contact) = outside {
         pair.sharing(ball, &contact, found, |_| ());
     }
     if containment == Containment::Outside {
         return;
     }
-    let Some(face) = pair.entry_face(&ball.center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
+    let center_a = pair.center_a(ball);
+    let Some(face) = pair.entry_face(&center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
     pair.sharing(ball, &contact, found, |out| {
         out.status = status_of(containment);

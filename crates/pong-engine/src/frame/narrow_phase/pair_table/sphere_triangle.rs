@@ -7,7 +7,7 @@ use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_tria
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Sphere(sphere) = a else { wrong_kind(a) };
-    test_ball(pair, &pair.ball(sphere), false, found);
+    test_ball(pair, &Ball::of(sphere), false, found);
 }
 
 /// `over_face`: whether the face alone may push.
@@ -18,7 +18,7 @@ pub(crate) fn test_ball(
     found: &mut ChunkCandidates<'_>,
 ) {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
-    let center = Centre { center_a: ball.center_a, center_b: ball.sphere.center, end: ball.end };
+    let center = Centre { center_a: pair.center_a(ball), center_b: ball.sphere.center, end: ball.end };
     let mut emit = |contact| on_triangle(pair, &center, contact, found);
     if over_face {
         sphere_over_face(&ball.sphere, set, triangle).into_iter().for_each(emit);
