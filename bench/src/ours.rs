@@ -13,9 +13,9 @@ use pong_geometry::interference::{
     point_polyhedron::shallowest_face, point_sphere::point_sphere, ray_bore::ray_bore, ray_plane::RayHit,
     ray_plane::ray_plane, ray_polyhedron::ray_polyhedron, ray_round::ray_capsule, ray_round::ray_ellipsoid,
     ray_round::ray_frustum, ray_round::ray_sphere, ray_triangle::ray_triangle, round_plane::capsule_plane,
-    round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::SphereAt,
-    sphere_polyhedron::locate_sphere, sphere_polyhedron::sphere_inside_polyhedron,
-    sphere_sphere::sphere_sphere, sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
+    round_plane::frustum_plane, sphere_plane::sphere_plane, sphere_polyhedron::sphere_inside_polyhedron,
+    sphere_polyhedron::sphere_outside_polyhedron, sphere_sphere::sphere_sphere,
+    sphere_triangle::sphere_over_face, sphere_triangle::sphere_triangle,
     sphere_triangle_pairs::SphereTrianglePairs, triangle_features::TriangleContact,
     triangle_features::TriangleView, two_ended_bore::EndsInBore, two_ended_bore::capsule_bore,
     two_ended_bore::cylinder_bore, two_ended_bore::segment_bore, two_ended_round::EndContacts,
@@ -26,7 +26,7 @@ use pong_geometry::primitive::PrimitiveKind::{
     self, Bore, Cone, Cylinder, Plane, Polyhedron as Hull, Triangle,
 };
 use pong_geometry::primitive::{
-    Capsule, Containment, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere,
+    Capsule, Ellipsoid, Frustum, LineSegment, Point, Polyhedron, Ray, RayResponse, Sphere,
 };
 use pong_geometry::simd::{self, Kernel, LANES, Simd};
 use pong_geometry::{Lanes, Mat3, Pose, Transform, Vec3};
@@ -496,12 +496,9 @@ fn put(lanes: &mut Lanes, lane: usize, p: &Vec3) {
 }
 
 fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {
-    let SphereAt { containment, outside } = locate_sphere(a, b);
-    match containment {
-        Containment::Outside | Containment::BeyondWall => outside,
-        Containment::Inside | Containment::AtWall => {
-            Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?))
-        }
+    match b.contains(&a.center) {
+        true => Some(sphere_inside_polyhedron(a, b, shallowest_face(&a.center, b)?)),
+        false => sphere_outside_polyhedron(a, b),
     }
 }
 

@@ -17,7 +17,7 @@ use pong_geometry::interference::ray_plane::{ray_contact, ray_plane};
 use pong_geometry::interference::ray_polyhedron::ray_polyhedron;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::sphere_plane::sphere_plane;
-use pong_geometry::interference::sphere_polyhedron::{locate_sphere, sphere_inside_polyhedron};
+use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
 use pong_geometry::interference::sphere_sphere::sphere_sphere;
 use pong_geometry::primitive::{
     LineSegment, Plane, Point, Polyhedron, Ray, RayResponse, Sphere, TriangleSet,
@@ -114,7 +114,7 @@ impl Scene {
                 let ball = Sphere { center: p, ..self.sphere };
                 all.push(match least {
                     Some(face) => Some(sphere_inside_polyhedron(&ball, solid, face)),
-                    None => locate_sphere(&ball, solid).outside,
+                    None => sphere_outside_polyhedron(&ball, solid),
                 });
             }
             all.extend(line_segment_polyhedron(&self.segment, solid));

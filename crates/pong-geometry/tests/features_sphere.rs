@@ -13,7 +13,7 @@ use oracle_support::{
 };
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
-use pong_geometry::interference::sphere_polyhedron::locate_sphere;
+use pong_geometry::interference::sphere_polyhedron::sphere_outside_polyhedron;
 use pong_geometry::primitive::{Polyhedron, Sphere, TriangleSet};
 
 /// A place on a surface: a vertex, a place on an edge, or within a triangle.
@@ -123,7 +123,7 @@ fn closed_convex_surfaces_have_no_gaps() {
             }
             let contacts = counting_contacts(&sphere, &mesh, 0.0);
             assert_once(&contacts);
-            let on_solid = locate_sphere(&sphere, &solid).outside;
+            let on_solid = sphere_outside_polyhedron(&sphere, &solid);
             for contact in contacts.iter().chain(&on_solid) {
                 let arm = contact.normal_b * (0.4 - contact.depth);
                 worst.note((arm - expected).norm(), 2e-12);
@@ -171,8 +171,9 @@ fn the_push_is_continuous_across_features() {
     };
     let on_solid = |p: &Vec3| {
         let sphere = Sphere { center: *p, radius: 0.5 };
-        outside(&solid, p)
-            .then(|| locate_sphere(&sphere, &solid).outside.map_or(Vec3::zeros(), |c| c.normal_b * c.depth))
+        outside(&solid, p).then(|| {
+            sphere_outside_polyhedron(&sphere, &solid).map_or(Vec3::zeros(), |c| c.normal_b * c.depth)
+        })
     };
     continuous(&on_solid, 150, 703, "continuity: solid");
     let mesh = skin(&solid);
@@ -265,7 +266,7 @@ fn abutting_pieces_have_no_gaps() {
             let center = jittered(a + (b - a) * share + normal * height, &mut random);
             let sphere = Sphere { center, radius: 0.3 };
             let contacts: Vec<_> =
-                pieces.iter().filter_map(|piece| locate_sphere(&sphere, piece).outside).collect();
+                pieces.iter().filter_map(|piece| sphere_outside_polyhedron(&sphere, piece)).collect();
             assert!(!contacts.is_empty(), "nothing over the seam at {center:?}");
             let push = shared_push(&contacts);
             worst.note((push - normal * (0.3 - height)).norm(), 1e-14);
@@ -299,7 +300,7 @@ fn a_centre_on_a_seam_is_pushed() {
     for x in [nudge(0.0, -1), 0.0, nudge(0.0, 1)] {
         let sphere = Sphere { center: Vec3::new(x, 0.25, 0.5), radius: 0.1 };
         let contacts: Vec<_> =
-            pieces.iter().filter_map(|piece| locate_sphere(&sphere, piece).outside).collect();
+            pieces.iter().filter_map(|piece| sphere_outside_polyhedron(&sphere, piece)).collect();
         assert!((shared_push(&contacts) - Vec3::z() * 0.1).norm() < 1e-16, "{x}: {contacts:?}");
     }
 }
@@ -312,7 +313,7 @@ fn beside_a_seam_one_piece_pushes() {
         for side in [-1.0, 1.0] {
             let center = Vec3::new(1e-9 * side, 0.25, 0.55) * size;
             let sphere = Sphere { center, radius: 0.1 * size };
-            let pushed = pieces.each_ref().map(|piece| locate_sphere(&sphere, piece).outside.is_some());
+            let pushed = pieces.each_ref().map(|piece| sphere_outside_polyhedron(&sphere, piece).is_some());
             assert_eq!(pushed, [side < 0.0, side > 0.0], "size {size}");
         }
     }

@@ -7,7 +7,7 @@
 use super::point_polyhedron::{point_below_face, shallowest_face};
 use super::{Feature, Interference, ball_over_point};
 use crate::Vec3;
-use crate::primitive::{Containment, EdgeBlock, Polyhedron, Sides, Sphere};
+use crate::primitive::{EdgeBlock, Polyhedron, Sphere};
 use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
 
 /// The contact of a sphere that remembers no side: outside with the nearest feature, inside below the active face under
@@ -22,48 +22,22 @@ fn sphere_polyhedron_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedr
     let near = Near::new(simd, sphere, polyhedron);
     let survey = near.survey()?;
     if !survey.is_inside {
-        return near.contact(survey.top);
+        return near.contact(&survey);
     }
     let face = shallowest_face(&sphere.center, polyhedron)?;
     Some(sphere_inside_polyhedron(sphere, polyhedron, face))
 }
 
-/// A sphere at one piece of a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SphereAt {
-    /// Where its centre is.
-    pub containment: Containment,
-    /// If the centre is outside, or beyond an inner wall: the contact with the feature nearest to it, if that may push.
-    pub outside: Option<Interference>,
-}
-
-/// Where the centre of a sphere is, and its contact if that is outside of the piece.
+/// The contact of a sphere whose centre is outside: with the feature nearest to the centre, if that may push.
 #[inline]
-pub fn locate_sphere(sphere: &Sphere, polyhedron: &Polyhedron) -> SphereAt {
-    run_at_level!(locate(sphere: Sphere, polyhedron: Polyhedron) -> SphereAt)
+pub fn sphere_outside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
+    run_at_level!(outside_in(sphere: Sphere, polyhedron: Polyhedron) -> Option<Interference>)
 }
 
 #[inline(always)]
-fn locate<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> SphereAt {
+fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Option<Interference> {
     let near = Near::new(simd, sphere, polyhedron);
-    let planes = polyhedron.planes();
-    let radius = simd.splat(sphere.radius);
-    let mut top = simd.splat(f64::NEG_INFINITY);
-    let mut sides = Sides::new(planes);
-    let mut apart = 0;
-    for block in &planes.blocks {
-        let heights = block.heights(simd, &near.center);
-        sides.add(simd, block, heights);
-        apart |= simd.bits(simd.at_least(heights, radius));
-        top = simd.larger(heights, top);
-        if apart != 0 && sides.is_outside() {
-            return SphereAt { containment: Containment::Outside, outside: None };
-        }
-    }
-    let containment = sides.containment();
-    let touches = apart == 0 && matches!(containment, Containment::Outside | Containment::BeyondWall);
-    let outside = if touches { near.contact(simd.largest(top)) } else { None };
-    SphereAt { containment, outside }
+    near.contact(&near.survey()?)
 }
 
 /// The contact of a sphere whose centre is inside, under the face that pushes.
@@ -117,10 +91,10 @@ impl<'a, S: Simd> Near<'a, S> {
         Some(Survey { is_inside: held == LaneBits::MAX, top: simd.largest(top) })
     }
 
-    /// The contact with the nearest feature. The centre is so high above the highest plane, m.
+    /// The contact with the nearest feature.
     #[inline(always)]
-    fn contact(&self, top: f64) -> Option<Interference> {
-        if let Some(face) = self.face_below(top) {
+    fn contact(&self, survey: &Survey) -> Option<Interference> {
+        if let Some(face) = self.face_below(survey) {
             return self.on_face(face);
         }
         match self.nearest_edge() {
@@ -131,11 +105,11 @@ impl<'a, S: Simd> Near<'a, S> {
 
     /// The face that holds the centre's foot.
     #[inline(always)]
-    fn face_below(&self, top: f64) -> Option<usize> {
+    fn face_below(&self, survey: &Survey) -> Option<usize> {
         let (simd, planes) = (self.simd, self.polyhedron.planes());
         // Beside inner walls outlines are wider.
         let lowest = match planes.simple {
-            true => self.polyhedron.least_height_over_face(&self.sphere.center, top).max(0.0),
+            true => self.polyhedron.least_height_over_face(&self.sphere.center, survey.top).max(0.0),
             false => 0.0,
         };
         let mut found: Option<usize> = None;

@@ -14,7 +14,6 @@ mod triangles;
 pub use curved::{Ellipsoid, Sphere};
 pub use edge_blocks::{EdgeBlock, EdgeBlocks, EightBoxes, VertexBlock};
 pub use face_planes::{FacePlanes, PlaneBlock};
-pub(crate) use polyhedron::Sides;
 pub use polyhedron::{Containment, Polyhedron};
 pub use polyhedron_parts::{
     EdgePush, PolyhedronEdge, PolyhedronFace, PolyhedronParts, PolyhedronVertex, RimEdge,

@@ -5,7 +5,7 @@
 //! whole surface and is worked out when the model is loaded.
 
 use super::edge_blocks::{EdgeBlocks, VertexBlock};
-use super::face_planes::{FacePlanes, PlaneBlock};
+use super::face_planes::FacePlanes;
 use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
 use crate::Vec3;
 use crate::simd::{LaneBits, Simd, Splat, run_at_level};
@@ -131,57 +131,21 @@ fn planes_hold<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> bool {
 #[inline(always)]
 fn containment_in<S: Simd>(simd: S, p: &Vec3, planes: &FacePlanes) -> Containment {
     let at = Splat::new(simd, p);
-    let mut sides = Sides::new(planes);
+    let (mut held, mut near, mut walls) = (LaneBits::MAX, LaneBits::MAX, 0);
     for block in &planes.blocks {
-        sides.add(simd, block, block.heights(simd, &at));
-        if sides.is_outside() {
+        let heights = block.heights(simd, &at);
+        held &= block.held(simd, heights);
+        if !planes.all_active {
+            near &= block.held_or_at_wall(simd, heights, planes.wall_slack);
+            walls |= block.walls_reached(simd, heights, planes.wall_slack);
+        }
+        if held != LaneBits::MAX && (planes.all_active || near != LaneBits::MAX) {
             return Containment::Outside;
         }
     }
-    sides.containment()
-}
-
-/// On which sides of the planes of a piece a point is, block after block.
-pub(crate) struct Sides<'a> {
-    planes: &'a FacePlanes,
-    /// The lanes where it is on the solid's side of every plane.
-    held: LaneBits,
-    /// The same, or at an inner wall. Nothing is told where there is none.
-    near: LaneBits,
-    /// The lanes of inner walls at which it is, or beyond.
-    walls: LaneBits,
-}
-
-impl<'a> Sides<'a> {
-    #[inline(always)]
-    pub fn new(planes: &'a FacePlanes) -> Self {
-        Self { planes, held: LaneBits::MAX, near: LaneBits::MAX, walls: 0 }
-    }
-
-    /// The point is so high above the planes of a block, m.
-    #[inline(always)]
-    pub fn add<S: Simd>(&mut self, simd: S, block: &PlaneBlock, heights: S::Eight) {
-        self.held &= block.held(simd, heights);
-        if !self.planes.all_active {
-            self.near &= block.held_or_at_wall(simd, heights, self.planes.wall_slack);
-            self.walls |= block.walls_reached(simd, heights, self.planes.wall_slack);
-        }
-    }
-
-    /// Whether it is [outside](Containment::Outside), whatever the blocks say that are still to come.
-    #[inline(always)]
-    pub fn is_outside(&self) -> bool {
-        self.held != LaneBits::MAX && (self.planes.all_active || self.near != LaneBits::MAX)
-    }
-
-    /// Where it is, once every block has been added.
-    #[inline(always)]
-    pub fn containment(&self) -> Containment {
-        match (self.held == LaneBits::MAX, self.walls) {
-            (true, 0) => Containment::Inside,
-            (true, _) => Containment::AtWall,
-            _ if self.is_outside() => Containment::Outside,
-            _ => Containment::BeyondWall,
-        }
+    match (held == LaneBits::MAX, walls) {
+        (true, 0) => Containment::Inside,
+        (true, _) => Containment::AtWall,
+        _ => Containment::BeyondWall,
     }
 }

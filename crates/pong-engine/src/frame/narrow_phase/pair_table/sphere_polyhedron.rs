@@ -2,7 +2,7 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, status_of, wrong_kind};
-use pong_geometry::interference::sphere_polyhedron::{SphereAt, locate_sphere, sphere_inside_polyhedron};
+use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
 use pong_geometry::primitive::Containment;
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
@@ -13,8 +13,10 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
 pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball, found: &mut ChunkCandidates<'_>) {
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
     let sphere = &ball.sphere;
-    let SphereAt { containment, outside } = locate_sphere(sphere, polyhedron);
-    if let Some(contact) = outside {
+    let containment = polyhedron.containment(&sphere.center);
+    if matches!(containment, Containment::Outside | Containment::BeyondWall)
+        && let Some(contact) = sphere_outside_polyhedron(sphere, polyhedron)
+    {
         pair.sharing(ball, &contact, found, |_| ());
     }
     if containment == Containment::Outside {
