@@ -88,7 +88,7 @@ impl<'a, 'l> Chunk<'a, 'l> {
                 boxes.set_to_balls(simd, centers, radii);
             }
             None => {
-                carry_each(body, items, x_ba, carried);
+                carry_each((body, batch.kind), items, x_ba, carried);
                 if carried.len() == items.len() {
                     boxes.set_to_each(carried.iter().map(|one| one.bounds(meets_triangles)));
                 } else {
@@ -155,14 +155,14 @@ impl<'a, 'l> Chunk<'a, 'l> {
 }
 
 fn carry_each(
-    body: &MovableGroup,
+    (body, kind): (&MovableGroup, PrimitiveKind),
     items: &[Item],
     x_ba: &Transform,
     carried: &mut Table<TransformedPrimitive>,
 ) {
     carried.clear();
-    for &item in items {
-        let Some(one) = TransformedPrimitive::new(body, item, x_ba) else { return };
+    for item in items {
+        let Some(one) = TransformedPrimitive::new(body, kind, item.element, x_ba) else { return };
         carried.push(one).expect("the list has room for all lanes");
     }
 }

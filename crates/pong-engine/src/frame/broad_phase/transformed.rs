@@ -2,7 +2,7 @@
 
 use pong_geometry::primitive::{Capsule, Ellipsoid, Frustum, LineSegment, Point, PrimitiveKind, Ray, Sphere};
 use pong_geometry::{Transform, Vec3};
-use pong_model::{Item, MovableGroup};
+use pong_model::MovableGroup;
 
 /// The primitive.
 #[derive(Clone, Copy, Debug)]
@@ -23,9 +23,9 @@ impl TransformedPrimitive {
 
     /// `None` for kinds that are never A in the table.
     #[inline(always)]
-    pub fn new(body: &MovableGroup, item: Item, x_ba: &Transform) -> Option<Self> {
-        let i = item.element as usize;
-        Some(match body.primitives[item.primitive as usize].kind {
+    pub fn new(body: &MovableGroup, kind: PrimitiveKind, element: u32, x_ba: &Transform) -> Option<Self> {
+        let i = element as usize;
+        Some(match kind {
             PrimitiveKind::Point => Self::Point(body.points[i].carried(x_ba)),
             PrimitiveKind::LineSegment => Self::Segment(body.segments[i].carried(x_ba)),
             PrimitiveKind::Ray => Self::Ray(body.rays[i].carried(x_ba)),

@@ -74,7 +74,9 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
         let thickness = thickness_for_sphere(pair.context, pair.item_b, sphere);
         sphere_triangle(sphere, set, triangle, thickness, &mut note);
     };
-    match TransformedPrimitive::new(pair.body_a(), pair.item_a, &since.x_ba) {
+    let Item { primitive, element } = pair.item_a;
+    let kind = pair.body_a().primitives[primitive as usize].kind;
+    match TransformedPrimitive::new(pair.body_a(), kind, element, &since.x_ba) {
         Some(TransformedPrimitive::Sphere(sphere)) => note_sphere(&sphere),
         Some(TransformedPrimitive::Capsule(capsule)) => {
             let center = capsule.ends[end.unwrap_or(0) as usize];
