@@ -9,6 +9,7 @@
 //!
 //! Why each order of memory accesses suffices is said where it is used; README.md tells the whole.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::Ordering::{AcqRel, Acquire, Relaxed, Release};
 
@@ -82,35 +83,43 @@ impl Board {
         Word(self.claim.swap(Word::new(epoch, 0, false).0, AcqRel)).number()
     }
 
-    /// Claims a block of the phase `epoch`; `None` if it has none left or is over.
+    /// Claims blocks of the phase `epoch`, its last ones; `None` if it has none left or is over.
     ///
     /// Compare-and-swap looks and takes in one: whoever looked before the phase was over and takes after takes
-    /// nothing. (`fetch_add` takes first and looks then. It would take a block of the next phase.)
-    pub fn claim(&self, epoch: u64) -> Option<u32> {
+    /// nothing. (`fetch_add` takes first and looks then. It would take blocks of the next phase.)
+    pub fn claim(&self, epoch: u64) -> Option<Range<u32>> {
         let mut seen = Word(self.claim.load(Acquire));
         while seen.epoch() == epoch && seen.number() > 0 {
-            match self.take_one(seen) {
-                Ok(block) => return Some(block),
+            match self.take(seen, self.share_of(seen.number())) {
+                Ok(blocks) => return Some(blocks),
                 Err(now) => seen = now,
             }
         }
         None
     }
 
-    fn take_one(&self, seen: Word) -> Result<u32, Word> {
+    /// How many of the blocks that are left a lane claims at once: half of its part. Early claims are large, so that a lane works
+    /// on neighbours, and late ones small, so that all lanes end together.
+    pub fn share_of(&self, left: u32) -> u32 {
+        let lanes = self.workers() as u32 + 1;
+        left.div_ceil(2 * lanes)
+    }
+
+    fn take(&self, seen: Word, blocks: u32) -> Result<Range<u32>, Word> {
         if mutant("fetch_add") {
-            return self.take_one_unseen();
+            return self.take_unseen(blocks);
         }
-        match self.claim.compare_exchange_weak(seen.0, seen.one_less().0, AcqRel, Acquire) {
-            Ok(_) => Ok(seen.number() - 1),
+        match self.claim.compare_exchange_weak(seen.0, seen.less(blocks).0, AcqRel, Acquire) {
+            Ok(_) => Ok(seen.number() - blocks..seen.number()),
             Err(now) => Err(Word(now)),
         }
     }
 
     /// The mistake that the models must find.
-    fn take_one_unseen(&self) -> Result<u32, Word> {
-        let before = Word(self.claim.fetch_sub(Word::ONE, AcqRel));
-        if before.number() > 0 { Ok(before.number() - 1) } else { Err(before) }
+    fn take_unseen(&self, blocks: u32) -> Result<Range<u32>, Word> {
+        let taken = Word::new(0, blocks, false).0;
+        let before = Word(self.claim.fetch_sub(taken, AcqRel));
+        if before.number() >= blocks { Ok(before.number() - blocks..before.number()) } else { Err(before) }
     }
 
     /// The claim word, if its epoch is not `seen` or it tells to end.
@@ -234,5 +243,31 @@ impl Board {
 
     pub fn alert(&self) -> u64 {
         self.alert.load(Acquire)
+    }
+}
+
+#[cfg(all(test, not(loom)))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn claims_are_neighbors_from_the_last_to_the_first_and_get_smaller() {
+        for (workers, blocks) in [(0, 9), (1, 2), (1, 28), (2, 3), (3, 100), (16, 5), (63, 4000)] {
+            let board = Board::new(workers);
+            board.open(1, blocks);
+            let (mut end, mut sizes) = (blocks, Vec::new());
+            while let Some(claimed) = board.claim(1) {
+                assert_eq!(claimed.end, end, "{workers} workers, {blocks} blocks");
+                assert!(claimed.start < claimed.end);
+                sizes.push(claimed.end - claimed.start);
+                end = claimed.start;
+            }
+            assert_eq!(end, 0);
+            assert!(sizes.is_sorted_by(|earlier, later| earlier >= later), "{sizes:?}");
+            // All lanes together leave half in the first round.
+            assert!(sizes[0] as usize <= (blocks as usize).div_ceil(2 * (workers + 1)), "{sizes:?}");
+            assert_eq!(sizes.last(), Some(&1));
+            assert_eq!(board.claim(1), None);
+        }
     }
 }

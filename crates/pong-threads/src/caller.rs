@@ -1,5 +1,6 @@
 //! The caller's side: opens a phase, works along, and waits only for blocks that others have claimed.
 
+use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::{Arc, TryLockError};
 
@@ -60,20 +61,19 @@ impl Caller {
     }
 
     fn run_alone(&mut self, blocks: u32) -> Outcome {
-        for block in (0..blocks).rev() {
-            self.shared.run_block(block, 0, &mut self.own).unwrap_or_else(|payload| resume_unwind(payload));
-        }
+        self.shared.run_blocks(0..blocks, 0, &mut self.own).unwrap_or_else(|payload| resume_unwind(payload));
         Outcome::Complete
     }
 
-    /// The caller's first block is taken before the phase opens, and costs no claim.
+    /// The caller's first blocks are taken before the phase opens, and cost no claim.
     fn run_shared(&mut self, blocks: u32) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
         // Before the phase opens: a worker may finish a block of it at once, which is not yet booked as handed out.
         let stuck = self.stuck();
-        self.shared.board.open(self.epoch, blocks - 1);
-        self.call_workers(blocks - 1, stuck);
-        let own_panic = self.drain(blocks - 1).err();
+        let left = blocks - self.shared.board.share_of(blocks);
+        self.shared.board.open(self.epoch, left);
+        self.call_workers(left, stuck);
+        let own_panic = self.drain(left..blocks).err();
         let unclaimed = if own_panic.is_some() { self.shared.board.close(self.epoch) } else { 0 };
 
         let claimed = blocks - self.own.blocks - unclaimed;
@@ -99,11 +99,11 @@ impl Caller {
     }
 
     /// Runs `first` and then what it can claim.
-    fn drain(&mut self, first: u32) -> Result<(), Payload> {
-        let mut block = Some(first);
-        while let Some(claimed) = block {
-            self.shared.run_block(claimed, 0, &mut self.own)?;
-            block = self.shared.board.claim(self.epoch);
+    fn drain(&mut self, first: Range<u32>) -> Result<(), Payload> {
+        let mut blocks = Some(first);
+        while let Some(claimed) = blocks {
+            self.shared.run_blocks(claimed, 0, &mut self.own)?;
+            blocks = self.shared.board.claim(self.epoch);
         }
         Ok(())
     }

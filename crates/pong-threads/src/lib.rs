@@ -44,6 +44,8 @@ mod settings;
 #[cfg(not(loom))]
 mod signals;
 
+use std::ops::Range;
+
 #[cfg(not(loom))]
 pub use place::{Grant, WorkerStart};
 #[cfg(not(loom))]
@@ -68,6 +70,12 @@ pub trait Job: Send + Sync + 'static {
     /// own scratch memory. After an abandoned phase that includes the block which is still running: its lane takes no
     /// other before it has returned.
     fn run(&self, block: u32, lane: usize);
+
+    /// Runs neighbouring blocks, which the lane has claimed together. A job to which neighbours cost less together than one by
+    /// one says how; as it stands here they run one by one, the last first.
+    fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
+        blocks.rev().for_each(|block| self.run(block, lane));
+    }
 }
 
 /// How a phase ended.

@@ -26,7 +26,8 @@ pub struct Settings {
     /// Ask for SCHED_FIFO with this priority for the workers. Without it they have what the system gives a new
     /// thread: on Linux the policy of the thread that starts the pool. None by default.
     pub fifo_priority: Option<u8>,
-    /// A clock in ns, if the time in blocks is to be measured ([`LaneWork`](crate::LaneWork)). Asked twice per block.
+    /// A clock in ns, if the time in blocks is to be measured ([`LaneWork`](crate::LaneWork)). Asked before and after
+    /// the blocks that a lane claims together.
     pub clock: Option<fn() -> u64>,
 }
 

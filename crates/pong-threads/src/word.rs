@@ -31,8 +31,10 @@ impl Word {
         self.0 & Self::FLAG != 0
     }
 
-    pub fn one_less(self) -> Word {
-        Word(self.0 - Self::ONE)
+    /// The number less `fewer`, which it is not below.
+    pub fn less(self, fewer: u32) -> Word {
+        debug_assert!(fewer <= self.number());
+        Word(self.0 - (u64::from(fewer) << NUMBER_SHIFT))
     }
 
     /// The epoch that follows `epoch`.
@@ -41,7 +43,6 @@ impl Word {
     }
 
     pub const FLAG: u64 = 1;
-    pub const ONE: u64 = 1 << NUMBER_SHIFT;
 }
 
 #[cfg(test)]
@@ -52,8 +53,8 @@ mod tests {
     fn parts_do_not_touch_each_other() {
         let word = Word::new(EPOCH_MASK, MAX_BLOCKS, true);
         assert_eq!((word.epoch(), word.number(), word.flag()), (EPOCH_MASK, MAX_BLOCKS, true));
-        let word = Word::new(5, 1, true).one_less();
-        assert_eq!((word.epoch(), word.number(), word.flag()), (5, 0, true));
+        let word = Word::new(5, 7, true).less(4);
+        assert_eq!((word.epoch(), word.number(), word.flag()), (5, 3, true));
     }
 
     #[test]

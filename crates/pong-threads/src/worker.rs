@@ -1,6 +1,7 @@
 //! A worker: waits for a phase, claims its blocks one by one, waits again.
 
 use std::any::Any;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -28,14 +29,15 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Runs one block and adds it to what the lane has done. A panic is caught.
-    pub fn run_block(&self, block: u32, lane: usize, done: &mut Done) -> Result<(), Payload> {
+    /// Runs blocks and adds them to what the lane has done. A panic is caught: of the blocks that it leaves out nobody will ask.
+    pub fn run_blocks(&self, blocks: Range<u32>, lane: usize, done: &mut Done) -> Result<(), Payload> {
         let started_ns = self.clock.map(|clock| clock());
-        let result = catch_unwind(AssertUnwindSafe(|| self.job.run(block, lane)));
+        let count = blocks.end - blocks.start;
+        let result = catch_unwind(AssertUnwindSafe(|| self.job.run_neighbors(blocks, lane)));
         if let (Some(clock), Some(started_ns)) = (self.clock, started_ns) {
             done.busy_ns += clock().saturating_sub(started_ns);
         }
-        done.blocks += 1;
+        done.blocks += count;
         done.panicked |= result.is_err();
         result
     }
@@ -88,11 +90,11 @@ impl Worker {
     fn work(&mut self, epoch: u64) {
         let shared = &*self.shared;
         let mut done = Done::default();
-        while let Some(block) = shared.board.claim(epoch) {
-            if let Err(payload) = shared.run_block(block, self.lane, &mut done) {
+        while let Some(blocks) = shared.board.claim(epoch) {
+            self.finished += u64::from(blocks.end - blocks.start);
+            if let Err(payload) = shared.run_blocks(blocks, self.lane, &mut done) {
                 shared.keep_panic(epoch, payload);
             }
-            self.finished += 1;
             shared.board.record(self.lane, epoch, done, self.finished);
         }
     }

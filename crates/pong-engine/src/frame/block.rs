@@ -1,6 +1,6 @@
 //! One block of work: bounding, testers, sharing and forces for some elements as A against one movable group as B.
 
-use crate::frame::broad_phase::blocks::batches_of_b;
+use crate::frame::broad_phase::blocks::{batches_of_b, joined};
 use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
@@ -19,6 +19,7 @@ use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
 use pong_model::box_tree::lanes;
+use std::ops::Range;
 use std::sync::atomic::{Ordering, compiler_fence};
 
 /// Bytes of the arena of a worker's context that a block asks for: against trees of so many nodes and batches.
@@ -29,19 +30,24 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
     batches * (size_of::<&Batch>() + size_of::<Reach<'_>>()) + nodes * size_of::<u32>() + PIECES * GRAIN
 }
 
-/// Runs one block; what it finds goes to the context of the thread. Where no clock was lent, there is no trace of one either.
-pub(crate) fn run_block(
+/// Runs some blocks; what they find goes to the context of the thread. Neighbours are run as one: to begin a block takes as long
+/// as to test a few elements. Where no clock was lent, there is no trace of one either.
+pub(crate) fn run_blocks(
     scene: &Scene,
     sealed: &Sealed,
     input: &WorkerInput,
-    block: usize,
+    blocks: Range<usize>,
     worker: &mut WorkerContext,
 ) {
-    worker.arena.reset();
-    let block = input.blocks[block];
-    match input.clock.0 {
-        None => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Untimed }),
-        Some(now) => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Timed::start(now) }),
+    for block in joined(&input.blocks[blocks]) {
+        worker.arena.reset();
+        let worker = &mut *worker;
+        match input.clock.0 {
+            None => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Untimed }),
+            Some(now) => {
+                simd::run(BlockWork { scene, sealed, input, block, worker, laps: Timed::start(now) })
+            }
+        }
     }
 }
 

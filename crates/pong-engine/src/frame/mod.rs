@@ -79,9 +79,7 @@ fn find_contacts(
         input.phase += 1;
         let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller));
         if !shared {
-            for block in 0..input.blocks.len() {
-                block::run_block(scene, sealed, input, block, caller);
-            }
+            block::run_blocks(scene, sealed, input, 0..input.blocks.len(), caller);
         }
         laps = clock.start();
     };

@@ -12,6 +12,7 @@ use crate::scene::Scene;
 use crate::sealed::{Sealed, SurfaceTable};
 use crate::state::ContactMemory;
 use pong_threads::{Job, Outcome, Pool, Settings, StartError};
+use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 use std::time::Duration;
 
@@ -47,12 +48,17 @@ struct Shared {
 
 impl Job for Shared {
     fn run(&self, block: u32, context: usize) {
+        self.run_neighbors(block..block + 1, context);
+    }
+
+    fn run_neighbors(&self, blocks: Range<u32>, context: usize) {
         let input = self.input.read().unwrap_or_else(PoisonError::into_inner);
         let mut context = locked(&self.contexts[context]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
         }
-        block::run_block(&self.scene, &self.sealed, &input, block as usize, &mut context);
+        let blocks = blocks.start as usize..blocks.end as usize;
+        block::run_blocks(&self.scene, &self.sealed, &input, blocks, &mut context);
     }
 }
 

@@ -1,5 +1,6 @@
 //! Trees of bounding volumes: lays out the blocks of work, and finds the leaves of B that a leaf of A may touch.
 
+use crate::frame::broad_phase::candidate_pairs::SUPERCHUNK;
 use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::report::FrameCounts;
 use crate::scene::Scene;
@@ -7,14 +8,20 @@ use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::List;
 use pong_geometry::Transform;
 use pong_geometry::bounding::Volume;
+use pong_geometry::simd::LANES;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
 use pong_model::{Batch, MovableGroup, Node};
+use std::ops::Range;
 
 /// Blocks of one round: when so many are laid out they are worked off before more are.
 pub(crate) const ROUND: usize = 4096;
 
-/// What a block may cost before it is cut, ns: long against claiming one, short against a frame.
-const BLOCK_NS: u32 = 4000;
+/// What the elements below a node of boxes may cost before its children are asked for themselves, ns.
+const NODE_NS: u32 = 4000;
+
+/// What a block may cost before it is cut, ns: long against claiming one, short against a frame. What a thread claims together
+/// it runs as one, so small blocks cost little.
+const BLOCK_NS: u32 = 2000;
 
 /// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is
 /// full and at the end. Every call is told what the round may cost, ns.
@@ -33,8 +40,18 @@ pub(crate) fn lay_out(
             let (body_a, body_b) = sealed.bodies_of(direction);
             let bodies = (scene.body(body_a), scene.body(body_b));
             let slot = slot as u32;
-            let mut layout =
-                Layout { sealed, plan, bodies, direction, slot, input, counts, cost: &mut cost, work };
+            let mut layout = Layout {
+                sealed,
+                plan,
+                bodies,
+                direction,
+                slot,
+                leads: true,
+                input,
+                counts,
+                cost: &mut cost,
+                work,
+            };
             layout.visit_leaves(0);
         }
     }
@@ -50,6 +67,8 @@ struct Layout<'a, 'w> {
     bodies: (&'a MovableGroup, &'a MovableGroup),
     direction: Direction,
     slot: u32,
+    /// Whether no block of the batch in hand has been laid out yet.
+    leads: bool,
     input: &'a mut WorkerInput,
     counts: &'a mut FrameCounts,
     cost: &'a mut u64,
@@ -81,34 +100,46 @@ impl Layout<'_, '_> {
         for batch in batches.clone() {
             let Some(element_ns) = self.plan.element_ns(tree.batches[batch as usize].kind) else { continue };
             let boxes = &tree.batches[batch as usize].boxes;
-            let at_most = (BLOCK_NS / element_ns).next_multiple_of(8);
-            let block =
-                Block { direction: self.direction, slot: self.slot, leaf: node, batch, first: 0, end: 0 };
-            self.cut(boxes, 0, at_most, element_ns, block);
+            let (direction, slot) = (self.direction, self.slot);
+            let block = Block { direction, slot, leaf: node, batch, first: 0, end: 0, leads: false };
+            self.leads = true;
+            self.cut(boxes, 0, element_ns, block);
         }
     }
 
-    /// Cuts the elements below a node of boxes into blocks; a node too large for one is first asked whether it
-    /// reaches B at all.
-    fn cut(&mut self, boxes: &BoxTree, node: u32, at_most: u32, element_ns: u32, block: Block) {
+    /// Cuts the elements below a node of boxes into blocks; the children of a large node are first asked whether they
+    /// reach B at all.
+    fn cut(&mut self, boxes: &BoxTree, node: u32, element_ns: u32, block: Block) {
+        let at_most = (NODE_NS / element_ns).next_multiple_of(LANES as u32);
         let node: &BoxNode = &boxes.nodes[node as usize];
         let elements = node.elements.clone();
         if elements.end - elements.start <= at_most || node.is_bottom() {
-            let cost = u64::from(elements.end - elements.start) * u64::from(element_ns);
-            return self.add(Block { first: elements.start, end: elements.end, ..block }, cost);
+            return self.slice(elements, element_ns, block);
         }
         for (lane, child) in node.children().enumerate() {
             let Child::Node(child) = child else { continue };
             let below = &boxes.nodes[child as usize].elements;
             let small = below.end - below.start <= at_most;
             if small || self.reaches_b(&as_volume(boxes, &node.boxes.lane(lane))) {
-                self.cut(boxes, child, at_most, element_ns, block);
+                self.cut(boxes, child, element_ns, block);
             }
         }
     }
 
+    /// Cuts consecutive elements into blocks, between groups of elements that are carried together.
+    fn slice(&mut self, elements: Range<u32>, element_ns: u32, block: Block) {
+        let step = (BLOCK_NS / element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK);
+        let mut first = elements.start;
+        while first < elements.end {
+            let end = elements.end.min((first / SUPERCHUNK) * SUPERCHUNK + step);
+            self.add(Block { first, end, ..block }, u64::from(end - first) * u64::from(element_ns));
+            first = end;
+        }
+    }
+
     fn add(&mut self, block: Block, cost: u64) {
-        self.input.blocks.push(block);
+        self.input.blocks.push(Block { leads: self.leads, ..block });
+        self.leads = false;
         *self.cost += cost;
         if self.input.blocks.len() == ROUND {
             (self.work)(self.input, *self.cost);
@@ -118,13 +149,37 @@ impl Layout<'_, '_> {
     }
 }
 
+/// Some blocks in their order, those that go on in the next one as one.
+pub(crate) fn joined(blocks: &[Block]) -> impl Iterator<Item = Block> + '_ {
+    let mut left = blocks;
+    std::iter::from_fn(move || {
+        let (first, mut rest) = left.split_first()?;
+        let mut all = *first;
+        while let Some((next, others)) = rest.split_first()
+            && goes_on(&all, next)
+        {
+            (all.end, rest) = (next.end, others);
+        }
+        left = rest;
+        Some(all)
+    })
+}
+
+/// Whether a block goes on in the next one, and no group of elements that are carried together is cut there: as one block
+/// the two find the same by the same tests.
+fn goes_on(block: &Block, next: &Block) -> bool {
+    let of = |block: &Block| (block.direction, block.slot, block.leaf, block.batch);
+    of(block) == of(next) && block.end == next.first && next.first.is_multiple_of(SUPERCHUNK)
+}
+
 fn as_volume(boxes: &BoxTree, narrow: &NarrowBox) -> Volume {
     let (low, high) = boxes.widened(narrow);
     let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
     if half.iter().all(|x| x.is_finite()) { Volume::Aabb { center, half } } else { Volume::Unbounded }
 }
 
-/// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch.
+/// The batches of B in leaves whose volumes a leaf of A overlaps and that a kind of A may touch. The tests are counted where the
+/// batch of A begins: how its blocks are joined depends on the threads, and no count may.
 pub(crate) fn batches_of_b<'a>(
     (context, plan): (&PairContext<'a>, &Plan),
     block: &Block,
@@ -142,7 +197,7 @@ pub(crate) fn batches_of_b<'a>(
     while next < stack.len() {
         let node = &tree_b.nodes[stack[next] as usize];
         next += 1;
-        counts.leaf_pairs += u64::from(block.first == 0 && node.children.is_empty());
+        counts.leaf_pairs += u64::from(block.leads && node.children.is_empty());
         for batch in node.batches.clone() {
             let batch = &tree_b.batches[batch as usize];
             if plan.tests(kind_a, batch.kind) {
@@ -152,9 +207,52 @@ pub(crate) fn batches_of_b<'a>(
         for child in node.children.clone() {
             let below = &tree_b.nodes[child as usize].volume;
             let meets = context.volume_tests.overlap(volume, below, &context.motion.x_ba);
-            counts.note_volumes(volume, below, meets);
+            if block.leads {
+                counts.note_volumes(volume, below, meets);
+            }
             if meets {
                 stack.push(child).expect(room);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_testkit::Random;
+
+    /// Of random blocks, some of which go on in the next: as many elements of every batch, and whatever is joined could be.
+    #[test]
+    fn joined_blocks_hold_the_same_elements_and_cut_no_group() {
+        let mut random = Random::new(17, 0, 0);
+        for _ in 0..300 {
+            let mut blocks: Vec<Block> = Vec::new();
+            for batch in 0..1 + random.below(3) as u32 {
+                let mut first = 8 * random.below(40) as u32;
+                for number in 0..1 + random.below(6) {
+                    let step = if random.below(2) == 0 { SUPERCHUNK } else { LANES as u32 };
+                    let end = (first / step + 1 + random.below(4) as u32) * step;
+                    let direction = Direction { group_pair: 3, flipped: 1 };
+                    let leads = number == 0;
+                    blocks.push(Block { direction, slot: 0, leaf: 2, batch, first, end, leads });
+                    first = if random.below(3) == 0 { end + LANES as u32 } else { end };
+                }
+            }
+            let elements = |block: &Block| {
+                let batch = block.batch;
+                (block.first..block.end).map(move |element| (batch, element))
+            };
+            let runs: Vec<Block> = joined(&blocks).collect();
+            assert!(blocks.iter().flat_map(elements).eq(runs.iter().flat_map(elements)));
+            let leading = |blocks: &[Block]| blocks.iter().filter(|block| block.leads).count();
+            assert_eq!(leading(&blocks), leading(&runs));
+            for cut in blocks.windows(2).filter(|two| two[0].batch == two[1].batch) {
+                let is_whole = cut[0].end == cut[1].first && cut[1].first.is_multiple_of(SUPERCHUNK);
+                assert_ne!(
+                    is_whole,
+                    runs.iter().any(|run| (run.batch, run.first) == (cut[1].batch, cut[1].first))
+                );
             }
         }
     }

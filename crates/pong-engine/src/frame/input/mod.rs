@@ -55,6 +55,8 @@ pub(crate) struct Block {
     /// First element, a multiple of eight, and one past the last.
     pub first: u32,
     pub end: u32,
+    /// Whether it is the first of its batch that was laid out: what is asked once per batch is counted there.
+    pub leads: bool,
 }
 
 impl WorkerInput {
