@@ -21,7 +21,7 @@ const NODE_NS: u32 = 4000;
 
 /// What a block may cost before it is cut, ns: long against claiming one, short against a frame. What a thread claims together
 /// it runs as one, so small blocks cost little.
-const BLOCK_NS: u32 = 2000;
+const BLOCK_NS: u32 = 1000;
 
 /// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is
 /// full and at the end. Every call is told what the round may cost, ns.
