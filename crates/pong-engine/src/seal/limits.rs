@@ -18,12 +18,7 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
 /// How much memory the frames of a scene get.
-pub(super) fn limits(
-    scene: &Scene,
-    paired_bodies: &[usize],
-    record_capacity: usize,
-    law_state_len: usize,
-) -> Limits {
+pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
     /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
     /// settled which of them push.
     const FOUND_MIN: usize = 1024;
@@ -40,8 +35,7 @@ pub(super) fn limits(
     /// Every piece is rounded up to a grain.
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
-    let numbers = law_state_len * size_of::<f64>();
-    let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + numbers + GRAINS;
+    let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + GRAINS;
     Limits { lane_contacts, found, arena_bytes, scratch_bytes }
 }
 
