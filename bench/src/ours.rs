@@ -279,7 +279,7 @@ impl<M: Movers> Kernel for Pass<'_, M> {
     fn run<S: Simd>(self, simd: S) {
         match self.mover {
             Mover::Point => self.points(simd),
-            Mover::Segment => self.segments(),
+            Mover::Segment => self.segments(simd),
             Mover::Ray => self.rays(),
             Mover::Sphere => self.spheres(simd),
             Mover::Ellipsoid => self.ellipsoids(),
@@ -309,10 +309,10 @@ impl<M: Movers> Pass<'_, M> {
     }
 
     #[inline(always)]
-    fn segments(self) {
+    fn segments<S: Simd>(self, simd: S) {
         let (m, b) = (self.movers, self.body);
         match self.kind {
-            Hull => self.each(|i| deepest(line_segment_polyhedron(&m.segment(i), &b.polyhedra[0]))),
+            Hull => self.segments_in_hull(simd),
             Plane => self.each(|i| deepest(line_segment_plane(&m.segment(i), &b.planes[0]))),
             PrimitiveKind::Capsule => {
                 self.each(|i| deepest_end(segment_capsule(&m.segment(i), &b.capsules[0])));
@@ -372,6 +372,26 @@ impl<M: Movers> Pass<'_, M> {
                 let below = || point_below_face(p, b, shallowest_face(p, b)?);
                 *answer =
                     (inside >> lane & 1 == 1).then(below).flatten().map(Answer::from).unwrap_or_default();
+            }
+        }
+    }
+
+    /// Eight segments at a time; then those that no face keeps out, one by one.
+    #[inline(always)]
+    fn segments_in_hull<S: Simd>(self, simd: S) {
+        let b = &self.body.polyhedra[0];
+        for (chunk, answers) in self.answers.chunks_mut(LANES).enumerate() {
+            let (mut segments, mut ends) = ([SEGMENT; LANES], [Lanes::ORIGIN; 2]);
+            for (lane, segment) in segments.iter_mut().enumerate().take(answers.len()) {
+                *segment = self.movers.segment(LANES * chunk + lane);
+                put(&mut ends[0], lane, &segment.ends[0]);
+                put(&mut ends[1], lane, &segment.ends[1]);
+            }
+            let kept_out = b.lanes_kept_out_in(simd, &ends);
+            for (lane, (segment, answer)) in segments.iter().zip(answers).enumerate() {
+                let near = || deepest_of_both(&line_segment_polyhedron(segment, b));
+                *answer =
+                    (kept_out >> lane & 1 == 0).then(near).flatten().map(Answer::from).unwrap_or_default();
             }
         }
     }
@@ -542,6 +562,11 @@ fn balls(a: &Capsule) -> [Sphere; 2] {
 
 fn deepest(found: impl IntoIterator<Item = Option<Interference>>) -> Option<Interference> {
     found.into_iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth))
+}
+
+/// Compared where they are: to move them first takes longer than to compare them.
+fn deepest_of_both(found: &[Option<Interference>; 2]) -> Option<Interference> {
+    found.iter().flatten().max_by(|a, b| a.depth.total_cmp(&b.depth)).copied()
 }
 
 fn deepest_end(found: EndContacts) -> Option<Interference> {

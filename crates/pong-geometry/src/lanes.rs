@@ -83,6 +83,37 @@ impl Polyhedron {
         outside
     }
 
+    /// Which of eight line segments, told by their first and their second ends, one of the first planes keeps out: bit `i` is
+    /// set exactly if both ends lie in or above the plane of one of the first 32 faces, an inner wall standing out by the slack
+    /// of walls.
+    ///
+    /// Such a segment has no contact with this piece; another may have none either. Of many faces the rest would take longer
+    /// for all eight than each segment that misses takes by itself.
+    #[inline]
+    pub fn lanes_kept_out(&self, ends: &[Lanes; 2]) -> LaneBits {
+        simd::run(KeptOut { polyhedron: self, ends })
+    }
+
+    /// [`lanes_kept_out`](Self::lanes_kept_out) within a kernel.
+    #[inline(always)]
+    pub fn lanes_kept_out_in<S: Simd>(&self, simd: S, ends: &[Lanes; 2]) -> LaneBits {
+        const FIRST: usize = 32;
+        let ends = [Loaded::new(simd, &ends[0]), Loaded::new(simd, &ends[1])];
+        // A segment in the plane of a closed face may belong to this piece, even where there is no slack.
+        let slack = self.planes().wall_slack.max(f64::MIN_POSITIVE);
+        let mut kept_out = 0;
+        for face in self.faces.iter().take(FIRST) {
+            let limit = simd.splat(if face.active && !face.closed { 0.0 } else { slack });
+            let first = simd.at_least(ends[0].heights_above(face), limit);
+            let second = simd.at_least(ends[1].heights_above(face), limit);
+            kept_out |= simd.bits(simd.and(first, second));
+            if kept_out == LaneBits::MAX {
+                break;
+            }
+        }
+        kept_out
+    }
+
     /// Which of eight points lie inside this piece: bit `i` is set exactly if
     /// [`contains`](Polyhedron::contains) says so.
     #[inline]
@@ -174,6 +205,20 @@ impl Kernel for Outside<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> LaneBits {
         self.polyhedron.lanes_outside_in(simd, self.points, self.reach)
+    }
+}
+
+struct KeptOut<'a> {
+    polyhedron: &'a Polyhedron,
+    ends: &'a [Lanes; 2],
+}
+
+impl Kernel for KeptOut<'_> {
+    type Output = LaneBits;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S) -> LaneBits {
+        self.polyhedron.lanes_kept_out_in(simd, self.ends)
     }
 }
 

@@ -2,8 +2,9 @@
 
 mod common;
 
-use common::{Random, cuboid, stretched_hull};
-use pong_geometry::primitive::{Polyhedron, PolyhedronParts};
+use common::{Random, cuboid, hull_with_walls, moved, random_motion, stretched_hull};
+use pong_geometry::interference::line_segment_polyhedron::line_segment_piece;
+use pong_geometry::primitive::{LineSegment, Polyhedron, PolyhedronParts};
 use pong_geometry::simd::{self, LANES, Level};
 use pong_geometry::{Lanes, Quat, Transform, Vec3};
 use std::sync::Mutex;
@@ -130,6 +131,86 @@ fn a_reach_of_exactly_the_height_is_outside() {
         let reach = [0.25, 0.0, 0.0, 1.5, 0.0, 1.0, 0.250_000_1, 0.25];
         let lanes = Lanes { x, ..Lanes::ORIGIN };
         assert_eq!(cube.lanes_outside(&lanes, &reach), 0b1010_0011);
+    });
+}
+
+/// The ends of eight segments.
+fn ends_of(segments: &[LineSegment; LANES]) -> [Lanes; 2] {
+    [0, 1].map(|end: usize| lanes_of(&std::array::from_fn(|lane| segments[lane].ends[end])))
+}
+
+#[test]
+fn segments_kept_out_are_what_the_first_faces_say() {
+    at_every_level(|| {
+        let mut random = Random(21);
+        for polyhedron in polyhedra() {
+            let slack = polyhedron.planes().wall_slack;
+            for _ in 0..500 {
+                let (from, to) = (points(&mut random), points(&mut random));
+                let expected = bits_of(|i| {
+                    polyhedron.faces.iter().take(32).any(|face| {
+                        let limit = if face.active { 0.0 } else { slack };
+                        face.height(&from[i]) >= limit && face.height(&to[i]) >= limit
+                    })
+                });
+                let ends = [lanes_of(&from), lanes_of(&to)];
+                assert_eq!(polyhedron.lanes_kept_out(&ends), expected, "{from:?} {to:?}");
+            }
+        }
+    });
+}
+
+/// Convex pieces, some with inner walls, as they are and turned.
+fn pieces(random: &mut Random) -> Vec<Polyhedron> {
+    let corners = common::cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0));
+    let mut all = polyhedra();
+    all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9));
+    all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9 || normal.y < -0.9));
+    all.push(hull_with_walls(&common::fibonacci_sphere(18), &|normal, _| normal.x > 0.7));
+    let turned: Vec<_> = all.iter().map(|piece| moved(piece, &random_motion(random, 0.5))).collect();
+    all.extend(turned);
+    all
+}
+
+/// A place near a piece: anywhere, with coordinates of single precision, along an edge or in the plane of some vertices,
+/// or within rounding of these or within the slack of walls.
+fn place(random: &mut Random, piece: &Polyhedron) -> Vec3 {
+    let vertex =
+        |random: &mut Random| piece.vertices[(random.unit() * piece.vertices.len() as f64) as usize].position;
+    let (a, b, c) = (vertex(random), vertex(random), vertex(random));
+    let in_plane = a
+        + (b - a) * random.between(-0.5, 1.5)
+        + (c - a) * [0.0, random.between(-0.5, 1.5)][(random.unit() * 2.0) as usize];
+    match (random.unit() * 5.0) as u32 {
+        0 => Vec3::from_fn(|_, _| random.between(-1.5, 1.5)),
+        1 => Vec3::from_fn(|_, _| f64::from(random.between(-1.5, 1.5) as f32)),
+        2 => in_plane.map(|x| f64::from(x as f32)),
+        3 => in_plane + Vec3::from_fn(|_, _| random.between(-3e-6, 3e-6)),
+        _ => in_plane,
+    }
+}
+
+#[test]
+fn segments_kept_out_have_no_contact() {
+    at_every_level(|| {
+        let mut random = Random(22);
+        let (mut kept_out, mut touch) = (0, 0);
+        for piece in pieces(&mut random) {
+            for _ in 0..1000 {
+                let segments: [LineSegment; LANES] = std::array::from_fn(|_| LineSegment {
+                    ends: [place(&mut random, &piece), place(&mut random, &piece)],
+                });
+                let out = piece.lanes_kept_out(&ends_of(&segments));
+                for (lane, segment) in segments.iter().enumerate() {
+                    let touches = line_segment_piece(segment, &piece).iter().any(Option::is_some);
+                    let is_out = out >> lane & 1 == 1;
+                    assert!(!(is_out && touches), "{:?}", segment.ends);
+                    kept_out += u32::from(is_out);
+                    touch += u32::from(touches);
+                }
+            }
+        }
+        assert!(kept_out > 1000 && touch > 1000, "kept out {kept_out}, touch {touch}");
     });
 }
 

@@ -147,6 +147,20 @@ impl<'a, 'l> Chunk<'a, 'l> {
         }
     }
 
+    /// Of a chunk of line segments the first and the second ends.
+    #[inline(never)]
+    pub fn ends(&self) -> [Lanes; 2] {
+        let mut ends = [Lanes::ORIGIN; 2];
+        for (lane, one) in self.carried.iter().enumerate() {
+            if let TransformedPrimitive::Segment(segment) = one {
+                for (lanes, end) in ends.iter_mut().zip(&segment.ends) {
+                    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (end.x, end.y, end.z);
+                }
+            }
+        }
+        ends
+    }
+
     /// One element of another kind; `None` for kinds that are never A in the table.
     #[inline(always)]
     pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {

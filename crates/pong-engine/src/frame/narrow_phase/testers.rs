@@ -12,6 +12,9 @@ use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Item;
 use pong_model::box_tree::lanes;
 
+/// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
+const WORTH_EIGHT: u32 = 4;
+
 /// One element of B against a chunk of A.
 pub(crate) struct Target<'a> {
     pub context: &'a PairContext<'a>,
@@ -68,7 +71,7 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// Most points and spheres near a polyhedron end here: apart by the plane of one face.
+    /// Most points, spheres and line segments near a polyhedron end here: apart by the plane of one face.
     #[inline(always)]
     fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
@@ -78,6 +81,9 @@ impl<'a> Target<'a> {
         match chunk.kind {
             PrimitiveKind::Point => near & polyhedron.lanes_inside_or_at_wall_in(simd, chunk.centers),
             PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, chunk.centers, chunk.radii),
+            PrimitiveKind::LineSegment if near.count_ones() >= WORTH_EIGHT => {
+                near & !polyhedron.lanes_kept_out_in(simd, &chunk.ends())
+            }
             _ => near,
         }
     }
