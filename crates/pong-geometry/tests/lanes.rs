@@ -143,10 +143,14 @@ fn ends_of(segments: &[LineSegment; LANES]) -> [Lanes; 2] {
 fn segments_kept_out_are_what_the_first_faces_say() {
     at_every_level(|| {
         let mut random = Random(21);
-        for polyhedron in polyhedra() {
+        for polyhedron in pieces(&mut random) {
             let slack = polyhedron.planes().wall_slack;
-            for _ in 0..500 {
-                let (from, to) = (points(&mut random), points(&mut random));
+            for round in 0..500 {
+                let near = |random: &mut Random| std::array::from_fn(|_| place(random, &polyhedron));
+                let (from, to) = match round % 2 {
+                    0 => (points(&mut random), points(&mut random)),
+                    _ => (near(&mut random), near(&mut random)),
+                };
                 let expected = bits_of(|i| {
                     polyhedron.faces.iter().take(32).any(|face| {
                         let limit = if face.active { 0.0 } else { slack };
@@ -167,6 +171,13 @@ fn pieces(random: &mut Random) -> Vec<Polyhedron> {
     all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9));
     all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9 || normal.y < -0.9));
     all.push(hull_with_walls(&common::fibonacci_sphere(18), &|normal, _| normal.x > 0.7));
+    // The same with walls of which the pieces behind them hold the points.
+    let mut open = all.clone();
+    let opened = |piece: &mut Polyhedron| {
+        piece.change(|parts| parts.faces.iter_mut().for_each(|face| face.closed = false))
+    };
+    open.iter_mut().for_each(opened);
+    all.extend(open);
     let turned: Vec<_> = all.iter().map(|piece| moved(piece, &random_motion(random, 0.5))).collect();
     all.extend(turned);
     all
