@@ -77,11 +77,9 @@ impl Way {
         self.rig.world.quiesce();
     }
 
-    /// The middle frame of each half of the run, s.
-    fn middles(&self) -> [f64; 2] {
-        let mut times = self.times.clone();
-        let (earlier, later) = times.split_at_mut(self.times.len() / 2);
-        [earlier, later].map(|half| quantile(half, 0.5))
+    /// The middle frame of every turn, s.
+    fn middles(&self) -> Vec<f64> {
+        self.times.chunks(TURN as usize).map(|turn| quantile(&mut turn.to_vec(), 0.5)).collect()
     }
 }
 
@@ -98,16 +96,19 @@ fn told(ways: &mut [Way; 3]) -> Table {
     ]);
     let alone = ways[0].middles();
     for way in ways {
-        let [earlier, later] = way.middles();
-        let ratios = [earlier / alone[0], later / alone[1]];
+        // Turn by turn: what the machine does beside it changes within seconds.
+        let mut ratios: Vec<f64> = way.middles().iter().zip(&alone).map(|(own, alone)| own / alone).collect();
+        let halves = ratios.len() / 2;
+        let (earlier, later) = ratios.split_at_mut(halves);
+        let [a, b] = [earlier, later].map(|half| quantile(half, 0.5));
         let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut way.times, share) / MICRO));
         let wanted = match way.name {
             "alone" => "–".to_owned(),
-            _ => ratio_at_most(1.0, Some([ratios[0].min(ratios[1]), ratios[0].max(ratios[1])])),
+            _ => ratio_at_most(1.0, Some([a.min(b), a.max(b)])),
         };
         let row = [way.name.to_owned()].into_iter().chain(told);
         let late = format!("{} of {}", way.late, way.times.len());
-        table.row(row.chain([late, digits(0.5 * (ratios[0] + ratios[1])), wanted]));
+        table.row(row.chain([late, digits(quantile(&mut ratios, 0.5)), wanted]));
     }
     table
 }
