@@ -69,7 +69,7 @@ fn a_worker_that_hangs_costs_one_phase_and_is_used_again_when_it_returns() {
     let mut pool = start(&hang, &impatient(1));
     assert_eq!(pool.run(8), Outcome::Abandoned);
     assert!(!pool.is_quiet());
-    // The caller had claimed two of the eight before the worker came, which claimed two of the six that were left.
+    // The caller had claimed four of the eight before the worker came, which claimed two of the four that were left.
     assert_eq!(hang.take().iter().sum::<u32>(), 6);
 
     for _ in 0..100 {
