@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Random, cuboid, hull_with_walls, moved, random_motion, stretched_hull};
+use common::{Random, cuboid, pieces, place_near, stretched_hull};
 use pong_geometry::interference::line_segment_polyhedron::line_segment_piece;
 use pong_geometry::primitive::{LineSegment, Polyhedron, PolyhedronParts};
 use pong_geometry::simd::{self, LANES, Level};
@@ -143,10 +143,10 @@ fn ends_of(segments: &[LineSegment; LANES]) -> [Lanes; 2] {
 fn segments_kept_out_are_what_the_first_faces_say() {
     at_every_level(|| {
         let mut random = Random(21);
-        for polyhedron in pieces(&mut random) {
+        for polyhedron in polyhedra().into_iter().chain(pieces(&mut random)) {
             let slack = polyhedron.planes().wall_slack;
             for round in 0..500 {
-                let near = |random: &mut Random| std::array::from_fn(|_| place(random, &polyhedron));
+                let near = |random: &mut Random| std::array::from_fn(|_| place_near(random, &polyhedron));
                 let (from, to) = match round % 2 {
                     0 => (points(&mut random), points(&mut random)),
                     _ => (near(&mut random), near(&mut random)),
@@ -164,43 +164,6 @@ fn segments_kept_out_are_what_the_first_faces_say() {
     });
 }
 
-/// Convex pieces, some with inner walls, as they are and turned.
-fn pieces(random: &mut Random) -> Vec<Polyhedron> {
-    let corners = common::cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0));
-    let mut all = polyhedra();
-    all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9));
-    all.push(hull_with_walls(&corners, &|normal, _| normal.x > 0.9 || normal.y < -0.9));
-    all.push(hull_with_walls(&common::fibonacci_sphere(18), &|normal, _| normal.x > 0.7));
-    // The same with walls of which the pieces behind them hold the points.
-    let mut open = all.clone();
-    let opened = |piece: &mut Polyhedron| {
-        piece.change(|parts| parts.faces.iter_mut().for_each(|face| face.closed = false))
-    };
-    open.iter_mut().for_each(opened);
-    all.extend(open);
-    let turned: Vec<_> = all.iter().map(|piece| moved(piece, &random_motion(random, 0.5))).collect();
-    all.extend(turned);
-    all
-}
-
-/// A place near a piece: anywhere, with coordinates of single precision, along an edge or in the plane of some vertices,
-/// or within rounding of these or within the slack of walls.
-fn place(random: &mut Random, piece: &Polyhedron) -> Vec3 {
-    let vertex =
-        |random: &mut Random| piece.vertices[(random.unit() * piece.vertices.len() as f64) as usize].position;
-    let (a, b, c) = (vertex(random), vertex(random), vertex(random));
-    let in_plane = a
-        + (b - a) * random.between(-0.5, 1.5)
-        + (c - a) * [0.0, random.between(-0.5, 1.5)][(random.unit() * 2.0) as usize];
-    match (random.unit() * 5.0) as u32 {
-        0 => Vec3::from_fn(|_, _| random.between(-1.5, 1.5)),
-        1 => Vec3::from_fn(|_, _| f64::from(random.between(-1.5, 1.5) as f32)),
-        2 => in_plane.map(|x| f64::from(x as f32)),
-        3 => in_plane + Vec3::from_fn(|_, _| random.between(-3e-6, 3e-6)),
-        _ => in_plane,
-    }
-}
-
 #[test]
 fn segments_kept_out_have_no_contact() {
     at_every_level(|| {
@@ -209,7 +172,7 @@ fn segments_kept_out_have_no_contact() {
         for piece in pieces(&mut random) {
             for _ in 0..1000 {
                 let segments: [LineSegment; LANES] = std::array::from_fn(|_| LineSegment {
-                    ends: [place(&mut random, &piece), place(&mut random, &piece)],
+                    ends: [place_near(&mut random, &piece), place_near(&mut random, &piece)],
                 });
                 let out = piece.lanes_kept_out(&ends_of(&segments));
                 for (lane, segment) in segments.iter().enumerate() {

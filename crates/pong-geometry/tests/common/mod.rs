@@ -315,3 +315,45 @@ pub fn patch(count: u32, random: &mut Random, lift: &dyn Fn(f64, f64) -> f64) ->
     }
     triangle_set(vertices, &triangles)
 }
+
+/// Convex pieces, some with inner walls, which they hold or the pieces behind them do, as they are and turned.
+pub fn pieces(random: &mut Random) -> Vec<Polyhedron> {
+    let box_corners = cuboid_corners(Vec3::repeat(-1.0), Vec3::repeat(1.0));
+    let walled = [
+        hull_with_walls(&box_corners, &|normal, _| normal.x > 0.9),
+        hull_with_walls(&box_corners, &|normal, _| normal.x > 0.9 || normal.y < -0.9),
+        hull_with_walls(&fibonacci_sphere(18), &|normal, _| normal.x > 0.7),
+    ];
+    let open = walled.clone().map(|mut piece| {
+        piece.change(|parts| parts.faces.iter_mut().for_each(|face| face.closed = false));
+        piece
+    });
+    let mut all = vec![cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0))];
+    all.extend(walled.into_iter().chain(open));
+    all.extend([4, 8, 12, 18, 25, 66].map(|vertices| stretched_hull(vertices, Vec3::new(1.0, 0.8, 0.6))));
+    let turned: Vec<_> = all.iter().map(|piece| moved(piece, &random_motion(random, 0.5))).collect();
+    all.extend(turned);
+    all
+}
+
+/// A place near a piece: anywhere, with coordinates of single precision or of few digits, along an edge or in the plane of some
+/// vertices, or within rounding of these or within the slack of walls.
+pub fn place_near(random: &mut Random, piece: &Polyhedron) -> Vec3 {
+    let [a, b, c] = [(); 3].map(|()| {
+        let vertex = (random.unit() * piece.vertices.len() as f64) as usize;
+        piece.vertices[vertex].position
+    });
+    let along_edge = a + (b - a) * random.between(-0.5, 1.5);
+    let in_plane = along_edge + (c - a) * random.between(-0.5, 1.5);
+    match (random.unit() * 9.0) as u32 {
+        0 => Vec3::from_fn(|_, _| random.between(-1.5, 1.5)),
+        1 => Vec3::from_fn(|_, _| f64::from(random.between(-1.5, 1.5) as f32)),
+        2 => Vec3::from_fn(|_, _| random.between(-6.5, 6.5).round() * 0.25),
+        3 => along_edge,
+        4 => in_plane,
+        5 => in_plane.map(|x| f64::from(x as f32)),
+        6 => a + Vec3::from_fn(|_, _| random.between(-1e-9, 1e-9)),
+        7 => along_edge + Vec3::from_fn(|_, _| random.between(-3e-6, 3e-6)),
+        _ => in_plane + Vec3::from_fn(|_, _| random.between(-3e-6, 3e-6)),
+    }
+}
