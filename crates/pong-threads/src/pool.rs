@@ -114,7 +114,8 @@ impl Pool {
     }
 
     /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
-    /// in time. A panic of a block goes on here, after the other blocks that were claimed have ended or the worker timeout has.
+    /// in time. A panic of a block goes on here, after the blocks that others claimed have ended or the worker timeout has; those
+    /// that its lane had claimed with it are left out.
     ///
     /// # Panics
     ///

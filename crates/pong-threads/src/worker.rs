@@ -1,4 +1,4 @@
-//! A worker: waits for a phase, claims its blocks one by one, waits again.
+//! A worker: waits for a phase, claims blocks until none is left, waits again.
 
 use std::any::Any;
 use std::ops::Range;
