@@ -40,6 +40,13 @@ pub fn quantile(values: &mut [f64], share: f64) -> f64 {
     values.get(index).copied().unwrap_or(f64::NAN)
 }
 
+/// The middles of the earlier and of the later half of what was measured, the smaller first. Sorts each half.
+pub fn middles_of_halves(values: &mut [f64]) -> [f64; 2] {
+    let (earlier, later) = values.split_at_mut(values.len() / 2);
+    let [a, b] = [earlier, later].map(|half| quantile(half, 0.5));
+    [a.min(b), a.max(b)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

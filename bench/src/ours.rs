@@ -364,7 +364,7 @@ impl<M: Movers> Pass<'_, M> {
             let (mut points, mut lanes) = ([POINT; LANES], Lanes::ORIGIN);
             for (lane, point) in points.iter_mut().enumerate().take(answers.len()) {
                 *point = self.movers.point(LANES * chunk + lane);
-                put(&mut lanes, lane, &point.position);
+                lanes.set(lane, &point.position);
             }
             let inside = b.lanes_contain_in(simd, &lanes);
             for (lane, (point, answer)) in points.iter().zip(answers).enumerate() {
@@ -384,8 +384,8 @@ impl<M: Movers> Pass<'_, M> {
             let (mut segments, mut ends) = ([SEGMENT; LANES], [Lanes::ORIGIN; 2]);
             for (lane, segment) in segments.iter_mut().enumerate().take(answers.len()) {
                 *segment = self.movers.segment(LANES * chunk + lane);
-                put(&mut ends[0], lane, &segment.ends[0]);
-                put(&mut ends[1], lane, &segment.ends[1]);
+                ends[0].set(lane, &segment.ends[0]);
+                ends[1].set(lane, &segment.ends[1]);
             }
             let kept_out = b.lanes_kept_out_in(simd, &ends);
             for (lane, (segment, answer)) in segments.iter().zip(answers).enumerate() {
@@ -404,7 +404,7 @@ impl<M: Movers> Pass<'_, M> {
             let (mut spheres, mut lanes) = ([SPHERE; LANES], Lanes::ORIGIN);
             for (lane, sphere) in spheres.iter_mut().enumerate().take(answers.len()) {
                 *sphere = self.movers.sphere(LANES * chunk + lane);
-                put(&mut lanes, lane, &sphere.center);
+                lanes.set(lane, &sphere.center);
             }
             let apart = b.lanes_outside_in(simd, &lanes, &[RADIUS; LANES]);
             for (lane, (sphere, answer)) in spheres.iter().zip(answers).enumerate() {
@@ -508,11 +508,6 @@ impl PairPeer for Ours {
         self.test_all(elements, answers);
         true
     }
-}
-
-#[inline(always)]
-fn put(lanes: &mut Lanes, lane: usize, p: &Vec3) {
-    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (p.x, p.y, p.z);
 }
 
 fn sphere_on_hull(a: &Sphere, b: &Polyhedron) -> Option<Interference> {

@@ -1,6 +1,6 @@
 //! W8: cold frames: between two frames the rest of a simulation has filled the caches.
 
-use pong_bench::one_by_one::{Others, quantile, seconds};
+use pong_bench::one_by_one::{Others, middles_of_halves, quantile, seconds};
 use pong_bench::options::Options;
 use pong_bench::peer::Peer;
 use pong_bench::rig;
@@ -42,9 +42,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             cold.push(pass(Some(&mut others)));
         }
         let mut ratios: Vec<f64> = cold.iter().zip(&warm).map(|(cold, warm)| cold / warm).collect();
-        let (earlier, later) = ratios.split_at_mut(warm.len() / 2);
-        let [a, b] = [earlier, later].map(|half| quantile(half, 0.5));
-        let verdict = wanted.map(|wanted| ratio_at_most(wanted, Some([a.min(b), a.max(b)])));
+        let halves = middles_of_halves(&mut ratios);
+        let verdict = wanted.map(|wanted| ratio_at_most(wanted, Some(halves)));
         let [warm, cold] = [&mut warm, &mut cold].map(|times| digits(quantile(times, 0.5) / MICRO));
         let ratio = digits(quantile(&mut ratios, 0.5));
         table.row([name, warm, cold, ratio, verdict.unwrap_or("–".to_owned())]);

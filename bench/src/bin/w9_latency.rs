@@ -1,7 +1,7 @@
 //! W9: latency: a frame of the ring (48, 1000) once a millisecond, alone, with a worker, and with a worker that is woken
 //! shortly before.
 
-use pong_bench::one_by_one::{quantile, seconds};
+use pong_bench::one_by_one::{middles_of_halves, quantile, seconds};
 use pong_bench::options::Options;
 use pong_bench::rig::{Rig, bind_caller};
 use pong_bench::ring::{self, Ring, Tip};
@@ -98,13 +98,11 @@ fn told(ways: &mut [Way; 3]) -> Table {
     for way in ways {
         // Turn by turn: what the machine does beside it changes within seconds.
         let mut ratios: Vec<f64> = way.middles().iter().zip(&alone).map(|(own, alone)| own / alone).collect();
-        let halves = ratios.len() / 2;
-        let (earlier, later) = ratios.split_at_mut(halves);
-        let [a, b] = [earlier, later].map(|half| quantile(half, 0.5));
+        let halves = middles_of_halves(&mut ratios);
         let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut way.times, share) / MICRO));
         let wanted = match way.name {
             "alone" => "–".to_owned(),
-            _ => ratio_at_most(1.0, Some([a.min(b), a.max(b)])),
+            _ => ratio_at_most(1.0, Some(halves)),
         };
         let row = [way.name.to_owned()].into_iter().chain(told);
         let late = format!("{} of {}", way.late, way.times.len());

@@ -1,8 +1,8 @@
 //! Eight points at a time.
 
-use crate::Transform;
 use crate::primitive::{Polyhedron, PolyhedronFace};
 use crate::simd::{self, Kernel, LANES, LaneBits, Simd};
+use crate::{Transform, Vec3};
 
 /// Eight points, coordinate by coordinate, m. Fewer points leave lanes whose answers are not asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +19,12 @@ pub struct Lanes {
 impl Lanes {
     /// Eight times the origin.
     pub const ORIGIN: Self = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
+
+    /// Puts a point, m, into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, p: &Vec3) {
+        (self.x[lane], self.y[lane], self.z[lane]) = (p.x, p.y, p.z);
+    }
 
     /// The points in another frame, in the bits of [`Transform::point`].
     #[inline]

@@ -168,17 +168,13 @@ impl ChunkBoxes {
             let mut made = Self { center: Lanes::ORIGIN, half: Lanes::ORIGIN };
             for lane in 0..LANES {
                 let (low, high) = around(nodes[lane.min(nodes.len() - 1)]);
-                set(&mut made.center, lane, &(0.5 * (low + high)));
-                set(&mut made.half, lane, &(0.5 * (high - low)));
+                made.center.set(lane, &(0.5 * (low + high)));
+                made.half.set(lane, &(0.5 * (high - low)));
             }
             made
         };
         bottoms.chunks(LANES).map(eight).collect()
     }
-}
-
-fn set(lanes: &mut Lanes, lane: usize, p: &Vec3) {
-    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (p.x, p.y, p.z);
 }
 
 /// Points or spheres in lanes of eight: those of the elements 8·i … 8·i + 7 at place *i*. Unused lanes repeat the last element.
@@ -206,7 +202,7 @@ impl Balls {
             let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
             for lane in 0..LANES {
                 let (center, radius) = ball(&chunk[lane.min(chunk.len() - 1)])?;
-                set(&mut centers, lane, &center);
+                centers.set(lane, &center);
                 radii[lane] = radius;
             }
             balls.centers.push(centers);

@@ -128,10 +128,7 @@ impl Layout<'_, '_> {
 
     /// Cuts consecutive elements into blocks, between groups of elements that are carried together.
     fn slice(&mut self, elements: Range<u32>, element_ns: u32, block: Block) {
-        let step = match elements.end - elements.start {
-            ..=SUPERCHUNK => SUPERCHUNK,
-            _ => (BLOCK_NS / element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK),
-        };
+        let step = (BLOCK_NS / element_ns).next_multiple_of(SUPERCHUNK).max(SUPERCHUNK);
         let mut first = elements.start;
         while first < elements.end {
             let end = elements.end.min((first / SUPERCHUNK) * SUPERCHUNK + step);

@@ -153,9 +153,7 @@ impl<'a, 'l> Chunk<'a, 'l> {
         let mut ends = [Lanes::ORIGIN; 2];
         for (lane, one) in self.carried.iter().enumerate() {
             if let TransformedPrimitive::Segment(segment) = one {
-                for (lanes, end) in ends.iter_mut().zip(&segment.ends) {
-                    (lanes.x[lane], lanes.y[lane], lanes.z[lane]) = (end.x, end.y, end.z);
-                }
+                ends.iter_mut().zip(&segment.ends).for_each(|(lanes, end)| lanes.set(lane, end));
             }
         }
         ends
@@ -310,8 +308,7 @@ impl LaneBalls {
         let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
         for (lane, one) in carried.iter().enumerate() {
             if let TransformedPrimitive::Ellipsoid(ellipsoid) = one {
-                let c = &ellipsoid.center;
-                (centers.x[lane], centers.y[lane], centers.z[lane]) = (c.x, c.y, c.z);
+                centers.set(lane, &ellipsoid.center);
                 radii[lane] = ellipsoid.semi_axes.max();
             }
         }
