@@ -4,17 +4,15 @@ use crate::frame::broad_phase::blocks::{batches_of_b, joined};
 use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
-use crate::frame::broad_phase::chunk::{Chunk, ChunkSpace};
-use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
 use crate::frame::input::{Block, PairContext, WorkerInput};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
-use crate::report::{FrameCounts, Laps, Timed, Untimed, Work, WorkTimes};
+use crate::report::{FrameCounts, Laps, Timed, Untimed, Work};
 use crate::scene::Scene;
 use crate::sealed::{Direction, Sealed};
-use pong_arena::Table;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
@@ -80,31 +78,44 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         batches_of_b((&context, plan), &block, &mut batches_b, &mut stack, &mut out.counts);
         let mut reach = arena.list(batches_b.len()).expect(room);
         let mut found = ChunkCandidates::new(found, deferred);
-        let mut space = ChunkSpace::NOTHING;
+        let meets_triangles = batches_b.iter().any(|batch| batch.kind == PrimitiveKind::Triangle);
+        let chunks_of_a = ChunksOfA::new(context.body_a, batch_a, &motion.x_ba, meets_triangles);
+        let mut traversal = Traversal::NONE;
         for group in block.first / SUPERCHUNK..block.end.div_ceil(SUPERCHUNK) {
             let near =
                 chunks_in_reach(simd, &context, &block, group, &batches_b, &mut reach, &mut out.counts);
             let alone = near & lone_chunk(batch_a, group);
             let whole = candidates.gather(simd, &reach, near & !alone, &mut out.counts);
-            let near = if whole { candidates.chunks() | alone } else { near };
             laps.lap(Work::BroadPhase, &mut out.times);
+            // These go through the trees by themselves, one by one.
+            let (near, by_themselves) =
+                if whole { (candidates.chunks() | alone, alone) } else { (near, near) };
             for lane in lanes(near) {
-                let alone = alone >> lane & 1 == 1;
-                let traversal = (alone || !whole).then(|| Traversal::new(lane, alone));
-                let first = group * SUPERCHUNK + (lane * LANES) as u32;
-                let of_a = ChunkOfA { context: &context, batch: batch_a, first, lane };
-                let mut watch = Watched { laps: &mut laps, times: &mut out.times };
-                let counts = &mut out.counts;
-                test_chunk(
-                    simd,
-                    &of_a,
-                    &reach,
-                    (traversal, candidates),
-                    (carried, &mut space),
-                    &mut found,
-                    counts,
-                    &mut watch,
-                );
+                let by_itself = by_themselves >> lane & 1 == 1;
+                if by_itself {
+                    traversal = Traversal::new(lane, alone >> lane & 1 == 1);
+                }
+                let chunk = chunks_of_a.carry(simd, group * SUPERCHUNK + (lane * LANES) as u32, carried);
+                loop {
+                    let mut through = true;
+                    if by_itself {
+                        through = candidates.go_on(simd, &mut traversal, &reach, &chunk, &mut out.counts);
+                        laps.lap(Work::BroadPhase, &mut out.times);
+                    }
+                    test_chunk(
+                        simd,
+                        &context,
+                        &chunk,
+                        &reach,
+                        (candidates, lane),
+                        &mut found,
+                        &mut out.counts,
+                    );
+                    laps.lap(Work::NarrowPhase, &mut out.times);
+                    if through {
+                        break;
+                    }
+                }
                 if found.overflowed {
                     out.demand.overflowed = true;
                     out.demand.at_once = out.demand.at_once.max(found.seen);
@@ -132,67 +143,36 @@ fn lone_chunk(batch: &Batch, group: u32) -> LaneBits {
     LaneBits::from(is_one) << (last / LANES as u32 % LANES as u32)
 }
 
-/// Times of the parts of a block's work, and where they are added up.
-struct Watched<'a, L> {
-    laps: &'a mut L,
-    times: &'a mut WorkTimes,
-}
-
-/// Which chunk of A, before it is carried.
-struct ChunkOfA<'a> {
-    context: &'a PairContext<'a>,
-    batch: &'a Batch,
-    first: u32,
-    /// Its lane in its group.
-    lane: usize,
-}
-
-/// Carries a chunk of A into B's frame and tests it against the elements of B that it may touch: those that were
-/// gathered for its group, or those on its own traversal through the trees.
+/// Tests a chunk of A, carried into B's frame, against the elements of B that it may touch: those that were gathered for its
+/// group, or those on its own traversal through the trees.
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "a loop's body, apart for reading only")]
-fn test_chunk<S: Simd, L: Laps>(
+fn test_chunk<S: Simd>(
     simd: S,
-    of_a: &ChunkOfA<'_>,
+    context: &PairContext<'_>,
+    chunk: &Chunk<'_>,
     reach: &[Reach<'_>],
-    (mut traversal, candidates): (Option<Traversal>, &mut CandidatePairs),
-    space: (&mut Table<TransformedPrimitive>, &mut ChunkSpace),
+    (candidates, lane): (&CandidatePairs, usize),
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
-    watch: &mut Watched<'_, L>,
 ) {
-    let context = of_a.context;
-    let meets_triangles = reach.iter().any(|reach| reach.batch.kind == PrimitiveKind::Triangle);
-    let from = (context.body_a, of_a.batch);
-    let chunk = Chunk::new(simd, from, of_a.first, &context.motion.x_ba, meets_triangles, space);
-    loop {
-        let mut through = true;
-        if let Some(traversal) = &mut traversal {
-            through = candidates.go_on(simd, traversal, reach, &chunk, counts);
-            watch.laps.lap(Work::BroadPhase, watch.times);
+    let pairs = candidates.pairs();
+    for number in candidates.of(lane) {
+        let candidate = &pairs[number];
+        let batch = reach[candidate.reach as usize].batch;
+        // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
+        // loop moves more numbers than they need.
+        compiler_fence(Ordering::SeqCst);
+        let mut near = 1;
+        if chunk.items.len() > 1 {
+            near = chunk.reach(simd, &candidate.box_b);
         }
-        for number in candidates.of(of_a.lane) {
-            let candidate = candidates.pair(number);
-            let batch = reach[candidate.reach as usize].batch;
-            // Read again for every candidate: most chunks have one or two, and a compiler that fetches all boxes ahead of the
-            // loop moves more numbers than they need.
-            compiler_fence(Ordering::SeqCst);
-            let mut near = 1;
-            if chunk.items.len() > 1 {
-                near = chunk.reach(simd, candidates.box_b(number));
-            }
-            if near != 0 {
-                let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
-                let target = Target { context, item_b, kind_b: batch.kind };
-                target.test_lanes(simd, &chunk, near, found, counts);
-            }
+        if near != 0 {
+            let item_b = context.body_b.tree.items[(batch.items.start + candidate.place) as usize];
+            let target = Target { context, item_b, kind_b: batch.kind };
+            target.test_lanes(simd, chunk, near, found, counts);
         }
-        if found.has_deferred() {
-            test_deferred(context, &chunk, found, counts);
-        }
-        watch.laps.lap(Work::NarrowPhase, watch.times);
-        if through {
-            return;
-        }
+    }
+    if found.has_deferred() {
+        test_deferred(context, *chunk, found, counts);
     }
 }

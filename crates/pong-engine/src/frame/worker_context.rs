@@ -1,14 +1,13 @@
 //! What the calling thread or a worker writes while it works.
 
 use crate::frame::broad_phase::candidate_pairs::CandidatePairs;
-use crate::frame::broad_phase::transformed::TransformedPrimitive;
+use crate::frame::broad_phase::chunk::ChunkSpace;
 use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::load_sharing::solver::SharedContact;
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::frame::narrow_phase::element_pair::DeferredPairs;
 use crate::sealed::Sealed;
 use pong_arena::{Arena, Table};
-use pong_geometry::simd::LANES;
 
 /// The memory of the calling thread or of a worker.
 ///
@@ -21,7 +20,7 @@ pub(crate) struct WorkerContext {
     pub scratch: Arena,
     pub(crate) candidates: CandidatePairs,
     /// A chunk of A in B's frame.
-    pub(crate) carried: Table<TransformedPrimitive>,
+    pub(crate) carried: ChunkSpace,
     pub(crate) deferred: DeferredPairs,
     /// What contact testers find for a chunk.
     pub(crate) found: Table<ContactCandidate>,
@@ -34,7 +33,7 @@ impl WorkerContext {
     /// Bytes of what does not grow with the contacts of a frame, the arenas aside: with room for so many interferences of one
     /// chunk.
     pub fn table_bytes(found: usize) -> usize {
-        LANES * size_of::<TransformedPrimitive>() + found * Self::BYTES_PER_FOUND
+        ChunkSpace::BYTES + found * Self::BYTES_PER_FOUND
     }
 
     /// Bytes of one interference of a chunk.
@@ -46,7 +45,7 @@ impl WorkerContext {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
             candidates: CandidatePairs::new(),
-            carried: Table::with_capacity(LANES, TransformedPrimitive::NOTHING),
+            carried: ChunkSpace::new(),
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),

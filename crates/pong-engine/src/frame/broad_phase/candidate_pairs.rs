@@ -6,7 +6,7 @@ use crate::report::FrameCounts;
 use pong_arena::{List, Table};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Batch;
-use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
+use pong_model::box_tree::{BoxNode, Child, NarrowBall, NarrowBox, NarrowBoxes, lanes};
 
 /// Elements whose boxes are carried together: eight chunks of eight.
 pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
@@ -73,6 +73,8 @@ pub(crate) struct CandidatePair {
     pub reach: u32,
     /// Its place in the batch.
     pub place: u32,
+    /// Its box; anything in the pairs of an element of A by itself.
+    pub box_b: WideBox,
 }
 
 /// A node of the tree in hand that waits, and the chunks that reach it.
@@ -87,8 +89,6 @@ struct StackEntry {
 #[derive(Debug)]
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
-    /// The elements' boxes; none for the pairs of an element by itself.
-    boxes: Table<WideBox>,
     /// For every pair a bit for every chunk, eight pairs to a word.
     chunks: Table<[LaneBits; LANES]>,
     waiting: Table<StackEntry>,
@@ -98,9 +98,9 @@ pub(crate) struct CandidatePairs {
 impl CandidatePairs {
     /// Room for a few.
     pub fn new() -> Self {
+        let nothing = CandidatePair { reach: 0, place: 0, box_b: WideBox::NOTHING };
         Self {
-            list: Table::with_capacity(CANDIDATE_PAIRS_MAX, CandidatePair { reach: 0, place: 0 }),
-            boxes: Table::with_capacity(CANDIDATE_PAIRS_MAX, WideBox::NOTHING),
+            list: Table::with_capacity(CANDIDATE_PAIRS_MAX, nothing),
             chunks: Table::with_capacity(CANDIDATE_PAIRS_MAX / LANES, [0; LANES]),
             waiting: Table::with_capacity(DEPTH_MAX, StackEntry { node: 0, chunks: 0 }),
             any: 0,
@@ -118,21 +118,14 @@ impl CandidatePairs {
         NumbersOfChunk { words: &self.chunks, chunk, next: 0, bits: 0 }
     }
 
-    /// A pair.
+    /// All pairs, by their numbers.
     #[inline(always)]
-    pub fn pair(&self, number: usize) -> CandidatePair {
-        self.list[number]
-    }
-
-    /// The box of B's element in a pair, unless it is one of an element by itself.
-    #[inline(always)]
-    pub fn box_b(&self, number: usize) -> &WideBox {
-        &self.boxes[number]
+    pub fn pairs(&self) -> &[CandidatePair] {
+        &self.list
     }
 
     fn clear(&mut self) {
         self.list.clear();
-        self.boxes.clear();
         self.chunks.clear();
         self.any = 0;
     }
@@ -141,15 +134,18 @@ impl CandidatePairs {
         self.list.len() + LANES <= CANDIDATE_PAIRS_MAX
     }
 
+    /// Adds a pair of some chunks; its box is left to the caller.
     #[inline(always)]
-    fn add(&mut self, pair: CandidatePair, chunks: LaneBits) {
+    fn add(&mut self, reach: usize, element: u32, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
-        self.list.push(pair).expect("room was asked for");
         if index.is_multiple_of(LANES) {
             self.chunks.push([0; LANES]).expect("room for as many");
         }
         self.chunks[index / LANES][index % LANES] = chunks;
         self.any |= chunks;
+        let pair = self.list.slot().expect("room was asked for");
+        (pair.reach, pair.place) = (reach as u32, element);
+        pair
     }
 
     /// Gathers the candidate pairs of some chunks of a group; whether there was room for all.
@@ -192,8 +188,10 @@ impl CandidatePairs {
                         chunks &= boxes.met_by(simd, &box_b);
                         counts.boxes_tested += 1;
                     }
-                    if chunks != 0 && self.note(index, node.child(lane_b), chunks) {
-                        self.keep_box(&batch.boxes, &box_b);
+                    if chunks != 0
+                        && let Some(pair) = self.note(index, node.child(lane_b), chunks)
+                    {
+                        pair.box_b.set(&batch.boxes, &box_b);
                     }
                 }
             }
@@ -201,19 +199,16 @@ impl CandidatePairs {
         true
     }
 
-    /// A child that chunks reach: an element is a pair, a node waits. Answers whether it is an element.
+    /// A child that chunks reach: an element is a pair, whose box is left to the caller; a node waits.
     #[inline(always)]
-    fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> bool {
+    fn note(&mut self, reach: usize, child: Child, chunks: LaneBits) -> Option<&mut CandidatePair> {
         match child {
-            Child::Element(place) => self.add(CandidatePair { reach: reach as u32, place }, chunks),
-            Child::Node(node) => self.wait(node, chunks),
+            Child::Element(place) => Some(self.add(reach, place, chunks)),
+            Child::Node(node) => {
+                self.wait(node, chunks);
+                None
+            }
         }
-        matches!(child, Child::Element(_))
-    }
-
-    #[inline(always)]
-    fn keep_box(&mut self, tree: &BoxTree, box_b: &NarrowBox) {
-        self.boxes.push(WideBox::new(tree, box_b)).expect("as much room as for candidate pairs");
     }
 
     #[inline(always)]
@@ -236,7 +231,7 @@ impl CandidatePairs {
         simd: S,
         traversal: &mut Traversal,
         reach: &[Reach<'_>],
-        chunk: &Chunk<'_, '_>,
+        chunk: &Chunk<'_>,
         counts: &mut FrameCounts,
     ) -> bool {
         self.clear();
@@ -265,8 +260,10 @@ impl CandidatePairs {
             }
             counts.boxes_tested += 1;
             for lane_b in lanes(met) {
-                if self.note(traversal.next - 1, node.child(lane_b), chunks) && !traversal.alone {
-                    self.keep_box(tree, &node.boxes.lane(lane_b));
+                if let Some(pair) = self.note(traversal.next - 1, node.child(lane_b), chunks)
+                    && !traversal.alone
+                {
+                    pair.box_b.set(tree, &node.boxes.lane(lane_b));
                 }
             }
         }
@@ -314,8 +311,11 @@ pub(crate) struct Traversal {
 }
 
 impl Traversal {
+    /// Of nobody.
+    pub const NONE: Self = Self { lane: 0, alone: false, next: 0, query: NarrowBox::NOTHING, ball: None };
+
     /// From the start, for the chunk of a group.
     pub fn new(lane: usize, alone: bool) -> Self {
-        Self { lane, alone, next: 0, query: NarrowBox::NOTHING, ball: None }
+        Self { lane, alone, ..Self::NONE }
     }
 }

@@ -11,33 +11,99 @@ use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
 use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
 
 /// The elements and where they are.
-pub(crate) struct Chunk<'a, 'l> {
+#[derive(Clone, Copy)]
+pub(crate) struct Chunk<'a> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
     /// Points and spheres: their centres in B's frame.
-    pub centers: &'l Lanes,
+    pub centers: &'a Lanes,
     /// Points and spheres: their radii, m.
     pub radii: &'a [f64; LANES],
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
-    carried: &'l [TransformedPrimitive],
-    boxes: &'l LaneBoxes,
+    carried: &'a [TransformedPrimitive],
+    boxes: &'a LaneBoxes,
     /// Balls around spheres and ellipsoids that may meet triangles.
-    balls: Option<&'l LaneBalls>,
+    balls: Option<&'a LaneBalls>,
+}
+
+/// What the chunks of a block have in common, before they are carried.
+#[derive(Clone, Copy)]
+pub(crate) struct ChunksOfA<'a> {
+    kind: PrimitiveKind,
+    body: &'a MovableGroup,
+    batch: &'a Batch,
+    items: &'a [Item],
+    x_ba: &'a Transform,
+    /// Many triangles lie in the corners of a ball's box: against them balls are kept as well.
+    meets_triangles: bool,
 }
 
 /// Where a chunk is written: to move it costs more than to work it out.
+#[derive(Debug)]
 pub(crate) struct ChunkSpace {
     centers: Lanes,
     boxes: LaneBoxes,
     balls: LaneBalls,
+    /// Those that are neither points nor spheres.
+    carried: Table<TransformedPrimitive>,
 }
 
 impl ChunkSpace {
-    pub const NOTHING: Self = Self {
-        centers: Lanes::ORIGIN,
-        boxes: LaneBoxes { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] },
-        balls: LaneBalls { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
-    };
+    /// Memory beside the structure itself, bytes.
+    pub const BYTES: usize = LANES * size_of::<TransformedPrimitive>();
+
+    pub fn new() -> Self {
+        Self {
+            centers: Lanes::ORIGIN,
+            boxes: LaneBoxes { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] },
+            balls: LaneBalls { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
+            carried: Table::with_capacity(LANES, TransformedPrimitive::NOTHING),
+        }
+    }
+}
+
+impl<'a> ChunksOfA<'a> {
+    /// Those of a batch, which is to meet triangles or not.
+    pub fn new(body: &'a MovableGroup, batch: &'a Batch, x_ba: &'a Transform, meets_triangles: bool) -> Self {
+        let items = &body.tree.items[batch.items.start as usize..batch.items.end as usize];
+        Self { kind: batch.kind, body, batch, items, x_ba, meets_triangles }
+    }
+
+    /// Carries the chunk that begins with the element `first` of the batch, a multiple of eight.
+    #[inline(always)]
+    pub fn carry<'l, S: Simd>(&self, simd: S, first: u32, space: &'l mut ChunkSpace) -> Chunk<'l>
+    where
+        'a: 'l,
+    {
+        let Self { kind, body, batch, items, x_ba, meets_triangles } = *self;
+        let items = &items[first as usize..];
+        let items = &items[..items.len().min(LANES)];
+        let ChunkSpace { centers, boxes, balls, carried } = space;
+        let mut radii = &[0.0; LANES];
+        match &batch.balls {
+            Some(balls) => {
+                let place = first as usize / LANES;
+                balls.centers[place].carry_in(simd, x_ba, centers);
+                radii = &balls.radii[place];
+                boxes.set_to_balls(simd, centers, radii);
+            }
+            None => {
+                carry_each((body, kind), items, x_ba, carried);
+                if carried.len() == items.len() {
+                    boxes.set_to_each(carried.iter().map(|one| one.bounds(meets_triangles)));
+                } else {
+                    let lanes = 0..items.len() as u32;
+                    boxes.set_to_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)));
+                }
+            }
+        }
+        let balls = match kind {
+            PrimitiveKind::Sphere if meets_triangles => Some(balls.set(centers, radii)),
+            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
+            _ => None,
+        };
+        Chunk { kind, items, centers, radii, carried, boxes, balls }
+    }
 }
 
 /// A box of a tree in B's frame, m; infinite where it has no bound.
@@ -48,6 +114,7 @@ pub(crate) struct WideBox {
 }
 
 /// One ball per lane in B's frame: centres, m, and radii with room for rounding.
+#[derive(Debug)]
 struct LaneBalls {
     centers: [[f64; LANES]; 3],
     /// Squares of the radii, m². Kept as such: a compiler that squares radii ahead of the loop that may need them does so
@@ -58,53 +125,13 @@ struct LaneBalls {
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
+#[derive(Debug)]
 pub(crate) struct LaneBoxes {
     low: [[f64; LANES]; 3],
     high: [[f64; LANES]; 3],
 }
 
-impl<'a, 'l> Chunk<'a, 'l> {
-    /// The chunk of a batch that begins with its element `first`, a multiple of eight. Against triangles, many of
-    /// which lie in the corners of a ball's box, balls are kept as well.
-    #[inline(always)]
-    pub fn new<S: Simd>(
-        simd: S,
-        (body, batch): (&'a MovableGroup, &'a Batch),
-        first: u32,
-        x_ba: &Transform,
-        meets_triangles: bool,
-        (carried, space): (&'l mut Table<TransformedPrimitive>, &'l mut ChunkSpace),
-    ) -> Self {
-        let start = batch.items.start + first;
-        let end = batch.items.end.min(start + LANES as u32);
-        let items = &body.tree.items[start as usize..end as usize];
-        let ChunkSpace { centers, boxes, balls } = space;
-        let mut radii = &[0.0; LANES];
-        match &batch.balls {
-            Some(balls) => {
-                let place = first as usize / LANES;
-                balls.centers[place].carry_in(simd, x_ba, centers);
-                radii = &balls.radii[place];
-                boxes.set_to_balls(simd, centers, radii);
-            }
-            None => {
-                carry_each((body, batch.kind), items, x_ba, carried);
-                if carried.len() == items.len() {
-                    boxes.set_to_each(carried.iter().map(|one| one.bounds(meets_triangles)));
-                } else {
-                    let lanes = 0..items.len() as u32;
-                    boxes.set_to_each(lanes.map(|lane| carried_box(&batch.boxes, first + lane, x_ba)));
-                }
-            }
-        }
-        let balls = match batch.kind {
-            PrimitiveKind::Sphere if meets_triangles => Some(balls.set(centers, radii)),
-            PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
-            _ => None,
-        };
-        Self { kind: batch.kind, items, centers, radii, carried, boxes, balls }
-    }
-
+impl Chunk<'_> {
     /// Which elements reach an element of B.
     #[inline(always)]
     pub fn reach<S: Simd>(&self, simd: S, box_b: &WideBox) -> LaneBits {
@@ -148,15 +175,9 @@ impl<'a, 'l> Chunk<'a, 'l> {
     }
 
     /// Of a chunk of line segments the first and the second ends.
-    #[inline(never)]
+    #[inline(always)]
     pub fn ends(&self) -> [Lanes; 2] {
-        let mut ends = [Lanes::ORIGIN; 2];
-        for (lane, one) in self.carried.iter().enumerate() {
-            if let TransformedPrimitive::Segment(segment) = one {
-                ends.iter_mut().zip(&segment.ends).for_each(|(lanes, end)| lanes.set(lane, end));
-            }
-        }
-        ends
+        ends_of(self.carried)
     }
 
     /// One element of another kind; `None` for kinds that are never A in the table.
@@ -164,6 +185,17 @@ impl<'a, 'l> Chunk<'a, 'l> {
     pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {
         self.carried.get(lane)
     }
+}
+
+#[inline(never)]
+fn ends_of(carried: &[TransformedPrimitive]) -> [Lanes; 2] {
+    let mut ends = [Lanes::ORIGIN; 2];
+    for (lane, one) in carried.iter().enumerate() {
+        if let TransformedPrimitive::Segment(segment) = one {
+            ends.iter_mut().zip(&segment.ends).for_each(|(lanes, end)| lanes.set(lane, end));
+        }
+    }
+    ends
 }
 
 fn carry_each(
@@ -194,15 +226,13 @@ impl WideBox {
     /// Something to fill memory with.
     pub const NOTHING: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
-    /// Of a tree.
+    /// Becomes one of a tree.
     #[inline(always)]
-    pub fn new(tree: &BoxTree, narrow: &NarrowBox) -> Self {
-        let mut wide = Self { low: [0.0; 3], high: [0.0; 3] };
+    pub fn set(&mut self, tree: &BoxTree, narrow: &NarrowBox) {
         for axis in 0..3 {
-            wide.low[axis] = tree.origin[axis] + widened(narrow.low[axis]);
-            wide.high[axis] = tree.origin[axis] + widened(narrow.high[axis]);
+            self.low[axis] = tree.origin[axis] + widened(narrow.low[axis]);
+            self.high[axis] = tree.origin[axis] + widened(narrow.high[axis]);
         }
-        wide
     }
 }
 

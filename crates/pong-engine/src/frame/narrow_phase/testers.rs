@@ -28,7 +28,7 @@ impl<'a> Target<'a> {
     pub fn test_lanes<S: Simd>(
         &self,
         simd: S,
-        chunk: &Chunk<'_, '_>,
+        chunk: &Chunk<'_>,
         near: LaneBits,
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
@@ -53,7 +53,7 @@ impl<'a> Target<'a> {
     #[inline(always)]
     fn defer(
         &self,
-        chunk: &Chunk<'_, '_>,
+        chunk: &Chunk<'_>,
         near: LaneBits,
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
@@ -66,14 +66,14 @@ impl<'a> Target<'a> {
             from[pairs.count()] = (lane as u8, self.item_b);
             pairs.add(&sphere, triangles, self.item_b.element, thickness);
             if pairs.count() == LANES {
-                test_deferred(self.context, chunk, found, counts);
+                test_deferred(self.context, *chunk, found, counts);
             }
         }
     }
 
     /// Most points, spheres and line segments near a polyhedron end here: apart by the plane of one face.
     #[inline(always)]
-    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_, '_>, near: LaneBits) -> LaneBits {
+    fn not_separated<S: Simd>(&self, simd: S, chunk: &Chunk<'_>, near: LaneBits) -> LaneBits {
         if self.kind_b != Polyhedron {
             return near;
         }
@@ -89,13 +89,7 @@ impl<'a> Target<'a> {
     }
 
     #[inline(always)]
-    fn test_one(
-        &self,
-        test: Option<Test>,
-        chunk: &Chunk<'_, '_>,
-        lane: usize,
-        found: &mut ChunkCandidates<'_>,
-    ) {
+    fn test_one(&self, test: Option<Test>, chunk: &Chunk<'_>, lane: usize, found: &mut ChunkCandidates<'_>) {
         let pair = ElementPair {
             context: self.context,
             item_a: chunk.items[lane],
@@ -121,7 +115,7 @@ impl<'a> Target<'a> {
 #[inline(never)]
 pub(crate) fn test_deferred(
     context: &PairContext<'_>,
-    chunk: &Chunk<'_, '_>,
+    chunk: Chunk<'_>,
     found: &mut ChunkCandidates<'_>,
     counts: &mut FrameCounts,
 ) {
