@@ -30,6 +30,7 @@ typedef struct {
     long end;                 /* run until this frame; a multiple of RATIO */
     long late_first, late_count; /* without the clock: these frames pass for late */
     int workers;
+    int rehearse;             /* in real time: evaluate each frame shortly before its release as well */
     real_time_wishes wishes;  /* of the fast task; the slow one has a priority below */
 } run_options;
 

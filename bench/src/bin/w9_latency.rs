@@ -1,5 +1,5 @@
-//! W9: latency: a frame of the ring (48, 1000) once a millisecond, alone, with a worker, and with a worker that is woken
-//! shortly before.
+//! W9: latency: a frame of the ring (48, 1000) once a millisecond, alone, with a worker, with a worker that is woken shortly
+//! before, and with a rehearsal: the frame before is evaluated once more, so that the caches hold what the next one needs.
 
 use pong_bench::one_by_one::{middles_of_halves, quantile, seconds};
 use pong_bench::options::Options;
@@ -28,6 +28,8 @@ struct Way {
     name: &'static str,
     rig: Rig,
     prewake: bool,
+    /// Whether the states at hand are evaluated shortly before.
+    rehearse: bool,
     /// By frame, s.
     times: Vec<f64>,
     late: u32,
@@ -38,14 +40,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let frames = if options.smoke { 50 } else { 1000 * SECONDS };
     let ring = Ring::new(ring::SIZES[1]);
     let states = scenes::ring_states();
-    let way = |name, threads, prewake| -> Result<Way, Box<dyn Error>> {
+    let way = |name, threads, prewake, rehearse| -> Result<Way, Box<dyn Error>> {
         let rig = scenes::ring(&ring, Tip::Sphere, threads)?;
-        Ok(Way { name, rig, prewake, times: Vec::with_capacity(frames as usize), late: 0 })
+        Ok(Way { name, rig, prewake, rehearse, times: Vec::with_capacity(frames as usize), late: 0 })
     };
     let mut ways = [
-        way("alone", 1, false)?,
-        way("with a worker", 2, false)?,
-        way("with a worker, woken 0.1 ms before", 2, true)?,
+        way("alone", 1, false, false)?,
+        way("with a worker", 2, false, false)?,
+        way("with a worker, woken 0.1 ms before", 2, true, false)?,
+        way("alone, rehearsed 0.1 ms before", 1, false, true)?,
+        way("with a worker, woken and rehearsed 0.1 ms before", 2, true, true)?,
     ];
     bind_caller();
     for first in (0..frames).step_by(TURN as usize) {
@@ -67,6 +71,9 @@ impl Way {
             if self.prewake {
                 self.rig.world.prewake(2 * AHEAD);
             }
+            if self.rehearse && frame > 0 {
+                self.rig.world.evaluate().expect("the states of the last frame");
+            }
             while Instant::now() < release {
                 std::hint::spin_loop();
             }
@@ -83,7 +90,7 @@ impl Way {
     }
 }
 
-fn told(ways: &mut [Way; 3]) -> Table {
+fn told(ways: &mut [Way; 5]) -> Table {
     let mut table = Table::new(&[
         "frame of Pong, µs",
         "p50",
@@ -100,8 +107,8 @@ fn told(ways: &mut [Way; 3]) -> Table {
         let mut ratios: Vec<f64> = way.middles().iter().zip(&alone).map(|(own, alone)| own / alone).collect();
         let halves = middles_of_halves(&mut ratios);
         let told = [0.5, 0.99, 0.999, 1.0].map(|share| digits(quantile(&mut way.times, share) / MICRO));
-        let wanted = match way.name {
-            "alone" => "–".to_owned(),
+        let wanted = match way {
+            Way { name: "alone", .. } | Way { rehearse: true, .. } => "–".to_owned(),
             _ => ratio_at_most(1.0, Some(halves)),
         };
         let row = [way.name.to_owned()].into_iter().chain(told);
