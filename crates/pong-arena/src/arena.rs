@@ -53,6 +53,8 @@ impl Arena {
     ///
     /// # Errors
     /// [`Full`] if the room is not there.
+    // Inlined: a list that comes back through memory in pieces and is moved as a whole is waited for.
+    #[inline(always)]
     pub fn list<T: Copy>(&self, capacity: usize) -> Result<List<'_, T>, Full> {
         // What is booked is there: the block takes pieces of its grain one below the other.
         self.claim::<T>(capacity)?;
@@ -77,6 +79,7 @@ impl Arena {
     }
 
     /// Books a request, if it fits.
+    #[inline]
     fn claim<T>(&self, len: usize) -> Result<(), Full> {
         const { assert!(align_of::<T>() <= GRAIN, "the arena aligns to 16 bytes at most") };
         let whole = rounded::<T>(len);

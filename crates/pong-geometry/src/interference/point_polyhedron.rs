@@ -100,6 +100,7 @@ pub struct Reached {
 ///
 /// So the depth that comes out is at most that of the face that pushes without the walk, and between two commits it grows
 /// by no more than the point has moved.
+#[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);
     // Every step lowers the depth below the face reached, so no face is met twice. Where that face pushes itself, no

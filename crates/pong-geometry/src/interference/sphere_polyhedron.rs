@@ -41,6 +41,7 @@ fn outside_in<S: Simd>(simd: S, sphere: &Sphere, polyhedron: &Polyhedron) -> Opt
 }
 
 /// The contact of a sphere whose centre is inside, under the face that pushes.
+#[inline]
 pub fn sphere_inside_polyhedron(sphere: &Sphere, polyhedron: &Polyhedron, face: usize) -> Interference {
     let normal = polyhedron.faces[face].normal;
     let below = point_below_face(&sphere.center, polyhedron, face);

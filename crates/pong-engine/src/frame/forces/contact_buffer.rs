@@ -3,6 +3,8 @@
 use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
+use crate::law::FrictionProps;
+use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
 use crate::state::ContactRole;
@@ -156,6 +158,16 @@ impl ContactBuffer {
         }
         self.contacts.slot().expect("ranking makes room");
         Some(self.contacts.len() - 1)
+    }
+
+    /// Adds friction that waits for nobody to a contact that has none yet.
+    #[inline(never)]
+    pub fn add_friction_alone(&mut self, place: usize, law: &FrictionProps, input: &FrictionInput<'_>) {
+        let FrictionOutput { force_b, bristle_b, sticks, stored } =
+            friction_alone(law, input, self.law_state_mut(place));
+        let contact = &mut self.contacts[place];
+        (contact.friction_force_b, contact.bristle_b, contact.sticks) = (force_b, bristle_b, sticks);
+        contact.stored += stored;
     }
 
     /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties

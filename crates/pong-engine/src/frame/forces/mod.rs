@@ -11,7 +11,7 @@ use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::{CandidateStatus, ContactCandidate};
-use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone, shortened};
+use crate::law::friction::{FrictionInput, shortened};
 use crate::law::{FrictionProps, PairProps, normal_force, stored_energy};
 use crate::sealed::Sealed;
 use crate::state::{ContactRecord, ContactRole};
@@ -133,17 +133,13 @@ impl PairContext<'_> {
         let closing = -found.normal_b.dot(&velocity);
         let slip_velocity = velocity + found.normal_b * closing;
         let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
-        let mut output = FrictionOutput { sticks: true, ..FrictionOutput::free() };
         let (mut pressed, mut stored) = (0.0, 0.0);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();
             pressed = normal_force(props, weight, found.depth, closing);
             stored = stored_energy(props, weight, found.depth);
-            let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
-            if pressed > 0.0 {
-                output = self.friction_force(&slipping, props, out);
-            }
         }
+        let rubs = pressed > 0.0;
         // Whoever gives a contact one more field is told here.
         let FrameContact {
             found: as_found,
@@ -160,25 +156,23 @@ impl PairContext<'_> {
             dissipated,
         } = &mut out.contacts[place];
         *as_found = *found;
-        (*point_b, *rate, *normal_force) = (point, closing, pressed);
-        (*friction_force_b, *slip_velocity_b) = (output.force_b, slip_velocity);
-        (*bristle_b, *sticks) = (output.bristle_b, output.sticks);
-        *in_springs = stored + output.stored;
+        (*point_b, *rate, *normal_force, *slip_velocity_b) = (point, closing, pressed, slip_velocity);
+        (*friction_force_b, *bristle_b, *sticks) = (Vec3::zeros(), Vec3::zeros(), !rubs);
+        *in_springs = stored;
         *continued = continues.map(|record| record as u32);
         (*work, *dissipated) = (0.0, 0.0);
+        if rubs {
+            let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
+            self.add_friction(&slipping, props, out);
+        }
         out.settle_if_full();
     }
 
-    /// Friction of a contact that is pressed. That of a bristle is none yet: it waits for others.
+    /// Adds friction to a contact that is pressed and written. That of a bristle waits for others.
     #[inline(always)]
-    fn friction_force(
-        &self,
-        contact: &Slipping<'_>,
-        props: &PairProps,
-        out: &mut ContactBuffer,
-    ) -> FrictionOutput {
+    fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
         if matches!(props.friction, FrictionProps::None) {
-            return FrictionOutput::free();
+            return;
         }
         let record = contact.continues.map(|index| &self.memory.records[index]);
         if let Some(index) = contact.continues {
@@ -189,7 +183,7 @@ impl PairContext<'_> {
         });
         let stuck = record.is_none_or(|record| record.sticks);
         if let FrictionProps::Bristle { stiffness, damping, mu_kinetic, mu_static } = props.friction {
-            out.bristles.add(
+            return out.bristles.add(
                 contact.place,
                 &Bristle {
                     normal_b: contact.found.normal_b,
@@ -203,7 +197,6 @@ impl PairContext<'_> {
                     stuck,
                 },
             );
-            return FrictionOutput::free();
         }
         // Coulomb's law asks for the velocity alone.
         let asks_slip = !matches!(props.friction, FrictionProps::Coulomb { .. });
@@ -218,16 +211,12 @@ impl PairContext<'_> {
             stuck,
             parameters: &[],
         };
-        friction_alone(&props.friction, &input, out.law_state_mut(contact.place))
+        out.add_friction_alone(contact.place, &props.friction, &input);
     }
 
     /// φ, worked out once for all contacts of the pair.
-    fn rotation(&self, since: &SinceCommit) -> Vec3 {
-        self.rotation_b.get().unwrap_or_else(|| {
-            let rotation = since.rotation();
-            self.rotation_b.set(Some(rotation));
-            rotation
-        })
+    fn rotation(&self, since: &SinceCommit) -> &Vec3 {
+        self.rotation_b.get_or_init(|| since.rotation())
     }
 
     /// u, in the present contact plane: the displacement of A since the last commit where it touches,

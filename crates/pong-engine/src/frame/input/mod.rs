@@ -12,7 +12,7 @@ use motion::Motion;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::MovableGroup;
-use std::cell::Cell;
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 /// What a frame is computed from.
@@ -91,7 +91,7 @@ pub(crate) struct PairContext<'a> {
     /// Whether B's model remembers the side of entry.
     pub remembers_entry: bool,
     /// φ of the motion since the last commit, once a contact has asked for it, rad.
-    pub rotation_b: Cell<Option<Vec3>>,
+    pub rotation_b: OnceCell<Vec3>,
 }
 
 impl<'a> PairContext<'a> {
@@ -117,7 +117,7 @@ impl<'a> PairContext<'a> {
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,
             remembers_entry: scene.model_of_body(b).entry_memory,
-            rotation_b: Cell::new(None),
+            rotation_b: OnceCell::new(),
         }
     }
 }

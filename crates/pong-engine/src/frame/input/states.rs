@@ -26,7 +26,10 @@ pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuff
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
             frame.poses[body] = state.pose();
-            frame.twists[body] = state.twist();
+            // In place: a copy of what was just set would be waited for.
+            let twist = &mut frame.twists[body];
+            twist.linear.copy_from_slice(&state.linear_velocity);
+            twist.angular.copy_from_slice(&state.angular_velocity);
         }
     }
 }

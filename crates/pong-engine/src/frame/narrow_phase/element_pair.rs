@@ -81,26 +81,28 @@ impl<'m> ChunkCandidates<'m> {
 pub(crate) const BETWEEN_ENDS: u32 = 2;
 
 /// A sphere, or the ball at an end of a capsule.
-pub(crate) struct Ball {
-    /// In B's frame.
-    pub sphere: Sphere,
+pub(crate) struct Ball<'s> {
+    /// In B's frame. Not a copy: whoever copies what was just written waits for it.
+    pub sphere: &'s Sphere,
     /// Of a capsule.
     pub end: Option<u32>,
 }
 
-impl Ball {
+impl<'s> Ball<'s> {
     /// A sphere.
-    pub fn of(sphere: &Sphere) -> Self {
-        Self { sphere: *sphere, end: None }
+    pub fn of(sphere: &'s Sphere) -> Self {
+        Self { sphere, end: None }
     }
 
     /// The balls at the ends of a capsule.
-    pub fn at_ends(capsule: &Capsule) -> [Self; 2] {
-        [0, 1].map(|end: usize| Self {
-            sphere: Sphere { center: capsule.ends[end], radius: capsule.radius },
-            end: Some(end as u32),
-        })
+    pub fn at_ends([first, second]: &'s [Sphere; 2]) -> [Self; 2] {
+        [Self { sphere: first, end: Some(0) }, Self { sphere: second, end: Some(1) }]
     }
+}
+
+/// The spheres that a capsule ends in.
+pub(crate) fn end_spheres(capsule: &Capsule) -> [Sphere; 2] {
+    capsule.ends.map(|center| Sphere { center, radius: capsule.radius })
 }
 
 /// One element as A against one element as B.
@@ -158,11 +160,11 @@ impl<'a> ElementPair<'a> {
     }
 
     /// The centre of a ball of A, in A's frame, m. Most tests end without it.
-    pub fn center_a(&self, ball: &Ball) -> Vec3 {
+    pub fn center_a(&self, ball: &Ball<'_>) -> &'a Vec3 {
         let element = self.item_a.element as usize;
         match ball.end {
-            None => self.body_a().spheres[element].center,
-            Some(end) => self.body_a().capsules[element].ends[end as usize],
+            None => &self.body_a().spheres[element].center,
+            Some(end) => &self.body_a().capsules[element].ends[end as usize],
         }
     }
 
@@ -175,7 +177,7 @@ impl<'a> ElementPair<'a> {
     /// A contact of a ball, which shares its spring with others of the same surface.
     pub fn sharing(
         &self,
-        ball: &Ball,
+        ball: &Ball<'_>,
         contact: &Interference,
         found: &mut ChunkCandidates<'_>,
         adjust: impl FnOnce(&mut ContactCandidate),

@@ -15,11 +15,11 @@ use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
 
-/// Which face of a polyhedron memory reaches, and which one pushes.
+/// Which face of a polyhedron memory reaches, and which one pushes. So small that it is handed on in registers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
-    pub reached: usize,
-    pub pushes: usize,
+    pub reached: u32,
+    pub pushes: u32,
 }
 
 /// A point (or a sphere's centre) inside a piece of B.
@@ -43,14 +43,14 @@ impl PolyhedronEntry<'_> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
             let face = shallowest_face(&self.point_b, polyhedron)?;
-            return Some(EntryFace { reached: face, pushes: face });
+            return Some(EntryFace { reached: face as u32, pushes: face as u32 });
         }
         let start = match self.remembered(key) {
             Some(face) => face,
             None => self.entered_by()?,
         };
         let reached = follow(&self.point_b, polyhedron, start);
-        Some(EntryFace { reached: reached.face, pushes: reached.pushes })
+        Some(EntryFace { reached: reached.face as u32, pushes: reached.pushes as u32 })
     }
 
     fn polyhedron(&self) -> &Polyhedron {

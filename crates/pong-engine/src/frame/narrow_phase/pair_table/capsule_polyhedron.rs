@@ -2,7 +2,7 @@
 
 use super::sphere_polyhedron::test_ball;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Capsule, Polyhedron, PolyhedronFace};
@@ -15,7 +15,7 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     if apart {
         return;
     }
-    for ball in Ball::at_ends(capsule) {
+    for ball in Ball::at_ends(&end_spheres(capsule)) {
         test_ball(pair, &ball, found);
     }
     for crossing in crossings(capsule, polyhedron) {

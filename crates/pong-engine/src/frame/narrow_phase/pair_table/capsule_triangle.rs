@@ -2,14 +2,14 @@
 
 use super::sphere_triangle::test_ball;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
-use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, wrong_kind};
+use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, end_spheres, wrong_kind};
 use pong_geometry::interference::Feature;
 use pong_geometry::interference::capsule_edge::{ConvexEdge, capsule_edge};
 use pong_geometry::interference::triangle_features::{EdgeClass, TriangleView};
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
     let TransformedPrimitive::Capsule(capsule) = a else { wrong_kind(a) };
-    for ball in Ball::at_ends(capsule) {
+    for ball in Ball::at_ends(&end_spheres(capsule)) {
         test_ball(pair, &ball, false, found);
     }
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);

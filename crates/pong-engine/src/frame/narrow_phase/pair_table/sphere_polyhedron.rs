@@ -10,9 +10,9 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     test_ball(pair, &Ball::of(sphere), found);
 }
 
-pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball, found: &mut ChunkCandidates<'_>) {
+pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut ChunkCandidates<'_>) {
     let polyhedron = &pair.body_b().polyhedra[pair.item_b.element as usize];
-    let sphere = &ball.sphere;
+    let sphere = ball.sphere;
     let containment = polyhedron.containment(&sphere.center);
     if matches!(containment, Containment::Outside | Containment::BeyondWall)
         && let Some(contact) = sphere_outside_polyhedron(sphere, polyhedron)
@@ -23,10 +23,10 @@ pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball, found: &mut ChunkCa
         return;
     }
     let center_a = pair.center_a(ball);
-    let Some(face) = pair.entry_face(&center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
-    let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes);
+    let Some(face) = pair.entry_face(center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
+    let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes as usize);
     pair.sharing(ball, &contact, found, |out| {
         out.status = status_of(containment);
-        out.entry_face = face.reached as u32;
+        out.entry_face = face.reached;
     });
 }

@@ -13,17 +13,17 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
 /// `over_face`: whether the face alone may push.
 pub(crate) fn test_ball(
     pair: &ElementPair<'_>,
-    ball: &Ball,
+    ball: &Ball<'_>,
     over_face: bool,
     found: &mut ChunkCandidates<'_>,
 ) {
     let (set, triangle) = (&pair.body_b().triangles, pair.item_b.element);
-    let center = Centre { center_a: pair.center_a(ball), center_b: ball.sphere.center, end: ball.end };
+    let center = Centre { center_a: *pair.center_a(ball), center_b: ball.sphere.center, end: ball.end };
     let mut emit = |contact| on_triangle(pair, &center, contact, found);
     if over_face {
-        sphere_over_face(&ball.sphere, set, triangle).into_iter().for_each(emit);
+        sphere_over_face(ball.sphere, set, triangle).into_iter().for_each(emit);
     } else {
-        let thickness = thickness_for_sphere(pair.context, pair.item_b, &ball.sphere);
-        sphere_triangle(&ball.sphere, set, triangle, thickness, &mut emit);
+        let thickness = thickness_for_sphere(pair.context, pair.item_b, ball.sphere);
+        sphere_triangle(ball.sphere, set, triangle, thickness, &mut emit);
     }
 }
