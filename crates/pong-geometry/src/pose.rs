@@ -162,6 +162,7 @@ impl std::ops::AddAssign for Wrench {
 /// Uses +, −, ×, ÷ and √ alone, so that every machine gives the same bits: the half angle is halved by the half-angle
 /// identity until its tangent is so small, as that of a frame's rotation is from the start, that the arctangent's series
 /// converges to rounding in thirteen terms. At most three halvings do.
+#[inline]
 pub fn rotation_vector(q: &Quat) -> Vec3 {
     /// Square of tan(π/16).
     const SQUARE_MAX: f64 = 0.039_566_129_896_580_15;

@@ -15,6 +15,7 @@ impl World {
     ///
     /// # Errors
     /// [`EngineError::UnknownId`] for an Interface of another world, [`EngineError::WrongPhase`] before the first frame.
+    #[inline]
     pub fn wrench(&self, interface: InterfaceId) -> Result<Wrench, EngineError> {
         let index = self.scene.body_index(interface)?;
         Ok(self.framed()?.frame.wrenches[index])

@@ -14,12 +14,31 @@ use pong_geometry::interference::triangle_features::{
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::{Polyhedron, PrimitiveKind, Ray};
 use pong_model::{Item, MovableGroup};
+use std::num::NonZeroU32;
 
-/// Which face of a polyhedron memory reaches, and which one pushes. So small that it is handed on in registers.
+/// Which face of a polyhedron memory reaches, and which one pushes. There may be none: an option of it still fits a register,
+/// and what comes back through memory in two halves would be waited for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EntryFace {
-    pub reached: u32,
-    pub pushes: u32,
+    /// And one more.
+    reached: NonZeroU32,
+    pushes: u32,
+}
+
+impl EntryFace {
+    fn new(reached: usize, pushes: usize) -> Self {
+        Self { reached: NonZeroU32::MIN.saturating_add(reached as u32), pushes: pushes as u32 }
+    }
+
+    /// The face that is remembered.
+    pub fn reached(self) -> u32 {
+        self.reached.get() - 1
+    }
+
+    /// The face that pushes.
+    pub fn pushes(self) -> usize {
+        self.pushes as usize
+    }
 }
 
 /// A point (or a sphere's centre) inside a piece of B.
@@ -43,14 +62,14 @@ impl PolyhedronEntry<'_> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
             let face = shallowest_face(&self.point_b, polyhedron)?;
-            return Some(EntryFace { reached: face as u32, pushes: face as u32 });
+            return Some(EntryFace::new(face, face));
         }
         let start = match self.remembered(key) {
             Some(face) => face,
             None => self.entered_by()?,
         };
         let reached = follow(&self.point_b, polyhedron, start);
-        Some(EntryFace { reached: reached.face as u32, pushes: reached.pushes as u32 })
+        Some(EntryFace::new(reached.face, reached.pushes))
     }
 
     fn polyhedron(&self) -> &Polyhedron {

@@ -15,10 +15,10 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     };
     let local = pair.body_a().points[pair.item_a.element as usize].position;
     let Some(face) = pair.entry_face(&local, &point.position, 0) else { return };
-    let contact = point_below_face(&point.position, polyhedron, face.pushes as usize);
+    let contact = point_below_face(&point.position, polyhedron, face.pushes());
     if let Some(contact) = contact {
         pair.emit(&contact, found, |out| {
-            out.entry_face = face.reached;
+            out.entry_face = face.reached();
             out.status = status;
         });
     }

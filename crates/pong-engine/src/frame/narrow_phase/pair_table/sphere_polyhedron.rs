@@ -24,9 +24,9 @@ pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut Chu
     }
     let center_a = pair.center_a(ball);
     let Some(face) = pair.entry_face(center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
-    let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes as usize);
+    let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());
     pair.sharing(ball, &contact, found, |out| {
         out.status = status_of(containment);
-        out.entry_face = face.reached;
+        out.entry_face = face.reached();
     });
 }
