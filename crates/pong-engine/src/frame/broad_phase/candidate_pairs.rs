@@ -89,8 +89,8 @@ struct StackEntry {
 #[derive(Debug)]
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
-    /// For every pair a bit for every chunk, eight pairs to a word.
-    chunks: Table<[LaneBits; LANES]>,
+    /// For every pair a bit for every chunk, eight pairs to a word from the lowest byte.
+    chunks: Table<u64>,
     waiting: Table<StackEntry>,
     any: LaneBits,
 }
@@ -101,7 +101,7 @@ impl CandidatePairs {
         let nothing = CandidatePair { reach: 0, place: 0, box_b: WideBox::NOTHING };
         Self {
             list: Table::with_capacity(CANDIDATE_PAIRS_MAX, nothing),
-            chunks: Table::with_capacity(CANDIDATE_PAIRS_MAX / LANES, [0; LANES]),
+            chunks: Table::with_capacity(CANDIDATE_PAIRS_MAX / LANES, 0),
             waiting: Table::with_capacity(DEPTH_MAX, StackEntry { node: 0, chunks: 0 }),
             any: 0,
         }
@@ -139,9 +139,10 @@ impl CandidatePairs {
     fn add(&mut self, reach: usize, element: u32, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
         if index.is_multiple_of(LANES) {
-            self.chunks.push([0; LANES]).expect("room for as many");
+            self.chunks.push(0).expect("room for as many");
         }
-        self.chunks[index / LANES][index % LANES] = chunks;
+        // Not as bytes: a word that was just written in pieces would be waited for.
+        self.chunks[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
         self.any |= chunks;
         let pair = self.list.slot().expect("room was asked for");
         (pair.reach, pair.place) = (reach as u32, element);
@@ -183,15 +184,15 @@ impl CandidatePairs {
                 let met = node.boxes.met_by(simd, query);
                 counts.boxes_tested += 1;
                 for lane_b in lanes(met) {
-                    let (mut chunks, box_b) = (chunks, node.boxes.lane(lane_b));
+                    let mut chunks = chunks;
                     if !lone {
-                        chunks &= boxes.met_by(simd, &box_b);
+                        chunks &= boxes.met_by(simd, &node.boxes.lane(lane_b));
                         counts.boxes_tested += 1;
                     }
                     if chunks != 0
                         && let Some(pair) = self.note(index, node.child(lane_b), chunks)
                     {
-                        pair.box_b.set(&batch.boxes, &box_b);
+                        pair.box_b.set(&batch.boxes, &node.boxes, lane_b);
                     }
                 }
             }
@@ -263,7 +264,7 @@ impl CandidatePairs {
                 if let Some(pair) = self.note(traversal.next - 1, node.child(lane_b), chunks)
                     && !traversal.alone
                 {
-                    pair.box_b.set(tree, &node.boxes.lane(lane_b));
+                    pair.box_b.set(tree, &node.boxes, lane_b);
                 }
             }
         }
@@ -272,7 +273,7 @@ impl CandidatePairs {
 
 /// Numbers of the candidate pairs of one chunk, in their order.
 pub(crate) struct NumbersOfChunk<'a> {
-    words: &'a [[LaneBits; LANES]],
+    words: &'a [u64],
     chunk: usize,
     /// The word that comes next.
     next: usize,
@@ -289,7 +290,7 @@ impl Iterator for NumbersOfChunk<'_> {
         const LOWEST: u64 = 0x0101_0101_0101_0101;
         while self.bits == 0 {
             let word = self.words.get(self.next)?;
-            self.bits = u64::from_le_bytes(*word) >> self.chunk & LOWEST;
+            self.bits = *word >> self.chunk & LOWEST;
             self.next += 1;
         }
         let bit = self.bits.trailing_zeros() as usize;

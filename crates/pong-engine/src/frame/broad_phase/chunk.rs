@@ -228,10 +228,11 @@ impl WideBox {
 
     /// Becomes one of a tree.
     #[inline(always)]
-    pub fn set(&mut self, tree: &BoxTree, narrow: &NarrowBox) {
+    pub fn set(&mut self, tree: &BoxTree, boxes: &NarrowBoxes, lane: usize) {
+        let [low, high] = &boxes.bounds;
         for axis in 0..3 {
-            self.low[axis] = tree.origin[axis] + widened(narrow.low[axis]);
-            self.high[axis] = tree.origin[axis] + widened(narrow.high[axis]);
+            self.low[axis] = tree.origin[axis] + widened(low[axis][lane]);
+            self.high[axis] = tree.origin[axis] + widened(high[axis][lane]);
         }
     }
 }
