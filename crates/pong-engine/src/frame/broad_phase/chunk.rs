@@ -187,6 +187,7 @@ impl Chunk<'_> {
     }
 }
 
+/// Apart, and of the list alone: a chunk whose address is handed on is written to memory as a whole, for every chunk.
 #[inline(never)]
 fn ends_of(carried: &[TransformedPrimitive]) -> [Lanes; 2] {
     let mut ends = [Lanes::ORIGIN; 2];

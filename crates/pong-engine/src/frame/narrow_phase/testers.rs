@@ -111,7 +111,8 @@ impl<'a> Target<'a> {
     }
 }
 
-/// Makes the deferred tests of a chunk, in the order in which they came.
+/// Makes the deferred tests of a chunk, in the order in which they came. The chunk comes as a copy, made here alone: one whose
+/// address is handed on would be written to memory for every chunk.
 #[inline(never)]
 pub(crate) fn test_deferred(
     context: &PairContext<'_>,
