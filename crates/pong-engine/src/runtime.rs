@@ -7,15 +7,15 @@ use crate::energy::episodes::{PairEnergies, PairEnergy};
 use crate::error::EngineError;
 use crate::frame::{
     self, EvaluationBuffers, EvaluationInput, FrictionPreload, MOTIONS_AT_ONCE, ROUND, WorkerInput,
-    WorkerPool,
+    WorkerPool, fresh, remember,
 };
 use crate::report::{Clock, FrameReport, MemoryReport, Stage, StatusBits, WorkTimes};
 use crate::scene::{Scene, States};
 use crate::seal::leave_room_for_small_things;
 use crate::sealed::{GroupPair, Sealed, SurfaceTable};
 use crate::state::{
-    CommittedPoses, ContactKey, ContactMemory, ContactRole, Remembered, StateError, largest_len, needed_len,
-    read_block, write_block,
+    CommittedPoses, ContactKey, ContactMemory, ContactRole, StateError, largest_len, needed_len, read_block,
+    write_block,
 };
 use pong_threads::{LaneWork, WorkerStart};
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub(crate) struct Runtime {
     /// A contact state without room.
     nothing: Arc<ContactMemory>,
     pub frame: EvaluationBuffers,
-    pool: Option<WorkerPool>,
+    pub pool: Option<WorkerPool>,
     /// Whether `frame` belongs to the states presently set.
     pub evaluated: bool,
     /// Whether `frame` belongs to the states, pairs and surfaces as they are set now, committed or not.
@@ -51,6 +51,8 @@ impl Runtime {
         clock: Clock,
     ) -> Result<Self, EngineError> {
         let pairs = sealed.group_pairs.len();
+        let settings = scene.config.workers.as_ref();
+        let lanes = settings.map_or(0, |settings| settings.workers_granted() + 1);
         let memory = || {
             let poses =
                 CommittedPoses::new(Arc::clone(&sealed.paired_bodies), scene.bodies.len(), scene.pairs.len());
@@ -58,7 +60,7 @@ impl Runtime {
                 ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
-            Arc::new(memory.with_energies(energies, pairs))
+            Arc::new(memory.with_lanes(lanes, sealed.limits.lane_records()).with_energies(energies, pairs))
         };
         let nothing = Arc::new(ContactMemory::default());
         let input = || WorkerInput {
@@ -153,10 +155,10 @@ impl Runtime {
     /// Makes what the frame found the committed contact state.
     pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
-        let Self { memory, spares, frame, .. } = self;
+        let Self { memory, spares, frame, pool, .. } = self;
         take_turns(memory, spares, |old, next| {
             next.poses.commit(&old.poses, &frame.poses, &states.enabled);
-            remember(frame, next);
+            remember(frame, pool.as_ref(), next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
@@ -238,8 +240,7 @@ impl Runtime {
         let energies = &self.memory.pair_energies.pairs;
         self.sealed.group_pairs.iter().zip(energies).enumerate().map(|(index, (pair, energy))| {
             let records = &self.memory.records;
-            let first = records.partition_point(|record| (record.key.group_pair as usize) < index);
-            let of_pair = records[first..].iter().take_while(|r| r.key.group_pair as usize == index);
+            let of_pair = records.of_group_pair(index as u32);
             let pushing = of_pair.filter(|record| record.role == ContactRole::Active);
             let stored = pushing.map(|record| record.stored).sum::<f64>() + 0.0;
             let total = EnergyAccount { stored, ..energy.total };
@@ -302,10 +303,8 @@ impl Runtime {
 
     /// WorkerContext by lane, the caller's first: what it did alone, and its part of what was shared.
     pub fn lane_times(&self) -> impl Iterator<Item = WorkTimes> + '_ {
-        let mut shared = self.pool.iter().flat_map(WorkerPool::times);
-        let mut caller = self.frame.caller.out.times;
-        shared.next().into_iter().for_each(|shared| caller.add(shared));
-        std::iter::once(caller).chain(shared.copied())
+        let workers = self.pool.iter().flat_map(WorkerPool::times);
+        std::iter::once(self.frame.caller.out.times).chain(workers.copied())
     }
 
     pub fn worker_timeouts(&self) -> u64 {
@@ -349,29 +348,4 @@ fn take_turns(
     let spare = free.expect("at most one contact state is held by a worker that is stuck");
     write(memory, Arc::get_mut(spare).expect("nobody else has it"));
     std::mem::swap(memory, spare);
-}
-
-/// Replaces all records by those of the frame's contacts.
-fn remember(frame: &EvaluationBuffers, next: &mut ContactMemory) {
-    let out = &frame.caller.out;
-    next.clear_records();
-    for place in frame.order.iter() {
-        let index = place.index as usize;
-        let (law_state, energy) = (out.law_state_of(index), frame.energy.contacts.get(index));
-        let remembered = next.push_with(law_state, energy, |slot| out.contacts[index].write_record(slot));
-        remembered.expect("a frame keeps no more contacts than there is room to remember");
-    }
-}
-
-/// What a commit would remember of the frame's contacts, in order.
-fn fresh(frame: &EvaluationBuffers) -> impl Iterator<Item = Remembered<'_>> + Clone {
-    let out = &frame.caller.out;
-    frame.order.iter().map(|place| {
-        let index = place.index as usize;
-        Remembered {
-            record: out.contacts[index].record(),
-            law_state: out.law_state_of(index),
-            energy: frame.energy.contacts.get(index),
-        }
-    })
 }

@@ -53,27 +53,36 @@ impl Caller {
         earlier_ns.is_some_and(|earlier_ns| now_ns - earlier_ns < self.shared.spin_ns)
     }
 
+    /// Runs the blocks of the job.
     pub fn run(&mut self, blocks: u32) -> Outcome {
+        let job = Arc::clone(&self.shared.job);
+        self.run_beside(blocks, &mut |blocks| job.run_neighbors(blocks, 0))
+    }
+
+    /// The same; the caller runs its own by `run`.
+    pub fn run_beside(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         assert!(blocks <= MAX_BLOCKS, "a phase of {blocks} blocks: at most {MAX_BLOCKS}");
         self.own = Done::default();
         self.shared_out = blocks > 1 && self.shared.board.workers() > 0;
-        if self.shared_out { self.run_shared(blocks) } else { self.run_alone(blocks) }
+        if self.shared_out { self.run_shared(blocks, run) } else { self.run_alone(blocks, run) }
     }
 
-    fn run_alone(&mut self, blocks: u32) -> Outcome {
-        self.shared.run_blocks(0..blocks, 0, &mut self.own).unwrap_or_else(|payload| resume_unwind(payload));
+    fn run_alone(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
+        self.shared
+            .run_blocks(0..blocks, run, &mut self.own)
+            .unwrap_or_else(|payload| resume_unwind(payload));
         Outcome::Complete
     }
 
     /// The caller's first blocks are taken before the phase opens, and cost no claim.
-    fn run_shared(&mut self, blocks: u32) -> Outcome {
+    fn run_shared(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         self.epoch = Word::next_epoch(self.epoch);
         // Before the phase opens: a worker may finish a block of it at once, which is not yet booked as handed out.
         let stuck = self.stuck();
         let left = blocks - self.shared.board.share_of(blocks);
         self.shared.board.open(self.epoch, left);
         self.call_workers(left, stuck);
-        let own_panic = self.drain(left..blocks).err();
+        let own_panic = self.drain(left..blocks, run).err();
         let unclaimed = if own_panic.is_some() { self.shared.board.close(self.epoch) } else { 0 };
 
         let claimed = blocks - self.own.blocks - unclaimed;
@@ -99,10 +108,10 @@ impl Caller {
     }
 
     /// Runs `first` and then what it can claim.
-    fn drain(&mut self, first: Range<u32>) -> Result<(), Payload> {
+    fn drain(&mut self, first: Range<u32>, run: &mut dyn FnMut(Range<u32>)) -> Result<(), Payload> {
         let mut blocks = Some(first);
         while let Some(claimed) = blocks {
-            self.shared.run_blocks(claimed, 0, &mut self.own)?;
+            self.shared.run_blocks(claimed, &mut *run, &mut self.own)?;
             blocks = self.shared.board.claim(self.epoch);
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! The pool: starts the workers, holds the caller's side, ends them.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 use std::thread::{self, JoinHandle, Thread};
@@ -122,6 +123,16 @@ impl Pool {
     /// With more than [`MAX_BLOCKS`](crate::MAX_BLOCKS) blocks, or if a block panics.
     pub fn run(&mut self, blocks: u32) -> Outcome {
         self.caller.run(blocks)
+    }
+
+    /// As [`run`](Self::run), but the caller runs the blocks that it claims by `run` and not by the job: in memory of its own,
+    /// which no worker needs to be kept out of. It is called with neighbouring blocks, as [`Job::run_neighbors`].
+    ///
+    /// # Panics
+    ///
+    /// As there, or if `run` panics.
+    pub fn run_beside(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
+        self.caller.run_beside(blocks, run)
     }
 
     /// Whether no worker is inside a block of an abandoned phase. What such blocks wrote may be read once it is true.

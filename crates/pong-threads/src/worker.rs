@@ -29,11 +29,17 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Runs blocks and adds them to what the lane has done. A panic is caught: of the blocks that it leaves out nobody will ask.
-    pub fn run_blocks(&self, blocks: Range<u32>, lane: usize, done: &mut Done) -> Result<(), Payload> {
+    /// Runs blocks by `run` and adds them to what a lane has done. A panic is caught: of the blocks that it leaves out nobody
+    /// will ask.
+    pub fn run_blocks(
+        &self,
+        blocks: Range<u32>,
+        run: impl FnOnce(Range<u32>),
+        done: &mut Done,
+    ) -> Result<(), Payload> {
         let started_ns = self.clock.map(|clock| clock());
         let count = blocks.end - blocks.start;
-        let result = catch_unwind(AssertUnwindSafe(|| self.job.run_neighbors(blocks, lane)));
+        let result = catch_unwind(AssertUnwindSafe(|| run(blocks)));
         if let (Some(clock), Some(started_ns)) = (self.clock, started_ns) {
             done.busy_ns += clock().saturating_sub(started_ns);
         }
@@ -92,7 +98,8 @@ impl Worker {
         let mut done = Done::default();
         while let Some(blocks) = shared.board.claim(epoch) {
             self.finished += u64::from(blocks.end - blocks.start);
-            if let Err(payload) = shared.run_blocks(blocks, self.lane, &mut done) {
+            let run = |blocks| shared.job.run_neighbors(blocks, self.lane);
+            if let Err(payload) = shared.run_blocks(blocks, run, &mut done) {
                 shared.keep_panic(epoch, payload);
             }
             shared.board.record(self.lane, epoch, done, self.finished);

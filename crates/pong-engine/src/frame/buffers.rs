@@ -2,6 +2,7 @@
 
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
+use crate::frame::forces::place::Place;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
 use crate::frame::near_pairs::NearPairs;
@@ -9,8 +10,8 @@ use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::{FrameCounts, FrameReport, StageTimes};
 use crate::scene::Scene;
-use crate::sealed::Sealed;
-use crate::state::{CommittedPoses, ContactRole};
+use crate::sealed::{Direction, Sealed};
+use crate::state::CommittedPoses;
 use pong_arena::Table;
 use pong_geometry::{Pose, Twist, Wrench};
 
@@ -34,22 +35,16 @@ pub(crate) struct EvaluationBuffers {
     pub energy: EnergyBuffers,
     // reduce
     pub wrenches: Vec<Wrench>,
+    /// Whose contact has numbers that nearly leave the range of numbers, if any.
+    pub beyond_range: Option<Direction>,
     pub report: FrameReport,
     pub counts: FrameCounts,
     pub times: StageTimes,
 }
 
-/// Where a contact stands, with the first of what decides the order of sums: few have it in common.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
-    pub head: u64,
-    pub index: u32,
-}
-
 impl EvaluationBuffers {
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput) -> Self {
         let bodies = scene.bodies.len();
-        let nowhere = Place { head: 0, index: 0 };
         Self {
             computed: false,
             poses: vec![Pose::identity(); bodies],
@@ -57,10 +52,11 @@ impl EvaluationBuffers {
             near: NearPairs::new(scene, sealed),
             input,
             caller: WorkerContext::new(sealed, sealed.limits.lane_contacts, true),
-            order: Table::with_capacity(sealed.limits.lane_contacts, nowhere),
+            order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(sealed),
             wrenches: vec![Wrench::zero(); bodies],
+            beyond_range: None,
             report: FrameReport::default(),
             counts: FrameCounts::default(),
             times: StageTimes::default(),
@@ -74,6 +70,7 @@ impl EvaluationBuffers {
         for &body in &*sealed.paired_bodies {
             self.wrenches[body] = Wrench::zero();
         }
+        self.beyond_range = None;
         self.report = FrameReport::default();
         self.counts.clear();
         self.times = StageTimes::default();
@@ -84,13 +81,9 @@ impl EvaluationBuffers {
         Motions { sealed, poses: &self.poses, twists: &self.twists, committed }
     }
 
-    /// Every contact that counts, in the order of every sum.
-    pub fn in_order(&self) -> impl Iterator<Item = &FrameContact> {
-        self.order.iter().map(|place| &self.caller.out.contacts[place.index as usize])
-    }
-
     /// The contacts that push, in the order of every sum.
     pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
-        self.in_order().filter(|contact| contact.found.role == ContactRole::Active)
+        let pushing = self.order.iter().filter(|place| place.pushes());
+        pushing.map(|place| &self.caller.out.contacts[place.index as usize])
     }
 }

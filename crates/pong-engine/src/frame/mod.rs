@@ -16,14 +16,16 @@ mod worker_pool;
 
 pub(crate) use block::arena_bytes;
 pub(crate) use broad_phase::blocks::ROUND;
-pub(crate) use buffers::{EvaluationBuffers, Place};
+pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
+pub(crate) use forces::place::Place;
 pub(crate) use input::motion::Motion;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
 pub use output::preload::FrictionPreload;
+pub(crate) use output::remember::{fresh, remember};
 pub(crate) use tunnelling::events::TunnellingEvent;
 pub(crate) use tunnelling::travel::{least_travel_m, reach_m};
 pub(crate) use worker_context::WorkerContext;

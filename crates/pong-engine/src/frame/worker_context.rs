@@ -49,7 +49,7 @@ impl WorkerContext {
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
-            out: ContactBuffer::new(sealed.law_state_len, contacts, ranks),
+            out: ContactBuffer::new(sealed.law_state_len, contacts, sealed.limits.lane_records(), ranks),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{FrameContact, Place, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
-use crate::state::Records;
+use crate::state::{RecordPlace, Records};
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
@@ -18,7 +18,12 @@ const DEFAULT_CAPACITY_MAX: usize = 65_536;
 const DEFAULT_CAPACITY_MIN: usize = 256;
 
 /// How much memory the frames of a scene get.
-pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: usize) -> Limits {
+pub(super) fn limits(
+    scene: &Scene,
+    paired_bodies: &[usize],
+    record_capacity: usize,
+    law_state_len: usize,
+) -> Limits {
     /// Interferences of one chunk that there is room for at least: what a ball finds on a fine mesh before it is
     /// settled which of them push.
     const FOUND_MIN: usize = 1024;
@@ -36,12 +41,21 @@ pub(super) fn limits(scene: &Scene, paired_bodies: &[usize], record_capacity: us
     const GRAINS: usize = 64;
     let per_contact = size_of::<((usize, u32, usize, usize), f64)>();
     let scratch_bytes = scratch_bytes(SHARED).max(lane_contacts * per_contact) + GRAINS;
-    Limits { lane_contacts, found, arena_bytes, scratch_bytes }
+    // Registered laws and the ledger add to what is remembered after the lanes have found their contacts.
+    let workers = scene.config.workers.as_ref().map_or(0, |settings| settings.workers);
+    let lanes_write_records = workers > 0 && law_state_len == 0 && !scene.config.ledger;
+    Limits { lane_contacts, lanes_write_records, found, arena_bytes, scratch_bytes }
 }
+
+/// Records of a lane stand in the committed contact state, in the next one, in one that a stuck worker may still read, and
+/// where the lane writes them.
+const RECORDS_OF_A_LANE: usize = 4;
 
 /// What a worker's lane takes however small the capacity is, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
-    limits.least_worker_contacts() * (size_of::<FrameContact>() + law_state_len * size_of::<f64>())
+    let contact = size_of::<FrameContact>() + size_of::<Place>() + law_state_len * size_of::<f64>();
+    limits.least_worker_contacts() * contact
+        + limits.lane_records() * Records::LANE_BYTES * RECORDS_OF_A_LANE
         + WorkerContext::table_bytes(limits.found)
 }
 
@@ -63,7 +77,8 @@ pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> O
     })
 }
 
-/// Memory that one contact of the capacity takes in all buffers, with so many lanes beside the caller's own, bytes.
+/// Memory that one contact of the capacity takes in all buffers, with so many lanes, the caller's too, or 0 without workers,
+/// bytes.
 pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usize) -> usize {
     /// There is room to remember as many contacts as may push.
     const RECORDS: usize = 2;
@@ -71,13 +86,15 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     // The committed contact state, the next one, and one that a stuck worker may still read.
     let states = if lanes > 0 { 3 } else { 2 };
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
-    let remembered = states * (Records::BYTES + numbers + energies) + energies + energies / 8;
-    // The lane's contacts, an eighth more than records, their ranks and order, and what rays and the ledger ask for.
-    let per_contact = size_of::<((usize, u32, usize, usize), f64)>() + size_of::<Place>() + size_of::<u32>();
+    let in_lanes = if lanes > 0 { size_of::<RecordPlace>() } else { 0 };
+    let remembered = states * (Records::BYTES + in_lanes + numbers + energies) + energies + energies / 8;
+    // The lane's contacts, an eighth more than records, their places, ranks and order, and what rays and the ledger ask for.
+    let per_contact =
+        size_of::<((usize, u32, usize, usize), f64)>() + 2 * size_of::<Place>() + size_of::<u32>();
     let lane = size_of::<FrameContact>() + numbers + per_contact;
     let found = WorkerContext::BYTES_PER_FOUND;
     // The workers' lanes together hold twice what the caller's does.
-    let shared = if lanes > 0 { 2 * (lane + lane / 8) + lanes * found } else { 0 };
+    let shared = if lanes > 0 { 2 * (lane + lane / 8) + (lanes - 1) * found } else { 0 };
     RECORDS * (remembered + lane + lane / 8 + found + shared)
 }
 

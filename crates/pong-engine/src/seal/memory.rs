@@ -100,7 +100,7 @@ pub(super) fn for_frames(
     let sum = pairs
         .saturating_mul(per_pair(scene))
         .saturating_add(contacts)
-        .saturating_add((lanes + 1).saturating_mul(scratch))
+        .saturating_add(lanes.max(1).saturating_mul(scratch))
         .saturating_add(workers * STACK + blocks + bodies + committed + motions + near + SLACK);
     // Rounding up of every piece to what the allocator hands out.
     sum.saturating_add(sum / 16)

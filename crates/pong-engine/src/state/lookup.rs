@@ -2,10 +2,11 @@
 
 use super::memory::ContactMemory;
 use super::record::{ContactKey, ContactRecord, ContactRole};
+use super::records::Found;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
 use std::cell::Cell;
-use std::ops::{Deref, Range};
+use std::ops::Deref;
 
 /// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
 pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
@@ -18,53 +19,59 @@ const PLACES: usize = 8;
 pub(crate) struct RecordLookup<'a> {
     memory: &'a ContactMemory,
     /// By the lowest bits of the primitive of A. Nothing but the time depends on them.
-    recent: [Cell<Place>; PLACES],
+    recent: [Cell<OfHead>; PLACES],
 }
 
 /// Where the records of a head are.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct OfHead {
     head: u64,
-    first: u32,
-    count: u32,
+    found: Found,
 }
 
-impl Place {
+impl OfHead {
     /// No key has this head: its pair would be beyond any.
-    const NONE: Self = Self { head: u64::MAX, first: 0, count: 0 };
+    const NONE: Self = Self { head: u64::MAX, found: Found::NOTHING };
 }
 
 impl<'a> RecordLookup<'a> {
     pub fn new(memory: &'a ContactMemory) -> Self {
-        Self { memory, recent: [const { Cell::new(Place::NONE) }; PLACES] }
+        Self { memory, recent: [const { Cell::new(OfHead::NONE) }; PLACES] }
     }
 
-    /// The records under one key, with the index of the first.
+    /// The records under one key, with the index of the first: few keys have a head in common.
     #[inline]
     pub fn under(&self, key: &ContactKey) -> (usize, &'a [ContactRecord]) {
-        let found = self.memory.records.under(key, self.of_head(key.head()));
-        (found.start, &self.memory.records[found])
+        let found = self.of_head(key.head());
+        let records = self.memory.records.found(&found);
+        let before = records.iter().take_while(|record| record.key < *key).count();
+        let count = records[before..].iter().take_while(|record| record.key == *key).count();
+        (found.first() + before, &records[before..before + count])
     }
 
     #[inline]
-    fn of_head(&self, head: u64) -> Range<usize> {
+    fn of_head(&self, head: u64) -> Found {
         let recent = &self.recent[head as usize % PLACES];
         let mut place = recent.get();
         if place.head != head {
-            let found = self.memory.records.of_head(head);
-            place = Place { head, first: found.start as u32, count: found.len() as u32 };
+            place = OfHead { head, found: self.memory.records.of_head(head) };
             recent.set(place);
         }
-        place.first as usize..(place.first + place.count) as usize
+        place.found
     }
 
-    /// The record of the given role that a present contact with normal `n` continues: the one under its key with
+    /// The record of the given role, and its index, that a present contact with normal `n` continues: the one under its key with
     /// the normal n' nearest to it, ties by feature, if n·n' exceeds [`SAME_WAY_COSINE_MIN`].
     ///
     /// Nearest is told by |n − n'|, which is exact: the cosines of normals 1e-8 apart and nearer are all one, and among
     /// the faces of a plate folded by so little a contact would continue another's bristle.
     #[inline(always)]
-    pub fn matching(&self, key: &ContactKey, normal: &Vec3, role: ContactRole) -> Option<usize> {
+    pub fn matching(
+        &self,
+        key: &ContactKey,
+        normal: &Vec3,
+        role: ContactRole,
+    ) -> Option<(usize, &'a ContactRecord)> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;
         let same_way = |record: &ContactRecord| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
@@ -78,7 +85,7 @@ impl<'a> RecordLookup<'a> {
                 best = Some((i, apart));
             }
         }
-        best.map(|(i, _)| first + i)
+        best.map(|(i, _)| (first + i, &records[i]))
     }
 
     /// The role of the record that is nearest to a present contact, of whatever role: of the nearest normal, as for

@@ -61,6 +61,11 @@ impl ContactMemory {
         }
     }
 
+    /// The same with room for what lanes write, each so many records.
+    pub fn with_lanes(self, lanes: usize, each: usize) -> Self {
+        Self { records: self.records.with_lanes(lanes, each), ..self }
+    }
+
     /// The same with room for energies.
     pub fn with_energies(self, energies: ContactEnergies, pair_energies: PairEnergies) -> Self {
         Self { energies, pair_energies, ..self }

@@ -16,4 +16,4 @@ pub(crate) use lookup::{RecordLookup, SAME_WAY_COSINE_MIN};
 pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
-pub(crate) use records::Records;
+pub(crate) use records::{Place as RecordPlace, Records};

@@ -34,6 +34,12 @@ impl ContactKey {
         Direction { group_pair: self.group_pair, flipped: self.flipped }
     }
 
+    /// That of all keys with this head.
+    #[inline]
+    pub fn direction_of(head: u64) -> Direction {
+        Direction { group_pair: (head >> 33) as u32, flipped: (head >> 32) as u32 & 1 }
+    }
+
     /// The first number: few contacts have it in common.
     #[inline]
     pub fn head(&self) -> u64 {

@@ -2,33 +2,111 @@
 
 use super::record::{ContactKey, ContactRecord};
 use pong_arena::{Full, Table};
-use std::ops::{Deref, DerefMut, Range};
+use std::ops::{Index, IndexMut};
 
-/// Records, used as a slice. What tells most keys apart stands beside them once more, closely packed: a search reads few
-/// cache lines, and of the records themselves only those that it finds. Where threads are on cores that are far apart, the
-/// fewer lines of the committed records they have read, the sooner the next commit but one can write them.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// Records, counted in the order of their keys. What tells most keys apart stands beside them, closely packed: a search reads
+/// few cache lines, and of the records themselves only those that it finds.
+///
+/// They stand in that order in one table, or as the lanes of a frame have written them, each lane's in a table of its own.
+/// Then a commit moves none, and the core that reads a record is most often the one that has written it.
+#[derive(Clone, Debug)]
 pub(crate) struct Records {
-    records: Table<ContactRecord>,
     /// The head of every record's key.
     heads: Table<u64>,
+    /// Where every record stands, if lanes have written them.
+    places: Table<Place>,
+    /// Records in order, and then those of each lane.
+    tables: Vec<Table<ContactRecord>>,
+}
+
+/// Where a record stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Place {
+    table: u32,
+    index: u32,
+}
+
+/// Where the records of one head are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Found {
+    first: u32,
+    count: u32,
+    /// Of the first; the others follow it.
+    place: Place,
+}
+
+/// The table of records in order.
+const IN_ORDER: usize = 0;
+
+impl Place {
+    /// What a lane has written, counted from 0, as its record of this index.
+    pub fn in_lane(lane: usize, index: u32) -> Self {
+        Self { table: lane as u32 + 1, index }
+    }
+
+    fn in_order(index: usize) -> Self {
+        Self { table: IN_ORDER as u32, index: index as u32 }
+    }
+
+    fn next(self) -> Self {
+        Self { index: self.index + 1, ..self }
+    }
+}
+
+impl Found {
+    /// No records.
+    pub const NOTHING: Self = Self { first: 0, count: 0, place: Place { table: IN_ORDER as u32, index: 0 } };
+
+    /// The index of the first record in the order of keys.
+    pub fn first(&self) -> usize {
+        self.first as usize
+    }
 }
 
 impl Records {
     /// Bytes of a record.
-    pub const BYTES: usize = size_of::<ContactRecord>() + size_of::<u64>();
+    pub const BYTES: usize = Self::LANE_BYTES + size_of::<u64>();
+
+    /// Bytes of one that a lane has written.
+    pub const LANE_BYTES: usize = size_of::<ContactRecord>();
 
     /// Room for so many.
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
-            records: Table::with_capacity(capacity, ContactRecord::blank()),
             heads: Table::with_capacity(capacity, 0),
+            places: Table::default(),
+            tables: vec![Table::with_capacity(capacity, ContactRecord::blank())],
         }
+    }
+
+    /// With room, besides, for what so many lanes write, each so many records.
+    pub fn with_lanes(mut self, lanes: usize, each: usize) -> Self {
+        if lanes > 0 && each > 0 {
+            self.places = Table::with_capacity(self.capacity(), Place::in_order(0));
+            let lane = || Table::with_capacity(each, ContactRecord::blank());
+            self.tables.extend(std::iter::repeat_with(lane).take(lanes));
+        }
+        self
     }
 
     /// How many fit.
     pub fn capacity(&self) -> usize {
-        self.records.capacity()
+        self.heads.capacity()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.heads.len()
+    }
+
+    /// Whether they stand where lanes have written them.
+    pub fn in_lanes(&self) -> bool {
+        !self.places.is_empty()
+    }
+
+    /// The records, in the order of their keys.
+    pub fn iter(&self) -> impl Iterator<Item = &ContactRecord> + Clone {
+        (0..self.len()).map(|index| &self[index])
     }
 
     /// Appends a record that `write` writes, all of it, in place; keys must come in order.
@@ -37,70 +115,134 @@ impl Records {
     /// [`Full`] if there is no room; the records stay as they are.
     #[inline(always)]
     pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
-        let record = self.records.slot()?;
+        debug_assert!(!self.in_lanes(), "records of lanes are whole");
+        let in_order = &mut self.tables[IN_ORDER];
+        let record = in_order.slot()?;
         write(record);
         self.heads.push(record.key.head())?;
-        debug_assert!(self.records.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
+        debug_assert!(in_order.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
         Ok(())
     }
 
     /// Appends all records of another list.
     ///
     /// # Errors
-    /// [`Full`] if there is no room for all; the records stay as they are.
+    /// [`Full`] if there is no room for all.
     pub fn extend(&mut self, other: &Self) -> Result<(), Full> {
-        self.records.extend_from_slice(&other.records)?;
-        self.heads.extend_from_slice(&other.heads)
+        other.iter().try_for_each(|record| self.push_with(|slot| *slot = *record))
+    }
+
+    /// Replaces all records by those that lanes have written, whose heads and places come in the order of keys; whether they
+    /// can stay where they are: there is room for lanes, and those of one head stand one after another. If not, there are no
+    /// records. The [tables of the lanes](Self::lane_mut) are the caller's to exchange.
+    #[inline]
+    pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Place)>) -> bool {
+        self.clear();
+        if self.tables.len() == IN_ORDER + 1 {
+            return false;
+        }
+        let mut last = None;
+        for (head, place) in written {
+            let goes_on =
+                last.is_none_or(|(other, before): (u64, Place)| other != head || place == before.next());
+            if !goes_on || self.heads.push(head).and_then(|()| self.places.push(place)).is_err() {
+                self.clear();
+                return false;
+            }
+            last = Some((head, place));
+        }
+        true
+    }
+
+    /// What a lane has written.
+    pub fn lane_mut(&mut self, lane: usize) -> &mut Table<ContactRecord> {
+        &mut self.tables[lane + 1]
     }
 
     /// Drops all records.
     pub fn clear(&mut self) {
-        self.records.clear();
         self.heads.clear();
+        self.places.clear();
+        self.tables[IN_ORDER].clear();
     }
 
     /// Overwrites a record by another one, key and all; the order is the caller's to keep.
     pub fn copy_within(&mut self, from: usize, to: usize) {
-        self.records[to] = self.records[from];
+        self[to] = self[from];
         self.heads[to] = self.heads[from];
     }
 
     /// Keeps the first `len` records.
     pub fn truncate(&mut self, len: usize) {
-        self.records.truncate(len);
         self.heads.truncate(len);
+        self.places.truncate(len);
+        self.tables[IN_ORDER].truncate(len);
     }
 
     /// Where the records are whose keys have one head.
     #[inline]
-    pub fn of_head(&self, head: u64) -> Range<usize> {
-        let first = self.heads.partition_point(|&other| other < head);
-        let same = self.heads[first..].iter().take_while(|&&other| other == head).count();
-        first..first + same
+    pub fn of_head(&self, head: u64) -> Found {
+        let first = self.place_of_head(head);
+        let count = self.heads[first..].iter().take_while(|&&other| other == head).count();
+        let place = if count > 0 { self.place(first) } else { Place::in_order(0) };
+        Found { first: first as u32, count: count as u32, place }
     }
 
-    /// Where the records under one key are, among those of its head: few keys have a head in common.
+    /// The records that were found.
     #[inline]
-    pub fn under(&self, key: &ContactKey, of_head: Range<usize>) -> Range<usize> {
-        let first = of_head.start;
-        let of_head = &self.records[of_head];
-        let before = of_head.iter().take_while(|record| record.key < *key).count();
-        let count = of_head[before..].iter().take_while(|record| record.key == *key).count();
-        first + before..first + before + count
+    pub fn found(&self, found: &Found) -> &[ContactRecord] {
+        let Place { table, index } = found.place;
+        &self.tables[table as usize][index as usize..(index + found.count) as usize]
+    }
+
+    /// The index of the first record whose key has this head, or would have its place there.
+    #[inline]
+    pub fn place_of_head(&self, head: u64) -> usize {
+        self.heads.partition_point(|&other| other < head)
+    }
+
+    /// The records of a pair of movable groups.
+    pub fn of_group_pair(&self, group_pair: u32) -> impl Iterator<Item = &ContactRecord> {
+        let first_of = |group_pair| ContactKey { group_pair, ..ContactKey::default() }.head();
+        let (first, next) = (first_of(group_pair), first_of(group_pair + 1));
+        (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
+    }
+
+    #[inline]
+    fn place(&self, index: usize) -> Place {
+        if self.places.is_empty() { Place::in_order(index) } else { self.places[index] }
     }
 }
 
-impl Deref for Records {
-    type Target = [ContactRecord];
+impl Index<usize> for Records {
+    type Output = ContactRecord;
 
-    fn deref(&self) -> &Self::Target {
-        &self.records
+    #[inline]
+    fn index(&self, index: usize) -> &ContactRecord {
+        let Place { table, index } = self.place(index);
+        &self.tables[table as usize][index as usize]
     }
 }
 
 /// Keys are not to be changed.
-impl DerefMut for Records {
-    fn deref_mut(&mut self) -> &mut Self::Target {
-        &mut self.records
+impl IndexMut<usize> for Records {
+    #[inline]
+    fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
+        let Place { table, index } = self.place(index);
+        &mut self.tables[table as usize][index as usize]
+    }
+}
+
+impl Default for Records {
+    /// No room at all.
+    fn default() -> Self {
+        Self::with_capacity(0)
+    }
+}
+
+impl PartialEq for Records {
+    /// Whether the records are equal; where they stand and how many would fit does not matter.
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
     }
 }

@@ -5,6 +5,7 @@ use super::lookup::RecordLookup;
 use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
+use super::records::Place;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -330,7 +331,11 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
             .unwrap();
     }
     let lookup = RecordLookup::new(&memory);
-    let found = |normal: Vec3, role| lookup.matching(&model.key, &normal, role);
+    let found = |normal: Vec3, role| {
+        let (index, record) = lookup.matching(&model.key, &normal, role)?;
+        assert_eq!(record, &memory.records[index]);
+        Some(index)
+    };
     assert_eq!(found(Vec3::x(), ContactRole::Active), Some(0));
     // Two alike: the lower feature.
     assert_eq!(found(Vec3::z(), ContactRole::Active), Some(2));
@@ -341,6 +346,62 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
     assert_eq!(lookup.matching(&elsewhere, &Vec3::z(), ContactRole::Tracked), None);
+}
+
+/// Lanes write the contacts of some heads each, in any order of the heads; some lanes write none, and some of what they write
+/// is left out.
+#[test]
+fn records_that_lanes_have_written_are_those_that_stand_in_order() {
+    const LANES: usize = 3;
+    let mut random = Random(5);
+    for case in 0..100 {
+        let expected = memory_of(&mut random, CAPACITY, 0);
+        let mut memory = ContactMemory::with_capacity(poses_of(&mut random), GROUP_PAIRS, CAPACITY, 0)
+            .with_lanes(LANES, 2 * CAPACITY);
+        let in_order: Vec<ContactRecord> = expected.records.iter().copied().collect();
+        let mut groups: Vec<&[ContactRecord]> =
+            in_order.chunk_by(|a, b| a.key.head() == b.key.head()).collect();
+        let mut lanes = vec![Vec::new(); LANES];
+        let mut written = Vec::new();
+        while !groups.is_empty() {
+            let group = groups.swap_remove(random.below(groups.len()));
+            let lane = random.below(if case % 2 == 0 { LANES } else { 1 });
+            if random.below(4) == 0 {
+                lanes[lane].push(record_of(&mut random));
+            }
+            for record in group {
+                written.push((record.key, Place::in_lane(lane, lanes[lane].len() as u32)));
+                lanes[lane].push(*record);
+            }
+        }
+        written.sort_by_key(|(key, _)| *key);
+        assert!(memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
+        for (lane, records) in lanes.iter().enumerate() {
+            records.iter().for_each(|record| memory.records.lane_mut(lane).push(*record).unwrap());
+        }
+
+        assert!(memory.records == expected.records);
+        let lookups = [RecordLookup::new(&memory), RecordLookup::new(&expected)];
+        for record in &in_order {
+            let [(first, found), (index, same)] = lookups.each_ref().map(|lookup| lookup.under(&record.key));
+            assert!(first == index && found == same && !found.is_empty());
+        }
+        for pair in 0..GROUP_PAIRS as u32 {
+            assert!(memory.records.of_group_pair(pair).eq(expected.records.of_group_pair(pair)));
+        }
+        assert_eq!(memory.records.of_head(u64::MAX).first(), in_order.len());
+        // Any other way to remember begins with a copy, which stands in order.
+        let mut copy = memory_of(&mut random, 3, 0);
+        copy.copy_from(&memory);
+        assert!(copy.records == expected.records && block_of(&copy) == block_of(&memory));
+
+        // Of one head, the second not behind the first: they cannot stay.
+        if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
+            written[second + 1].1 = Place::in_lane(LANES - 1, 2 * CAPACITY as u32 - 1);
+            assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
+            assert_eq!(memory.records.len(), 0);
+        }
+    }
 }
 
 /// In a buffer that has room for the largest block.

@@ -18,9 +18,7 @@ impl World {
     /// Whether anything is remembered: no frame was committed yet, or all was forgotten, if not.
     pub fn has_contact_state(&self) -> bool {
         let memory = &self.runtime.memory;
-        memory.poses.knows_any()
-            || memory.records.iter().len() > 0
-            || (memory.work, memory.dissipated) != (0.0, 0.0)
+        memory.poses.knows_any() || memory.records.len() > 0 || (memory.work, memory.dissipated) != (0.0, 0.0)
     }
 
     /// Saves the committed contact state into a buffer of at least [`state_used`](Self::state_used) bytes. What lies behind

@@ -55,10 +55,10 @@ impl World {
         self.runtime.sealed.contact_capacity
     }
 
-    /// The pairs that frames visit.
+    /// What the tests of single parts look into.
     #[cfg(test)]
-    pub(crate) fn near_pairs(&mut self) -> &mut crate::frame::NearPairs {
-        &mut self.runtime.frame.near
+    pub(crate) fn runtime_mut(&mut self) -> &mut crate::runtime::Runtime {
+        &mut self.runtime
     }
 
     /// What a tool beside the engine reads of the world.

@@ -90,18 +90,20 @@ impl WaitingBristles {
         self.stuck = self.stuck & !(1 << lane) | LaneBits::from(one.stuck) << lane;
     }
 
-    /// Works out all friction that waits.
+    /// Works out all friction that waits. Its contacts are whole then; answers where they stand.
     #[inline]
-    pub fn settle(&mut self, contacts: &mut [FrameContact]) {
-        if self.count > 0 {
-            simd::run(Settle { bristles: self, contacts });
-            self.count = 0;
+    pub fn settle(&mut self, contacts: &mut [FrameContact]) -> &[u32] {
+        let count = std::mem::take(&mut self.count);
+        if count > 0 {
+            simd::run(Settle { bristles: self, count, contacts });
         }
+        &self.places[..count]
     }
 }
 
 struct Settle<'a> {
     bristles: &'a WaitingBristles,
+    count: usize,
     contacts: &'a mut [FrameContact],
 }
 
@@ -110,7 +112,7 @@ impl Kernel for Settle<'_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { bristles: waiting, contacts } = self;
+        let Self { bristles: waiting, count, contacts } = self;
         // Lanes to spare hold what was worked out before, or nothing.
         let forces = Bristles {
             stiffness: Numbers::load(simd, &waiting.stiffness),
@@ -121,12 +123,12 @@ impl Kernel for Settle<'_> {
             carried: Vectors::load(simd, &waiting.carried),
             slip: Vectors::load(simd, &waiting.slip),
             slip_velocity: Vectors::load(simd, &waiting.slip_velocity),
-            stuck: waiting.stuck | !(LaneBits::MAX >> (LANES - waiting.count)),
+            stuck: waiting.stuck | !(LaneBits::MAX >> (LANES - count)),
         }
         .evaluate(simd);
         let BristleForces { force, bristle, stored, sticks } = forces;
         let (force, bristle, stored) = (force.store(), bristle.store(), stored.store());
-        for lane in 0..waiting.count {
+        for lane in 0..count {
             let contact = &mut contacts[waiting.places[lane] as usize];
             contact.friction_force_b = get(&force, lane);
             contact.bristle_b = get(&bristle, lane);

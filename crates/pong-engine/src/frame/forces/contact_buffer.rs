@@ -2,12 +2,13 @@
 
 use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
+use crate::frame::forces::place::Place;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
-use crate::state::ContactRole;
+use crate::state::{ContactRecord, ContactRole};
 use pong_arena::Table;
 
 /// Contacts with their forces, and what was counted and timed while they were found.
@@ -17,6 +18,13 @@ pub(crate) struct ContactBuffer {
     pub phase: u64,
     /// Contacts, in no order.
     pub contacts: Table<FrameContact>,
+    /// Where they stand, as many.
+    pub places: Table<Place>,
+    /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: in a world with
+    /// workers, as far as there is room.
+    pub records: Table<ContactRecord>,
+    /// Whether contacts have been moved since they were found, away from their records.
+    moved: bool,
     /// Those of them whose friction is still to be worked out.
     pub(super) bristles: WaitingBristles,
     /// Numbers of registered friction laws, as many for every contact.
@@ -24,6 +32,8 @@ pub(crate) struct ContactBuffer {
     pub law_state_len: usize,
     /// Room for ranking the contacts; none in a worker's buffer.
     ranked: Table<u32>,
+    /// Whether others find contacts for the same frame just now. What finds no room then is lost, and all is done again.
+    pub shares: bool,
     pub demand: CapacityDemand,
     pub counts: FrameCounts,
     /// Where the time went; zero without a clock.
@@ -69,15 +79,19 @@ pub(crate) struct Checkpoint {
 }
 
 impl ContactBuffer {
-    /// Room for so many contacts, and to rank them if the deepest are to be kept.
-    pub fn new(law_state_len: usize, contacts: usize, ranks: bool) -> Self {
+    /// Room for so many contacts and records, and to rank the contacts if the deepest are to be kept.
+    pub fn new(law_state_len: usize, contacts: usize, records: usize, ranks: bool) -> Self {
         Self {
             phase: 0,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
+            places: Table::with_capacity(contacts, Place::NOWHERE),
+            records: Table::with_capacity(records, ContactRecord::blank()),
+            moved: false,
             bristles: WaitingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
             ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
+            shares: !ranks,
             demand: CapacityDemand::default(),
             counts: FrameCounts::default(),
             times: WorkTimes::default(),
@@ -88,6 +102,10 @@ impl ContactBuffer {
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
         self.contacts.clear();
+        self.places.clear();
+        self.records.clear();
+        self.moved = false;
+        self.shares = self.ranked.capacity() == 0;
         self.bristles.clear();
         self.law_state.clear();
         self.demand = CapacityDemand::default();
@@ -113,6 +131,9 @@ impl ContactBuffer {
     /// Forgets all that came after a checkpoint.
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
+        self.places.truncate(checkpoint.contacts);
+        self.records.truncate(checkpoint.contacts);
+        self.bristles.clear();
         self.law_state.truncate(checkpoint.contacts * self.law_state_len);
         self.demand = checkpoint.demand;
         self.counts = checkpoint.counts;
@@ -120,7 +141,30 @@ impl ContactBuffer {
 
     /// Works out all friction that waits.
     pub fn settle(&mut self) {
-        self.bristles.settle(&mut self.contacts);
+        let settled = self.bristles.settle(&mut self.contacts);
+        if !self.records.is_empty() {
+            for &place in settled {
+                remember(&self.contacts, &mut self.records, place as usize);
+            }
+        }
+    }
+
+    /// Writes what is to be remembered of a contact that is whole.
+    #[inline(always)]
+    pub fn remember(&mut self, place: usize) {
+        if !self.records.is_empty() {
+            remember(&self.contacts, &mut self.records, place);
+        }
+    }
+
+    /// Whether the buffer has a record for each of its contacts.
+    pub fn remembers_all(&self) -> bool {
+        self.records.len() == self.contacts.len()
+    }
+
+    /// Whether the first contacts are those whose records it has.
+    pub fn keeps_its_places(&self) -> bool {
+        !self.moved
     }
 
     /// The same, if no more can wait.
@@ -134,8 +178,14 @@ impl ContactBuffer {
     /// Takes over all that another buffer found; whether there was room.
     pub fn absorb(&mut self, other: &mut Self) -> bool {
         other.settle();
+        let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
+        if room {
+            for (index, place) in (first..).zip(&*other.places) {
+                self.places.push(place.at(index)).expect("as many as contacts");
+            }
+        }
         self.demand.add(&other.demand);
         self.counts.add(&other.counts);
         room && !other.demand.overflowed
@@ -148,7 +198,7 @@ impl ContactBuffer {
         self.demand.count(role);
         if self.contacts.len() == self.contacts.capacity() {
             self.demand.overflowed = true;
-            if self.ranked.capacity() == 0 {
+            if self.shares {
                 return None;
             }
             self.keep_deepest(sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
@@ -156,8 +206,20 @@ impl ContactBuffer {
         for _ in 0..self.law_state_len {
             self.law_state.push(0.0).expect("as much room as for contacts");
         }
+        if self.records.capacity() > 0 {
+            self.make_room_for_record();
+        }
         self.contacts.slot().expect("ranking makes room");
+        self.places.slot().expect("as many as contacts");
         Some(self.contacts.len() - 1)
+    }
+
+    /// As long as every contact has had a record, the next one gets one too.
+    #[inline(never)]
+    fn make_room_for_record(&mut self) {
+        if self.remembers_all() && self.records.len() < self.records.capacity() {
+            self.records.slot().expect("asked before");
+        }
     }
 
     /// Adds friction that waits for nobody to a contact that has none yet.
@@ -168,12 +230,15 @@ impl ContactBuffer {
         let contact = &mut self.contacts[place];
         (contact.friction_force_b, contact.bristle_b, contact.sticks) = (force_b, bristle_b, sticks);
         contact.stored += stored;
+        self.remember(place);
     }
 
     /// Makes room: keeps the deepest `pushing` of the contacts that push and the deepest `others` of the rest, ties
     /// by the order of sums.
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
         self.settle();
+        self.records.clear();
+        self.moved = true;
         let ranked = &mut self.ranked;
         ranked.clear();
         let counts = |contact: &FrameContact| contact.found.status != CandidateStatus::Culled;
@@ -198,11 +263,21 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
+            self.places[to] = self.places[from as usize].at(to);
             let stride = self.law_state_len;
             let from = from as usize * stride;
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);
         }
         self.contacts.truncate(ranked.len());
+        self.places.truncate(ranked.len());
         self.law_state.truncate(ranked.len() * self.law_state_len);
+    }
+}
+
+/// Writes the record of a contact, if there is one.
+#[inline(never)]
+fn remember(contacts: &[FrameContact], records: &mut [ContactRecord], place: usize) {
+    if let Some(record) = records.get_mut(place) {
+        contacts[place].write_record(record);
     }
 }

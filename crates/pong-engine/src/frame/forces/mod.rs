@@ -3,10 +3,10 @@
 mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
+pub(crate) mod place;
 pub(crate) mod reference_point;
 
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::buffers::Place;
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
 use crate::frame::input::{EvaluationInput, PairContext};
@@ -18,6 +18,7 @@ use crate::state::{ContactRecord, ContactRole};
 use bristles::Bristle;
 use contact::FrameContact;
 use contact_buffer::ContactBuffer;
+use place::Place;
 use pong_geometry::Vec3;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
@@ -99,8 +100,8 @@ struct Slipping<'f> {
     slip_velocity: Vec3,
     /// Normal force, N.
     pressed: f64,
-    /// The committed record that it continues.
-    continues: Option<usize>,
+    /// The committed record that it continues, and its index.
+    continues: Option<(usize, &'f ContactRecord)>,
     /// The part of the pair's bristle that it carries.
     share: f64,
     /// Where it stands in the buffer.
@@ -159,23 +160,24 @@ impl PairContext<'_> {
         (*point_b, *rate, *normal_force, *slip_velocity_b) = (point, closing, pressed, slip_velocity);
         (*friction_force_b, *bristle_b, *sticks) = (Vec3::zeros(), Vec3::zeros(), !rubs);
         *in_springs = stored;
-        *continued = continues.map(|record| record as u32);
+        *continued = continues.map(|(index, _)| index as u32);
+        let pushes = found.role == ContactRole::Active;
+        out.places[place] = Place::new(found.key.head(), place, pushes, *continued);
         (*work, *dissipated) = (0.0, 0.0);
-        if rubs {
+        if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);
+            out.settle_if_full();
+        } else {
+            out.remember(place);
         }
-        out.settle_if_full();
     }
 
     /// Adds friction to a contact that is pressed and written. That of a bristle waits for others.
     #[inline(always)]
     fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
-        if matches!(props.friction, FrictionProps::None) {
-            return;
-        }
-        let record = contact.continues.map(|index| &self.memory.records[index]);
-        if let Some(index) = contact.continues {
+        let record = contact.continues.map(|(_, record)| record);
+        if let Some((index, _)) = contact.continues {
             out.law_state_mut(contact.place).copy_from_slice(self.memory.law_state_of(index));
         }
         let carried = record.map_or(Vec3::zeros(), |record| {

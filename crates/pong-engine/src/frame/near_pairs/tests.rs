@@ -157,7 +157,7 @@ impl Flock {
 fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 4] {
     let mut near = Flock::new(config.clone(), plane, regime, &mut Random(seed));
     let mut all = Flock::new(config.clone(), plane, regime, &mut Random(seed));
-    all.world.near_pairs().visit_all();
+    all.world.runtime_mut().frame.near.visit_all();
     let mut random = Random(seed ^ 0xff);
     let (mut seen, mut saved) = ([0; 4], Vec::new());
     for frame in 0..40 {
@@ -189,15 +189,15 @@ fn compare(seed: u64, config: &Config, plane: bool, regime: &Regime) -> [usize; 
         saved.clone_from(&reports[0].1);
         seen[2] += near.world.contact_count();
         seen[3] += near.world.tunnelling().map_or(0, |passages| passages.count as usize);
-        seen[0] += near.world.near_pairs().list().len();
-        seen[1] += all.world.near_pairs().list().len();
+        seen[0] += near.world.runtime_mut().frame.near.list().len();
+        seen[1] += all.world.runtime_mut().frame.near.list().len();
         if frame % 8 == 7 {
             // The same pairs without anything of earlier frames.
             let mut fresh = near.world.try_clone().unwrap();
             assert_eq!(near.world.evaluate().unwrap(), fresh.evaluate().unwrap());
             assert_eq!(
-                near.world.near_pairs().list(),
-                fresh.near_pairs().list(),
+                near.world.runtime_mut().frame.near.list(),
+                fresh.runtime_mut().frame.near.list(),
                 "seed {seed}, frame {frame}"
             );
         }

@@ -4,3 +4,4 @@ mod listing;
 pub(crate) mod order;
 pub(crate) mod preload;
 pub(crate) mod reduce;
+pub(crate) mod remember;

@@ -1,22 +1,20 @@
 //! The contacts that count, in the order of every sum; where there are too many, the deepest.
 
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::buffers::Place;
 use crate::frame::forces;
-use crate::frame::forces::contact::FrameContact;
+use crate::frame::forces::place::Place;
 use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use crate::state::{ContactRole, Records};
-use pong_arena::Arena;
+use pong_arena::{Arena, Table};
 
 /// Puts the contacts in order, whoever found them.
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
-    let mut pushing = list(&memory.records, frame);
+    let mut pushing = list(memory.records.len(), frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
         pushing = frame.pushing().count();
@@ -32,7 +30,7 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
-        kept = list(&memory.records, frame);
+        kept = list(memory.records.len(), frame);
         forces::recompute_forces(given, frame);
     }
     if demand.unshared {
@@ -46,67 +44,52 @@ fn saturated(count: u64) -> u32 {
 }
 
 /// Contacts below this are simply sorted.
-const WORTH_COUNTING: usize = 24;
+const WORTH_PLACING: usize = 24;
 
 /// Lists all contacts in order; how many of them push.
-fn list(records: &Records, frame: &mut EvaluationBuffers) -> usize {
-    frame.order.clear();
-    let (mut pushing, mut lasting) = (0, 0);
-    for (index, contact) in frame.caller.out.contacts.iter().enumerate() {
-        pushing += usize::from(contact.found.role == ContactRole::Active);
-        lasting += usize::from(contact.continues.is_some());
-        let place = Place { head: contact.found.key.head(), index: index as u32 };
-        frame.order.push(place).expect("as many places as contacts");
-    }
-    let count = frame.order.len();
-    if count < WORTH_COUNTING || lasting * 2 < count {
-        frame.order.sort_unstable_by_key(|place| place.head);
+fn list(records: usize, frame: &mut EvaluationBuffers) -> usize {
+    let EvaluationBuffers { caller, order, .. } = &mut *frame;
+    let WorkerContext { scratch, out, .. } = caller;
+    order.clear();
+    let lasting = out.places.iter().filter(|place| place.continues().is_some()).count();
+    if out.places.len() < WORTH_PLACING || lasting * 2 < out.places.len() {
+        order.extend_from_slice(&out.places).expect("as many places as contacts");
+        order.sort_unstable_by_key(|place| place.head);
     } else {
-        let EvaluationBuffers { caller, order, .. } = &mut *frame;
-        put_where_they_were(records, &caller.out.contacts, order, &mut caller.scratch);
+        put_where_they_were(records, &out.places, order, scratch);
     }
-    let contacts = &frame.caller.out.contacts;
-    for ties in frame.order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
+    let contacts = &out.contacts;
+    for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
     }
-    pushing
+    out.places.iter().filter(|place| place.pushes()).count()
 }
 
-/// Sorts the contacts by the heads of their keys: most continue a record, and the records stand in order.
-///
-/// Each is put where its record stands, or where one of its head would, and few that stand at one place are then moved.
-fn put_where_they_were(
-    records: &Records,
-    contacts: &[FrameContact],
-    order: &mut [Place],
-    scratch: &mut Arena,
-) {
+/// Sorts the contacts by the heads of their keys: most continue one of so many records, and the records stand in order. The
+/// first that continues a record stands in its place; the others, sorted by themselves, come in between.
+fn put_where_they_were(records: usize, contacts: &[Place], order: &mut Table<Place>, scratch: &mut Arena) {
     scratch.reset();
     let room = "sealing has sized the scratch";
-    let starts = scratch.slice(records.len() + 2, 0_u32).expect(room);
-    let ranks = scratch.slice(order.len(), (0_u32, 0_u64)).expect(room);
-    for ((rank, place), contact) in ranks.iter_mut().zip(order.iter()).zip(contacts) {
-        let place_of_head = || records.of_head(place.head).start as u32;
-        *rank = (contact.continues.unwrap_or_else(place_of_head), place.head);
-        starts[rank.0 as usize + 1] += 1;
-    }
-    let mut before = 0;
-    for start in starts.iter_mut() {
-        before += *start;
-        *start = before;
-    }
-    for (index, &(rank, head)) in ranks.iter().enumerate() {
-        let place = &mut starts[rank as usize];
-        order[*place as usize] = Place { head, index: index as u32 };
-        *place += 1;
-    }
-    for last in 1..order.len() {
-        let mut at = last;
-        while at > 0 && order[at - 1].head > order[at].head {
-            order.swap(at - 1, at);
-            at -= 1;
+    const NOBODY: u32 = u32::MAX;
+    let lasting = scratch.slice(records, NOBODY).expect(room);
+    let mut others = scratch.list(contacts.len()).expect(room);
+    for (number, contact) in (0..).zip(contacts) {
+        match contact.continues() {
+            Some(record) if lasting[record] == NOBODY => lasting[record] = number,
+            _ => others.push(*contact).expect(room),
         }
     }
+    others.sort_unstable_by_key(|place| place.head);
+    let mut others = others.iter().peekable();
+    let room = "as many places as contacts";
+    for number in lasting.iter().filter(|&&number| number != NOBODY) {
+        let contact = contacts[*number as usize];
+        while let Some(other) = others.next_if(|other| other.head < contact.head) {
+            order.push(*other).expect(room);
+        }
+        order.push(contact).expect(room);
+    }
+    others.for_each(|other| order.push(*other).expect(room));
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
@@ -141,7 +124,6 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::{ContactKey, ContactRecord};
     use pong_testkit::Random;
 
     /// Of random records some go on, some more than once, and new contacts come with heads of their own or of another's.
@@ -151,40 +133,25 @@ mod tests {
         for case in 0..200 {
             let mut heads: Vec<u32> = (0..40 + case % 40).map(|_| random.below(60) as u32).collect();
             heads.sort_unstable();
-            let key = |primitive_a| ContactKey { primitive_a, ..ContactKey::default() };
-            let mut records = Records::with_capacity(heads.len());
-            for &head in &heads {
-                let record = ContactRecord { key: key(head), ..ContactRecord::blank() };
-                records.push_with(|slot| *slot = record).unwrap();
-            }
-            let contact = |head: u32, continues: Option<u32>| {
-                let mut contact = FrameContact { continues, ..FrameContact::blank() };
-                contact.found.key = key(head);
-                contact
-            };
             let count = 20 + random.below(80);
-            let contacts: Vec<_> = (0..count)
-                .map(|_| match random.below(4) {
-                    0 => contact(random.below(64) as u32, None),
+            let contacts: Vec<Place> = (0..count)
+                .map(|index| match random.below(4) {
+                    0 => Place::new(random.below(64) as u64, index, true, None),
                     _ => {
                         let record = random.below(heads.len());
-                        contact(heads[record], Some(record as u32))
+                        Place::new(u64::from(heads[record]), index, true, Some(record as u32))
                     }
                 })
                 .collect();
-            let mut order: Vec<_> = contacts
-                .iter()
-                .enumerate()
-                .map(|(index, contact)| Place { head: contact.found.key.head(), index: index as u32 })
-                .collect();
-            let mut scratch = Arena::with_capacity(64 * (order.len() + heads.len()));
-            put_where_they_were(&records, &contacts, &mut order, &mut scratch);
+            let mut order = Table::with_capacity(count, Place::NOWHERE);
+            let mut scratch = Arena::with_capacity(64 * (count + heads.len()));
+            put_where_they_were(heads.len(), &contacts, &mut order, &mut scratch);
             assert!(order.is_sorted_by_key(|place| place.head), "case {case}: {order:?}");
             let mut listed: Vec<_> = order.iter().map(|place| place.index).collect();
             listed.sort_unstable();
             assert!(listed.iter().copied().eq(0..contacts.len() as u32), "case {case}");
-            for place in &order {
-                assert_eq!(place.head, contacts[place.index as usize].found.key.head());
+            for place in order.iter() {
+                assert_eq!(place.head, contacts[place.index as usize].head);
             }
         }
     }

@@ -1,27 +1,27 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
-use crate::frame::buffers::{EvaluationBuffers, Place};
+use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
-use crate::state::ContactRole;
 use pong_geometry::{Transform, Vec3, Wrench};
 
 /// Adds every contact to both of its movable groups: first those of one direction of a pair together, in B's axes.
 pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
-    let EvaluationBuffers { input, caller, order, near, poses, twists, wrenches, .. } = frame;
+    let EvaluationBuffers { input, caller, order, near, poses, twists, wrenches, beyond_range, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let contacts = &caller.out.contacts;
-    let direction_of = |place: &Place| contacts[place.index as usize].found.key.direction();
-    for places in order.chunk_by(|a, b| direction_of(a) == direction_of(b)) {
-        let direction = direction_of(&places[0]);
+    for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
+        let direction = places[0].direction();
         let x_ba = motions.known(near, input, direction).x_ba;
         let mut sums = Sums::of_nothing();
-        for contact in places.iter().map(|place| &contacts[place.index as usize]) {
-            if contact.found.role == ContactRole::Active {
-                sums.add(contact, &x_ba.translation);
+        for place in places.iter().filter(|place| place.pushes()) {
+            let contact = &contacts[place.index as usize];
+            sums.add(contact, &x_ba.translation);
+            if !is_in_range(contact) {
+                beyond_range.get_or_insert(direction);
             }
         }
         let (body_a, body_b) = sealed.bodies_of(direction);
@@ -68,25 +68,28 @@ impl Sums {
 /// What the turn to the axes of another frame must not carry out of the range of numbers.
 const LARGEST: f64 = f64::MAX / 16.0;
 
+/// False for what is not a number, too.
+fn holds(sum: f64) -> bool {
+    sum <= LARGEST
+}
+
+/// Forces may cancel each other in the sum.
+#[inline]
+fn is_in_range(contact: &FrameContact) -> bool {
+    holds(contact.normal_force + contact.friction_force_b.abs().sum() + contact.stored.abs())
+}
+
 impl EvaluationBuffers {
     /// A movable group whose numbers have left the range of numbers, if any: a product or sum of finite ones can.
     pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
-        // False for what is not a number, too.
-        let holds = |sum: f64| sum <= LARGEST;
         let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
         // Those that meet nobody have no wrench.
         let mut bodies = sealed.paired_bodies.iter().copied();
         let body = bodies.find(|&body| !holds(of_wrench(&self.wrenches[body])));
         body.or_else(|| {
-            // Forces that cancel each other, and energies.
-            let of_contact = |contact: &FrameContact| {
-                contact.normal_force + contact.friction_force_b.abs().sum() + contact.stored.abs()
-            };
-            let mut contacts = self.order.iter().map(|place| &self.caller.out.contacts[place.index as usize]);
-            let bad = contacts.find(|contact| !holds(of_contact(contact)));
             let ledger = !holds(self.energy.work.abs() + self.energy.dissipated.abs());
             // Energies are nobody's: the first group stands for all.
-            bad.map(|contact| sealed.bodies_of(contact.found.key.direction()).0).or(ledger.then_some(0))
+            self.beyond_range.map(|direction| sealed.bodies_of(direction).0).or(ledger.then_some(0))
         })
     }
 }

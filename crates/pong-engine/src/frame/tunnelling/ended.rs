@@ -29,14 +29,12 @@ pub(super) fn look_at_ended(
 ) {
     let records = &given.memory.records;
     let continued = frame.caller.scratch.slice(records.len(), false).expect("sealing has sized the scratch");
-    for record in frame.in_order().filter_map(|contact| contact.continues) {
-        continued[record as usize] = true;
+    for record in frame.order.iter().filter_map(|place| place.continues()) {
+        continued[record] = true;
     }
-    let ended = records
-        .iter()
-        .zip(&*continued)
-        .filter(|(record, go_on)| record.role == ContactRole::Active && !**go_on);
-    for (record, _) in ended {
+    // Of the others, most of which another core has written, nothing is read.
+    let ended = (0..records.len()).filter(|&index| !continued[index]).map(|index| &records[index]);
+    for record in ended.filter(|record| record.role == ContactRole::Active) {
         let pair = &given.sealed.group_pairs[record.key.group_pair as usize];
         if !given.states.enabled[pair.pair] {
             continue;

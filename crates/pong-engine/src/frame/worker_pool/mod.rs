@@ -4,7 +4,11 @@
 //! the common case. A worker that does not come back from a block keeps its context and the input it reads; the frame
 //! then goes on without the workers, alone and with the same results, until that worker has let go.
 
+#[cfg(test)]
+mod tests;
+
 use crate::frame::block;
+use crate::frame::forces::contact_buffer::ContactBuffer;
 use crate::frame::input::WorkerInput;
 use crate::frame::worker_context::WorkerContext;
 use crate::report::WorkTimes;
@@ -32,18 +36,21 @@ pub(crate) struct WorkerPool {
     shared: Arc<Shared>,
     /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
     pub timeouts: u64,
+    /// The phase whose contacts are the last that were gathered, all of them.
+    gathered: Option<u64>,
     /// Whether the workers were given a frame's input since it was last taken back.
     lent: bool,
-    /// Where the time of this frame's rounds went, thread by thread, the caller's first; zero without a clock.
+    /// Where the workers' time of this frame's rounds went; zero without a clock.
     times: Vec<WorkTimes>,
 }
 
 struct Shared {
     scene: Arc<Scene>,
     sealed: Arc<Sealed>,
-    input: RwLock<WorkerInput>,
-    /// The caller's first, then one per worker.
-    contexts: Vec<Mutex<WorkerContext>>,
+    /// Apart from its lock: every claim writes to that.
+    input: RwLock<Box<WorkerInput>>,
+    /// One per worker.
+    contexts: Vec<Mutex<Box<WorkerContext>>>,
 }
 
 impl Job for Shared {
@@ -51,19 +58,26 @@ impl Job for Shared {
         self.run_neighbors(block..block + 1, context);
     }
 
-    fn run_neighbors(&self, blocks: Range<u32>, context: usize) {
+    /// On a worker: the caller runs its blocks in its own context.
+    fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
         let input = self.input.read().unwrap_or_else(PoisonError::into_inner);
-        let mut context = locked(&self.contexts[context]);
+        let mut context = locked(&self.contexts[lane - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
         }
+        self.run_blocks(&input, blocks, &mut context);
+    }
+}
+
+impl Shared {
+    fn run_blocks(&self, input: &WorkerInput, blocks: Range<u32>, context: &mut WorkerContext) {
         let blocks = blocks.start as usize..blocks.end as usize;
-        block::run_blocks(&self.scene, &self.sealed, &input, blocks, &mut context);
+        block::run_blocks(&self.scene, &self.sealed, input, blocks, context);
     }
 }
 
 /// A context whose owner panicked is still memory: what it holds is thrown away when the next phase begins.
-fn locked(context: &Mutex<WorkerContext>) -> MutexGuard<'_, WorkerContext> {
+fn locked(context: &Mutex<Box<WorkerContext>>) -> MutexGuard<'_, Box<WorkerContext>> {
     context.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -75,19 +89,19 @@ impl WorkerPool {
         input: WorkerInput,
         settings: &Settings,
     ) -> Result<Self, StartError> {
-        let contexts = settings.workers_granted() + 1;
-        let contacts = sealed.limits.worker_contacts(contexts);
+        let workers = settings.workers_granted();
+        let contacts = sealed.limits.worker_contacts(workers + 1);
         let shared = Arc::new(Shared {
             scene: Arc::clone(scene),
             sealed: Arc::clone(sealed),
-            input: RwLock::new(input),
-            contexts: (0..contexts)
-                .map(|_| Mutex::new(WorkerContext::new(sealed, contacts, false)))
+            input: RwLock::new(Box::new(input)),
+            contexts: (0..workers)
+                .map(|_| Mutex::new(Box::new(WorkerContext::new(sealed, contacts, false))))
                 .collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
-        let times = vec![WorkTimes::default(); contexts];
-        Ok(Self { pool, shared, timeouts: 0, lent: false, times })
+        let times = vec![WorkTimes::default(); workers];
+        Ok(Self { pool, shared, timeouts: 0, gathered: None, lent: false, times })
     }
 
     /// Whether a round whose tests may cost so much, ns, is sooner done by all than by the caller alone. What touched at the
@@ -102,6 +116,12 @@ impl WorkerPool {
     /// Runs the blocks of `input` with all workers and gathers in `context` what was found; whether that is whole.
     /// If not, the caller does it all again by itself.
     pub fn run_parallel(&mut self, input: &WorkerInput, context: &mut WorkerContext) -> bool {
+        self.gathered = None;
+        // A worker that has claimed blocks of an earlier round and not begun with them would run them in this one.
+        if !self.pool.is_quiet() {
+            self.timeouts += 1;
+            return false;
+        }
         self.lent = true;
         match self.shared.input.try_write() {
             Ok(mut shared) => shared.copy_from(input),
@@ -111,16 +131,22 @@ impl WorkerPool {
                 return false;
             }
         }
-        if self.pool.run(input.blocks.len() as u32) == Outcome::Abandoned {
+        context.out.shares = true;
+        let own = &mut |blocks| self.shared.run_blocks(input, blocks, context);
+        let outcome = self.pool.run_beside(input.blocks.len() as u32, own);
+        context.out.shares = false;
+        if outcome == Outcome::Abandoned {
             self.timeouts += 1;
             return false;
         }
         let took_part = |other: &WorkerContext| other.out.phase == input.phase;
-        let whole = self.shared.contexts.iter().all(|other| {
-            let mut other = locked(other);
-            !took_part(&other) || context.out.absorb(&mut other.out)
-        });
+        let whole = !context.out.demand.overflowed
+            && self.shared.contexts.iter().all(|other| {
+                let mut other = locked(other);
+                !took_part(&other) || context.out.absorb(&mut other.out)
+            });
         if whole {
+            self.gathered = Some(input.phase);
             let contexts = self.times.iter_mut().zip(&self.shared.contexts);
             contexts
                 .map(|(times, other)| (times, locked(other)))
@@ -130,12 +156,29 @@ impl WorkerPool {
         whole
     }
 
+    /// Hands on what each worker has found in a phase of which all was gathered, in the order in which it was.
+    pub fn with_gathered(&self, phase: u64, mut with: impl FnMut(usize, &mut ContactBuffer)) {
+        if self.gathered == Some(phase) {
+            for (worker, context) in self.shared.contexts.iter().enumerate() {
+                let out = &mut locked(context).out;
+                if out.phase == phase {
+                    with(worker, out);
+                }
+            }
+        }
+    }
+
+    /// How many workers there are.
+    pub fn workers(&self) -> usize {
+        self.shared.contexts.len()
+    }
+
     /// No time has been spent yet.
     pub fn begin_frame(&mut self) {
         self.times.fill(WorkTimes::default());
     }
 
-    /// Where the time of the rounds that were shared out went, thread by thread, the caller's first.
+    /// Where the workers' time of the rounds that were shared out went.
     pub fn times(&self) -> impl Iterator<Item = &WorkTimes> {
         self.times.iter()
     }

@@ -1,0 +1,69 @@
+//! Where a contact stands, and what is asked of all contacts before they are summed.
+
+use crate::sealed::Direction;
+use crate::state::ContactKey;
+
+/// Where a contact stands, with the first of what decides the order of sums, which few have in common, and what else is asked of
+/// all contacts before they are summed: then the contacts themselves need not be read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub head: u64,
+    pub index: u32,
+    /// Whether it pushes, in the lowest bit; above, the committed record that it continues, or [`Self::BEGINS`].
+    state: u32,
+}
+
+impl Place {
+    const BEGINS: u32 = u32::MAX >> 1;
+
+    /// The place of a contact that stands at `index`.
+    #[inline]
+    pub fn new(head: u64, index: usize, pushes: bool, continues: Option<u32>) -> Self {
+        let record = continues.unwrap_or(Self::BEGINS);
+        Self { head, index: index as u32, state: record << 1 | u32::from(pushes) }
+    }
+
+    /// No contact.
+    pub const NOWHERE: Self = Self { head: 0, index: 0, state: Self::BEGINS << 1 };
+
+    /// The same contact at another place.
+    #[inline]
+    pub fn at(self, index: usize) -> Self {
+        Self { index: index as u32, ..self }
+    }
+
+    /// Whose contact it is.
+    #[inline]
+    pub fn direction(&self) -> Direction {
+        ContactKey::direction_of(self.head)
+    }
+
+    #[inline]
+    pub fn pushes(&self) -> bool {
+        self.state & 1 == 1
+    }
+
+    /// The committed record that the contact continues.
+    #[inline]
+    pub fn continues(&self) -> Option<usize> {
+        let record = self.state >> 1;
+        (record != Self::BEGINS).then_some(record as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_tells_all_that_it_was_made_of() {
+        for continues in [None, Some(0), Some(1), Some(1 << 30)] {
+            for pushes in [false, true] {
+                let place = Place::new(7, 9, pushes, continues);
+                assert_eq!((place.head, place.index, place.pushes()), (7, 9, pushes));
+                assert_eq!(place.continues(), continues.map(|record| record as usize));
+            }
+        }
+        assert!(!Place::NOWHERE.pushes() && Place::NOWHERE.continues().is_none());
+    }
+}

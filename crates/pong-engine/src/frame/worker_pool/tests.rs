@@ -1,0 +1,117 @@
+//! What a world with workers cannot be asked from outside: where its records stand, and what becomes of a worker that comes
+//! too late.
+
+use super::*;
+use crate::runtime::Runtime;
+use crate::scene::Config;
+use crate::{InterfaceId, State, World, WorldBuilder};
+use std::time::Duration;
+
+/// A grid of points in a plane.
+fn brush(workers: Option<Settings>) -> Brush {
+    let mut builder =
+        WorldBuilder::new(Config { workers, contact_capacity: Some(4096), ..Config::default() });
+    let points: Vec<String> = (0..2000)
+        .map(|i| {
+            format!(
+                "Point(name: \"p{i}\", position: ({:?}, {:?}, 0.0))",
+                f64::from(i % 50),
+                f64::from(i / 50)
+            )
+        })
+        .collect();
+    let plane = "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)".to_owned();
+    let objects = [points.join(","), plane].map(|primitives| {
+        let text = format!(
+            "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{\"s\": (stiffness: 1e4, \
+             normal: Linear(damping: 10.0), friction: Bristle(mu: 0.3))}}, \
+             root: (name: \"root\", surface: \"s\", primitives: [{primitives}]))"
+        );
+        let model = pong_model::parse(&text, "m", None, builder.scene().extensions()).unwrap();
+        let model = builder.add_model(Arc::new(model));
+        builder.create_object(model, &format!("o{}", primitives.len())).unwrap()
+    });
+    builder.pair(objects[0], objects[1]).unwrap();
+    let (world, _) = builder.seal().unwrap();
+    let [brush, floor] = objects.map(|object| world.scene().interface(object, "").unwrap());
+    let mut brush = Brush { world, brush };
+    brush.world.set_state(floor, &State::identity()).unwrap();
+    brush.put([0.0, 0.0, -1e-3], 0.0);
+    brush
+}
+
+struct Brush {
+    world: World,
+    brush: InterfaceId,
+}
+
+impl Brush {
+    /// Puts the brush somewhere, tilted about y by a small angle, rad.
+    fn put(&mut self, position: [f64; 3], tilt: f64) {
+        let orientation = [(0.5 * tilt).cos(), 0.0, (0.5 * tilt).sin(), 0.0];
+        self.world.set_state(self.brush, &State { position, orientation, ..State::identity() }).unwrap();
+    }
+}
+
+fn one_worker() -> Settings {
+    let worker_timeout = Duration::from_millis(1);
+    Settings { workers: 1, oversubscribe: true, worker_timeout, ..Settings::default() }
+}
+
+/// Lets the worker claim blocks of the last round anew, which is given up before it has begun with them; whether it did.
+fn leave_a_worker_behind(pool: &mut WorkerPool) -> bool {
+    let shared = Arc::clone(&pool.shared);
+    let held = shared.input.write().unwrap_or_else(PoisonError::into_inner);
+    pool.pool.prewake(Duration::from_millis(100));
+    // It has its time to claim while the caller is at its own.
+    let wait = &mut |_| std::thread::sleep(Duration::from_micros(200));
+    let outcome = pool.pool.run_beside(held.blocks.len() as u32, wait);
+    drop(held);
+    outcome == Outcome::Abandoned
+}
+
+#[test]
+fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
+    let mut world = brush(Some(one_worker())).world;
+    let mut expected = 0;
+    while world.runtime_mut().pool.as_ref().unwrap().shared.input.read().unwrap().blocks.is_empty() {
+        world.prewake(Duration::from_millis(100));
+        expected = world.step().unwrap().contacts as usize;
+    }
+    let Runtime { pool, frame, .. } = world.runtime_mut();
+    let (pool, input, caller) = (pool.as_mut().unwrap(), &mut frame.input, &mut frame.caller);
+    // The round that was shared, once more.
+    input.blocks.clone_from(&pool.shared.input.read().unwrap().blocks);
+    let mut behind = 0;
+    for round in 0..40 {
+        behind += usize::from(leave_a_worker_behind(pool));
+        input.phase += 1;
+        caller.out.begin(input.phase);
+        if pool.run_parallel(input, caller) {
+            assert_eq!(caller.out.contacts.len(), expected, "round {round}");
+        }
+    }
+    assert!(behind > 0, "the worker never came too late");
+}
+
+/// The brush slides and tilts: contacts end and begin, bristles stretch and slip.
+#[test]
+fn what_lanes_have_written_is_what_one_alone_remembers() {
+    let (mut alone, mut shared) = (brush(None), brush(Some(one_worker())));
+    // Until a worker, which may have to wait for a core, has often enough had a part in it.
+    let (mut frame, mut taken_over) = (0, 0);
+    while taken_over < 50 {
+        assert!(frame < 20_000, "a worker has written records in {taken_over} of {frame} frames");
+        frame += 1;
+        let t = f64::from(frame);
+        for brush in [&mut alone, &mut shared] {
+            brush.put([2e-4 * t, 1e-4 * t, -1e-3], 2e-4 * (0.2 * t).sin());
+            brush.world.prewake(Duration::from_millis(100));
+            brush.world.step().unwrap();
+        }
+        let [expected, found] = [&mut alone, &mut shared].map(|brush| brush.world.runtime_mut());
+        assert!(found.memory.records == expected.memory.records, "frame {frame}");
+        let by_worker = found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0);
+        taken_over += usize::from(by_worker && found.memory.records.in_lanes());
+    }
+}
