@@ -48,7 +48,8 @@ struct Brush {
 impl Brush {
     /// Puts the brush somewhere, tilted about y by a small angle, rad.
     fn put(&mut self, position: [f64; 3], tilt: f64) {
-        let orientation = [(0.5 * tilt).cos(), 0.0, (0.5 * tilt).sin(), 0.0];
+        let half = 0.5 * tilt;
+        let orientation = [(1.0 - half * half).sqrt(), 0.0, half, 0.0];
         self.world.set_state(self.brush, &State { position, orientation, ..State::identity() }).unwrap();
     }
 }
@@ -105,7 +106,7 @@ fn what_lanes_have_written_is_what_one_alone_remembers() {
         frame += 1;
         let t = f64::from(frame);
         for brush in [&mut alone, &mut shared] {
-            brush.put([2e-4 * t, 1e-4 * t, -1e-3], 2e-4 * (0.2 * t).sin());
+            brush.put([2e-4 * t, 1e-4 * t, -1e-3], 1e-5 * (t % 30.0 - 15.0));
             brush.world.prewake(Duration::from_millis(100));
             brush.world.step().unwrap();
         }
