@@ -52,7 +52,7 @@ impl Runtime {
     ) -> Result<Self, EngineError> {
         let pairs = sealed.group_pairs.len();
         let settings = scene.config.workers.as_ref();
-        let lanes = settings.map_or(0, |settings| settings.workers_granted() + 1);
+        let workers = settings.map_or(0, |settings| settings.workers_granted());
         let memory = || {
             let poses =
                 CommittedPoses::new(Arc::clone(&sealed.paired_bodies), scene.bodies.len(), scene.pairs.len());
@@ -60,7 +60,9 @@ impl Runtime {
                 ContactMemory::with_capacity(poses, pairs, sealed.record_capacity, sealed.law_state_len);
             let energies = ContactEnergies::with_capacity(sealed.coupling, sealed.record_capacity);
             let pairs = PairEnergies::new(sealed.account_pairs(), sealed.delay());
-            Arc::new(memory.with_lanes(lanes, sealed.limits.lane_records()).with_energies(energies, pairs))
+            Arc::new(
+                memory.with_lanes(workers + 1, sealed.limits.lane_records()).with_energies(energies, pairs),
+            )
         };
         let nothing = Arc::new(ContactMemory::default());
         let input = || WorkerInput {
@@ -75,7 +77,7 @@ impl Runtime {
         let committed = memory();
         let spares = if scene.config.workers.is_some() { 2 } else { 1 };
         let spares = (0..spares).map(|_| memory()).collect();
-        let frame = EvaluationBuffers::new(scene, &sealed, input());
+        let frame = EvaluationBuffers::new(scene, &sealed, input(), workers);
         let pool = match &scene.config.workers {
             None => None,
             Some(settings) => {
@@ -155,10 +157,10 @@ impl Runtime {
     /// Makes what the frame found the committed contact state.
     pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
-        let Self { memory, spares, frame, pool, .. } = self;
+        let Self { memory, spares, frame, .. } = self;
         take_turns(memory, spares, |old, next| {
             next.poses.commit(&old.poses, &frame.poses, &states.enabled);
-            remember(frame, pool.as_ref(), next);
+            remember(frame, next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });

@@ -2,6 +2,8 @@
 
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
+use crate::frame::forces::contact_buffer::ContactBuffer;
+use crate::frame::forces::found::FoundContacts;
 use crate::frame::forces::place::Place;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
@@ -28,7 +30,9 @@ pub(crate) struct EvaluationBuffers {
     pub input: WorkerInput,
     // testers, sharing, forces: in no order
     pub caller: WorkerContext,
-    // order, limit: the contacts that count, by place in `context.contacts`, in the order of every sum
+    /// What workers have found in the last round, if it was taken over as it is; otherwise it stands in the caller's context.
+    pub workers: Vec<ContactBuffer>,
+    // order, limit: where the contacts that count stand, in the order of every sum
     pub order: Table<Place>,
     pub tunnelling: TunnellingEvents,
     // ledger
@@ -43,15 +47,19 @@ pub(crate) struct EvaluationBuffers {
 }
 
 impl EvaluationBuffers {
-    pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput) -> Self {
+    /// Buffers for a frame that so many workers may share.
+    pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
+        let taken_over = if sealed.limits.lanes_write_records { workers } else { 0 };
+        let contacts = sealed.limits.worker_contacts(workers + 1);
         Self {
             computed: false,
             poses: vec![Pose::identity(); bodies],
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),
             input,
-            caller: WorkerContext::new(sealed, sealed.limits.lane_contacts, true),
+            caller: WorkerContext::new(sealed, 0, sealed.limits.lane_contacts),
+            workers: (1..=taken_over).map(|lane| WorkerContext::buffer(sealed, lane, contacts)).collect(),
             order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(sealed),
@@ -65,11 +73,12 @@ impl EvaluationBuffers {
 
     /// Empties the buffers; their memory stays.
     pub fn begin(&mut self, sealed: &Sealed) {
-        self.caller.out.begin(0);
+        self.caller.out.begin(ContactBuffer::NO_PHASE);
         self.order.clear();
         for &body in &*sealed.paired_bodies {
             self.wrenches[body] = Wrench::zero();
         }
+        self.workers.iter_mut().for_each(|worker| worker.begin(ContactBuffer::NO_PHASE));
         self.beyond_range = None;
         self.report = FrameReport::default();
         self.counts.clear();
@@ -84,6 +93,11 @@ impl EvaluationBuffers {
     /// The contacts that push, in the order of every sum.
     pub fn pushing(&self) -> impl Iterator<Item = &FrameContact> {
         let pushing = self.order.iter().filter(|place| place.pushes());
-        pushing.map(|place| &self.caller.out.contacts[place.index as usize])
+        pushing.map(|place| self.found().contact(place))
+    }
+
+    /// What all lanes have found.
+    pub fn found(&self) -> FoundContacts<'_> {
+        FoundContacts { caller: &self.caller.out, workers: &self.workers }
     }
 }

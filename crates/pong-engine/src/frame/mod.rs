@@ -20,6 +20,7 @@ pub(crate) use buffers::EvaluationBuffers;
 pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::place::Place;
+pub(crate) use forces::term::Term;
 pub(crate) use input::motion::Motion;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
@@ -33,6 +34,7 @@ pub(crate) use worker_pool::WorkerPool;
 
 use crate::report::{Stage, Work, WorkTimes};
 use broad_phase::blocks;
+use forces::contact_buffer::ContactBuffer;
 use input::relative::Motions;
 use input::states;
 use output::{order, reduce};
@@ -68,7 +70,7 @@ fn find_contacts(
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, counts, times, near, poses, twists, .. } = frame;
+    let EvaluationBuffers { input, caller, workers, counts, times, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     (input.memory, input.clock) = (Arc::clone(memory), clock);
     if let Some(pool) = &mut pool {
@@ -79,7 +81,12 @@ fn find_contacts(
     let mut work = |input: &mut WorkerInput, cost_ns| {
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
-        let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller));
+        // There may be more than one round: what workers have found in the one before gives way to what they find in this one.
+        for worker in workers.iter_mut().filter(|worker| worker.phase != ContactBuffer::NO_PHASE) {
+            assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
+            worker.begin(ContactBuffer::NO_PHASE);
+        }
+        let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller, workers));
         if !shared {
             block::run_blocks(scene, sealed, input, 0..input.blocks.len(), caller);
         }
@@ -93,6 +100,10 @@ fn find_contacts(
     caller.out.settle();
     caller.out.times.add(&layout);
     counts.add(&caller.out.counts);
+    for worker in workers {
+        caller.out.demand.add(&worker.demand);
+        counts.add(&worker.counts);
+    }
     times.work = caller.out.times;
     if let Some(pool) = pool {
         pool.times().for_each(|worker| times.work.add(worker));
@@ -105,12 +116,13 @@ fn run_parallel(
     input: &WorkerInput,
     cost_ns: u64,
     caller: &mut WorkerContext,
+    workers: &mut [ContactBuffer],
 ) -> bool {
     if !pool.is_worth(input, cost_ns) {
         return false;
     }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(input, caller);
+    let done = pool.run_parallel(input, caller, workers);
     if !done {
         caller.out.restore(&before);
     }

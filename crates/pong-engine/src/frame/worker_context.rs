@@ -39,8 +39,8 @@ impl WorkerContext {
     /// Bytes of one interference of a chunk.
     pub const BYTES_PER_FOUND: usize = size_of::<ContactCandidate>() + size_of::<SharedContact>();
 
-    /// A context with room for so many contacts, and to rank them if it is to keep the deepest by itself.
-    pub fn new(sealed: &Sealed, contacts: usize, ranks: bool) -> Self {
+    /// The context of a lane, 0 for the caller's, with room for so many contacts.
+    pub fn new(sealed: &Sealed, lane: usize, contacts: usize) -> Self {
         Self {
             arena: Arena::with_capacity(sealed.limits.arena_bytes),
             scratch: Arena::with_capacity(sealed.limits.scratch_bytes),
@@ -49,7 +49,12 @@ impl WorkerContext {
             deferred: DeferredPairs::default(),
             found: Table::with_capacity(sealed.limits.found, ContactCandidate::NOTHING),
             shared: Table::with_capacity(sealed.limits.found, SharedContact::NOTHING),
-            out: ContactBuffer::new(sealed.law_state_len, contacts, sealed.limits.lane_records(), ranks),
+            out: Self::buffer(sealed, lane, contacts),
         }
+    }
+
+    /// For what a lane finds.
+    pub fn buffer(sealed: &Sealed, lane: usize, contacts: usize) -> ContactBuffer {
+        ContactBuffer::new(lane, sealed.law_state_len, contacts, sealed.limits.lane_records())
     }
 }

@@ -3,7 +3,7 @@
 use crate::energy::contact::ContactEnergies;
 use crate::frame::load_sharing::solver::scratch_bytes;
 use crate::frame::narrow_phase::pair_table::most_contacts;
-use crate::frame::{FrameContact, Place, WorkerContext, arena_bytes};
+use crate::frame::{FrameContact, Place, Term, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
 use crate::state::{RecordPlace, Records};
@@ -47,15 +47,19 @@ pub(super) fn limits(
     Limits { lane_contacts, lanes_write_records, found, arena_bytes, scratch_bytes }
 }
 
-/// Records of a lane stand in the committed contact state, in the next one, in one that a stuck worker may still read, and
-/// where the lane writes them.
-const RECORDS_OF_A_LANE: usize = 4;
+/// Records of a lane stand in the committed contact state, in the next one, in one that a stuck worker may still read, in the
+/// frame, and where the lane writes them.
+const RECORDS_OF_A_LANE: usize = 5;
+
+/// What a worker has found stands where it has written it and, taken over, in the frame.
+const BUFFERS_OF_A_WORKER: usize = 2;
 
 /// What a worker's lane takes however small the capacity is, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
     let contact = size_of::<FrameContact>() + size_of::<Place>() + law_state_len * size_of::<f64>();
-    limits.least_worker_contacts() * contact
-        + limits.lane_records() * Records::LANE_BYTES * RECORDS_OF_A_LANE
+    BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
+        + limits.lane_records()
+            * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<Term>() * BUFFERS_OF_A_WORKER)
         + WorkerContext::table_bytes(limits.found)
 }
 
@@ -94,7 +98,8 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     let lane = size_of::<FrameContact>() + numbers + per_contact;
     let found = WorkerContext::BYTES_PER_FOUND;
     // The workers' lanes together hold twice what the caller's does.
-    let shared = if lanes > 0 { 2 * (lane + lane / 8) + (lanes - 1) * found } else { 0 };
+    let shared =
+        if lanes > 0 { 2 * BUFFERS_OF_A_WORKER * (lane + lane / 8) + (lanes - 1) * found } else { 0 };
     RECORDS * (remembered + lane + lane / 8 + found + shared)
 }
 

@@ -40,8 +40,8 @@ const IN_ORDER: usize = 0;
 
 impl Place {
     /// What a lane has written, counted from 0, as its record of this index.
-    pub fn in_lane(lane: usize, index: u32) -> Self {
-        Self { table: lane as u32 + 1, index }
+    pub fn in_lane(lane: usize, index: usize) -> Self {
+        Self { table: lane as u32 + 1, index: index as u32 }
     }
 
     fn in_order(index: usize) -> Self {
@@ -206,6 +206,15 @@ impl Records {
         let first_of = |group_pair| ContactKey { group_pair, ..ContactKey::default() }.head();
         let (first, next) = (first_of(group_pair), first_of(group_pair + 1));
         (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
+    }
+
+    /// Reads the heads, and where their records stand, all at once: a search would wait for one line after another that another
+    /// core has written.
+    pub fn fetch(&self) {
+        const OF_LINE: usize = 8;
+        let heads = self.heads.iter().step_by(OF_LINE).fold(0, |all, head| all ^ head);
+        let places = self.places.iter().step_by(OF_LINE).fold(0, |all, place| all ^ place.index);
+        std::hint::black_box((heads, places));
     }
 
     #[inline]

@@ -370,7 +370,7 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
                 lanes[lane].push(record_of(&mut random));
             }
             for record in group {
-                written.push((record.key, Place::in_lane(lane, lanes[lane].len() as u32)));
+                written.push((record.key, Place::in_lane(lane, lanes[lane].len())));
                 lanes[lane].push(*record);
             }
         }
@@ -397,7 +397,7 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
 
         // Of one head, the second not behind the first: they cannot stay.
         if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
-            written[second + 1].1 = Place::in_lane(LANES - 1, 2 * CAPACITY as u32 - 1);
+            written[second + 1].1 = Place::in_lane(LANES - 1, 2 * CAPACITY - 1);
             assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
             assert_eq!(memory.records.len(), 0);
         }

@@ -3,6 +3,7 @@
 use super::bristles::WaitingBristles;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::place::Place;
+use crate::frame::forces::term::Term;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
 use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
@@ -10,27 +11,30 @@ use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
 use crate::state::{ContactRecord, ContactRole};
 use pong_arena::Table;
+use std::mem::swap;
 
 /// Contacts with their forces, and what was counted and timed while they were found.
 #[derive(Debug)]
 pub(crate) struct ContactBuffer {
-    /// The phase that the contents belong to.
+    /// The lane that finds them: 0 is the caller.
+    lane: usize,
+    /// The phase that the contents belong to, or [`Self::NO_PHASE`].
     pub phase: u64,
     /// Contacts, in no order.
     pub contacts: Table<FrameContact>,
     /// Where they stand, as many.
     pub places: Table<Place>,
+    /// What those that have a record add to the wrenches; none in the caller's buffer.
+    pub terms: Table<Term>,
     /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: in a world with
     /// workers, as far as there is room.
     pub records: Table<ContactRecord>,
-    /// Whether contacts have been moved since they were found, away from their records.
-    moved: bool,
     /// Those of them whose friction is still to be worked out.
     pub(super) bristles: WaitingBristles,
     /// Numbers of registered friction laws, as many for every contact.
     pub law_state: Table<f64>,
     pub law_state_len: usize,
-    /// Room for ranking the contacts; none in a worker's buffer.
+    /// Room for ranking the contacts; only the caller's has some.
     ranked: Table<u32>,
     /// Whether others find contacts for the same frame just now. What finds no room then is lost, and all is done again.
     pub shares: bool,
@@ -62,7 +66,7 @@ impl CapacityDemand {
         *(if role == ContactRole::Active { &mut self.pushing } else { &mut self.remembered }) += 1;
     }
 
-    fn add(&mut self, other: &Self) {
+    pub fn add(&mut self, other: &Self) {
         self.pushing += other.pushing;
         self.remembered += other.remembered;
         self.at_once = self.at_once.max(other.at_once);
@@ -79,19 +83,24 @@ pub(crate) struct Checkpoint {
 }
 
 impl ContactBuffer {
-    /// Room for so many contacts and records, and to rank the contacts if the deepest are to be kept.
-    pub fn new(law_state_len: usize, contacts: usize, records: usize, ranks: bool) -> Self {
+    /// Of a buffer that holds nothing yet.
+    pub const NO_PHASE: u64 = 0;
+
+    /// Room for so many contacts and records that a lane finds, and, in the caller's, to rank the contacts if only the deepest
+    /// are to be kept.
+    pub fn new(lane: usize, law_state_len: usize, contacts: usize, records: usize) -> Self {
         Self {
-            phase: 0,
+            lane,
+            phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
             places: Table::with_capacity(contacts, Place::NOWHERE),
+            terms: Table::with_capacity(if lane > 0 { records } else { 0 }, Term::nothing()),
             records: Table::with_capacity(records, ContactRecord::blank()),
-            moved: false,
             bristles: WaitingBristles::new(),
             law_state: Table::with_capacity(contacts * law_state_len, 0.0),
             law_state_len,
-            ranked: Table::with_capacity(if ranks { contacts } else { 0 }, 0),
-            shares: !ranks,
+            ranked: Table::with_capacity(if lane == 0 { contacts } else { 0 }, 0),
+            shares: lane > 0,
             demand: CapacityDemand::default(),
             counts: FrameCounts::default(),
             times: WorkTimes::default(),
@@ -103,14 +112,20 @@ impl ContactBuffer {
         self.phase = phase;
         self.contacts.clear();
         self.places.clear();
+        self.terms.clear();
         self.records.clear();
-        self.moved = false;
-        self.shares = self.ranked.capacity() == 0;
+        self.shares = self.lane > 0;
         self.bristles.clear();
         self.law_state.clear();
         self.demand = CapacityDemand::default();
         self.counts.clear();
         self.times = WorkTimes::default();
+    }
+
+    /// The slot of what stands at an index here.
+    #[inline]
+    pub fn slot_of(&self, index: usize) -> u32 {
+        Place::slot_of(self.lane, index)
     }
 
     /// The numbers of a contact.
@@ -123,8 +138,9 @@ impl ContactBuffer {
         &mut self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]
     }
 
-    /// How far the buffer has got.
-    pub fn checkpoint(&self) -> Checkpoint {
+    /// How far the buffer has got. No friction waits for what comes after that.
+    pub fn checkpoint(&mut self) -> Checkpoint {
+        self.settle();
         Checkpoint { contacts: self.contacts.len(), demand: self.demand, counts: self.counts }
     }
 
@@ -132,6 +148,7 @@ impl ContactBuffer {
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
         self.places.truncate(checkpoint.contacts);
+        self.terms.truncate(checkpoint.contacts);
         self.records.truncate(checkpoint.contacts);
         self.bristles.clear();
         self.law_state.truncate(checkpoint.contacts * self.law_state_len);
@@ -149,6 +166,15 @@ impl ContactBuffer {
         }
     }
 
+    /// Works out all friction that waits and writes what the new contacts add to the wrenches, all at once: of lines that another
+    /// core has read, a core that writes to several in a row waits for many at a time, and for each if the writes are far apart.
+    pub fn finish(&mut self) {
+        self.settle();
+        for contact in &self.contacts[self.terms.len()..self.records.len()] {
+            self.terms.push(Term::of(contact)).expect("as much room as for records");
+        }
+    }
+
     /// Writes what is to be remembered of a contact that is whole.
     #[inline(always)]
     pub fn remember(&mut self, place: usize) {
@@ -162,17 +188,24 @@ impl ContactBuffer {
         self.records.len() == self.contacts.len()
     }
 
-    /// Whether the first contacts are those whose records it has.
-    pub fn keeps_its_places(&self) -> bool {
-        !self.moved
-    }
-
     /// The same, if no more can wait.
     #[inline(always)]
     pub fn settle_if_full(&mut self) {
         if self.bristles.is_full() {
             self.settle();
         }
+    }
+
+    /// Takes over all that another buffer of the lane found, without copying a contact, and gives its memory for it.
+    pub fn take_over(&mut self, other: &mut Self) {
+        other.finish();
+        debug_assert!(self.lane == other.lane && self.law_state_len == 0);
+        swap(&mut self.contacts, &mut other.contacts);
+        swap(&mut self.places, &mut other.places);
+        swap(&mut self.terms, &mut other.terms);
+        swap(&mut self.records, &mut other.records);
+        (self.demand, self.counts) = (other.demand, other.counts);
+        (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 
     /// Takes over all that another buffer found; whether there was room.
@@ -183,7 +216,7 @@ impl ContactBuffer {
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
         if room {
             for (index, place) in (first..).zip(&*other.places) {
-                self.places.push(place.at(index)).expect("as many as contacts");
+                self.places.push(place.at(self.slot_of(index))).expect("as many as contacts");
             }
         }
         self.demand.add(&other.demand);
@@ -238,7 +271,6 @@ impl ContactBuffer {
     pub fn keep_deepest(&mut self, pushing: usize, others: usize) {
         self.settle();
         self.records.clear();
-        self.moved = true;
         let ranked = &mut self.ranked;
         ranked.clear();
         let counts = |contact: &FrameContact| contact.found.status != CandidateStatus::Culled;
@@ -263,7 +295,7 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
-            self.places[to] = self.places[from as usize].at(to);
+            self.places[to] = self.places[from as usize].at(Place::slot_of(self.lane, to));
             let stride = self.law_state_len;
             let from = from as usize * stride;
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);

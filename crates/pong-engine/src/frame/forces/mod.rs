@@ -3,8 +3,10 @@
 mod bristles;
 pub(crate) mod contact;
 pub(crate) mod contact_buffer;
+pub(crate) mod found;
 pub(crate) mod place;
 pub(crate) mod reference_point;
+pub(crate) mod term;
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::input::motion::SinceCommit;
@@ -52,7 +54,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
-    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index as usize].found.key;
+    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index()].found.key;
     let mut rest = order.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
@@ -61,12 +63,12 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
         let motion = motions.known(near, input, key.direction());
         let context = PairContext::new(scene, sealed, input, key.direction(), &motion);
         for place in group {
-            let found = out.contacts[place.index as usize].found;
-            let share =
-                bristle_share(&found, group.iter().map(|place| &out.contacts[place.index as usize].found));
+            let index = place.index();
+            let found = out.contacts[index].found;
+            let share = bristle_share(&found, group.iter().map(|place| &out.contacts[place.index()].found));
             let kind_a = context.body_a.primitives[key.primitive_a as usize].kind;
-            out.law_state_mut(place.index as usize).fill(0.0);
-            context.compute_force((kind_a, &found), share, place.index as usize, out);
+            out.law_state_mut(index).fill(0.0);
+            context.compute_force((kind_a, &found), share, index, out);
         }
     }
     out.settle();
@@ -141,6 +143,7 @@ impl PairContext<'_> {
             stored = stored_energy(props, weight, found.depth);
         }
         let rubs = pressed > 0.0;
+        let slot = out.slot_of(place);
         // Whoever gives a contact one more field is told here.
         let FrameContact {
             found: as_found,
@@ -161,9 +164,9 @@ impl PairContext<'_> {
         (*friction_force_b, *bristle_b, *sticks) = (Vec3::zeros(), Vec3::zeros(), !rubs);
         *in_springs = stored;
         *continued = continues.map(|(index, _)| index as u32);
-        let pushes = found.role == ContactRole::Active;
-        out.places[place] = Place::new(found.key.head(), place, pushes, *continued);
         (*work, *dissipated) = (0.0, 0.0);
+        let pushes = found.role == ContactRole::Active;
+        out.places[place] = Place::new(found.key.head(), slot, pushes, *continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);

@@ -8,7 +8,6 @@ use crate::ids::{InterfaceId, ObjectId, PairId};
 use crate::law::{NormalTangent, normal_tangent};
 use crate::scene::Scene;
 use crate::sealed::{Sealed, SurfaceTable};
-use crate::state::ContactRole;
 use pong_geometry::{Pose, Vec3};
 
 impl EvaluationBuffers {
@@ -23,12 +22,10 @@ impl EvaluationBuffers {
 
     /// Accounts of the contacts that push, in key order.
     pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
-        let out = &self.caller.out;
-        let pushing = self.order.iter().map(|place| place.index as usize);
-        let pushing = pushing.filter(|&index| out.contacts[index].found.role == ContactRole::Active);
-        pushing.filter_map(|index| {
-            let energy = self.energy.contacts.get(index)?.energy;
-            Some(EnergyAccount { stored: out.contacts[index].stored, ..energy.account })
+        let pushing = self.order.iter().filter(|place| place.pushes());
+        pushing.filter_map(|place| {
+            let energy = self.energy.contacts.get(place.index())?.energy;
+            Some(EnergyAccount { stored: self.found().contact(place).stored, ..energy.account })
         })
     }
 

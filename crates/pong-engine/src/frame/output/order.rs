@@ -2,6 +2,7 @@
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces;
+use crate::frame::forces::found::FoundContacts;
 use crate::frame::forces::place::Place;
 use crate::frame::input::EvaluationInput;
 use crate::frame::narrow_phase::candidate::CandidateStatus;
@@ -48,46 +49,50 @@ const WORTH_PLACING: usize = 24;
 
 /// Lists all contacts in order; how many of them push.
 fn list(records: usize, frame: &mut EvaluationBuffers) -> usize {
-    let EvaluationBuffers { caller, order, .. } = &mut *frame;
+    let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
     let WorkerContext { scratch, out, .. } = caller;
+    let found = FoundContacts { caller: out, workers };
     order.clear();
-    let lasting = out.places.iter().filter(|place| place.continues().is_some()).count();
-    if out.places.len() < WORTH_PLACING || lasting * 2 < out.places.len() {
-        order.extend_from_slice(&out.places).expect("as many places as contacts");
+    let count = found.count();
+    let lasting = found.places().filter(|place| place.continues().is_some()).count();
+    if count < WORTH_PLACING || lasting * 2 < count {
+        found.places().for_each(|place| order.push(*place).expect("as many places as contacts"));
         order.sort_unstable_by_key(|place| place.head);
     } else {
-        put_where_they_were(records, &out.places, order, scratch);
+        put_where_they_were(records, (count, found.places()), order, scratch);
     }
-    let contacts = &out.contacts;
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
-        ties.sort_unstable_by_key(|place| contacts[place.index as usize].found.order());
+        ties.sort_unstable_by_key(|place| found.contact(place).found.order());
     }
-    out.places.iter().filter(|place| place.pushes()).count()
+    order.iter().filter(|place| place.pushes()).count()
 }
 
 /// Sorts the contacts by the heads of their keys: most continue one of so many records, and the records stand in order. The
 /// first that continues a record stands in its place; the others, sorted by themselves, come in between.
-fn put_where_they_were(records: usize, contacts: &[Place], order: &mut Table<Place>, scratch: &mut Arena) {
+fn put_where_they_were<'a>(
+    records: usize,
+    (count, contacts): (usize, impl Iterator<Item = &'a Place>),
+    order: &mut Table<Place>,
+    scratch: &mut Arena,
+) {
     scratch.reset();
     let room = "sealing has sized the scratch";
-    const NOBODY: u32 = u32::MAX;
-    let lasting = scratch.slice(records, NOBODY).expect(room);
-    let mut others = scratch.list(contacts.len()).expect(room);
-    for (number, contact) in (0..).zip(contacts) {
+    let lasting = scratch.slice(records, Place::NOWHERE).expect(room);
+    let mut others = scratch.list(count).expect(room);
+    for contact in contacts {
         match contact.continues() {
-            Some(record) if lasting[record] == NOBODY => lasting[record] = number,
+            Some(record) if lasting[record].is_nowhere() => lasting[record] = *contact,
             _ => others.push(*contact).expect(room),
         }
     }
     others.sort_unstable_by_key(|place| place.head);
     let mut others = others.iter().peekable();
     let room = "as many places as contacts";
-    for number in lasting.iter().filter(|&&number| number != NOBODY) {
-        let contact = contacts[*number as usize];
+    for contact in lasting.iter().filter(|contact| !contact.is_nowhere()) {
         while let Some(other) = others.next_if(|other| other.head < contact.head) {
             order.push(*other).expect(room);
         }
-        order.push(contact).expect(room);
+        order.push(*contact).expect(room);
     }
     others.for_each(|other| order.push(*other).expect(room));
 }
@@ -99,7 +104,7 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
     scratch.reset();
     // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
-    for (place, found) in order.iter().map(|place| &out.contacts[place.index as usize].found).enumerate() {
+    for (place, found) in order.iter().map(|place| &out.contacts[place.index()].found).enumerate() {
         if found.ray_distance < f64::INFINITY {
             let (a, b) = sealed.bodies_of(found.key.direction());
             let hit = (a, found.key.primitive_a, scene.bodies[b].object, place);
@@ -115,10 +120,10 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
     for later in hits.windows(2) {
         let [(first, _), (second, _)] = [later[0], later[1]];
         if (first.0, first.1, first.2) == (second.0, second.1, second.2) {
-            out.contacts[order[second.3].index as usize].found.status = CandidateStatus::Culled;
+            out.contacts[order[second.3].index()].found.status = CandidateStatus::Culled;
         }
     }
-    order.retain(|place| out.contacts[place.index as usize].found.status != CandidateStatus::Culled);
+    order.retain(|place| out.contacts[place.index()].found.status != CandidateStatus::Culled);
 }
 
 #[cfg(test)]
@@ -136,22 +141,28 @@ mod tests {
             let count = 20 + random.below(80);
             let contacts: Vec<Place> = (0..count)
                 .map(|index| match random.below(4) {
-                    0 => Place::new(random.below(64) as u64, index, true, None),
+                    0 => Place::new(random.below(64) as u64, Place::slot_of(index % 3, index), true, None),
                     _ => {
                         let record = random.below(heads.len());
-                        Place::new(u64::from(heads[record]), index, true, Some(record as u32))
+                        Place::new(
+                            u64::from(heads[record]),
+                            Place::slot_of(index % 3, index),
+                            true,
+                            Some(record as u32),
+                        )
                     }
                 })
                 .collect();
             let mut order = Table::with_capacity(count, Place::NOWHERE);
             let mut scratch = Arena::with_capacity(64 * (count + heads.len()));
-            put_where_they_were(heads.len(), &contacts, &mut order, &mut scratch);
+            put_where_they_were(heads.len(), (count, contacts.iter()), &mut order, &mut scratch);
             assert!(order.is_sorted_by_key(|place| place.head), "case {case}: {order:?}");
-            let mut listed: Vec<_> = order.iter().map(|place| place.index).collect();
+            let mut listed: Vec<_> = order.iter().map(|place| place.index()).collect();
             listed.sort_unstable();
-            assert!(listed.iter().copied().eq(0..contacts.len() as u32), "case {case}");
+            assert!(listed.iter().copied().eq(0..contacts.len()), "case {case}");
             for place in order.iter() {
-                assert_eq!(place.head, contacts[place.index as usize].head);
+                let contact = &contacts[place.index()];
+                assert_eq!((place.head, place.lane()), (contact.head, contact.lane()));
             }
         }
     }

@@ -85,7 +85,7 @@ impl EvaluationBuffers {
 
     fn held(&self, scene: &Scene, sealed: &Sealed, memory: &ContactMemory, pair: usize) -> Vec<Held<'_>> {
         let motions = self.motions(sealed, &memory.poses);
-        let contact_at = |place: usize| &self.caller.out.contacts[self.order[place].index as usize];
+        let contact_at = |place: usize| self.found().contact(&self.order[place]);
         let places: Vec<usize> = (0..self.order.len()).collect();
         let mut all = Vec::new();
         for group in places.chunk_by(|a, b| contact_at(*a).found.key == contact_at(*b).found.key) {

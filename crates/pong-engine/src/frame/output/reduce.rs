@@ -1,7 +1,8 @@
 //! Sums the wrenches of all contacts, in key order, about and along each movable group's own frame.
 
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::forces::contact::FrameContact;
+use crate::frame::forces::found::FoundContacts;
+use crate::frame::forces::term::Term;
 use crate::frame::input::EvaluationInput;
 use crate::frame::input::relative::Motions;
 use crate::sealed::Sealed;
@@ -10,17 +11,19 @@ use pong_geometry::{Transform, Vec3, Wrench};
 /// Adds every contact to both of its movable groups: first those of one direction of a pair together, in B's axes.
 pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
-    let EvaluationBuffers { input, caller, order, near, poses, twists, wrenches, beyond_range, .. } = frame;
+    let EvaluationBuffers {
+        input, caller, workers, order, near, poses, twists, wrenches, beyond_range, ..
+    } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let contacts = &caller.out.contacts;
+    let found = FoundContacts { caller: &caller.out, workers };
     for places in order.chunk_by(|a, b| a.direction() == b.direction()) {
         let direction = places[0].direction();
         let x_ba = motions.known(near, input, direction).x_ba;
         let mut sums = Sums::of_nothing();
         for place in places.iter().filter(|place| place.pushes()) {
-            let contact = &contacts[place.index as usize];
-            sums.add(contact, &x_ba.translation);
-            if !is_in_range(contact) {
+            let term = found.term(place);
+            sums.add(&term, &x_ba.translation);
+            if !holds(term.size) {
                 beyond_range.get_or_insert(direction);
             }
         }
@@ -47,11 +50,11 @@ impl Sums {
 
     /// One contact more, with A's origin in B's frame, m.
     #[inline]
-    fn add(&mut self, contact: &FrameContact, origin_a: &Vec3) {
-        let (force, point) = (contact.force(), contact.point_b);
-        self.force += force;
-        self.about_a += (point - origin_a).cross(&force);
-        self.about_b += point.cross(&force);
+    fn add(&mut self, term: &Term, origin_a: &Vec3) {
+        let Term { force_b, point_b, .. } = term;
+        self.force += force_b;
+        self.about_a += (point_b - origin_a).cross(force_b);
+        self.about_b += point_b.cross(force_b);
     }
 
     /// The wrench on A, about and along A's frame.
@@ -71,12 +74,6 @@ const LARGEST: f64 = f64::MAX / 16.0;
 /// False for what is not a number, too.
 fn holds(sum: f64) -> bool {
     sum <= LARGEST
-}
-
-/// Forces may cancel each other in the sum.
-#[inline]
-fn is_in_range(contact: &FrameContact) -> bool {
-    holds(contact.normal_force + contact.friction_force_b.abs().sum() + contact.stored.abs())
 }
 
 impl EvaluationBuffers {

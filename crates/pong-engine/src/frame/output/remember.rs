@@ -4,67 +4,53 @@
 //! all, a commit takes over their tables as they are and only counts the records in the order of their keys: no record is
 //! moved, and most are read in the next frame by the core that has written them. Else it writes all of them anew.
 
+use crate::energy::contact::ContactEnergyRef;
 use crate::frame::buffers::EvaluationBuffers;
-use crate::frame::worker_pool::WorkerPool;
+use crate::frame::forces::place::Place;
 use crate::state::{ContactMemory, RecordPlace, Remembered};
-use pong_threads::MAX_WORKERS;
 
 /// Replaces all records by those of the frame's contacts.
-pub(crate) fn remember(frame: &mut EvaluationBuffers, pool: Option<&WorkerPool>, next: &mut ContactMemory) {
+pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) {
     next.clear_records();
-    if pool.is_some_and(|pool| adopt(frame, pool, next)) {
+    if adopt(frame, next) {
         return;
     }
-    let out = &frame.caller.out;
     for place in frame.order.iter() {
-        let index = place.index as usize;
-        let (law_state, energy) = (out.law_state_of(index), frame.energy.contacts.get(index));
-        let remembered = next.push_with(law_state, energy, |slot| out.contacts[index].write_record(slot));
+        let contact = frame.found().contact(place);
+        let (law_state, energy) = beside(frame, place);
+        let remembered = next.push_with(law_state, energy, |slot| contact.write_record(slot));
         remembered.expect("a frame keeps no more contacts than there is room to remember");
     }
 }
 
 /// Takes over what the lanes have written, if each contact of the frame has its record; whether so.
-fn adopt(frame: &mut EvaluationBuffers, pool: &WorkerPool, next: &mut ContactMemory) -> bool {
-    let EvaluationBuffers { caller, order, input, .. } = frame;
-    let out = &mut caller.out;
-    // The contacts of all lanes stand one lane's after another's: here they end.
-    let mut ends = [0; MAX_WORKERS + 1];
-    let ends = &mut ends[..=pool.workers()];
-    let mut whole = out.keeps_its_places();
-    ends.fill(out.records.len() as u32);
-    pool.with_gathered(input.phase, |worker, out| {
-        whole &= out.remembers_all();
-        let end = ends[worker] + out.contacts.len() as u32;
-        ends[worker + 1..].fill(end);
-    });
-    if !whole || ends.last() != Some(&(out.contacts.len() as u32)) {
+fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
+    let EvaluationBuffers { caller, workers, order, .. } = frame;
+    if !caller.out.remembers_all() || !workers.iter().all(|worker| worker.remembers_all()) {
         return false;
     }
-    let written = order.iter().map(|place| {
-        let lane = ends.partition_point(|&end| end <= place.index);
-        let first = if lane > 0 { ends[lane - 1] } else { 0 };
-        (place.head, RecordPlace::in_lane(lane, place.index - first))
-    });
+    let written = order.iter().map(|place| (place.head, RecordPlace::in_lane(place.lane(), place.index())));
     if !next.records.adopt(written) {
         return false;
     }
-    std::mem::swap(&mut out.records, next.records.lane_mut(0));
-    pool.with_gathered(input.phase, |worker, out| {
-        std::mem::swap(&mut out.records, next.records.lane_mut(worker + 1));
-    });
+    let lanes = std::iter::once(&mut caller.out).chain(workers);
+    for (lane, out) in lanes.enumerate() {
+        std::mem::swap(&mut out.records, next.records.lane_mut(lane));
+        out.records.clear();
+    }
     true
+}
+
+/// Numbers of a registered law and energies of a contact. Where there are any, all contacts stand in the caller's buffer.
+fn beside<'a>(frame: &'a EvaluationBuffers, place: &Place) -> (&'a [f64], Option<ContactEnergyRef<'a>>) {
+    let law_state = frame.caller.out.law_state_of(place.index());
+    (law_state, frame.energy.contacts.get(place.index()))
 }
 
 /// What a commit would remember of the frame's contacts, in order.
 pub(crate) fn fresh(frame: &EvaluationBuffers) -> impl Iterator<Item = Remembered<'_>> + Clone {
-    let out = &frame.caller.out;
     frame.order.iter().map(|place| {
-        let index = place.index as usize;
-        Remembered {
-            record: out.contacts[index].record(),
-            law_state: out.law_state_of(index),
-            energy: frame.energy.contacts.get(index),
-        }
+        let (law_state, energy) = beside(frame, place);
+        Remembered { record: frame.found().contact(place).record(), law_state, energy }
     })
 }

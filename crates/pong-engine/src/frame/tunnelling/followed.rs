@@ -171,7 +171,7 @@ fn found(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Co
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
     let same_head = frame.order[first..].iter().take_while(move |place| place.head == head);
-    let found = same_head.map(|place| &frame.caller.out.contacts[place.index as usize].found);
+    let found = same_head.map(|place| &frame.found().contact(place).found);
     let counts = move |found: &&ContactCandidate| {
         found.role == ContactRole::Active && found.key.shell_b == key.shell_b
     };

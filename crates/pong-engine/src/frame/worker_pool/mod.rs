@@ -36,8 +36,6 @@ pub(crate) struct WorkerPool {
     shared: Arc<Shared>,
     /// Rounds that the caller did by itself because a worker had not let go, or did not come back.
     pub timeouts: u64,
-    /// The phase whose contacts are the last that were gathered, all of them.
-    gathered: Option<u64>,
     /// Whether the workers were given a frame's input since it was last taken back.
     lent: bool,
     /// Where the workers' time of this frame's rounds went; zero without a clock.
@@ -64,8 +62,11 @@ impl Job for Shared {
         let mut context = locked(&self.contexts[lane - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
+            input.memory.records.fetch();
         }
         self.run_blocks(&input, blocks, &mut context);
+        // Here and not by the caller, on whose core nothing of it is.
+        context.out.finish();
     }
 }
 
@@ -95,13 +96,13 @@ impl WorkerPool {
             scene: Arc::clone(scene),
             sealed: Arc::clone(sealed),
             input: RwLock::new(Box::new(input)),
-            contexts: (0..workers)
-                .map(|_| Mutex::new(Box::new(WorkerContext::new(sealed, contacts, false))))
+            contexts: (1..=workers)
+                .map(|lane| Mutex::new(Box::new(WorkerContext::new(sealed, lane, contacts))))
                 .collect(),
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); workers];
-        Ok(Self { pool, shared, timeouts: 0, gathered: None, lent: false, times })
+        Ok(Self { pool, shared, timeouts: 0, lent: false, times })
     }
 
     /// Whether a round whose tests may cost so much, ns, is sooner done by all than by the caller alone. What touched at the
@@ -113,10 +114,14 @@ impl WorkerPool {
             && (self.pool.has_workers_at_hand() || (cost_ns >= WORTH_WAKING_NS && self.pool.workers() > 0))
     }
 
-    /// Runs the blocks of `input` with all workers and gathers in `context` what was found; whether that is whole.
-    /// If not, the caller does it all again by itself.
-    pub fn run_parallel(&mut self, input: &WorkerInput, context: &mut WorkerContext) -> bool {
-        self.gathered = None;
+    /// Runs the blocks of `input` with all workers; whether all that was found is there: in `context`, or in `taken`, a buffer
+    /// for each worker. If not, the caller does it all again by itself.
+    pub fn run_parallel(
+        &mut self,
+        input: &WorkerInput,
+        context: &mut WorkerContext,
+        taken: &mut [ContactBuffer],
+    ) -> bool {
         // A worker that has claimed blocks of an earlier round and not begun with them would run them in this one.
         if !self.pool.is_quiet() {
             self.timeouts += 1;
@@ -139,38 +144,36 @@ impl WorkerPool {
             self.timeouts += 1;
             return false;
         }
-        let took_part = |other: &WorkerContext| other.out.phase == input.phase;
-        let whole = !context.out.demand.overflowed
-            && self.shared.contexts.iter().all(|other| {
-                let mut other = locked(other);
-                !took_part(&other) || context.out.absorb(&mut other.out)
-            });
-        if whole {
-            self.gathered = Some(input.phase);
-            let contexts = self.times.iter_mut().zip(&self.shared.contexts);
-            contexts
-                .map(|(times, other)| (times, locked(other)))
-                .filter(|(_, other)| took_part(other))
-                .for_each(|(times, other)| times.add(&other.out.times));
-        }
-        whole
+        self.gather(input.phase, context, taken)
     }
 
-    /// Hands on what each worker has found in a phase of which all was gathered, in the order in which it was.
-    pub fn with_gathered(&self, phase: u64, mut with: impl FnMut(usize, &mut ContactBuffer)) {
-        if self.gathered == Some(phase) {
-            for (worker, context) in self.shared.contexts.iter().enumerate() {
-                let out = &mut locked(context).out;
-                if out.phase == phase {
-                    with(worker, out);
-                }
+    /// Takes over what the workers have found in a phase that is complete; whether nothing is missing. As long as the limits are
+    /// far, each buffer as it is: to copy a contact takes longer than all else that the caller does with it.
+    fn gather(&mut self, phase: u64, context: &mut WorkerContext, taken: &mut [ContactBuffer]) -> bool {
+        let out = &mut context.out;
+        let (mut found, mut overflowed) = (out.contacts.len(), out.demand.overflowed);
+        for other in self.shared.contexts.iter().map(locked).filter(|other| other.out.phase == phase) {
+            found += other.out.contacts.len();
+            overflowed |= other.out.demand.overflowed;
+        }
+        if overflowed {
+            return false;
+        }
+        let as_they_are = found <= self.shared.sealed.contact_capacity;
+        let mut taken = taken.iter_mut();
+        for (times, other) in self.times.iter_mut().zip(&self.shared.contexts) {
+            let (mut other, taken) = (locked(other), taken.next());
+            if other.out.phase != phase {
+                continue;
+            }
+            times.add(&other.out.times);
+            match taken {
+                Some(taken) if as_they_are && other.out.remembers_all() => taken.take_over(&mut other.out),
+                _ if out.absorb(&mut other.out) => {}
+                _ => return false,
             }
         }
-    }
-
-    /// How many workers there are.
-    pub fn workers(&self) -> usize {
-        self.shared.contexts.len()
+        true
     }
 
     /// No time has been spent yet.

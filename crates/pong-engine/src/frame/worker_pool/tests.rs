@@ -2,6 +2,7 @@
 //! too late.
 
 use super::*;
+use crate::frame::EvaluationBuffers;
 use crate::runtime::Runtime;
 use crate::scene::Config;
 use crate::{InterfaceId, State, World, WorldBuilder};
@@ -88,7 +89,7 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
         behind += usize::from(leave_a_worker_behind(pool));
         input.phase += 1;
         caller.out.begin(input.phase);
-        if pool.run_parallel(input, caller) {
+        if pool.run_parallel(input, caller, &mut []) {
             assert_eq!(caller.out.contacts.len(), expected, "round {round}");
         }
     }
@@ -112,6 +113,17 @@ fn what_lanes_have_written_is_what_one_alone_remembers() {
         }
         let [expected, found] = [&mut alone, &mut shared].map(|brush| brush.world.runtime_mut());
         assert!(found.memory.records == expected.memory.records, "frame {frame}");
+        assert_eq!(found.frame.wrenches, expected.frame.wrenches, "frame {frame}");
+        let told = |frame: &EvaluationBuffers| -> Vec<String> {
+            frame
+                .pushing()
+                .map(|contact| format!("{:?}", (contact.point_b, contact.force(), contact.sticks)))
+                .collect()
+        };
+        assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
+        let tested =
+            |frame: &EvaluationBuffers| (frame.counts.boxes_tested, frame.counts.primitives_tested());
+        assert_eq!(tested(&found.frame), tested(&expected.frame), "frame {frame}");
         let by_worker = found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0);
         taken_over += usize::from(by_worker && found.memory.records.in_lanes());
     }

@@ -1,0 +1,53 @@
+//! What all lanes of a frame have found, wherever it stands.
+
+use super::contact::FrameContact;
+use super::contact_buffer::ContactBuffer;
+use super::place::Place;
+use super::term::Term;
+
+/// What all lanes of a frame have found: the caller's buffer, and those of workers that were taken over as they are.
+#[derive(Clone, Copy)]
+pub(crate) struct FoundContacts<'a> {
+    pub caller: &'a ContactBuffer,
+    pub workers: &'a [ContactBuffer],
+}
+
+impl<'a> FoundContacts<'a> {
+    #[inline]
+    fn lane(&self, place: &Place) -> &'a ContactBuffer {
+        match place.lane() {
+            0 => self.caller,
+            worker => &self.workers[worker - 1],
+        }
+    }
+
+    #[inline]
+    pub fn contact(&self, place: &Place) -> &'a FrameContact {
+        &self.lane(place).contacts[place.index()]
+    }
+
+    /// What a contact adds to the wrenches.
+    #[inline]
+    pub fn term(&self, place: &Place) -> Term {
+        match place.lane() {
+            0 => Term::of(&self.caller.contacts[place.index()]),
+            worker => self.workers[worker - 1].terms[place.index()],
+        }
+    }
+
+    /// All lanes, the caller's first.
+    fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
+        std::iter::once(self.caller).chain(self.workers)
+    }
+
+    /// Where all of them stand, in no order.
+    #[inline]
+    pub fn places(&self) -> impl Iterator<Item = &'a Place> + Clone + use<'a> {
+        self.lanes().flat_map(|lane| lane.places.iter())
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.lanes().map(|lane| lane.contacts.len()).sum()
+    }
+}
