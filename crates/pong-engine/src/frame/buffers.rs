@@ -50,7 +50,9 @@ impl EvaluationBuffers {
     /// Buffers for a frame that so many workers may share.
     pub fn new(scene: &Scene, sealed: &Sealed, input: WorkerInput, workers: usize) -> Self {
         let bodies = scene.bodies.len();
-        let taken_over = if sealed.limits.lanes_write_records { workers } else { 0 };
+        // Of rays the first hit is sought among the contacts themselves.
+        let as_they_are = sealed.limits.lanes_write_records && !sealed.rays_meet_groups;
+        let taken_over = if as_they_are { workers } else { 0 };
         let contacts = sealed.limits.worker_contacts(workers + 1);
         Self {
             computed: false,

@@ -19,12 +19,12 @@ pub(crate) struct Records {
     tables: Vec<Table<ContactRecord>>,
 }
 
-/// Where a record stands.
+/// Bits that tell where in its table a record stands: they count further than any room for records goes.
+const INDEX_BITS: u32 = 25;
+
+/// Where a record stands: its table in the highest bits; below, the index there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place {
-    table: u32,
-    index: u32,
-}
+pub(crate) struct Place(u32);
 
 /// Where the records of one head are.
 #[derive(Clone, Copy, Debug)]
@@ -40,22 +40,30 @@ const IN_ORDER: usize = 0;
 
 impl Place {
     /// What a lane has written, counted from 0, as its record of this index.
-    pub fn in_lane(lane: usize, index: usize) -> Self {
-        Self { table: lane as u32 + 1, index: index as u32 }
+    pub const fn in_lane(lane: usize, index: usize) -> Self {
+        Self(((lane + 1) << INDEX_BITS | index) as u32)
     }
 
-    fn in_order(index: usize) -> Self {
-        Self { table: IN_ORDER as u32, index: index as u32 }
+    const fn in_order(index: usize) -> Self {
+        Self((IN_ORDER << INDEX_BITS | index) as u32)
     }
 
     fn next(self) -> Self {
-        Self { index: self.index + 1, ..self }
+        Self(self.0 + 1)
+    }
+
+    fn table(self) -> usize {
+        (self.0 >> INDEX_BITS) as usize
+    }
+
+    fn index(self) -> usize {
+        (self.0 & (u32::MAX >> (u32::BITS - INDEX_BITS))) as usize
     }
 }
 
 impl Found {
     /// No records.
-    pub const NOTHING: Self = Self { first: 0, count: 0, place: Place { table: IN_ORDER as u32, index: 0 } };
+    pub const NOTHING: Self = Self { first: 0, count: 0, place: Place::in_order(0) };
 
     /// The index of the first record in the order of keys.
     pub fn first(&self) -> usize {
@@ -191,8 +199,8 @@ impl Records {
     /// The records that were found.
     #[inline]
     pub fn found(&self, found: &Found) -> &[ContactRecord] {
-        let Place { table, index } = found.place;
-        &self.tables[table as usize][index as usize..(index + found.count) as usize]
+        let (table, first) = (found.place.table(), found.place.index());
+        &self.tables[table][first..first + found.count as usize]
     }
 
     /// The index of the first record whose key has this head, or would have its place there.
@@ -211,9 +219,10 @@ impl Records {
     /// Reads the heads, and where their records stand, all at once: a search would wait for one line after another that another
     /// core has written.
     pub fn fetch(&self) {
-        const OF_LINE: usize = 8;
-        let heads = self.heads.iter().step_by(OF_LINE).fold(0, |all, head| all ^ head);
-        let places = self.places.iter().step_by(OF_LINE).fold(0, |all, place| all ^ place.index);
+        const LINE: usize = 64;
+        let heads = self.heads.iter().step_by(LINE / size_of::<u64>()).fold(0, |all, head| all ^ head);
+        let places =
+            self.places.iter().step_by(LINE / size_of::<Place>()).fold(0, |all, place| all ^ place.0);
         std::hint::black_box((heads, places));
     }
 
@@ -228,8 +237,8 @@ impl Index<usize> for Records {
 
     #[inline]
     fn index(&self, index: usize) -> &ContactRecord {
-        let Place { table, index } = self.place(index);
-        &self.tables[table as usize][index as usize]
+        let place = self.place(index);
+        &self.tables[place.table()][place.index()]
     }
 }
 
@@ -237,8 +246,8 @@ impl Index<usize> for Records {
 impl IndexMut<usize> for Records {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
-        let Place { table, index } = self.place(index);
-        &mut self.tables[table as usize][index as usize]
+        let place = self.place(index);
+        &mut self.tables[place.table()][place.index()]
     }
 }
 

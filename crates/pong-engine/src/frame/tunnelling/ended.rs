@@ -45,7 +45,8 @@ pub(super) fn look_at_ended(
         }
         let direction = record.key.direction();
         // The two may be far apart by now, and the pair not among those that the frame has visited.
-        let motion = frame.motions(given.sealed, &given.memory.poses).of(direction);
+        let motion =
+            frame.motions(given.sealed, &given.memory.poses).known(&frame.near, &frame.input, direction);
         let seen = Seen::new(given, direction, &motion, frame);
         if seen.came_out_behind(record) {
             events.note(seen.passed(record.key.primitive_a));

@@ -2,43 +2,56 @@
 //! too late.
 
 use super::*;
-use crate::frame::EvaluationBuffers;
+use crate::frame::{EvaluationBuffers, FrameContact};
 use crate::runtime::Runtime;
 use crate::scene::Config;
 use crate::{InterfaceId, State, World, WorldBuilder};
 use std::time::Duration;
 
-/// A grid of points in a plane.
-fn brush(workers: Option<Settings>) -> Brush {
-    let mut builder =
-        WorldBuilder::new(Config { workers, contact_capacity: Some(4096), ..Config::default() });
-    let points: Vec<String> = (0..2000)
-        .map(|i| {
-            format!(
-                "Point(name: \"p{i}\", position: ({:?}, {:?}, 0.0))",
-                f64::from(i % 50),
-                f64::from(i / 50)
-            )
-        })
-        .collect();
-    let plane = "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)".to_owned();
-    let objects = [points.join(","), plane].map(|primitives| {
+/// A grid of points in a plane on a floor, and some rays down to it where they are asked for; below is a gate, which moves by
+/// itself.
+fn brush(config: Config, rays: usize) -> Brush {
+    let mut builder = WorldBuilder::new(config);
+    let at = |i: usize| ((i % 50) as f64, (i / 50) as f64);
+    let points = (0..2000).map(|i| {
+        let (x, y) = at(i);
+        format!("Point(name: \"p{i}\", position: ({x:?}, {y:?}, 0.0))")
+    });
+    let rays = (0..rays).map(|i| {
+        let (x, y) = at(i);
+        format!("Ray(name: \"r{i}\", origin: ({x:?}, {y:?}, 0.5), direction: (0, 0, -1), length: 1.0)")
+    });
+    let primitives = points.chain(rays).collect::<Vec<_>>().join(",");
+    let plane = |name: &str| format!("primitives: [Plane(name: \"{name}\", normal: (0, 0, 1), offset: 0.0)]");
+    let floor = format!(
+        "groups: [(name: \"floor\", {}), (name: \"gate\", movable: true, {})]",
+        plane("f"),
+        plane("g")
+    );
+    let roots = [format!("primitives: [{primitives}]"), floor];
+    let objects = roots.map(|root| {
         let text = format!(
             "(format: \"pong-model\", version: 1, name: \"m\", surfaces: {{\"s\": (stiffness: 1e4, \
              normal: Linear(damping: 10.0), friction: Bristle(mu: 0.3))}}, \
-             root: (name: \"root\", surface: \"s\", primitives: [{primitives}]))"
+             root: (name: \"root\", surface: \"s\", {root}))"
         );
         let model = pong_model::parse(&text, "m", None, builder.scene().extensions()).unwrap();
         let model = builder.add_model(Arc::new(model));
-        builder.create_object(model, &format!("o{}", primitives.len())).unwrap()
+        builder.create_object(model, &format!("o{}", root.len())).unwrap()
     });
     builder.pair(objects[0], objects[1]).unwrap();
     let (world, _) = builder.seal().unwrap();
     let [brush, floor] = objects.map(|object| world.scene().interface(object, "").unwrap());
+    let gate = world.scene().interface(objects[1], "gate").unwrap();
     let mut brush = Brush { world, brush };
     brush.world.set_state(floor, &State::identity()).unwrap();
+    brush.world.set_state(gate, &State { position: [0.0, 0.0, -0.01], ..State::identity() }).unwrap();
     brush.put([0.0, 0.0, -1e-3], 0.0);
     brush
+}
+
+fn config(workers: Option<Settings>) -> Config {
+    Config { workers, contact_capacity: Some(4096), ..Config::default() }
 }
 
 struct Brush {
@@ -74,7 +87,7 @@ fn leave_a_worker_behind(pool: &mut WorkerPool) -> bool {
 
 #[test]
 fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
-    let mut world = brush(Some(one_worker())).world;
+    let mut world = brush(config(Some(one_worker())), 0).world;
     let mut expected = 0;
     while world.runtime_mut().pool.as_ref().unwrap().shared.input.read().unwrap().blocks.is_empty() {
         world.prewake(Duration::from_millis(100));
@@ -96,14 +109,15 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
     assert!(behind > 0, "the worker never came too late");
 }
 
-/// The brush slides and tilts: contacts end and begin, bristles stretch and slip.
-#[test]
-fn what_lanes_have_written_is_what_one_alone_remembers() {
-    let (mut alone, mut shared) = (brush(None), brush(Some(one_worker())));
+/// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
+/// compared with those of one alone; answers of how many the records stand where the lanes have written them.
+fn compare(change: impl Fn(Config) -> Config, rays: usize) -> (u32, u32) {
+    let [mut alone, mut shared] =
+        [None, Some(one_worker())].map(|workers| brush(change(config(workers)), rays));
     // Until a worker, which may have to wait for a core, has often enough had a part in it.
-    let (mut frame, mut taken_over) = (0, 0);
-    while taken_over < 50 {
-        assert!(frame < 20_000, "a worker has written records in {taken_over} of {frame} frames");
+    let (mut frame, mut by_worker, mut in_lanes) = (0, 0, 0);
+    while by_worker < 50 {
+        assert!(frame < 20_000, "a worker had a part in {by_worker} of {frame} frames");
         frame += 1;
         let t = f64::from(frame);
         for brush in [&mut alone, &mut shared] {
@@ -115,16 +129,42 @@ fn what_lanes_have_written_is_what_one_alone_remembers() {
         assert!(found.memory.records == expected.memory.records, "frame {frame}");
         assert_eq!(found.frame.wrenches, expected.frame.wrenches, "frame {frame}");
         let told = |frame: &EvaluationBuffers| -> Vec<String> {
-            frame
-                .pushing()
-                .map(|contact| format!("{:?}", (contact.point_b, contact.force(), contact.sticks)))
-                .collect()
+            let told = |contact: &FrameContact| (contact.point_b, contact.force(), contact.sticks);
+            frame.pushing().map(|contact| format!("{:?}", told(contact))).collect()
         };
         assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
         let tested =
             |frame: &EvaluationBuffers| (frame.counts.boxes_tested, frame.counts.primitives_tested());
         assert_eq!(tested(&found.frame), tested(&expected.frame), "frame {frame}");
-        let by_worker = found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0);
-        taken_over += usize::from(by_worker && found.memory.records.in_lanes());
+        if found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0) {
+            by_worker += 1;
+            in_lanes += u32::from(found.memory.records.in_lanes());
+        }
     }
+    (by_worker, in_lanes)
+}
+
+#[test]
+fn what_lanes_have_written_is_what_one_alone_remembers() {
+    let (by_worker, in_lanes) = compare(|config| config, 0);
+    assert_eq!(in_lanes, by_worker);
+}
+
+/// Of the floor and the gate below, a ray sees what is nearer.
+#[test]
+fn rays_see_the_same_through_the_eyes_of_all() {
+    compare(|config| config, 400);
+}
+
+/// There is room for fewer than half of those that touch.
+#[test]
+fn the_same_are_left_out_by_all() {
+    let (by_worker, in_lanes) = compare(|config| Config { contact_capacity: Some(900), ..config }, 0);
+    assert!(in_lanes < by_worker, "in no frame any was left out");
+}
+
+#[test]
+fn what_the_ledger_adds_is_the_same() {
+    let (_, in_lanes) = compare(|config| Config { ledger: true, ..config }, 0);
+    assert_eq!(in_lanes, 0);
 }
