@@ -15,8 +15,9 @@ pub(crate) struct Records {
     heads: Table<u64>,
     /// Where every record stands, if lanes have written them.
     places: Table<Place>,
-    /// Records in order, and then those of each lane.
-    tables: Vec<Table<ContactRecord>>,
+    in_order: Table<ContactRecord>,
+    /// What each lane has written.
+    lanes: Vec<Table<ContactRecord>>,
 }
 
 /// Bits that tell where in its table a record stands: they count further than any room for records goes.
@@ -83,7 +84,8 @@ impl Records {
         Self {
             heads: Table::with_capacity(capacity, 0),
             places: Table::default(),
-            tables: vec![Table::with_capacity(capacity, ContactRecord::blank())],
+            in_order: Table::with_capacity(capacity, ContactRecord::blank()),
+            lanes: Vec::new(),
         }
     }
 
@@ -92,7 +94,7 @@ impl Records {
         if lanes > 0 && each > 0 {
             self.places = Table::with_capacity(self.capacity(), Place::in_order(0));
             let lane = || Table::with_capacity(each, ContactRecord::blank());
-            self.tables.extend(std::iter::repeat_with(lane).take(lanes));
+            self.lanes.extend(std::iter::repeat_with(lane).take(lanes));
         }
         self
     }
@@ -124,11 +126,10 @@ impl Records {
     #[inline(always)]
     pub fn push_with(&mut self, write: impl FnOnce(&mut ContactRecord)) -> Result<(), Full> {
         debug_assert!(!self.in_lanes(), "records of lanes are whole");
-        let in_order = &mut self.tables[IN_ORDER];
-        let record = in_order.slot()?;
+        let record = self.in_order.slot()?;
         write(record);
         self.heads.push(record.key.head())?;
-        debug_assert!(in_order.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
+        debug_assert!(self.in_order.windows(2).last().is_none_or(|two| two[0].key <= two[1].key));
         Ok(())
     }
 
@@ -146,7 +147,7 @@ impl Records {
     #[inline]
     pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Place)>) -> bool {
         self.clear();
-        if self.tables.len() == IN_ORDER + 1 {
+        if self.lanes.is_empty() {
             return false;
         }
         let mut last = None;
@@ -164,14 +165,14 @@ impl Records {
 
     /// What a lane has written.
     pub fn lane_mut(&mut self, lane: usize) -> &mut Table<ContactRecord> {
-        &mut self.tables[lane + 1]
+        &mut self.lanes[lane]
     }
 
     /// Drops all records.
     pub fn clear(&mut self) {
         self.heads.clear();
         self.places.clear();
-        self.tables[IN_ORDER].clear();
+        self.in_order.clear();
     }
 
     /// Overwrites a record by another one, key and all; the order is the caller's to keep.
@@ -184,7 +185,7 @@ impl Records {
     pub fn truncate(&mut self, len: usize) {
         self.heads.truncate(len);
         self.places.truncate(len);
-        self.tables[IN_ORDER].truncate(len);
+        self.in_order.truncate(len);
     }
 
     /// Where the records are whose keys have one head.
@@ -200,7 +201,7 @@ impl Records {
     #[inline]
     pub fn found(&self, found: &Found) -> &[ContactRecord] {
         let (table, first) = (found.place.table(), found.place.index());
-        &self.tables[table][first..first + found.count as usize]
+        &self.table(table)[first..first + found.count as usize]
     }
 
     /// The index of the first record whose key has this head, or would have its place there.
@@ -227,6 +228,14 @@ impl Records {
     }
 
     #[inline]
+    fn table(&self, table: usize) -> &[ContactRecord] {
+        match table {
+            IN_ORDER => &self.in_order,
+            lane => &self.lanes[lane - 1],
+        }
+    }
+
+    #[inline]
     fn place(&self, index: usize) -> Place {
         if self.places.is_empty() { Place::in_order(index) } else { self.places[index] }
     }
@@ -238,7 +247,7 @@ impl Index<usize> for Records {
     #[inline]
     fn index(&self, index: usize) -> &ContactRecord {
         let place = self.place(index);
-        &self.tables[place.table()][place.index()]
+        &self.table(place.table())[place.index()]
     }
 }
 
@@ -247,7 +256,11 @@ impl IndexMut<usize> for Records {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
         let place = self.place(index);
-        &mut self.tables[place.table()][place.index()]
+        let table = match place.table() {
+            IN_ORDER => &mut self.in_order,
+            lane => &mut self.lanes[lane - 1],
+        };
+        &mut table[place.index()]
     }
 }
 
