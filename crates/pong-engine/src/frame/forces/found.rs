@@ -36,7 +36,7 @@ impl<'a> FoundContacts<'a> {
     }
 
     /// All lanes, the caller's first.
-    fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
+    pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
         std::iter::once(self.caller).chain(self.workers)
     }
 

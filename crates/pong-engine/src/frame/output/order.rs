@@ -2,6 +2,7 @@
 
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces;
+use crate::frame::forces::contact_buffer::CapacityDemand;
 use crate::frame::forces::found::FoundContacts;
 use crate::frame::forces::place::Place;
 use crate::frame::input::EvaluationInput;
@@ -15,29 +16,31 @@ use pong_arena::{Arena, Table};
 /// Puts the contacts in order, whoever found them.
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
-    let mut pushing = list(memory.records.len(), frame);
+    let mut demand = frame.caller.out.demand;
+    list(memory.records.len(), frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
-        pushing = frame.pushing().count();
+        if !demand.overflowed {
+            demand.pushing = frame.pushing().count() as u64;
+            demand.remembered = frame.order.len() as u64 - demand.pushing;
+        }
     }
     let (capacity, spare) = (sealed.contact_capacity, sealed.record_capacity - sealed.contact_capacity);
-    let mut kept = pushing;
-    let found = (pushing as u64, (frame.order.len() - pushing) as u64);
-    let demand = frame.caller.out.demand;
-    let (pushing, remembered) = if demand.overflowed { (demand.pushing, demand.remembered) } else { found };
+    let CapacityDemand { pushing, remembered, .. } = demand;
+    frame.report.contacts = pushing as u32;
     frame.report.contacts_wanted = saturated(pushing);
     if demand.overflowed || pushing > capacity as u64 || remembered > spare as u64 {
         frame.report.status.set(StatusBits::CONTACT_LIMIT);
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
-        kept = list(memory.records.len(), frame);
+        list(memory.records.len(), frame);
+        frame.report.contacts = frame.pushing().count() as u32;
         forces::recompute_forces(given, frame);
     }
     if demand.unshared {
         frame.report.status.set(StatusBits::LOAD_SHARING_LIMIT);
     }
-    frame.report.contacts = kept as u32;
 }
 
 fn saturated(count: u64) -> u32 {
@@ -47,16 +50,18 @@ fn saturated(count: u64) -> u32 {
 /// Contacts below this are simply sorted.
 const WORTH_PLACING: usize = 24;
 
-/// Lists all contacts in order; how many of them push.
-fn list(records: usize, frame: &mut EvaluationBuffers) -> usize {
+/// Lists all contacts in order.
+fn list(records: usize, frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
     let WorkerContext { scratch, out, .. } = caller;
     let found = FoundContacts { caller: out, workers };
     order.clear();
     let count = found.count();
-    let lasting = found.places().filter(|place| place.continues().is_some()).count();
-    if count < WORTH_PLACING || lasting * 2 < count {
-        found.places().for_each(|place| order.push(*place).expect("as many places as contacts"));
+    let lasting = || found.places().filter(|place| place.continues().is_some()).count();
+    if count < WORTH_PLACING || lasting() * 2 < count {
+        for lane in found.lanes() {
+            order.extend_from_slice(&lane.places).expect("as many places as contacts");
+        }
         order.sort_unstable_by_key(|place| place.head);
     } else {
         put_where_they_were(records, (count, found.places()), order, scratch);
@@ -64,7 +69,6 @@ fn list(records: usize, frame: &mut EvaluationBuffers) -> usize {
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| found.contact(place).found.order());
     }
-    order.iter().filter(|place| place.pushes()).count()
 }
 
 /// Sorts the contacts by the heads of their keys: most continue one of so many records, and the records stand in order. The
