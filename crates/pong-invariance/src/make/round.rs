@@ -155,6 +155,10 @@ pub fn touching(random: &mut Random, kinds: &[&str], touched: &Shape, is_round: 
 }
 
 /// A ball or pin of about the width of the hole that it is for: loose, snug, or too large.
+///
+/// By itself: where it stands in a loop a compiler works out the width of every shape ahead of that, and what it reads where the
+/// shape has none may be a number that traps.
+#[inline(never)]
 fn fitted(random: &mut Random, shape: Shape, touched: &Shape, is_round: bool) -> Shape {
     let Shape::Round(hole) = touched else { return shape };
     if hole.kind != RoundKind::Bore || random.chance(0.2) {
