@@ -6,7 +6,7 @@ use crate::frame::narrow_phase::pair_table::most_contacts;
 use crate::frame::{FrameContact, Place, Term, WorkerContext, arena_bytes};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits};
-use crate::state::{RecordPlace, Records};
+use crate::state::{Records, Slot};
 use pong_model::Tree;
 use pong_threads::MAX_WORKERS;
 
@@ -66,6 +66,12 @@ pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
 /// Most memory that room for contacts may take. Beyond this a slip of the pen is likelier than a scene.
 const ROOM_BYTES_MAX: usize = 8 << 30;
 
+/// A lane holds an eighth more contacts than there are records, each of which takes a contact and two records at least.
+const _: () = {
+    let records = ROOM_BYTES_MAX / (size_of::<FrameContact>() + 2 * Records::BYTES);
+    assert!(records / 8 * 9 < Slot::INDICES);
+};
+
 /// What is wrong with a capacity that asks for more memory than that, if it does.
 pub(super) fn too_large(scene: &Scene, wanted: usize, law_state_len: usize) -> Option<String> {
     let lanes = scene.config.workers.as_ref().map_or(0, |settings| settings.workers.min(MAX_WORKERS) + 1);
@@ -90,7 +96,7 @@ pub(super) fn bytes_per_contact(scene: &Scene, lanes: usize, law_state_len: usiz
     // The committed contact state, the next one, and one that a stuck worker may still read.
     let states = if lanes > 0 { 3 } else { 2 };
     let energies = ContactEnergies::bytes_each(scene.config.accounts);
-    let in_lanes = if lanes > 0 { size_of::<RecordPlace>() } else { 0 };
+    let in_lanes = if lanes > 0 { size_of::<Slot>() } else { 0 };
     let remembered = states * (Records::BYTES + in_lanes + numbers + energies) + energies + energies / 8;
     // The lane's contacts, an eighth more than records, their places, ranks and order, and what rays and the ledger ask for.
     let per_contact =

@@ -7,6 +7,7 @@ mod merge;
 mod poses;
 mod record;
 mod records;
+mod slot;
 #[cfg(test)]
 mod tests;
 
@@ -16,4 +17,5 @@ pub(crate) use lookup::{RecordLookup, SAME_WAY_COSINE_MIN};
 pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
-pub(crate) use records::{Place as RecordPlace, Records};
+pub(crate) use records::Records;
+pub(crate) use slot::Slot;

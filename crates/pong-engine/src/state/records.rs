@@ -1,6 +1,7 @@
 //! Contact records in the order of their keys.
 
 use super::record::{ContactKey, ContactRecord};
+use super::slot::Slot;
 use pong_arena::{Full, Table};
 use std::ops::{Index, IndexMut};
 
@@ -14,18 +15,11 @@ pub(crate) struct Records {
     /// The head of every record's key.
     heads: Table<u64>,
     /// Where every record stands, if lanes have written them.
-    places: Table<Place>,
+    slots: Table<Slot>,
     in_order: Table<ContactRecord>,
     /// What each lane has written.
     lanes: Vec<Table<ContactRecord>>,
 }
-
-/// Bits that tell where in its table a record stands: they count further than any room for records goes.
-const INDEX_BITS: u32 = 25;
-
-/// Where a record stands: its table in the highest bits; below, the index there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Place(u32);
 
 /// Where the records of one head are.
 #[derive(Clone, Copy, Debug)]
@@ -33,38 +27,15 @@ pub(crate) struct Found {
     first: u32,
     count: u32,
     /// Of the first; the others follow it.
-    place: Place,
+    slot: Slot,
 }
 
-/// The table of records in order.
-const IN_ORDER: usize = 0;
-
-impl Place {
-    /// What a lane has written, counted from 0, as its record of this index.
-    pub const fn in_lane(lane: usize, index: usize) -> Self {
-        Self(((lane + 1) << INDEX_BITS | index) as u32)
-    }
-
-    const fn in_order(index: usize) -> Self {
-        Self((IN_ORDER << INDEX_BITS | index) as u32)
-    }
-
-    fn next(self) -> Self {
-        Self(self.0 + 1)
-    }
-
-    fn table(self) -> usize {
-        (self.0 >> INDEX_BITS) as usize
-    }
-
-    fn index(self) -> usize {
-        (self.0 & (u32::MAX >> (u32::BITS - INDEX_BITS))) as usize
-    }
-}
+/// The lane of records in order.
+const IN_ORDER: usize = Slot::NO_LANE;
 
 impl Found {
     /// No records.
-    pub const NOTHING: Self = Self { first: 0, count: 0, place: Place::in_order(0) };
+    pub const NOTHING: Self = Self { first: 0, count: 0, slot: Slot::new(IN_ORDER, 0) };
 
     /// The index of the first record in the order of keys.
     pub fn first(&self) -> usize {
@@ -83,7 +54,7 @@ impl Records {
     pub fn with_capacity(capacity: usize) -> Self {
         Self {
             heads: Table::with_capacity(capacity, 0),
-            places: Table::default(),
+            slots: Table::default(),
             in_order: Table::with_capacity(capacity, ContactRecord::blank()),
             lanes: Vec::new(),
         }
@@ -92,7 +63,7 @@ impl Records {
     /// With room, besides, for what so many lanes write, each so many records.
     pub fn with_lanes(mut self, lanes: usize, each: usize) -> Self {
         if lanes > 0 && each > 0 {
-            self.places = Table::with_capacity(self.capacity(), Place::in_order(0));
+            self.slots = Table::with_capacity(self.capacity(), Slot::NOWHERE);
             let lane = || Table::with_capacity(each, ContactRecord::blank());
             self.lanes.extend(std::iter::repeat_with(lane).take(lanes));
         }
@@ -111,7 +82,7 @@ impl Records {
 
     /// Whether they stand where lanes have written them.
     pub fn in_lanes(&self) -> bool {
-        !self.places.is_empty()
+        !self.slots.is_empty()
     }
 
     /// The records, in the order of their keys.
@@ -141,24 +112,24 @@ impl Records {
         other.iter().try_for_each(|record| self.push_with(|slot| *slot = *record))
     }
 
-    /// Replaces all records by those that lanes have written, whose heads and places come in the order of keys; whether they
+    /// Replaces all records by those that lanes have written, whose heads and slots come in the order of keys; whether they
     /// can stay where they are: there is room for lanes, and those of one head stand one after another. If not, there are no
     /// records. The [tables of the lanes](Self::lane_mut) are the caller's to exchange.
     #[inline]
-    pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Place)>) -> bool {
+    pub fn adopt(&mut self, written: impl Iterator<Item = (u64, Slot)>) -> bool {
         self.clear();
         if self.lanes.is_empty() {
             return false;
         }
         let mut last = None;
-        for (head, place) in written {
+        for (head, slot) in written {
             let goes_on =
-                last.is_none_or(|(other, before): (u64, Place)| other != head || place == before.next());
-            if !goes_on || self.heads.push(head).and_then(|()| self.places.push(place)).is_err() {
+                last.is_none_or(|(other, before): (u64, Slot)| other != head || slot == before.next());
+            if !goes_on || self.heads.push(head).and_then(|()| self.slots.push(slot)).is_err() {
                 self.clear();
                 return false;
             }
-            last = Some((head, place));
+            last = Some((head, slot));
         }
         true
     }
@@ -171,7 +142,7 @@ impl Records {
     /// Drops all records.
     pub fn clear(&mut self) {
         self.heads.clear();
-        self.places.clear();
+        self.slots.clear();
         self.in_order.clear();
     }
 
@@ -184,7 +155,7 @@ impl Records {
     /// Keeps the first `len` records.
     pub fn truncate(&mut self, len: usize) {
         self.heads.truncate(len);
-        self.places.truncate(len);
+        self.slots.truncate(len);
         self.in_order.truncate(len);
     }
 
@@ -193,15 +164,15 @@ impl Records {
     pub fn of_head(&self, head: u64) -> Found {
         let first = self.place_of_head(head);
         let count = self.heads[first..].iter().take_while(|&&other| other == head).count();
-        let place = if count > 0 { self.place(first) } else { Place::in_order(0) };
-        Found { first: first as u32, count: count as u32, place }
+        let slot = if count > 0 { self.slot(first) } else { Slot::new(IN_ORDER, 0) };
+        Found { first: first as u32, count: count as u32, slot }
     }
 
     /// The records that were found.
     #[inline]
     pub fn found(&self, found: &Found) -> &[ContactRecord] {
-        let (table, first) = (found.place.table(), found.place.index());
-        &self.table(table)[first..first + found.count as usize]
+        let first = found.slot.index();
+        &self.table(found.slot)[first..first + found.count as usize]
     }
 
     /// The index of the first record whose key has this head, or would have its place there.
@@ -222,22 +193,23 @@ impl Records {
     pub fn fetch(&self) {
         const LINE: usize = 64;
         let heads = self.heads.iter().step_by(LINE / size_of::<u64>()).fold(0, |all, head| all ^ head);
-        let places =
-            self.places.iter().step_by(LINE / size_of::<Place>()).fold(0, |all, place| all ^ place.0);
-        std::hint::black_box((heads, places));
+        let slots =
+            self.slots.iter().step_by(LINE / size_of::<Slot>()).fold(0, |all, slot| all ^ slot.index());
+        std::hint::black_box((heads, slots));
     }
 
+    /// The table of what stands in a slot.
     #[inline]
-    fn table(&self, table: usize) -> &[ContactRecord] {
-        match table {
+    fn table(&self, slot: Slot) -> &[ContactRecord] {
+        match slot.lane() {
             IN_ORDER => &self.in_order,
-            lane => &self.lanes[lane - 1],
+            lane => &self.lanes[lane],
         }
     }
 
     #[inline]
-    fn place(&self, index: usize) -> Place {
-        if self.places.is_empty() { Place::in_order(index) } else { self.places[index] }
+    fn slot(&self, index: usize) -> Slot {
+        if self.in_lanes() { self.slots[index] } else { Slot::new(IN_ORDER, index) }
     }
 }
 
@@ -246,8 +218,8 @@ impl Index<usize> for Records {
 
     #[inline]
     fn index(&self, index: usize) -> &ContactRecord {
-        let place = self.place(index);
-        &self.table(place.table())[place.index()]
+        let slot = self.slot(index);
+        &self.table(slot)[slot.index()]
     }
 }
 
@@ -255,12 +227,12 @@ impl Index<usize> for Records {
 impl IndexMut<usize> for Records {
     #[inline]
     fn index_mut(&mut self, index: usize) -> &mut ContactRecord {
-        let place = self.place(index);
-        let table = match place.table() {
+        let slot = self.slot(index);
+        let table = match slot.lane() {
             IN_ORDER => &mut self.in_order,
-            lane => &mut self.lanes[lane - 1],
+            lane => &mut self.lanes[lane],
         };
-        &mut table[place.index()]
+        &mut table[slot.index()]
     }
 }
 

@@ -5,7 +5,7 @@ use super::lookup::RecordLookup;
 use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
-use super::records::Place;
+use super::slot::Slot;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
 use crate::energy::episodes::PairEnergies;
@@ -370,7 +370,7 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
                 lanes[lane].push(record_of(&mut random));
             }
             for record in group {
-                written.push((record.key, Place::in_lane(lane, lanes[lane].len())));
+                written.push((record.key, Slot::new(lane, lanes[lane].len())));
                 lanes[lane].push(*record);
             }
         }
@@ -397,7 +397,7 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
 
         // Of one head, the second not behind the first: they cannot stay.
         if let Some(second) = written.windows(2).position(|two| two[0].0.head() == two[1].0.head()) {
-            written[second + 1].1 = Place::in_lane(LANES - 1, 2 * CAPACITY - 1);
+            written[second + 1].1 = Slot::new(LANES - 1, 2 * CAPACITY - 1);
             assert!(!memory.records.adopt(written.iter().map(|(key, place)| (key.head(), *place))));
             assert_eq!(memory.records.len(), 0);
         }

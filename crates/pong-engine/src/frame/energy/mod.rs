@@ -55,7 +55,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
     scratch.reset();
     let continued = scratch.slice(memory.records.len(), false).expect("sealing has sized the scratch");
     for place in order.iter() {
-        let contact = &mut out.contacts[place.index()];
+        let contact = &mut out.contacts[place.slot.index()];
         let found = &contact.found;
         if found.role != ContactRole::Active {
             continue;
@@ -86,7 +86,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         *all_work += work;
         *all_dissipated += dissipated;
         if let Some(accounts) = &mut accounts {
-            accounts.contact(place.index(), contact, earlier, displacement.as_ref());
+            accounts.contact(place.slot.index(), contact, earlier, displacement.as_ref());
         }
     }
     let ended =

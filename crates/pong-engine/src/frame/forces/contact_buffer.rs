@@ -9,7 +9,7 @@ use crate::law::FrictionProps;
 use crate::law::friction::{FrictionInput, FrictionOutput, friction_alone};
 use crate::report::{FrameCounts, WorkTimes};
 use crate::sealed::Sealed;
-use crate::state::{ContactRecord, ContactRole};
+use crate::state::{ContactRecord, ContactRole, Slot};
 use pong_arena::Table;
 use std::mem::swap;
 
@@ -124,8 +124,8 @@ impl ContactBuffer {
 
     /// The slot of what stands at an index here.
     #[inline]
-    pub fn slot_of(&self, index: usize) -> u32 {
-        Place::slot_of(self.lane, index)
+    pub fn slot_of(&self, index: usize) -> Slot {
+        Slot::new(self.lane, index)
     }
 
     /// The numbers of a contact.
@@ -166,6 +166,14 @@ impl ContactBuffer {
         }
     }
 
+    /// The same, if no more can wait.
+    #[inline(always)]
+    pub fn settle_if_full(&mut self) {
+        if self.bristles.is_full() {
+            self.settle();
+        }
+    }
+
     /// Works out all friction that waits and writes what the new contacts add to the wrenches, all at once: of lines that another
     /// core has read, a core that writes to several in a row waits for many at a time, and for each if the writes are far apart.
     pub fn finish(&mut self) {
@@ -188,17 +196,9 @@ impl ContactBuffer {
         self.records.len() == self.contacts.len()
     }
 
-    /// The same, if no more can wait.
-    #[inline(always)]
-    pub fn settle_if_full(&mut self) {
-        if self.bristles.is_full() {
-            self.settle();
-        }
-    }
-
-    /// Takes over all that another buffer of the lane found, without copying a contact, and gives its memory for it.
+    /// Takes over all that another [finished](Self::finish) buffer of the lane found, without copying a contact, and gives its
+    /// memory for it.
     pub fn take_over(&mut self, other: &mut Self) {
-        other.finish();
         debug_assert!(self.lane == other.lane && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
         swap(&mut self.places, &mut other.places);
@@ -208,9 +208,8 @@ impl ContactBuffer {
         (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 
-    /// Takes over all that another buffer found; whether there was room.
-    pub fn absorb(&mut self, other: &mut Self) -> bool {
-        other.settle();
+    /// Copies all that another [finished](Self::finish) buffer found; whether there was room.
+    pub fn absorb(&mut self, other: &Self) -> bool {
         let first = self.contacts.len();
         let room = self.contacts.extend_from_slice(&other.contacts).is_ok()
             && self.law_state.extend_from_slice(&other.law_state).is_ok();
@@ -295,7 +294,7 @@ impl ContactBuffer {
         ranked.sort_unstable();
         for (to, &from) in ranked.iter().enumerate() {
             self.contacts[to] = self.contacts[from as usize];
-            self.places[to] = self.places[from as usize].at(Place::slot_of(self.lane, to));
+            self.places[to] = self.places[from as usize].at(Slot::new(self.lane, to));
             let stride = self.law_state_len;
             let from = from as usize * stride;
             self.law_state.as_mut_slice().copy_within(from..from + stride, to * stride);

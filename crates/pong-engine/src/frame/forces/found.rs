@@ -15,7 +15,7 @@ pub(crate) struct FoundContacts<'a> {
 impl<'a> FoundContacts<'a> {
     #[inline]
     fn lane(&self, place: &Place) -> &'a ContactBuffer {
-        match place.lane() {
+        match place.slot.lane() {
             0 => self.caller,
             worker => &self.workers[worker - 1],
         }
@@ -23,15 +23,15 @@ impl<'a> FoundContacts<'a> {
 
     #[inline]
     pub fn contact(&self, place: &Place) -> &'a FrameContact {
-        &self.lane(place).contacts[place.index()]
+        &self.lane(place).contacts[place.slot.index()]
     }
 
     /// What a contact adds to the wrenches.
     #[inline]
     pub fn term(&self, place: &Place) -> Term {
-        match place.lane() {
-            0 => Term::of(&self.caller.contacts[place.index()]),
-            worker => self.workers[worker - 1].terms[place.index()],
+        match place.slot.lane() {
+            0 => Term::of(&self.caller.contacts[place.slot.index()]),
+            worker => self.workers[worker - 1].terms[place.slot.index()],
         }
     }
 

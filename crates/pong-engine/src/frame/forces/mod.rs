@@ -54,7 +54,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
-    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.index()].found.key;
+    let key_of = |out: &ContactBuffer, place: &Place| out.contacts[place.slot.index()].found.key;
     let mut rest = order.as_slice();
     while let Some(first) = rest.first() {
         let key = key_of(out, first);
@@ -63,9 +63,10 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
         let motion = motions.known(near, input, key.direction());
         let context = PairContext::new(scene, sealed, input, key.direction(), &motion);
         for place in group {
-            let index = place.index();
+            let index = place.slot.index();
             let found = out.contacts[index].found;
-            let share = bristle_share(&found, group.iter().map(|place| &out.contacts[place.index()].found));
+            let share =
+                bristle_share(&found, group.iter().map(|place| &out.contacts[place.slot.index()].found));
             let kind_a = context.body_a.primitives[key.primitive_a as usize].kind;
             out.law_state_mut(index).fill(0.0);
             context.compute_force((kind_a, &found), share, index, out);

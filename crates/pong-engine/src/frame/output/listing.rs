@@ -24,7 +24,7 @@ impl EvaluationBuffers {
     pub fn list_accounts(&self) -> impl Iterator<Item = EnergyAccount> {
         let pushing = self.order.iter().filter(|place| place.pushes());
         pushing.filter_map(|place| {
-            let energy = self.energy.contacts.get(place.index())?.energy;
+            let energy = self.energy.contacts.get(place.slot.index())?.energy;
             Some(EnergyAccount { stored: self.found().contact(place).stored, ..energy.account })
         })
     }

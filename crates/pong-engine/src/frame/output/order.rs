@@ -108,7 +108,7 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
     scratch.reset();
     // (body of A, ray, Object of B, place in the order): hits of one ray on one Object side by side, the first first.
     let mut hits = scratch.list(order.len()).expect("sealing has sized the scratch");
-    for (place, found) in order.iter().map(|place| &out.contacts[place.index()].found).enumerate() {
+    for (place, found) in order.iter().map(|place| &out.contacts[place.slot.index()].found).enumerate() {
         if found.ray_distance < f64::INFINITY {
             let (a, b) = sealed.bodies_of(found.key.direction());
             let hit = (a, found.key.primitive_a, scene.bodies[b].object, place);
@@ -124,15 +124,16 @@ fn keep_first_ray_hits(scene: &Scene, sealed: &Sealed, frame: &mut EvaluationBuf
     for later in hits.windows(2) {
         let [(first, _), (second, _)] = [later[0], later[1]];
         if (first.0, first.1, first.2) == (second.0, second.1, second.2) {
-            out.contacts[order[second.3].index()].found.status = CandidateStatus::Culled;
+            out.contacts[order[second.3].slot.index()].found.status = CandidateStatus::Culled;
         }
     }
-    order.retain(|place| out.contacts[place.index()].found.status != CandidateStatus::Culled);
+    order.retain(|place| out.contacts[place.slot.index()].found.status != CandidateStatus::Culled);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::state::Slot;
     use pong_testkit::Random;
 
     /// Of random records some go on, some more than once, and new contacts come with heads of their own or of another's.
@@ -145,12 +146,12 @@ mod tests {
             let count = 20 + random.below(80);
             let contacts: Vec<Place> = (0..count)
                 .map(|index| match random.below(4) {
-                    0 => Place::new(random.below(64) as u64, Place::slot_of(index % 3, index), true, None),
+                    0 => Place::new(random.below(64) as u64, Slot::new(index % 3, index), true, None),
                     _ => {
                         let record = random.below(heads.len());
                         Place::new(
                             u64::from(heads[record]),
-                            Place::slot_of(index % 3, index),
+                            Slot::new(index % 3, index),
                             true,
                             Some(record as u32),
                         )
@@ -161,12 +162,12 @@ mod tests {
             let mut scratch = Arena::with_capacity(64 * (count + heads.len()));
             put_where_they_were(heads.len(), (count, contacts.iter()), &mut order, &mut scratch);
             assert!(order.is_sorted_by_key(|place| place.head), "case {case}: {order:?}");
-            let mut listed: Vec<_> = order.iter().map(|place| place.index()).collect();
+            let mut listed: Vec<_> = order.iter().map(|place| place.slot.index()).collect();
             listed.sort_unstable();
             assert!(listed.iter().copied().eq(0..contacts.len()), "case {case}");
             for place in order.iter() {
-                let contact = &contacts[place.index()];
-                assert_eq!((place.head, place.lane()), (contact.head, contact.lane()));
+                let contact = &contacts[place.slot.index()];
+                assert_eq!((place.head, place.slot.lane()), (contact.head, contact.slot.lane()));
             }
         }
     }

@@ -7,7 +7,7 @@
 use crate::energy::contact::ContactEnergyRef;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::place::Place;
-use crate::state::{ContactMemory, RecordPlace, Remembered};
+use crate::state::{ContactMemory, Remembered};
 
 /// Replaces all records by those of the frame's contacts.
 pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) {
@@ -29,7 +29,7 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     if !caller.out.remembers_all() || !workers.iter().all(|worker| worker.remembers_all()) {
         return false;
     }
-    let written = order.iter().map(|place| (place.head, RecordPlace::in_lane(place.lane(), place.index())));
+    let written = order.iter().map(|place| (place.head, place.slot));
     if !next.records.adopt(written) {
         return false;
     }
@@ -43,8 +43,8 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
 
 /// Numbers of a registered law and energies of a contact. Where there are any, all contacts stand in the caller's buffer.
 fn beside<'a>(frame: &'a EvaluationBuffers, place: &Place) -> (&'a [f64], Option<ContactEnergyRef<'a>>) {
-    let law_state = frame.caller.out.law_state_of(place.index());
-    (law_state, frame.energy.contacts.get(place.index()))
+    let law_state = frame.caller.out.law_state_of(place.slot.index());
+    (law_state, frame.energy.contacts.get(place.slot.index()))
 }
 
 /// What a commit would remember of the frame's contacts, in order.

@@ -169,7 +169,7 @@ impl WorkerPool {
             times.add(&other.out.times);
             match taken {
                 Some(taken) if as_they_are && other.out.remembers_all() => taken.take_over(&mut other.out),
-                _ if out.absorb(&mut other.out) => {}
+                _ if out.absorb(&other.out) => {}
                 _ => return false,
             }
         }

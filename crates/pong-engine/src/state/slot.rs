@@ -1,0 +1,59 @@
+//! Where something stands that the lanes of a frame have written.
+
+use pong_threads::MAX_WORKERS;
+
+/// Where something stands that a lane has written: the lane, 0 for the caller's, in the highest bits; below, the index there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Slot(u32);
+
+/// Bits of the index; the others tell the lane.
+const INDEX_BITS: u32 = 25;
+
+const _: () = assert!(MAX_WORKERS < Slot::NO_LANE);
+
+impl Slot {
+    /// Further than any index.
+    pub const INDICES: usize = 1 << INDEX_BITS;
+
+    /// A number that is no lane's.
+    pub const NO_LANE: usize = (u32::MAX >> INDEX_BITS) as usize;
+
+    /// Nothing stands here.
+    pub const NOWHERE: Self = Self(u32::MAX);
+
+    #[inline]
+    pub const fn new(lane: usize, index: usize) -> Self {
+        Self((lane << INDEX_BITS | index) as u32)
+    }
+
+    #[inline]
+    pub const fn lane(self) -> usize {
+        (self.0 >> INDEX_BITS) as usize
+    }
+
+    #[inline]
+    pub const fn index(self) -> usize {
+        self.0 as usize & (Self::INDICES - 1)
+    }
+
+    /// The one behind it.
+    #[inline]
+    pub const fn next(self) -> Self {
+        Self(self.0 + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slot_tells_the_lane_and_the_index_that_it_was_made_of() {
+        for (lane, index) in [(0, 0), (0, Slot::INDICES - 1), (1, 0), (MAX_WORKERS, 9)] {
+            let slot = Slot::new(lane, index);
+            assert_eq!((slot.lane(), slot.index()), (lane, index));
+            assert_ne!(slot, Slot::NOWHERE);
+        }
+        assert_eq!(Slot::new(3, 7).next(), Slot::new(3, 8));
+    }
+}
