@@ -130,7 +130,7 @@ impl WorldBuilder {
         scene.objects.push(Object { name: name.to_owned(), model, first_body });
         let bodies = scene.models[model].bodies.len();
         scene.bodies.extend((0..bodies).map(|body| GroupInstance { object, body }));
-        self.states.bodies.resize(first_body + bodies, None);
+        self.states.resize(first_body + bodies);
         Ok(ObjectId::new(scene.stamp, object))
     }
 

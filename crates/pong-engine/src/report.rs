@@ -115,25 +115,26 @@ impl<const KINDS: usize> TallyTable<KINDS> {
         }
     }
 
-    /// The pairs that are in use, in order of A's kind, then B's.
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<KINDS> {
-        let used_in = self.used_in;
-        ones(self.used).flat_map(move |a| ones(used_in[a]).map(move |b| (a, b)))
-    }
-
-    /// The tallies of pairs that were tested.
+    /// The tallies of pairs that were tested, in order of A's kind, then B's.
     fn tested(&self) -> impl Iterator<Item = (usize, usize, Tally)> + '_ {
-        self.pairs().map(|(a, b)| (a, b, self.tallies[a][b])).filter(|(_, _, tally)| tally.tested > 0)
+        let pairs = ones(self.used).flat_map(|a| ones(self.used_in[a]).map(move |b| (a, b)));
+        pairs.map(|(a, b)| (a, b, self.tallies[a][b])).filter(|(_, _, tally)| tally.tested > 0)
     }
 
     fn add(&mut self, other: &Self) {
-        other.pairs().for_each(|(a, b)| self.note(a, b, other.tallies[a][b]));
+        for a in ones(other.used) {
+            for b in ones(other.used_in[a]) {
+                self.note(a, b, other.tallies[a][b]);
+            }
+        }
     }
 
     fn clear(&mut self) {
-        self.pairs().for_each(|(a, b)| self.tallies[a][b] = Tally::default());
-        ones(self.used).for_each(|a| self.used_in[a] = 0);
-        self.used = 0;
+        for a in ones(std::mem::take(&mut self.used)) {
+            for b in ones(std::mem::take(&mut self.used_in[a])) {
+                self.tallies[a][b] = Tally::default();
+            }
+        }
     }
 }
 

@@ -68,7 +68,6 @@ impl Runtime {
         let input = || WorkerInput {
             phase: 0,
             motions: Vec::with_capacity(pairs.min(MOTIONS_AT_ONCE)),
-            memory: Arc::clone(&nothing),
             tables: Arc::clone(&tables),
             blocks: Vec::with_capacity(ROUND),
             clock,
@@ -89,7 +88,7 @@ impl Runtime {
                 }
                 let settings = crate::scene::WorkerSettings { clock: clock.0, ..settings.clone() };
                 leave_room_for_small_things();
-                let started = WorkerPool::start(scene, &sealed, input(), &settings);
+                let started = WorkerPool::start(scene, &sealed, input(), &nothing, &settings);
                 Some(started.map_err(|error| EngineError::Workers { cause: error.to_string() })?)
             }
         };
@@ -148,7 +147,6 @@ impl Runtime {
     /// Once a frame is done, or a law of the host's has panicked in it, only a worker that is stuck may still hold a
     /// contact state.
     fn let_go_of_memory(&mut self) {
-        self.frame.input.memory = Arc::clone(&self.nothing);
         if let Some(pool) = &mut self.pool {
             pool.release(&self.nothing);
         }

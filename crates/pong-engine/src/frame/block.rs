@@ -5,14 +5,13 @@ use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
-use crate::frame::input::{Block, PairContext, WorkerInput};
+use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
 use crate::frame::worker_context::WorkerContext;
 use crate::frame::{forces, load_sharing};
 use crate::report::{FrameCounts, Laps, Timed, Untimed, Work};
-use crate::scene::Scene;
-use crate::sealed::{Direction, Sealed};
+use crate::sealed::Direction;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::{self, Kernel, LANES, LaneBits, Simd};
 use pong_model::Batch;
@@ -30,29 +29,20 @@ pub(crate) fn arena_bytes(nodes: usize, batches: usize) -> usize {
 
 /// Runs some blocks; what they find goes to the context of the thread. Neighbours are run as one: to begin a block takes as long
 /// as to test a few elements. Where no clock was lent, there is no trace of one either.
-pub(crate) fn run_blocks(
-    scene: &Scene,
-    sealed: &Sealed,
-    input: &WorkerInput,
-    blocks: Range<usize>,
-    worker: &mut WorkerContext,
-) {
-    for block in joined(&input.blocks[blocks]) {
+pub(crate) fn run_blocks(round: &Round<'_>, blocks: Range<usize>, worker: &mut WorkerContext) {
+    let clock = round.input.clock.0;
+    for block in joined(&round.input.blocks[blocks]) {
         worker.arena.reset();
         let worker = &mut *worker;
-        match input.clock.0 {
-            None => simd::run(BlockWork { scene, sealed, input, block, worker, laps: Untimed }),
-            Some(now) => {
-                simd::run(BlockWork { scene, sealed, input, block, worker, laps: Timed::start(now) })
-            }
+        match clock {
+            None => simd::run(BlockWork { round, block, worker, laps: Untimed }),
+            Some(now) => simd::run(BlockWork { round, block, worker, laps: Timed::start(now) }),
         }
     }
 }
 
 struct BlockWork<'a, L> {
-    scene: &'a Scene,
-    sealed: &'a Sealed,
-    input: &'a WorkerInput,
+    round: &'a Round<'a>,
     block: Block,
     worker: &'a mut WorkerContext,
     laps: L,
@@ -63,12 +53,13 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { scene, sealed, input, block, worker, mut laps } = self;
+        let Self { round, block, worker, mut laps } = self;
+        let Round { sealed, input, .. } = *round;
         let Direction { group_pair, flipped } = block.direction;
         let plan = sealed.group_pairs[group_pair as usize].plans[flipped as usize];
         let plan = &sealed.plans[plan as usize];
         let motion = &input.motions[block.slot as usize][flipped as usize];
-        let context = PairContext::new(scene, sealed, input, block.direction, motion);
+        let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
         let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, out } = worker;
         let room = "sealing has sized the arena";

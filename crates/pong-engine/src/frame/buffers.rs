@@ -10,7 +10,7 @@ use crate::frame::input::relative::Motions;
 use crate::frame::near_pairs::NearPairs;
 use crate::frame::tunnelling::events::TunnellingEvents;
 use crate::frame::worker_context::WorkerContext;
-use crate::report::{FrameCounts, FrameReport, StageTimes};
+use crate::report::{FrameReport, StageTimes};
 use crate::scene::Scene;
 use crate::sealed::{Direction, Sealed};
 use crate::state::CommittedPoses;
@@ -42,7 +42,6 @@ pub(crate) struct EvaluationBuffers {
     /// Whose contact has numbers that nearly leave the range of numbers, if any.
     pub beyond_range: Option<Direction>,
     pub report: FrameReport,
-    pub counts: FrameCounts,
     pub times: StageTimes,
 }
 
@@ -68,7 +67,6 @@ impl EvaluationBuffers {
             wrenches: vec![Wrench::zero(); bodies],
             beyond_range: None,
             report: FrameReport::default(),
-            counts: FrameCounts::default(),
             times: StageTimes::default(),
         }
     }
@@ -83,7 +81,6 @@ impl EvaluationBuffers {
         self.workers.iter_mut().for_each(|worker| worker.begin(ContactBuffer::NO_PHASE));
         self.beyond_range = None;
         self.report = FrameReport::default();
-        self.counts.clear();
         self.times = StageTimes::default();
     }
 

@@ -38,7 +38,6 @@ use forces::contact_buffer::ContactBuffer;
 use input::relative::Motions;
 use input::states;
 use output::{order, reduce};
-use std::sync::Arc;
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
 pub(crate) fn evaluate(
@@ -70,15 +69,15 @@ fn find_contacts(
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, workers, counts, times, near, poses, twists, .. } = frame;
+    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    (input.memory, input.clock) = (Arc::clone(memory), clock);
+    input.clock = clock;
     if let Some(pool) = &mut pool {
         pool.begin_frame();
     }
     // What is between the rounds is the caller's.
     let (mut laps, mut layout) = (clock.start(), WorkTimes::default());
-    let mut work = |input: &mut WorkerInput, cost_ns| {
+    let mut work = |input: &mut WorkerInput, caller: &mut WorkerContext, cost_ns| {
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
         // There may be more than one round: what workers have found in the one before gives way to what they find in this one.
@@ -86,23 +85,22 @@ fn find_contacts(
             assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
             worker.begin(ContactBuffer::NO_PHASE);
         }
-        let shared = pool.as_mut().is_some_and(|pool| run_parallel(pool, input, cost_ns, caller, workers));
+        let shared = pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
         if !shared {
-            block::run_blocks(scene, sealed, input, 0..input.blocks.len(), caller);
+            block::run_blocks(&given.round(input), 0..input.blocks.len(), caller);
         }
         laps = clock.start();
     };
     for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
         motions.relate(pairs, &mut input.motions);
-        blocks::lay_out(scene, sealed, pairs, input, counts, &mut work);
+        blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);
     caller.out.settle();
     caller.out.times.add(&layout);
-    counts.add(&caller.out.counts);
     for worker in workers {
         caller.out.demand.add(&worker.demand);
-        counts.add(&worker.counts);
+        caller.out.counts.add(&worker.counts);
     }
     times.work = caller.out.times;
     if let Some(pool) = pool {
@@ -112,17 +110,17 @@ fn find_contacts(
 
 /// Whether the workers have done this round, which may cost so much, ns. If not, the buffer is as it was before.
 fn run_parallel(
+    given: &EvaluationInput<'_>,
     pool: &mut WorkerPool,
-    input: &WorkerInput,
-    cost_ns: u64,
+    (input, cost_ns): (&WorkerInput, u64),
     caller: &mut WorkerContext,
     workers: &mut [ContactBuffer],
 ) -> bool {
-    if !pool.is_worth(input, cost_ns) {
+    if !pool.is_worth(given.memory.records.len(), input.blocks.len(), cost_ns) {
         return false;
     }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(input, caller, workers);
+    let done = pool.run_parallel(given.memory, input, caller, workers);
     if !done {
         caller.out.restore(&before);
     }

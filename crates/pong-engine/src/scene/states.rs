@@ -4,17 +4,26 @@ use super::Scene;
 use crate::error::EngineError;
 use crate::ids::InterfaceId;
 use pong_geometry::{Pose, Twist, Vec3};
+use std::ops::RangeInclusive;
 
 /// What the host sets at any time.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct States {
     /// One per movable group, if it was set.
     pub bodies: Vec<Option<State>>,
+    /// Their poses, the quaternions normalised.
+    pub poses: Vec<Pose>,
     /// One per pair of Objects: whether it is tested.
     pub enabled: Vec<bool>,
 }
 
 impl States {
+    /// Room for so many movable groups, none of which was set yet beyond those that are there.
+    pub fn resize(&mut self, bodies: usize) {
+        self.bodies.resize(bodies, None);
+        self.poses.resize(bodies, Pose::identity());
+    }
+
     /// Sets the states of movable groups: all of them, or, if any is refused, none. Answers whether any differs from the one
     /// that was set before.
     pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
@@ -27,9 +36,11 @@ impl States {
         }
         let mut changed = false;
         for (interface, state) in states {
-            let known = &mut self.bodies[scene.body_index(*interface)?];
+            let body = scene.body_index(*interface)?;
+            let known = &mut self.bodies[body];
             if !known.as_ref().is_some_and(|known| known.has_bits_of(state)) {
                 *known = Some(*state);
+                self.poses[body] = state.pose();
                 changed = true;
             }
         }
@@ -44,6 +55,12 @@ impl States {
 
 /// How far a quaternion's norm may be from 1.
 const NORM_ERROR_MAX: f64 = 1e-3;
+
+/// Squares of the least and the largest norm.
+const NORM_SQUARES: RangeInclusive<f64> = {
+    let [least, largest] = [1.0 - NORM_ERROR_MAX, 1.0 + NORM_ERROR_MAX];
+    least * least..=largest * largest
+};
 
 /// State of a movable group relative to and expressed in the common frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +113,7 @@ impl State {
         let is_small = |value: &f64| (value.to_bits() & SIZE) as i64 <= Self::LARGEST.to_bits() as i64;
         let small = |values: &[f64]| values.iter().fold(true, |all, value| all & is_small(value));
         let vectors = small(&self.position) & small(&self.linear_velocity) & small(&self.angular_velocity);
-        vectors & small(&self.orientation) && (self.norm() - 1.0).abs() <= NORM_ERROR_MAX
+        vectors & small(&self.orientation) && NORM_SQUARES.contains(&self.norm_square())
     }
 
     /// Whether every number is the same to the bit. As [`is_acceptable`](Self::is_acceptable), not short of any number.
@@ -110,8 +127,8 @@ impl State {
     }
 
     /// Of the quaternion.
-    fn norm(&self) -> f64 {
-        self.orientation.iter().map(|x| x * x).sum::<f64>().sqrt()
+    fn norm_square(&self) -> f64 {
+        self.orientation.iter().map(|x| x * x).sum()
     }
 
     /// The velocities.
@@ -139,5 +156,5 @@ fn why_refused(state: &State) -> String {
             );
         }
     }
-    format!("the quaternion has norm {}; give a unit quaternion (w, x, y, z)", state.norm())
+    format!("the quaternion has norm {}; give a unit quaternion (w, x, y, z)", state.norm_square().sqrt())
 }

@@ -81,7 +81,7 @@ impl World {
 
     /// How often what was tested in the last frame, and what that found.
     pub fn counts(&self) -> FrameCounts {
-        self.runtime.frame.counts
+        self.runtime.frame.caller.out.counts
     }
 
     /// What runs, if a frame has been computed.

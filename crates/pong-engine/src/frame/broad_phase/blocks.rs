@@ -2,6 +2,7 @@
 
 use crate::frame::broad_phase::candidate_pairs::SUPERCHUNK;
 use crate::frame::input::{Block, PairContext, WorkerInput};
+use crate::frame::worker_context::WorkerContext;
 use crate::report::FrameCounts;
 use crate::scene::Scene;
 use crate::sealed::{Direction, Plan, Sealed};
@@ -24,14 +25,13 @@ const NODE_NS: u32 = 4000;
 const BLOCK_NS: u32 = 1000;
 
 /// Lays out all blocks of some pairs, whose motions stand in their order, and calls `work` with them whenever a round is
-/// full and at the end. Every call is told what the round may cost, ns.
+/// full and at the end. Every call is told what the round may cost, ns. What is asked is counted where the caller counts.
 pub(crate) fn lay_out(
     scene: &Scene,
     sealed: &Sealed,
     pairs: &[u32],
-    input: &mut WorkerInput,
-    counts: &mut FrameCounts,
-    work: &mut dyn FnMut(&mut WorkerInput, u64),
+    (input, caller): (&mut WorkerInput, &mut WorkerContext),
+    work: &mut dyn FnMut(&mut WorkerInput, &mut WorkerContext, u64),
 ) {
     let mut cost = 0;
     input.blocks.clear();
@@ -48,14 +48,14 @@ pub(crate) fn lay_out(
                 slot,
                 leads: true,
                 input,
-                counts,
+                caller,
                 cost: &mut cost,
                 work,
             };
             layout.visit_leaves(0);
         }
     }
-    work(input, cost);
+    work(input, caller, cost);
     input.blocks.clear();
 }
 
@@ -70,9 +70,9 @@ struct Layout<'a, 'w> {
     /// Whether no block of the batch in hand has been laid out yet.
     leads: bool,
     input: &'a mut WorkerInput,
-    counts: &'a mut FrameCounts,
+    caller: &'a mut WorkerContext,
     cost: &'a mut u64,
-    work: &'a mut (dyn FnMut(&mut WorkerInput, u64) + 'w),
+    work: &'a mut (dyn FnMut(&mut WorkerInput, &mut WorkerContext, u64) + 'w),
 }
 
 impl Layout<'_, '_> {
@@ -84,7 +84,7 @@ impl Layout<'_, '_> {
     fn reaches_b(&mut self, volume: &Volume) -> bool {
         let root = &self.bodies.1.tree.nodes[0].volume;
         let meets = self.sealed.volume_tests.overlap(volume, root, &self.x_ba());
-        self.counts.note_volumes(volume, root, meets);
+        self.caller.out.counts.note_volumes(volume, root, meets);
         meets
     }
 
@@ -142,7 +142,7 @@ impl Layout<'_, '_> {
         self.leads = false;
         *self.cost += cost;
         if self.input.blocks.len() == ROUND {
-            (self.work)(self.input, *self.cost);
+            (self.work)(self.input, self.caller, *self.cost);
             self.input.blocks.clear();
             *self.cost = 0;
         }

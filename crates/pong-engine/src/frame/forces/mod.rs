@@ -50,7 +50,7 @@ pub(crate) fn compute_forces(
 
 /// Computes forces again, after some of their keys were left out by a limit: what is left carries the bristle.
 pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { scene, sealed, memory, .. } = *given;
+    let EvaluationInput { sealed, memory, .. } = *given;
     let EvaluationBuffers { input, caller, order, near, poses, twists, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
     let out = &mut caller.out;
@@ -61,7 +61,7 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
         let group;
         (group, rest) = rest.split_at(rest.iter().take_while(|place| key_of(out, place) == key).count());
         let motion = motions.known(near, input, key.direction());
-        let context = PairContext::new(scene, sealed, input, key.direction(), &motion);
+        let context = PairContext::new(&given.round(input), key.direction(), &motion);
         for place in group {
             let index = place.slot.index();
             let found = out.contacts[index].found;

@@ -24,15 +24,13 @@ pub(crate) struct EvaluationInput<'a> {
     pub clock: Clock,
 }
 
-/// One frame's input.
+/// One frame's input, beside the contact state.
 #[derive(Clone)]
 pub(crate) struct WorkerInput {
     /// Number of the phase: what a context holds of another one is stale.
     pub phase: u64,
     /// Two directions of every pair of movable groups of this phase.
     pub motions: Vec<[Motion; 2]>,
-    /// Committed contact state.
-    pub memory: Arc<ContactMemory>,
     /// Values of all pairs of surfaces.
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The work of this phase.
@@ -59,6 +57,13 @@ pub(crate) struct Block {
     pub leads: bool,
 }
 
+impl<'a> EvaluationInput<'a> {
+    /// The same, as the blocks of a round see it.
+    pub fn round(&self, input: &'a WorkerInput) -> Round<'a> {
+        Round { scene: self.scene, sealed: self.sealed, memory: self.memory, input }
+    }
+}
+
 impl WorkerInput {
     /// Takes over another frame's input without asking for memory.
     pub fn copy_from(&mut self, other: &Self) {
@@ -66,11 +71,20 @@ impl WorkerInput {
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
-        self.memory = Arc::clone(&other.memory);
         self.tables = Arc::clone(&other.tables);
         self.blocks.clear();
         self.blocks.extend_from_slice(&other.blocks);
     }
+}
+
+/// What the blocks of a round are worked out from.
+#[derive(Clone, Copy)]
+pub(crate) struct Round<'a> {
+    pub scene: &'a Scene,
+    pub sealed: &'a Sealed,
+    /// Committed contact state.
+    pub memory: &'a ContactMemory,
+    pub input: &'a WorkerInput,
 }
 
 /// One direction of a pair of movable groups, as the testers see it.
@@ -95,13 +109,8 @@ pub(crate) struct PairContext<'a> {
 }
 
 impl<'a> PairContext<'a> {
-    pub fn new(
-        scene: &'a Scene,
-        sealed: &'a Sealed,
-        input: &'a WorkerInput,
-        direction: Direction,
-        motion: &'a Motion,
-    ) -> Self {
+    pub fn new(round: &Round<'a>, direction: Direction, motion: &'a Motion) -> Self {
+        let Round { scene, sealed, memory, input } = *round;
         let Direction { group_pair, flipped } = direction;
         let pair = &sealed.group_pairs[group_pair as usize];
         let (a, b) = sealed.bodies_of(direction);
@@ -112,7 +121,7 @@ impl<'a> PairContext<'a> {
             body_a: scene.body(a),
             body_b: scene.body(b),
             motion,
-            memory: RecordLookup::new(&input.memory),
+            memory: RecordLookup::new(memory),
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,

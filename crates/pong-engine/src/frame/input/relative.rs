@@ -25,8 +25,12 @@ pub(crate) struct Motions<'a> {
 impl Motions<'_> {
     /// Fills in the motions of some pairs, in the directions in which something can be found.
     pub fn relate(&self, pairs: &[u32], out: &mut Vec<[Motion; 2]>) {
-        // What is of no use stays as it is: both directions may be written, and few are not.
-        out.resize(pairs.len(), [Motion::none(); 2]);
+        // What is of no use stays as it is: both directions may be written, and few are not. As a rule there are as many as in
+        // the frame before, and nothing is made only to be thrown away.
+        if out.len() < pairs.len() {
+            out.resize(pairs.len(), [Motion::none(); 2]);
+        }
+        out.truncate(pairs.len());
         for (motions, &group_pair) in out.iter_mut().zip(pairs) {
             for (_, direction) in self.sealed.plans_of(group_pair) {
                 motions[direction.flipped as usize] = self.of(direction);

@@ -25,7 +25,7 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
 pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {
-            frame.poses[body] = state.pose();
+            frame.poses[body] = states.poses[body];
             // In place: a copy of what was just set would be waited for.
             let twist = &mut frame.twists[body];
             twist.linear.copy_from_slice(&state.linear_velocity);

@@ -12,7 +12,7 @@
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::bristle_share;
 use crate::frame::forces::contact::FrameContact;
-use crate::frame::input::PairContext;
+use crate::frame::input::{PairContext, Round};
 use crate::law::FrictionProps;
 use crate::law::friction::shortened;
 use crate::scene::Scene;
@@ -85,6 +85,7 @@ impl EvaluationBuffers {
 
     fn held(&self, scene: &Scene, sealed: &Sealed, memory: &ContactMemory, pair: usize) -> Vec<Held<'_>> {
         let motions = self.motions(sealed, &memory.poses);
+        let round = Round { scene, sealed, memory, input: &self.input };
         let contact_at = |place: usize| self.found().contact(&self.order[place]);
         let places: Vec<usize> = (0..self.order.len()).collect();
         let mut all = Vec::new();
@@ -94,7 +95,7 @@ impl EvaluationBuffers {
                 continue;
             }
             let motion = motions.known(&self.near, &self.input, key.direction());
-            let context = PairContext::new(scene, sealed, &self.input, key.direction(), &motion);
+            let context = PairContext::new(&round, key.direction(), &motion);
             for place in group {
                 let contact = contact_at(*place);
                 let props = context.props(&contact.found);

@@ -8,7 +8,7 @@ use crate::frame::input::motion::Motion;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
 use crate::sealed::{Direction, Plan};
-use crate::state::{ContactKey, ContactRecord, ContactRole, RecordLookup};
+use crate::state::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::primitive::PrimitiveKind;
 use pong_geometry::simd::Portable;
@@ -33,8 +33,7 @@ impl<'a> Seen<'a> {
         frame: &'a EvaluationBuffers,
     ) -> Self {
         let bodies = given.sealed.bodies_of(direction);
-        let mut context = PairContext::new(given.scene, given.sealed, &frame.input, direction, motion);
-        context.memory = RecordLookup::new(given.memory);
+        let context = PairContext::new(&given.round(&frame.input), direction, motion);
         Self { context, bodies, frame }
     }
 

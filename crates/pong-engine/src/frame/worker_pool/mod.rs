@@ -9,7 +9,7 @@ mod tests;
 
 use crate::frame::block;
 use crate::frame::forces::contact_buffer::ContactBuffer;
-use crate::frame::input::WorkerInput;
+use crate::frame::input::{Round, WorkerInput};
 use crate::frame::worker_context::WorkerContext;
 use crate::report::WorkTimes;
 use crate::scene::Scene;
@@ -46,9 +46,16 @@ struct Shared {
     scene: Arc<Scene>,
     sealed: Arc<Sealed>,
     /// Apart from its lock: every claim writes to that.
-    input: RwLock<Box<WorkerInput>>,
+    lent: RwLock<Box<Lent>>,
     /// One per worker.
     contexts: Vec<Mutex<Box<WorkerContext>>>,
+}
+
+/// What the caller lends for a round.
+struct Lent {
+    input: WorkerInput,
+    /// Committed contact state.
+    memory: Arc<ContactMemory>,
 }
 
 impl Job for Shared {
@@ -58,22 +65,35 @@ impl Job for Shared {
 
     /// On a worker: the caller runs its blocks in its own context.
     fn run_neighbors(&self, blocks: Range<u32>, lane: usize) {
-        let input = self.input.read().unwrap_or_else(PoisonError::into_inner);
+        let lent = self.lent.read().unwrap_or_else(PoisonError::into_inner);
+        let Lent { input, memory } = &**lent;
         let mut context = locked(&self.contexts[lane - 1]);
         if context.out.phase != input.phase {
             context.out.begin(input.phase);
-            input.memory.records.fetch();
+            memory.records.fetch();
         }
-        self.run_blocks(&input, blocks, &mut context);
+        self.run_blocks((input, memory), blocks, &mut context);
         // Here and not by the caller, on whose core nothing of it is.
         context.out.finish();
     }
 }
 
+impl Lent {
+    fn copy_from(&mut self, input: &WorkerInput, memory: &Arc<ContactMemory>) {
+        self.input.copy_from(input);
+        self.memory = Arc::clone(memory);
+    }
+}
+
 impl Shared {
-    fn run_blocks(&self, input: &WorkerInput, blocks: Range<u32>, context: &mut WorkerContext) {
-        let blocks = blocks.start as usize..blocks.end as usize;
-        block::run_blocks(&self.scene, &self.sealed, input, blocks, context);
+    fn run_blocks(
+        &self,
+        (input, memory): (&WorkerInput, &ContactMemory),
+        blocks: Range<u32>,
+        context: &mut WorkerContext,
+    ) {
+        let round = Round { scene: &self.scene, sealed: &self.sealed, memory, input };
+        block::run_blocks(&round, blocks.start as usize..blocks.end as usize, context);
     }
 }
 
@@ -88,6 +108,7 @@ impl WorkerPool {
         scene: &Arc<Scene>,
         sealed: &Arc<Sealed>,
         input: WorkerInput,
+        nothing: &Arc<ContactMemory>,
         settings: &Settings,
     ) -> Result<Self, StartError> {
         let workers = settings.workers_granted();
@@ -95,7 +116,7 @@ impl WorkerPool {
         let shared = Arc::new(Shared {
             scene: Arc::clone(scene),
             sealed: Arc::clone(sealed),
-            input: RwLock::new(Box::new(input)),
+            lent: RwLock::new(Box::new(Lent { input, memory: Arc::clone(nothing) })),
             contexts: (1..=workers)
                 .map(|lane| Mutex::new(Box::new(WorkerContext::new(sealed, lane, contacts))))
                 .collect(),
@@ -105,12 +126,12 @@ impl WorkerPool {
         Ok(Self { pool, shared, timeouts: 0, lent: false, times })
     }
 
-    /// Whether a round whose tests may cost so much, ns, is sooner done by all than by the caller alone. What touched at the
-    /// last commit, as a rule touches now, and costs as much again.
-    pub fn is_worth(&mut self, input: &WorkerInput, cost_ns: u64) -> bool {
-        let cost_ns = cost_ns + input.memory.records.len() as u64 * CONTACT_NS;
+    /// Whether a round of so many blocks whose tests may cost so much, ns, is sooner done by all than by the caller alone. What
+    /// touched at the last commit, so many `records`, as a rule touches now, and costs as much again.
+    pub fn is_worth(&mut self, records: usize, blocks: usize, cost_ns: u64) -> bool {
+        let cost_ns = cost_ns + records as u64 * CONTACT_NS;
         cost_ns >= WORTH_SHARING_NS
-            && input.blocks.len() >= 2
+            && blocks >= 2
             && (self.pool.has_workers_at_hand() || (cost_ns >= WORTH_WAKING_NS && self.pool.workers() > 0))
     }
 
@@ -118,6 +139,7 @@ impl WorkerPool {
     /// for each worker. If not, the caller does it all again by itself.
     pub fn run_parallel(
         &mut self,
+        memory: &Arc<ContactMemory>,
         input: &WorkerInput,
         context: &mut WorkerContext,
         taken: &mut [ContactBuffer],
@@ -128,16 +150,16 @@ impl WorkerPool {
             return false;
         }
         self.lent = true;
-        match self.shared.input.try_write() {
-            Ok(mut shared) => shared.copy_from(input),
-            Err(TryLockError::Poisoned(shared)) => shared.into_inner().copy_from(input),
+        match self.shared.lent.try_write() {
+            Ok(mut lent) => lent.copy_from(input, memory),
+            Err(TryLockError::Poisoned(lent)) => lent.into_inner().copy_from(input, memory),
             Err(TryLockError::WouldBlock) => {
                 self.timeouts += 1;
                 return false;
             }
         }
         context.out.shares = true;
-        let own = &mut |blocks| self.shared.run_blocks(input, blocks, context);
+        let own = &mut |blocks| self.shared.run_blocks((input, memory), blocks, context);
         let outcome = self.pool.run_beside(input.blocks.len() as u32, own);
         context.out.shares = false;
         if outcome == Outcome::Abandoned {
@@ -189,17 +211,17 @@ impl WorkerPool {
     /// Lets go of the contact state that the workers were given, unless one still reads it.
     pub fn release(&mut self, nothing: &Arc<ContactMemory>) {
         if self.lent
-            && let Ok(mut shared) = self.shared.input.try_write()
+            && let Ok(mut lent) = self.shared.lent.try_write()
         {
-            shared.memory = Arc::clone(nothing);
+            lent.memory = Arc::clone(nothing);
             self.lent = false;
         }
     }
 
     /// Replaces the values of surfaces that the workers were given, unless one still reads them.
     pub fn set_tables(&self, tables: &Arc<Vec<SurfaceTable>>) {
-        if let Ok(mut shared) = self.shared.input.try_write() {
-            shared.tables = Arc::clone(tables);
+        if let Ok(mut lent) = self.shared.lent.try_write() {
+            lent.input.tables = Arc::clone(tables);
         }
     }
 
