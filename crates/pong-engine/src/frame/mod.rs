@@ -85,7 +85,8 @@ fn find_contacts(
             assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
             worker.begin(ContactBuffer::NO_PHASE);
         }
-        let shared = pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
+        let shared =
+            pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
         if !shared {
             block::run_blocks(&given.round(input), 0..input.blocks.len(), caller);
         }

@@ -71,7 +71,13 @@ impl EllipsoidOnTriangles {
         Self { ellipsoid: *ellipsoid, prepared: PreparedEllipsoid::new(ellipsoid) }
     }
 
-    /// As [`ellipsoid_triangle`].
+    /// As it was.
+    pub fn ellipsoid(&self) -> &Ellipsoid {
+        &self.ellipsoid
+    }
+
+    /// As [`ellipsoid_triangle`]. Of many triangles near an ellipsoid, most touch nothing:
+    /// [`EllipsoidTrianglePairs`](super::ellipsoid_triangle_pairs::EllipsoidTrianglePairs) tells sooner.
     pub fn test(
         &self,
         set: &TriangleSet,
@@ -79,49 +85,7 @@ impl EllipsoidOnTriangles {
         thickness: f64,
         emit: &mut dyn FnMut(TriangleContact),
     ) {
-        let corners = set.corners(triangle);
-        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
-        if !self.is_certainly_beside(&corners, &normal, thickness) {
-            let view = TriangleView { index: triangle, corners, normal: normal.normalize() };
-            self.test_near(set, &view, thickness, emit);
-        }
-    }
-
-    /// Whether the first two tests of [`test_near`](Self::test_near) certainly say no, told without a root from a normal
-    /// of any length.
-    fn is_certainly_beside(&self, corners: &[Vec3; 3], normal: &Vec3, thickness: f64) -> bool {
-        let (e, from_first) = (&self.prepared, self.ellipsoid.center - corners[0]);
-        let (height, normal_square) = (normal.dot(&from_first), normal.norm_squared());
-        let behind = if height < 0.0 { thickness * thickness * normal_square } else { 0.0 };
-        let reach_square = e.widened(normal).norm_squared().max(behind);
-        let mut is_beside = self.exceeds(height, reach_square, normal, &from_first);
-        for k in 0..3 {
-            let outward = (corners[(k + 1) % 3] - corners[k]).cross(normal);
-            let arm = self.ellipsoid.center - corners[k];
-            let beyond = outward.dot(&arm);
-            let reach_square = e.widened(&outward).norm_squared();
-            is_beside |= beyond > 0.0 && self.exceeds(beyond, reach_square, &outward, &arm);
-        }
-        is_beside
-    }
-
-    /// Whether the product of two vectors certainly exceeds a reach, whatever rounding does to either.
-    fn exceeds(&self, product: f64, reach_square: f64, a: &Vec3, b: &Vec3) -> bool {
-        /// Both far beyond rounding: for products and reaches that are as large as the vectors allow, and for the rest.
-        const SLACK: f64 = 1e-9;
-        const SMALL_SLACK: f64 = 1e-18;
-        let largest = self.prepared.largest;
-        let most = a.norm_squared() * (b.norm_squared() + largest * largest);
-        product * product > reach_square * (1.0 + SLACK) + SMALL_SLACK * most
-    }
-
-    fn test_near(
-        &self,
-        set: &TriangleSet,
-        view: &TriangleView,
-        thickness: f64,
-        emit: &mut dyn FnMut(TriangleContact),
-    ) {
+        let view = &TriangleView::new(set, triangle);
         let (ellipsoid, prepared) = (&self.ellipsoid, &self.prepared);
         let height = view.height(&ellipsoid.center);
         let half_width = prepared.widened(&view.normal).norm();

@@ -7,12 +7,10 @@
 //! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
 //! nothing.
 
+use super::triangle_lanes::{EightVectors, NOTHING, put, put_corners};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
-
-/// Vectors, coordinate by coordinate.
-type EightVectors = [[f64; LANES]; 3];
 
 /// By how much a product of two vectors exceeds zero, as a share of their lengths, before it points along for certain:
 /// twice what the test of one pair takes, so that rounding of the roots there does not matter.
@@ -33,8 +31,8 @@ pub struct SphereTrianglePairs {
 impl Default for SphereTrianglePairs {
     fn default() -> Self {
         Self {
-            corners: [[[0.0; LANES]; 3]; 3],
-            centers: [[0.0; LANES]; 3],
+            corners: [NOTHING; 3],
+            centers: NOTHING,
             radii: [0.0; LANES],
             thicknesses: [0.0; LANES],
             may_push: [0; LANES],
@@ -61,18 +59,11 @@ impl SphereTrianglePairs {
     #[inline(always)]
     pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) {
         let lane = self.count;
-        let record = &set.triangles[triangle as usize];
-        for (corner, &vertex) in self.corners.iter_mut().zip(&record.vertices) {
-            let vertex = &set.vertices[vertex as usize];
-            (corner[0][lane], corner[1][lane], corner[2][lane]) = (vertex.x, vertex.y, vertex.z);
-        }
-        let center = &sphere.center;
-        for axis in 0..3 {
-            self.centers[axis][lane] = center[axis];
-        }
+        put_corners(&mut self.corners, lane, set, triangle);
+        put(&mut self.centers, lane, &sphere.center);
         self.radii[lane] = sphere.radius;
         self.thicknesses[lane] = thickness;
-        self.may_push[lane] = record.may_push.0;
+        self.may_push[lane] = set.triangles[triangle as usize].may_push.0;
         self.count += 1;
     }
 

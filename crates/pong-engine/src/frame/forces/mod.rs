@@ -222,7 +222,10 @@ impl PairContext<'_> {
 
     /// φ, worked out once for all contacts of the pair.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
-        self.rotation_b.get_or_init(|| since.rotation())
+        if self.rotation_b.get().is_none() {
+            _ = self.rotation_b.set(since.rotation());
+        }
+        self.rotation_b.get().expect("it was set")
     }
 
     /// u, in the present contact plane: the displacement of A since the last commit where it touches,

@@ -10,6 +10,7 @@ use crate::state::ContactKey;
 use pong_arena::Table;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
+use pong_geometry::interference::ellipsoid_triangle_pairs::EllipsoidTrianglePairs;
 use pong_geometry::interference::sphere_triangle_pairs::SphereTrianglePairs;
 use pong_geometry::primitive::{Capsule, Containment, PrimitiveKind, Sphere};
 use pong_geometry::simd::LANES;
@@ -27,10 +28,12 @@ pub(crate) struct ChunkCandidates<'m> {
     pub sides: KnownSides,
 }
 
-/// Spheres that may touch triangles. Their tests are deferred until eight are together or the batch of B ends.
+/// Spheres or ellipsoids that may touch triangles. Their tests are deferred until eight are together or the batch of B ends. A
+/// chunk has elements of one kind.
 #[derive(Debug)]
 pub(crate) struct DeferredPairs {
-    pub pairs: SphereTrianglePairs,
+    pub spheres: SphereTrianglePairs,
+    pub ellipsoids: EllipsoidTrianglePairs,
     /// Of each pair the lane of A and the triangle.
     pub from: [(u8, Item); LANES],
 }
@@ -38,7 +41,11 @@ pub(crate) struct DeferredPairs {
 impl Default for DeferredPairs {
     fn default() -> Self {
         let nobody = Item { primitive: 0, element: 0 };
-        Self { pairs: SphereTrianglePairs::default(), from: [(0, nobody); LANES] }
+        Self {
+            spheres: SphereTrianglePairs::default(),
+            ellipsoids: EllipsoidTrianglePairs::default(),
+            from: [(0, nobody); LANES],
+        }
     }
 }
 
@@ -46,7 +53,8 @@ impl<'m> ChunkCandidates<'m> {
     pub fn new(list: &'m mut Table<ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
         // A panic may have left some.
         list.clear();
-        deferred.pairs.clear();
+        deferred.spheres.clear();
+        deferred.ellipsoids.clear();
         Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
     }
 
@@ -58,7 +66,7 @@ impl<'m> ChunkCandidates<'m> {
     /// Whether pairs were put off that are not tested yet.
     #[inline]
     pub fn has_deferred(&self) -> bool {
-        self.deferred.pairs.count() > 0
+        self.deferred.spheres.count() + self.deferred.ellipsoids.count() > 0
     }
 
     /// A place for one candidate more; the caller writes all of it.

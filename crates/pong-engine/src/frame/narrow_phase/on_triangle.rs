@@ -83,7 +83,7 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
             note_sphere(&Sphere { center, radius: capsule.radius });
         }
         Some(TransformedPrimitive::Ellipsoid(ellipsoid)) => {
-            let thickness = thickness_for_ellipsoid(pair, &ellipsoid);
+            let thickness = thickness_for_ellipsoid(pair.context, pair.item_b, &ellipsoid);
             ellipsoid_triangle(&ellipsoid, set, triangle, thickness, &mut note);
         }
         _ => {}
@@ -92,8 +92,13 @@ fn touched_triangle_behind(pair: &ElementPair<'_>, end: Option<u32>, feature: Fe
 }
 
 /// How far behind a triangle the centre of an ellipsoid is still pushed to the front, m.
-pub(crate) fn thickness_for_ellipsoid(pair: &ElementPair<'_>, ellipsoid: &Ellipsoid) -> f64 {
-    pair.info_b().thickness.unwrap_or(ellipsoid.smallest_semi_axis())
+pub(crate) fn thickness_for_ellipsoid(
+    context: &PairContext<'_>,
+    triangle: Item,
+    ellipsoid: &Ellipsoid,
+) -> f64 {
+    let given = context.body_b.primitives[triangle.primitive as usize].thickness;
+    given.unwrap_or(ellipsoid.smallest_semi_axis())
 }
 
 /// Whether a contact would push a centre without an earlier place from behind, though the centre is in front of the

@@ -1,12 +1,14 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
 use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
-use super::on_triangle::thickness_for_sphere;
-use super::pair_table::{Test, sphere_triangle, test_of};
+use super::on_triangle::{thickness_for_ellipsoid, thickness_for_sphere};
+use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
 use super::registered;
 use crate::frame::broad_phase::chunk::Chunk;
+use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::report::FrameCounts;
+use pong_geometry::interference::ellipsoid_triangle::EllipsoidOnTriangles;
 use pong_geometry::primitive::PrimitiveKind::{self, Polyhedron, Triangle};
 use pong_geometry::simd::{LANES, LaneBits, Simd};
 use pong_model::Item;
@@ -33,9 +35,12 @@ impl<'a> Target<'a> {
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
     ) {
-        if (chunk.kind, self.kind_b) == (PrimitiveKind::Sphere, Triangle) {
+        if self.kind_b == Triangle && matches!(chunk.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid) {
             counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
-            return self.defer(chunk, near, found, counts);
+            return match chunk.kind {
+                PrimitiveKind::Sphere => self.defer_spheres(chunk, near, found, counts),
+                _ => self.defer_ellipsoids(chunk, near, found, counts),
+            };
         }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
@@ -51,7 +56,7 @@ impl<'a> Target<'a> {
 
     /// Defers the tests of spheres near a triangle until there are eight such pairs.
     #[inline(always)]
-    fn defer(
+    fn defer_spheres(
         &self,
         chunk: &Chunk<'_>,
         near: LaneBits,
@@ -62,9 +67,31 @@ impl<'a> Target<'a> {
         for lane in lanes(near) {
             let sphere = chunk.sphere(lane);
             let thickness = thickness_for_sphere(self.context, self.item_b, &sphere);
-            let DeferredPairs { pairs, from } = &mut *found.deferred;
+            let DeferredPairs { spheres: pairs, from, .. } = &mut *found.deferred;
             from[pairs.count()] = (lane as u8, self.item_b);
             pairs.add(&sphere, triangles, self.item_b.element, thickness);
+            if pairs.count() == LANES {
+                test_deferred(self.context, *chunk, found, counts);
+            }
+        }
+    }
+
+    /// The same of ellipsoids.
+    #[inline(never)]
+    fn defer_ellipsoids(
+        &self,
+        chunk: &Chunk<'_>,
+        near: LaneBits,
+        found: &mut ChunkCandidates<'_>,
+        counts: &mut FrameCounts,
+    ) {
+        let triangles = &self.context.body_b.triangles;
+        for lane in lanes(near) {
+            let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) else { continue };
+            let thickness = thickness_for_ellipsoid(self.context, self.item_b, ellipsoid);
+            let DeferredPairs { ellipsoids: pairs, from, .. } = &mut *found.deferred;
+            from[pairs.count()] = (lane as u8, self.item_b);
+            pairs.add(ellipsoid, triangles, self.item_b.element, thickness);
             if pairs.count() == LANES {
                 test_deferred(self.context, *chunk, found, counts);
             }
@@ -121,7 +148,15 @@ pub(crate) fn test_deferred(
     counts: &mut FrameCounts,
 ) {
     let before = found.seen;
-    let told = found.deferred.pairs.take();
+    match chunk.kind {
+        PrimitiveKind::Ellipsoid => test_ellipsoids(context, &chunk, found),
+        _ => test_spheres(context, &chunk, found),
+    }
+    counts.note_testers(chunk.kind, Triangle, 0, (found.seen - before) as u32);
+}
+
+fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkCandidates<'_>) {
+    let told = found.deferred.spheres.take();
     for place in lanes(told.near) {
         let (lane, item_b) = found.deferred.from[place];
         let lane = usize::from(lane);
@@ -129,5 +164,26 @@ pub(crate) fn test_deferred(
         let over_face = told.over_face >> place & 1 == 1;
         sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(lane)), over_face, found);
     }
-    counts.note_testers(PrimitiveKind::Sphere, Triangle, 0, (found.seen - before) as u32);
+}
+
+fn test_ellipsoids(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkCandidates<'_>) {
+    let near = found.deferred.ellipsoids.take();
+    // Mostly several in a row are of one ellipsoid.
+    let mut ready: Option<(u8, EllipsoidOnTriangles)> = None;
+    for place in lanes(near) {
+        let (lane, item_b) = found.deferred.from[place];
+        let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(usize::from(lane)) else {
+            continue;
+        };
+        let ready = match &mut ready {
+            Some((of, ready)) if *of == lane => ready,
+            other => &mut other.insert((lane, EllipsoidOnTriangles::new(ellipsoid))).1,
+        };
+        let item_a = chunk.items[usize::from(lane)];
+        ellipsoid_triangle::test_ready(
+            &ElementPair { context, item_a, item_b, kind_b: Triangle },
+            ready,
+            found,
+        );
+    }
 }

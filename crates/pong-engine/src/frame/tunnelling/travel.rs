@@ -45,10 +45,13 @@ pub(crate) fn least_travel_m(
 /// Whether a place of A's body may have gone that far.
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
-    let shift = (motion.x_ba.translation - since.x_ba.translation).norm();
+    let shift_square = (motion.x_ba.translation - since.x_ba.translation).norm_squared();
     // The Frobenius norm is no less than how far a rotation carries anything at a distance of 1 m.
-    let turn = (motion.x_ba.rotation - since.x_ba.rotation).norm();
-    shift + turn * plan.reach_a_m > plan.least_travel_m
+    let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
+    let (reach, least) = (plan.reach_a_m, plan.least_travel_m);
+    // As a rule both are small: the square of a sum is no more than twice the sum of the squares, and no root is needed.
+    4.0 * (shift_square + turn_square * (reach * reach)) > least * least
+        && shift_square.sqrt() + turn_square.sqrt() * reach > least
 }
 
 /// Greatest distance of anything of A that is followed from the origin of its movable group, m.

@@ -22,7 +22,7 @@ mod capsule_polyhedron;
 mod capsule_triangle;
 mod ellipsoid_plane;
 mod ellipsoid_polyhedron;
-mod ellipsoid_triangle;
+pub(crate) mod ellipsoid_triangle;
 mod line_segment_plane;
 mod line_segment_polyhedron;
 mod point_ellipsoid;
