@@ -33,6 +33,7 @@ impl Arena {
     }
 
     /// Ends everything that was handed out; the memory stays.
+    #[inline]
     pub fn reset(&mut self) {
         self.bump.reset();
         self.counts.reset();
@@ -44,6 +45,7 @@ impl Arena {
     /// [`Full`] if the arena has not that much room left; nothing was taken then.
     // `&mut` from `&self`: every call hands out memory that no other call has.
     #[allow(clippy::mut_from_ref)]
+    #[inline]
     pub fn slice<T: Copy>(&self, len: usize, fill: T) -> Result<&mut [T], Full> {
         self.claim::<T>(len)?;
         self.bump.try_alloc_slice_fill_copy(len, fill).map_err(|_| self.full(len * size_of::<T>()))

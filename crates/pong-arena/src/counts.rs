@@ -12,12 +12,14 @@ pub(crate) struct Counts {
 
 impl Counts {
     /// Forgets what was handed out and refused; the peak stays.
+    #[inline]
     pub(crate) fn reset(&self) {
         self.used.set(0);
         self.refused.set(0);
     }
 
     /// Bytes handed out since the last reset.
+    #[inline]
     pub(crate) fn used(&self) -> usize {
         self.used.get()
     }
@@ -28,6 +30,7 @@ impl Counts {
     }
 
     /// Books what was handed out.
+    #[inline]
     pub(crate) fn take(&self, bytes: usize) {
         self.used.set(self.used.get() + bytes);
         self.note_peak();
@@ -39,6 +42,7 @@ impl Counts {
         self.note_peak();
     }
 
+    #[inline]
     fn note_peak(&self) {
         self.peak.set(self.peak.get().max(self.used.get().saturating_add(self.refused.get())));
     }

@@ -81,6 +81,7 @@ pub struct Tally {
 }
 
 impl Tally {
+    #[inline]
     fn add(&mut self, other: Self) {
         self.tested = self.tested.saturating_add(other.tested);
         self.met = self.met.saturating_add(other.met);
@@ -129,6 +130,7 @@ impl<const KINDS: usize> TallyTable<KINDS> {
         }
     }
 
+    #[inline]
     fn clear(&mut self) {
         for a in ones(std::mem::take(&mut self.used)) {
             for b in ones(std::mem::take(&mut self.used_in[a])) {
@@ -186,6 +188,7 @@ impl FrameCounts {
         self.testers.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
+    #[inline]
     pub(crate) fn note_volumes(&mut self, a: &Volume, b: &Volume, meets: bool) {
         self.volumes.note(place(a), place(b), Tally { tested: 1, met: u32::from(meets) });
     }

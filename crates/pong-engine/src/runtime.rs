@@ -125,6 +125,7 @@ impl Runtime {
     }
 
     /// Computes a frame.
+    #[inline]
     pub fn evaluate(&mut self, scene: &Scene, states: &States) -> Result<FrameReport, EngineError> {
         frame::require_states(scene, &self.sealed, states)?;
         // Should a law of the host's panic or a sum overflow, there is no frame until the next one.
@@ -146,6 +147,7 @@ impl Runtime {
 
     /// Once a frame is done, or a law of the host's has panicked in it, only a worker that is stuck may still hold a
     /// contact state.
+    #[inline]
     fn let_go_of_memory(&mut self) {
         if let Some(pool) = &mut self.pool {
             pool.release(&self.nothing);
@@ -153,6 +155,7 @@ impl Runtime {
     }
 
     /// Makes what the frame found the committed contact state.
+    #[inline]
     pub fn commit(&mut self, states: &States) {
         let mut watch = self.clock.start();
         let Self { memory, spares, frame, .. } = self;
@@ -339,6 +342,7 @@ impl Runtime {
 }
 
 /// Writes the next contact state and makes it the committed one. The old one waits for its turn.
+#[inline]
 fn take_turns(
     memory: &mut Arc<ContactMemory>,
     spares: &mut [Arc<ContactMemory>],

@@ -14,6 +14,7 @@ pub struct Pose {
 
 impl Pose {
     /// The pose of a frame that coincides with its reference.
+    #[inline]
     pub fn identity() -> Self {
         Self { position: Vec3::zeros(), orientation: Quat::identity() }
     }
@@ -22,6 +23,7 @@ impl Pose {
     ///
     /// The quaternion must not be zero. It and its negative are one orientation and give the same bits: the first component
     /// that is not zero is made positive, and no zero keeps a sign, which products would carry on into the answers.
+    #[inline]
     pub fn new(position: Vec3, wxyz: [f64; 4]) -> Self {
         let first = wxyz.into_iter().find(|part| *part != 0.0).unwrap_or(1.0);
         let sign = 1.0_f64.copysign(first);
@@ -75,6 +77,7 @@ pub struct Transform {
 
 impl Transform {
     /// The transform that changes nothing.
+    #[inline]
     pub fn identity() -> Self {
         Self { translation: Vec3::zeros(), rotation: Mat3::identity() }
     }
@@ -116,6 +119,7 @@ pub struct Twist {
 
 impl Twist {
     /// A frame at rest.
+    #[inline]
     pub fn zero() -> Self {
         Self { linear: Vec3::zeros(), angular: Vec3::zeros() }
     }
@@ -138,6 +142,7 @@ pub struct Wrench {
 
 impl Wrench {
     /// No load.
+    #[inline]
     pub fn zero() -> Self {
         Self { force: Vec3::zeros(), moment: Vec3::zeros() }
     }
@@ -195,6 +200,7 @@ pub fn rotation_vector(q: &Quat) -> Vec3 {
 /// Carries `p`, a vector across the unit normal `from`, by the smallest rotation that takes `from` into `to`.
 ///
 /// Opposite normals have no smallest rotation: the result is then zero.
+#[inline]
 pub fn carry_by_smallest_rotation(p: &Vec3, from: &Vec3, to: &Vec3) -> Vec3 {
     let cosine = from.dot(to);
     let axis = from.cross(to);

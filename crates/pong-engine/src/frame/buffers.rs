@@ -72,6 +72,7 @@ impl EvaluationBuffers {
     }
 
     /// Empties the buffers; their memory stays.
+    #[inline]
     pub fn begin(&mut self, sealed: &Sealed) {
         self.caller.out.begin(ContactBuffer::NO_PHASE);
         self.order.clear();

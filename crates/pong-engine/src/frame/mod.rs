@@ -40,6 +40,7 @@ use input::states;
 use output::{order, reduce};
 
 /// Computes everything that the present states and the committed contact state say. Writes `frame` alone.
+#[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
     pool: Option<&mut WorkerPool>,
@@ -63,6 +64,7 @@ pub(crate) fn evaluate(
 }
 
 /// Bounding, testers, sharing and forces: block by block, by all workers or by the caller alone.
+#[inline]
 fn find_contacts(
     given: &EvaluationInput<'_>,
     mut pool: Option<&mut WorkerPool>,

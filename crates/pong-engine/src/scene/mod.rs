@@ -90,12 +90,14 @@ impl Scene {
     }
 
     /// The model's body behind a movable group.
+    #[inline]
     pub(crate) fn body(&self, instance: usize) -> &MovableGroup {
         let instance = &self.bodies[instance];
         &self.models[self.objects[instance.object].model].bodies[instance.body]
     }
 
     /// The model behind a movable group.
+    #[inline]
     pub(crate) fn model_of_body(&self, instance: usize) -> &Model {
         &self.models[self.objects[self.bodies[instance].object].model]
     }

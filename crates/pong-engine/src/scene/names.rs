@@ -196,6 +196,7 @@ impl Scene {
         index.ok_or_else(|| unknown("pair"))
     }
 
+    #[inline]
     pub(crate) fn body_index(&self, id: InterfaceId) -> Result<usize, EngineError> {
         let index = id.index_in(self.stamp).filter(|i| *i < self.bodies.len());
         index.ok_or_else(|| unknown("interface"))

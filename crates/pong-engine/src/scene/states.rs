@@ -26,6 +26,7 @@ impl States {
 
     /// Sets the states of movable groups: all of them, or, if any is refused, none. Answers whether any differs from the one
     /// that was set before.
+    #[inline]
     pub fn set(&mut self, scene: &Scene, states: &[(InterfaceId, State)]) -> Result<bool, EngineError> {
         for (interface, state) in states {
             let body = scene.body_index(*interface)?;

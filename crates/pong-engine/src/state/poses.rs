@@ -103,6 +103,7 @@ impl CommittedPoses {
     }
 
     /// Pose of movable group `a` seen from `b` at the last commit of their pair of Objects, if there was one.
+    #[inline]
     pub fn relative(&self, pair: usize, a: usize, b: usize) -> Option<Pose> {
         let moment = self.moment_of[pair];
         (moment != NEVER).then(|| Pose::relative(self.pose(moment, a), self.pose(moment, b)))
@@ -113,6 +114,7 @@ impl CommittedPoses {
         self.past
     }
 
+    #[inline]
     fn write(&mut self, moment: u8, poses: &[Pose]) {
         let first = usize::from(moment) * self.stride;
         for &body in &*self.bodies {
@@ -122,6 +124,7 @@ impl CommittedPoses {
 
     /// A commit of all pairs after `before`: those that are on are of this moment, and nothing is remembered of the others.
     /// Grows with the movable groups, but for the first commit after some pairs were treated apart.
+    #[inline]
     pub fn commit(&mut self, before: &Self, poses: &[Pose], enabled: &[bool]) {
         if !before.settled {
             for (moment, on) in self.moment_of.iter_mut().zip(enabled) {

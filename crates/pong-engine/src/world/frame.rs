@@ -24,6 +24,7 @@ impl World {
     /// # Errors
     /// [`EngineError::UnknownId`] for an Interface of another world; [`EngineError::BadState`] for a value that is not finite
     /// or beyond [`State::LARGEST`], or a quaternion whose norm is off by more than 1e-3.
+    #[inline]
     pub fn set_states(&mut self, states: &[(InterfaceId, State)]) -> Result<(), EngineError> {
         // A host that sets the same states again, for a commit, must not pay for a second evaluation.
         if self.states.set(&self.scene, states)? {
@@ -56,6 +57,7 @@ impl World {
     /// # Errors
     /// [`EngineError::UnsetState`] while a movable group of an enabled pair has no state; [`EngineError::NotFinite`] if forces,
     /// moments or energies are beyond what a number holds.
+    #[inline]
     pub fn evaluate(&mut self) -> Result<FrameReport, EngineError> {
         self.runtime.evaluate(&self.scene, &self.states)
     }
@@ -75,6 +77,7 @@ impl World {
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
+    #[inline]
     pub fn commit(&mut self) -> Result<(), EngineError> {
         self.require_evaluated()?;
         self.runtime.commit(&self.states);
@@ -104,6 +107,7 @@ impl World {
     ///
     /// # Errors
     /// As [`evaluate`](Self::evaluate); nothing is committed then.
+    #[inline]
     pub fn step(&mut self) -> Result<FrameReport, EngineError> {
         let report = self.evaluate()?;
         self.commit()?;

@@ -26,6 +26,7 @@ use displacement::Displacement;
 use pong_geometry::Vec3;
 
 /// Fills in the energies of the contacts and the totals.
+#[inline]
 pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
     let enabled = &given.states.enabled;

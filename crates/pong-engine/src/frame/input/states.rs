@@ -6,6 +6,7 @@ use crate::scene::{Scene, States};
 use crate::sealed::Sealed;
 
 /// Refuses a frame while a movable group of an enabled pair has no state.
+#[inline]
 pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) -> Result<(), EngineError> {
     // As a rule all have one, and there may be many more pairs than movable groups.
     if sealed.paired_bodies.iter().all(|&body| states.bodies[body].is_some()) {
@@ -22,6 +23,7 @@ pub(crate) fn require_states(scene: &Scene, sealed: &Sealed, states: &States) ->
 }
 
 /// Takes the states over into the frame.
+#[inline]
 pub(crate) fn latch(sealed: &Sealed, states: &States, frame: &mut EvaluationBuffers) {
     for &body in &*sealed.paired_bodies {
         if let Some(state) = &states.bodies[body] {

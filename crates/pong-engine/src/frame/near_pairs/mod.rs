@@ -58,6 +58,7 @@ impl NearPairs {
     }
 
     /// Where the motions of a pair are, if they are those of this frame.
+    #[inline]
     pub fn slot(&self, group_pair: u32) -> Option<usize> {
         if self.list.len() > MOTIONS_AT_ONCE {
             return None;
@@ -66,6 +67,7 @@ impl NearPairs {
     }
 
     /// Finds the pairs that a frame visits.
+    #[inline]
     pub fn find(&mut self, sealed: &Sealed, enabled: &[bool], poses: &[Pose], committed: &CommittedPoses) {
         self.list.clear();
         let pairs = sealed.group_pairs.iter().enumerate();

@@ -14,6 +14,7 @@ use crate::sealed::Sealed;
 use pong_arena::{Arena, Table};
 
 /// Puts the contacts in order, whoever found them.
+#[inline]
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { scene, sealed, memory, .. } = *given;
     let mut demand = frame.caller.out.demand;
@@ -51,6 +52,7 @@ fn saturated(count: u64) -> u32 {
 const WORTH_PLACING: usize = 24;
 
 /// Lists all contacts in order.
+#[inline]
 fn list(records: usize, frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
     let WorkerContext { scratch, out, .. } = caller;

@@ -9,6 +9,7 @@ use crate::sealed::Sealed;
 use pong_geometry::{Transform, Vec3, Wrench};
 
 /// Adds every contact to both of its movable groups: first those of one direction of a pair together, in B's axes.
+#[inline]
 pub(crate) fn sum(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     let EvaluationInput { sealed, memory, .. } = *given;
     let EvaluationBuffers {
@@ -78,6 +79,7 @@ fn holds(sum: f64) -> bool {
 
 impl EvaluationBuffers {
     /// A movable group whose numbers have left the range of numbers, if any: a product or sum of finite ones can.
+    #[inline]
     pub fn overflows(&self, sealed: &Sealed) -> Option<usize> {
         let of_wrench = |wrench: &Wrench| wrench.force.abs().sum() + wrench.moment.abs().sum();
         // Those that meet nobody have no wrench.

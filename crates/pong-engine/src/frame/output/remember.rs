@@ -10,6 +10,7 @@ use crate::frame::forces::place::Place;
 use crate::state::{ContactMemory, Remembered};
 
 /// Replaces all records by those of the frame's contacts.
+#[inline]
 pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) {
     next.clear_records();
     if adopt(frame, next) {
@@ -24,6 +25,7 @@ pub(crate) fn remember(frame: &mut EvaluationBuffers, next: &mut ContactMemory) 
 }
 
 /// Takes over what the lanes have written, if each contact of the frame has its record; whether so.
+#[inline]
 fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     let EvaluationBuffers { caller, workers, order, .. } = frame;
     if !caller.out.remembers_all() || !workers.iter().all(|worker| worker.remembers_all()) {

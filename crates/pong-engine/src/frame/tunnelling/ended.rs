@@ -22,6 +22,7 @@ use pong_model::box_tree::{Child, lanes};
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
 
 /// Looks at every committed contact that no present one continues.
+#[inline]
 pub(super) fn look_at_ended(
     given: &EvaluationInput<'_>,
     frame: &EvaluationBuffers,

@@ -32,6 +32,7 @@ use events::TunnellingEvents;
 use followed::Seen;
 
 /// Tells the status of what went through.
+#[inline]
 pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
     frame.caller.scratch.reset();
     frame.tunnelling = follow(given, frame);
@@ -44,6 +45,7 @@ pub(crate) fn watch(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) 
 }
 
 /// Follows the lines of all pairs that are near.
+#[inline]
 fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> TunnellingEvents {
     let mut events = TunnellingEvents::default();
     let rounds = frame.near.list().len().div_ceil(MOTIONS_AT_ONCE);

@@ -43,6 +43,7 @@ pub(crate) fn least_travel_m(
 }
 
 /// Whether a place of A's body may have gone that far.
+#[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
     let shift_square = (motion.x_ba.translation - since.x_ba.translation).norm_squared();
