@@ -5,7 +5,7 @@ mod common;
 mod oracle_support;
 
 use common::Random;
-use oracle_support::{all_contacts, dented_ball, fan_plate, hilly_sheet, regular_plate, shuffled, skin};
+use oracle_support::{all_contacts, regular_plate, surfaces};
 use pong_geometry::Vec3;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
 use pong_geometry::interference::sphere_triangle::{sphere_over_face, sphere_triangle};
@@ -13,19 +13,6 @@ use pong_geometry::interference::sphere_triangle_pairs::{PairsTold, SphereTriang
 use pong_geometry::interference::triangle_features::{TriangleContact, mark_pushing};
 use pong_geometry::primitive::{Ellipsoid, MayPush, Sphere, TriangleSet};
 use pong_geometry::simd::{LANES, Level, set_level};
-
-/// Surfaces of every sort, of about the size of one, by name.
-fn surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
-    let hull = common::stretched_hull(20, Vec3::new(1.0, 0.8, 0.6));
-    let sheet = hilly_sheet(6, 0.2, random);
-    vec![
-        ("plate", regular_plate(5)),
-        ("fans", fan_plate(random)),
-        ("hull", skin(&hull)),
-        ("dented ball", dented_ball(6, 9, 0.3, random)),
-        ("sheet", shuffled(&sheet, random)),
-    ]
-}
 
 /// A sphere somewhere about a surface: anywhere, over a face or at a degenerate place; and the triangle there.
 fn sphere(set: &TriangleSet, random: &mut Random) -> (Sphere, u32) {

@@ -1,12 +1,17 @@
 //! Pairs of an ellipsoid and a triangle, eight at a time: which of them may touch at all.
 //!
-//! An ellipsoid near a surface meets the boxes of many triangles and touches few. Most of the others lie wholly beyond the
-//! plane of the face, or beyond a plane through an edge across it, which products alone tell: of a plane's normal of any
-//! length the half width is the length of the scaled normal. What is left goes through
-//! [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles) one by one. Nothing here decides an answer:
-//! every comparison leaves room for rounding, and a number that is none tells nothing.
+//! An ellipsoid near a surface meets the boxes of many triangles and touches few. Most of the others are told by products
+//! and three roots: wholly beyond the plane of the face or a plane through an edge across it; or with nothing that may
+//! push:
+//!
+//! * the face does not where the foot of the deepest point lies beyond an edge that the centre, in front, lies beyond too;
+//! * an edge does not that lies outside the ellipsoid, nor a vertex, as long as the face is too shallow for a second minimum.
+//!
+//! What is left goes through [`EllipsoidOnTriangles`](super::ellipsoid_triangle::EllipsoidOnTriangles) one by one. Nothing
+//! here decides an answer: every comparison asks what is asked there, with more room for rounding, and a number that is none
+//! tells nothing.
 
-use super::triangle_lanes::{EightVectors, NOTHING, put, put_corners};
+use super::triangle_lanes::{EightVectors, NOTHING, bit_of_each, put, put_corners};
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
@@ -18,9 +23,13 @@ pub struct EllipsoidTrianglePairs {
     centers: EightVectors,
     /// Principal axes times semi-axes.
     widen: [EightVectors; 3],
-    /// Largest semi-axes, m.
+    /// One over the squares of the semi-axes, 1/m².
+    shrink: EightVectors,
+    /// Smallest and largest semi-axes, m.
+    smallest: [f64; LANES],
     largest: [f64; LANES],
     thicknesses: [f64; LANES],
+    may_push: [u8; LANES],
     count: usize,
 }
 
@@ -30,8 +39,11 @@ impl Default for EllipsoidTrianglePairs {
             corners: [NOTHING; 3],
             centers: NOTHING,
             widen: [NOTHING; 3],
+            shrink: NOTHING,
+            smallest: [0.0; LANES],
             largest: [0.0; LANES],
             thicknesses: [0.0; LANES],
+            may_push: [0; LANES],
             count: 0,
         }
     }
@@ -57,11 +69,14 @@ impl EllipsoidTrianglePairs {
         let lane = self.count;
         put_corners(&mut self.corners, lane, set, triangle);
         put(&mut self.centers, lane, &ellipsoid.center);
-        for (axis, widen) in self.widen.iter_mut().enumerate() {
-            put(widen, lane, &(ellipsoid.axes.column(axis) * ellipsoid.semi_axes[axis]));
+        let semi_axes = &ellipsoid.semi_axes;
+        for axis in 0..3 {
+            put(&mut self.widen[axis], lane, &(ellipsoid.axes.column(axis) * semi_axes[axis]));
+            self.shrink[axis][lane] = 1.0 / (semi_axes[axis] * semi_axes[axis]);
         }
-        self.largest[lane] = ellipsoid.semi_axes.max();
+        (self.smallest[lane], self.largest[lane]) = (semi_axes.min(), semi_axes.max());
         self.thicknesses[lane] = thickness;
+        self.may_push[lane] = set.triangles[triangle as usize].may_push.0;
         self.count += 1;
     }
 
@@ -78,20 +93,34 @@ fn may_touch(pairs: &EllipsoidTrianglePairs) -> LaneBits {
     run_at_level!(may_touch_in(pairs: EllipsoidTrianglePairs) -> LaneBits)
 }
 
-/// Planes, with normals of any length, and the ellipsoids.
-struct Planes<S: Simd> {
+/// What is called beyond, as a share of the lengths involved: far more than rounding, and than the slack of a foot.
+const FAR_SLACK: f64 = 1e-9;
+/// By how much a square of a distance exceeds that of the unit ball before it is outside: ten times what one edge takes.
+const OUTSIDE_SLACK: f64 = 1e-5;
+/// The same as a share of the squares of what is measured from: rounding in far corners.
+const OUTSIDE_SHARE: f64 = 1e-12;
+
+/// Ellipsoids.
+struct Ellipsoids<S: Simd> {
     widen: [Vectors<S>; 3],
+    shrink: Vectors<S>,
     /// Squares of the largest semi-axes.
     largest_square: Numbers<S>,
 }
 
-impl<S: Simd> Planes<S> {
-    /// Squares of the half widths times the lengths of the normals.
+impl<S: Simd> Ellipsoids<S> {
+    /// Scaled normals, whose lengths are the half widths times those of the normals.
     #[inline(always)]
-    fn reach_square(&self, normal: Vectors<S>) -> Numbers<S> {
+    fn widened(&self, normal: Vectors<S>) -> Vectors<S> {
         let [first, second, third] = self.widen;
-        let widened = Vectors { x: first.dot(normal), y: second.dot(normal), z: third.dot(normal) };
-        widened.norm_squared()
+        Vectors { x: first.dot(normal), y: second.dot(normal), z: third.dot(normal) }
+    }
+
+    /// Vectors as seen where the ellipsoids are unit balls.
+    #[inline(always)]
+    fn shrunk(&self, vector: Vectors<S>) -> Vectors<S> {
+        let (wide, shrink) = (self.widened(vector), self.shrink);
+        Vectors { x: wide.x * shrink.x, y: wide.y * shrink.y, z: wide.z * shrink.z }
     }
 
     /// Where a product of a normal with an arm certainly exceeds a reach, whatever rounding does to either.
@@ -117,30 +146,68 @@ fn load_three<S: Simd>(simd: S, [first, second, third]: &[EightVectors; 3]) -> [
     [Vectors::load(simd, first), Vectors::load(simd, second), Vectors::load(simd, third)]
 }
 
+/// Sums of the sizes of the components.
+#[inline(always)]
+fn taxicab<S: Simd>(v: Vectors<S>) -> Numbers<S> {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
 #[inline(always)]
 fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
     let used = !(LaneBits::MAX.checked_shl(pairs.count as u32).unwrap_or(0));
     let corners = load_three(simd, &pairs.corners);
     let center = Vectors::load(simd, &pairs.centers);
-    let largest = Numbers::load(simd, &pairs.largest);
-    let planes = Planes { widen: load_three(simd, &pairs.widen), largest_square: largest * largest };
+    let (smallest, largest) = (Numbers::load(simd, &pairs.smallest), Numbers::load(simd, &pairs.largest));
+    let (widen, shrink) = (load_three(simd, &pairs.widen), Vectors::load(simd, &pairs.shrink));
+    let ellipsoids = Ellipsoids { widen, shrink, largest_square: largest * largest };
     let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
+    let arms = [center - corners[0], center - corners[1], center - corners[2]];
     let normal = edges[0].cross(corners[2] - corners[0]);
-    let from_first = center - corners[0];
-    let height = normal.dot(from_first);
+    let normal_square = normal.norm_squared();
+    let height = normal.dot(arms[0]);
     let zero = Numbers::splat(simd, 0.0);
+
     // Behind, an ellipsoid is pushed to the front from as deep as the surface is thick.
     let thickness = Numbers::load(simd, &pairs.thicknesses);
-    let behind = thickness * thickness * normal.norm_squared();
-    let behind = Numbers::select(height.below(zero), behind, zero);
-    let reach_square = planes.reach_square(normal).larger(behind);
-    let mut apart = simd.bits(planes.exceeds(height, reach_square, normal, from_first));
+    let behind = Numbers::select(height.below(zero), thickness * thickness * normal_square, zero);
+    let widened = ellipsoids.widened(normal);
+    let widened_square = widened.norm_squared();
+    let mut apart = simd.bits(ellipsoids.exceeds(height, widened_square.larger(behind), normal, arms[0]));
+
+    // At least as long as anything that is measured.
+    let size = taxicab(arms[0]) + taxicab(edges[0]) + taxicab(edges[1]) + taxicab(center) + largest;
+    let slack = size * size.all(FAR_SLACK);
+    let (length, half_width) = (normal_square.sqrt(), widened_square.sqrt());
+    let in_front = simd.bits((slack * length).below(height));
+    // The overlap of the face, and of what a second minimum is at least, both times the length of the normal.
+    let overlap = (half_width - height + slack * length) * size.all(1.0 + OUTSIDE_SLACK);
+    let one_minimum = simd.bits((overlap * largest).below(smallest * smallest * length));
+
+    let starts = [ellipsoids.shrunk(arms[0]), ellipsoids.shrunk(arms[1]), ellipsoids.shrunk(arms[2])];
+    let ends_slack = slack.over(smallest);
+    let (mut face, mut features) = (LaneBits::MAX, 0);
     for k in 0..3 {
-        let outward = edges[k].cross(normal);
-        let arm = center - corners[k];
+        let (edge, arm) = (edges[k], arms[k]);
+        let outward = edge.cross(normal);
         let beyond = outward.dot(arm);
-        let exceeds = planes.exceeds(beyond, planes.reach_square(outward), outward, arm);
-        apart |= simd.bits(zero.below(beyond)) & simd.bits(exceeds);
+        let wide = ellipsoids.widened(outward);
+        let is_apart = simd.bits(ellipsoids.exceeds(beyond, wide.norm_squared(), outward, arm));
+        apart |= simd.bits(zero.below(beyond)) & is_apart;
+        // How far the centre, and the foot of the deepest point, lie beyond the edge.
+        let room = slack * taxicab(outward);
+        let foot_beyond = beyond * half_width - wide.dot(widened);
+        let lost = simd.bits((room * half_width).below(foot_beyond)) & simd.bits(room.below(beyond));
+        face &= !(in_front & lost);
+        // Towards the centre of the unit ball.
+        let (start, along) = (starts[k], starts[k] - starts[(k + 1) % 3]);
+        let share = start.dot(along).over(along.norm_squared()).larger(zero).smaller(zero.all(1.0));
+        let start_square = start.norm_squared();
+        let rounding = (start_square + along.norm_squared()) * zero.all(OUTSIDE_SHARE);
+        let ball = zero.all(1.0 + OUTSIDE_SLACK) + ends_slack + rounding;
+        let edge_outside = simd.bits(ball.below((start - along * share).norm_squared()));
+        features |= bit_of_each(&pairs.may_push, k) & !(one_minimum & edge_outside);
+        let vertex_outside = simd.bits(ball.below(start_square));
+        features |= bit_of_each(&pairs.may_push, 3 + k) & !(one_minimum & vertex_outside);
     }
-    used & !apart
+    used & !apart & (face | features)
 }

@@ -7,7 +7,7 @@
 //! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
 //! nothing.
 
-use super::triangle_lanes::{EightVectors, NOTHING, put, put_corners};
+use super::triangle_lanes::{EightVectors, NOTHING, bit_of_each, put, put_corners};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
@@ -155,14 +155,6 @@ impl<S: Simd> Vector<S> {
 #[inline(always)]
 fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
     simd.larger(x, simd.sub(simd.splat(0.0), x))
-}
-
-/// Bit `k` of each of eight bytes.
-#[inline(always)]
-fn bit_of_each(bytes: &[u8; LANES], k: usize) -> LaneBits {
-    // The product brings the bits, one in each byte, side by side into the highest byte.
-    let bits = u64::from_le_bytes(*bytes) >> k & 0x0101_0101_0101_0101;
-    (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as LaneBits
 }
 
 /// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.

@@ -2,7 +2,7 @@
 
 use crate::Vec3;
 use crate::primitive::TriangleSet;
-use crate::simd::LANES;
+use crate::simd::{LANES, LaneBits};
 
 /// Vectors, coordinate by coordinate.
 pub(super) type EightVectors = [[f64; LANES]; 3];
@@ -23,4 +23,12 @@ pub(super) fn put_corners(corners: &mut [EightVectors; 3], lane: usize, set: &Tr
     for (corner, &vertex) in corners.iter_mut().zip(&record.vertices) {
         put(corner, lane, &set.vertices[vertex as usize]);
     }
+}
+
+/// Bit `k` of each of eight bytes.
+#[inline(always)]
+pub(super) fn bit_of_each(bytes: &[u8; LANES], k: usize) -> LaneBits {
+    // The product brings the bits, one in each byte, side by side into the highest byte.
+    let bits = u64::from_le_bytes(*bytes) >> k & 0x0101_0101_0101_0101;
+    (bits.wrapping_mul(0x0102_0408_1020_4080) >> 56) as LaneBits
 }

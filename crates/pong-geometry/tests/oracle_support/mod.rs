@@ -176,6 +176,19 @@ pub fn hilly_sheet(n: u32, hill: f64, random: &mut Random) -> TriangleSet {
 
 // ---------------------------------------------------------------- nearest points
 
+/// Surfaces of every sort, of about the size of one, by name.
+pub fn surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
+    let hull = crate::common::stretched_hull(20, Vec3::new(1.0, 0.8, 0.6));
+    let sheet = hilly_sheet(6, 0.2, random);
+    vec![
+        ("plate", regular_plate(5)),
+        ("fans", fan_plate(random)),
+        ("hull", skin(&hull)),
+        ("dented ball", dented_ball(6, 9, 0.3, random)),
+        ("sheet", shuffled(&sheet, random)),
+    ]
+}
+
 /// The point of a segment nearest to `p`.
 pub fn nearest_on_segment(p: &Vec3, a: &Vec3, b: &Vec3) -> Vec3 {
     let along = b - a;
