@@ -10,6 +10,8 @@ use crate::peer::Peer;
 use crate::ring::{Ring, Tip, WEDGE_FACES};
 use pong_engine::State;
 use pong_geometry::{Pose, Transform, Vec3};
+#[cfg(target_arch = "x86_64")]
+use std::arch::x86_64::*;
 
 const CELLS: usize = 64;
 /// Half the side of the grid, m: beyond every wedge and tip that can touch.
@@ -70,27 +72,19 @@ impl ByHand {
         grid
     }
 
-    /// One step: plain loops over eight, which the compiler turns into the widest registers that its caller allows.
+    /// The tips of one step that may touch: where they are and which those are.
     #[inline(always)]
-    fn test_eight(&mut self, step: usize, x: &Transform, greatest: impl Fn(&[Block], &Vec3) -> f64) {
-        let (r, t, from) = (&x.rotation, &x.translation, &self.tips[step]);
-        let mut p: Eight = [[0.0; LANES]; 3];
-        for (axis, row) in p.iter_mut().enumerate() {
-            for lane in 0..LANES {
-                let along_z = r[(axis, 2)].mul_add(from[2][lane], t[axis]);
-                row[lane] = r[(axis, 0)].mul_add(from[0][lane], r[(axis, 1)].mul_add(from[1][lane], along_z));
-            }
-        }
-        let mut inside = [false; LANES];
-        for lane in 0..LANES {
-            let in_slab = (p[2][lane] > self.slab[0]) & (p[2][lane] < self.slab[1]);
-            inside[lane] = in_slab & (p[0][lane].abs() < HALF_SIDE) & (p[1][lane].abs() < HALF_SIDE);
-        }
-        for lane in 0..LANES {
-            if inside[lane] {
-                let tip = LANES * step + lane;
-                self.test_tip(tip, Vec3::new(p[0][lane], p[1][lane], p[2][lane]), &greatest);
-            }
+    fn test_those_inside(
+        &mut self,
+        step: usize,
+        (p, mut inside): (Eight, u8),
+        greatest: impl Fn(&[Block], &Vec3) -> f64,
+    ) {
+        while inside != 0 {
+            let lane = inside.trailing_zeros() as usize;
+            inside &= inside - 1;
+            let tip = LANES * step + lane;
+            self.test_tip(tip, Vec3::new(p[0][lane], p[1][lane], p[2][lane]), &greatest);
         }
     }
 
@@ -123,7 +117,8 @@ impl ByHand {
     #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,fma")]
     fn test_avx512(&mut self, x: &Transform) {
         for step in 0..self.tips.len() {
-            self.test_eight(step, x, |blocks, p| greatest_avx512(blocks, p));
+            let inside = inside_avx512(&self.tips[step], x, self.slab);
+            self.test_those_inside(step, inside, |blocks, p| greatest_avx512(blocks, p));
         }
     }
 
@@ -131,15 +126,88 @@ impl ByHand {
     #[target_feature(enable = "avx2,fma")]
     fn test_avx2(&mut self, x: &Transform) {
         for step in 0..self.tips.len() {
-            self.test_eight(step, x, |blocks, p| greatest_avx2(blocks, p));
+            let inside = inside_avx2(&self.tips[step], x, self.slab);
+            self.test_those_inside(step, inside, |blocks, p| greatest_avx2(blocks, p));
         }
     }
 
     fn test_portable(&mut self, x: &Transform) {
         for step in 0..self.tips.len() {
-            self.test_eight(step, x, greatest_portable);
+            let inside = inside_portable(&self.tips[step], x, self.slab);
+            self.test_those_inside(step, inside, greatest_portable);
         }
     }
+}
+
+/// Eight tips carried, and those of them in the slab and over the grid.
+#[inline]
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,fma")]
+fn inside_avx512(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, u8) {
+    let (r, t) = (&x.rotation, &x.translation);
+    // SAFETY: each holds the eight numbers that are read.
+    let from = tips.each_ref().map(|tips| unsafe { _mm512_loadu_pd(tips.as_ptr()) });
+    let mut p: Eight = [[0.0; LANES]; 3];
+    let mut carried = [_mm512_setzero_pd(); 3];
+    for axis in 0..3 {
+        let along_z = _mm512_fmadd_pd(_mm512_set1_pd(r[(axis, 2)]), from[2], _mm512_set1_pd(t[axis]));
+        let along_yz = _mm512_fmadd_pd(_mm512_set1_pd(r[(axis, 1)]), from[1], along_z);
+        carried[axis] = _mm512_fmadd_pd(_mm512_set1_pd(r[(axis, 0)]), from[0], along_yz);
+        // SAFETY: there is room for the eight numbers that are written.
+        unsafe { _mm512_storeu_pd(p[axis].as_mut_ptr(), carried[axis]) };
+    }
+    let half = _mm512_set1_pd(HALF_SIDE);
+    let inside = _mm512_cmp_pd_mask::<_CMP_GT_OQ>(carried[2], _mm512_set1_pd(low))
+        & _mm512_cmp_pd_mask::<_CMP_LT_OQ>(carried[2], _mm512_set1_pd(high))
+        & _mm512_cmp_pd_mask::<_CMP_LT_OQ>(_mm512_abs_pd(carried[0]), half)
+        & _mm512_cmp_pd_mask::<_CMP_LT_OQ>(_mm512_abs_pd(carried[1]), half);
+    (p, inside)
+}
+
+/// Eight tips carried, four at a time, and those of them in the slab and over the grid.
+#[inline]
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn inside_avx2(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, u8) {
+    let (r, t) = (&x.rotation, &x.translation);
+    let (half, sign) = (_mm256_set1_pd(HALF_SIDE), _mm256_set1_pd(-0.0));
+    let mut p: Eight = [[0.0; LANES]; 3];
+    let mut all = 0;
+    for first in [0, 4] {
+        // SAFETY: each holds the four numbers that are read.
+        let from = tips.each_ref().map(|tips| unsafe { _mm256_loadu_pd(tips[first..][..4].as_ptr()) });
+        let mut carried = [_mm256_setzero_pd(); 3];
+        for axis in 0..3 {
+            let along_z = _mm256_fmadd_pd(_mm256_set1_pd(r[(axis, 2)]), from[2], _mm256_set1_pd(t[axis]));
+            let along_yz = _mm256_fmadd_pd(_mm256_set1_pd(r[(axis, 1)]), from[1], along_z);
+            carried[axis] = _mm256_fmadd_pd(_mm256_set1_pd(r[(axis, 0)]), from[0], along_yz);
+            // SAFETY: there is room for the four numbers that are written.
+            unsafe { _mm256_storeu_pd(p[axis][first..][..4].as_mut_ptr(), carried[axis]) };
+        }
+        let above = _mm256_cmp_pd::<_CMP_GT_OQ>(carried[2], _mm256_set1_pd(low));
+        let below = _mm256_cmp_pd::<_CMP_LT_OQ>(carried[2], _mm256_set1_pd(high));
+        let along_x = _mm256_cmp_pd::<_CMP_LT_OQ>(_mm256_andnot_pd(sign, carried[0]), half);
+        let along_y = _mm256_cmp_pd::<_CMP_LT_OQ>(_mm256_andnot_pd(sign, carried[1]), half);
+        let inside = _mm256_and_pd(_mm256_and_pd(above, below), _mm256_and_pd(along_x, along_y));
+        all |= (_mm256_movemask_pd(inside) as u8) << first;
+    }
+    (p, all)
+}
+
+/// Eight tips carried, and those of them in the slab and over the grid.
+fn inside_portable(tips: &Eight, x: &Transform, [low, high]: [f64; 2]) -> (Eight, u8) {
+    let mut p: Eight = [[0.0; LANES]; 3];
+    let mut inside = 0;
+    for lane in 0..LANES {
+        let carried = x.point(&Vec3::new(tips[0][lane], tips[1][lane], tips[2][lane]));
+        for axis in 0..3 {
+            p[axis][lane] = carried[axis];
+        }
+        let in_slab = (carried.z > low) & (carried.z < high);
+        let in_grid = (carried.x.abs() < HALF_SIDE) & (carried.y.abs() < HALF_SIDE);
+        inside |= u8::from(in_slab & in_grid) << lane;
+    }
+    (p, inside)
 }
 
 fn eight(tips: &[Vec3]) -> Eight {
