@@ -79,7 +79,10 @@ impl EvaluationBuffers {
         for &body in &*sealed.paired_bodies {
             self.wrenches[body] = Wrench::zero();
         }
-        self.workers.iter_mut().for_each(|worker| worker.begin(ContactBuffer::NO_PHASE));
+        self.workers
+            .iter_mut()
+            .filter(|worker| worker.holds_a_phase())
+            .for_each(|worker| worker.begin(ContactBuffer::NO_PHASE));
         self.beyond_range = None;
         self.report = FrameReport::default();
         self.times = StageTimes::default();

@@ -83,7 +83,7 @@ fn find_contacts(
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
         // There may be more than one round: what workers have found in the one before gives way to what they find in this one.
-        for worker in workers.iter_mut().filter(|worker| worker.phase != ContactBuffer::NO_PHASE) {
+        for worker in workers.iter_mut().filter(|worker| worker.holds_a_phase()) {
             assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
             worker.begin(ContactBuffer::NO_PHASE);
         }
@@ -101,7 +101,7 @@ fn find_contacts(
     laps.lap_work(Work::BroadPhase, &mut layout);
     caller.out.settle();
     caller.out.times.add(&layout);
-    for worker in workers {
+    for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);
         caller.out.counts.add(&worker.counts);
     }

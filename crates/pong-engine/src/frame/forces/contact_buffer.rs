@@ -107,6 +107,11 @@ impl ContactBuffer {
         }
     }
 
+    /// Whether anything of a phase may be here.
+    pub fn holds_a_phase(&self) -> bool {
+        self.phase != Self::NO_PHASE
+    }
+
     /// Empties the buffer for a phase.
     pub fn begin(&mut self, phase: u64) {
         self.phase = phase;
