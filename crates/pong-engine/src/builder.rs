@@ -129,7 +129,7 @@ impl WorldBuilder {
         let first_body = scene.bodies.len();
         scene.objects.push(Object { name: name.to_owned(), model, first_body });
         let bodies = scene.models[model].bodies.len();
-        scene.bodies.extend((0..bodies).map(|body| GroupInstance { object, body }));
+        scene.bodies.extend((0..bodies).map(|body| GroupInstance { object, model, body }));
         self.states.resize(first_body + bodies);
         Ok(ObjectId::new(scene.stamp, object))
     }

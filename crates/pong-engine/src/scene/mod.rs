@@ -45,6 +45,8 @@ pub(crate) struct Object {
 #[derive(Clone, Debug)]
 pub(crate) struct GroupInstance {
     pub object: usize,
+    /// The Object's model.
+    pub model: usize,
     /// Index into the model's bodies.
     pub body: usize,
 }
@@ -93,19 +95,19 @@ impl Scene {
     #[inline]
     pub(crate) fn body(&self, instance: usize) -> &MovableGroup {
         let instance = &self.bodies[instance];
-        &self.models[self.objects[instance.object].model].bodies[instance.body]
+        &self.models[instance.model].bodies[instance.body]
     }
 
     /// The model behind a movable group.
     #[inline]
     pub(crate) fn model_of_body(&self, instance: usize) -> &Model {
-        &self.models[self.objects[self.bodies[instance].object].model]
+        &self.models[self.bodies[instance].model]
     }
 
     /// The model of a movable group, and which of the model's it is: alike for all its instances.
     pub(crate) fn group_of_model(&self, instance: usize) -> (usize, usize) {
         let instance = &self.bodies[instance];
-        (self.objects[instance.object].model, instance.body)
+        (instance.model, instance.body)
     }
 
     /// `object/path` of a movable group, for messages.

@@ -46,6 +46,9 @@ pub(crate) fn least_travel_m(
 #[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
+    if plan.least_travel_m == f64::INFINITY {
+        return false;
+    }
     let shift_square = (motion.x_ba.translation - since.x_ba.translation).norm_squared();
     // The Frobenius norm is no less than how far a rotation carries anything at a distance of 1 m.
     let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
