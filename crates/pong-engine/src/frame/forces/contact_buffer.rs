@@ -26,8 +26,8 @@ pub(crate) struct ContactBuffer {
     pub places: Table<Place>,
     /// What those that have a record add to the wrenches; none in the caller's buffer.
     pub terms: Table<Term>,
-    /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: in a world with
-    /// workers, as far as there is room.
+    /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: while others find
+    /// contacts for the same frame, as far as there is room.
     pub records: Table<ContactRecord>,
     /// Those of them whose friction is still to be worked out.
     pub(super) bristles: WaitingBristles,
@@ -243,7 +243,7 @@ impl ContactBuffer {
         for _ in 0..self.law_state_len {
             self.law_state.push(0.0).expect("as much room as for contacts");
         }
-        if self.records.capacity() > 0 {
+        if self.shares && self.records.capacity() > 0 {
             self.make_room_for_record();
         }
         self.contacts.slot().expect("ranking makes room");

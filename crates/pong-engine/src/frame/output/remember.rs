@@ -1,7 +1,7 @@
 //! What a commit remembers of a frame's contacts.
 //!
-//! In a world with workers every lane, the caller's first, writes the records of the contacts that it finds. Where those are
-//! all, a commit takes over their tables as they are and only counts the records in the order of their keys: no record is
+//! In a frame that workers share every lane, the caller's first, writes the records of the contacts that it finds. Where those
+//! are all, a commit takes over their tables as they are and only counts the records in the order of their keys: no record is
 //! moved, and most are read in the next frame by the core that has written them. Else it writes all of them anew.
 
 use crate::energy::contact::ContactEnergyRef;
