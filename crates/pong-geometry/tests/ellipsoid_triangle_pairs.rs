@@ -21,7 +21,7 @@ fn all_surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
     let spike = vec![base[0], base[1], base[2], Vec3::new(0.02, 0.01, 1.0)];
     let spike = surface(spike, &[[0, 1, 3], [1, 2, 3], [2, 0, 3], [2, 1, 0]]);
     let at = |x: f64, y: f64, z: f64| Vec3::new(x, y, z);
-    // The top is cut from its corner 0 into three, of which the middle one comes first.
+    // The top is cut from its corner 0 into three, of which the middle one comes first, after two at its other corners.
     let vertices = vec![
         at(0.5, 0.5, 0.4),
         at(-0.5, 0.5, 0.4),
@@ -32,7 +32,8 @@ fn all_surfaces(random: &mut Random) -> Vec<(&'static str, TriangleSet)> {
         at(-0.5, 0.5, -0.4),
         at(0.5, -0.5, -0.4),
     ];
-    let triangles = [[0, 2, 3], [0, 1, 2], [0, 3, 4], [0, 5, 1], [5, 6, 1], [0, 4, 5], [4, 7, 5]];
+    let triangles =
+        [[2, 1, 6], [3, 2, 6], [0, 2, 3], [0, 1, 2], [0, 3, 4], [0, 5, 1], [5, 6, 1], [0, 4, 5], [4, 7, 5]];
     let mut all = surfaces(random);
     all.extend([("spike", spike), ("cut box", surface(vertices, &triangles))]);
     all
