@@ -11,7 +11,7 @@
 //! here decides an answer: every comparison asks what is asked there, with more room for rounding, and a number that is none
 //! tells nothing.
 
-use super::triangle_lanes::{EightVectors, NOTHING, bit_of_each, put, put_corners};
+use super::triangle_lanes::{EightVectors, NOTHING, TriangleLanes, bit_of_each, put};
 use crate::primitive::{Ellipsoid, TriangleSet};
 use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 
@@ -19,8 +19,7 @@ use crate::simd::{LANES, LaneBits, Numbers, Simd, Vectors, run_at_level};
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct EllipsoidTrianglePairs {
-    corners: [EightVectors; 3],
-    centers: EightVectors,
+    lanes: TriangleLanes,
     /// Principal axes times semi-axes.
     widen: [EightVectors; 3],
     /// One over the squares of the semi-axes, 1/m².
@@ -28,23 +27,16 @@ pub struct EllipsoidTrianglePairs {
     /// Smallest and largest semi-axes, m.
     smallest: [f64; LANES],
     largest: [f64; LANES],
-    thicknesses: [f64; LANES],
-    may_push: [u8; LANES],
-    count: usize,
 }
 
 impl Default for EllipsoidTrianglePairs {
     fn default() -> Self {
         Self {
-            corners: [NOTHING; 3],
-            centers: NOTHING,
+            lanes: TriangleLanes::NONE,
             widen: [NOTHING; 3],
             shrink: NOTHING,
             smallest: [0.0; LANES],
             largest: [0.0; LANES],
-            thicknesses: [0.0; LANES],
-            may_push: [0; LANES],
-            count: 0,
         }
     }
 }
@@ -53,38 +45,33 @@ impl EllipsoidTrianglePairs {
     /// How many pairs there are.
     #[inline]
     pub fn count(&self) -> usize {
-        self.count
+        self.lanes.count
     }
 
     /// Forgets all pairs.
     #[inline]
     pub fn clear(&mut self) {
-        self.count = 0;
+        self.lanes.count = 0;
     }
 
     /// Adds a pair, of which there may be eight. `thickness` as in
     /// [`ellipsoid_triangle`](super::ellipsoid_triangle::ellipsoid_triangle).
     #[inline]
     pub fn add(&mut self, ellipsoid: &Ellipsoid, set: &TriangleSet, triangle: u32, thickness: f64) {
-        let lane = self.count;
-        put_corners(&mut self.corners, lane, set, triangle);
-        put(&mut self.centers, lane, &ellipsoid.center);
+        let lane = self.lanes.add(&ellipsoid.center, set, triangle, thickness);
         let semi_axes = &ellipsoid.semi_axes;
         for axis in 0..3 {
             put(&mut self.widen[axis], lane, &(ellipsoid.axes.column(axis) * semi_axes[axis]));
             self.shrink[axis][lane] = 1.0 / (semi_axes[axis] * semi_axes[axis]);
         }
         (self.smallest[lane], self.largest[lane]) = (semi_axes.min(), semi_axes.max());
-        self.thicknesses[lane] = thickness;
-        self.may_push[lane] = set.triangles[triangle as usize].may_push.0;
-        self.count += 1;
     }
 
     /// Tells which pairs may touch, a bit for each in their order; then there are none.
     #[inline]
     pub fn take(&mut self) -> LaneBits {
         let near = may_touch(self);
-        self.count = 0;
+        self.clear();
         near
     }
 }
@@ -154,9 +141,9 @@ fn taxicab<S: Simd>(v: Vectors<S>) -> Numbers<S> {
 
 #[inline(always)]
 fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
-    let used = !(LaneBits::MAX.checked_shl(pairs.count as u32).unwrap_or(0));
-    let corners = load_three(simd, &pairs.corners);
-    let center = Vectors::load(simd, &pairs.centers);
+    let lanes = &pairs.lanes;
+    let corners = load_three(simd, &lanes.corners);
+    let center = Vectors::load(simd, &lanes.centers);
     let (smallest, largest) = (Numbers::load(simd, &pairs.smallest), Numbers::load(simd, &pairs.largest));
     let (widen, shrink) = (load_three(simd, &pairs.widen), Vectors::load(simd, &pairs.shrink));
     let ellipsoids = Ellipsoids { widen, shrink, largest_square: largest * largest };
@@ -168,7 +155,7 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
     let zero = Numbers::splat(simd, 0.0);
 
     // Behind, an ellipsoid is pushed to the front from as deep as the surface is thick.
-    let thickness = Numbers::load(simd, &pairs.thicknesses);
+    let thickness = Numbers::load(simd, &lanes.thicknesses);
     let behind = Numbers::select(height.below(zero), thickness * thickness * normal_square, zero);
     let widened = ellipsoids.widened(normal);
     let widened_square = widened.norm_squared();
@@ -205,9 +192,9 @@ fn may_touch_in<S: Simd>(simd: S, pairs: &EllipsoidTrianglePairs) -> LaneBits {
         let rounding = (start_square + along.norm_squared()) * zero.all(OUTSIDE_SHARE);
         let ball = zero.all(1.0 + OUTSIDE_SLACK) + ends_slack + rounding;
         let edge_outside = simd.bits(ball.below((start - along * share).norm_squared()));
-        features |= bit_of_each(&pairs.may_push, k) & !(one_minimum & edge_outside);
+        features |= bit_of_each(&lanes.may_push, k) & !(one_minimum & edge_outside);
         let vertex_outside = simd.bits(ball.below(start_square));
-        features |= bit_of_each(&pairs.may_push, 3 + k) & !(one_minimum & vertex_outside);
+        features |= bit_of_each(&lanes.may_push, 3 + k) & !(one_minimum & vertex_outside);
     }
-    used & !apart & (face | features)
+    lanes.used() & !apart & (face | features)
 }

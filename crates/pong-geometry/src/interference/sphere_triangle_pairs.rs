@@ -7,7 +7,7 @@
 //! comparison leaves room for rounding, or is made of the same bits as the one there, and a number that is none tells
 //! nothing.
 
-use super::triangle_lanes::{EightVectors, NOTHING, bit_of_each, put, put_corners};
+use super::triangle_lanes::{EightVectors, TriangleLanes, bit_of_each};
 use super::triangle_reach::{REACH_SLACK, SIDE_SLACK};
 use crate::primitive::{Sphere, TriangleSet};
 use crate::simd::{LANES, LaneBits, Simd, run_at_level};
@@ -20,24 +20,13 @@ const ALONG_SLACK: f64 = 2e-9;
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub struct SphereTrianglePairs {
-    corners: [EightVectors; 3],
-    centers: EightVectors,
+    lanes: TriangleLanes,
     radii: [f64; LANES],
-    thicknesses: [f64; LANES],
-    may_push: [u8; LANES],
-    count: usize,
 }
 
 impl Default for SphereTrianglePairs {
     fn default() -> Self {
-        Self {
-            corners: [NOTHING; 3],
-            centers: NOTHING,
-            radii: [0.0; LANES],
-            thicknesses: [0.0; LANES],
-            may_push: [0; LANES],
-            count: 0,
-        }
+        Self { lanes: TriangleLanes::NONE, radii: [0.0; LANES] }
     }
 }
 
@@ -45,33 +34,28 @@ impl SphereTrianglePairs {
     /// How many pairs there are.
     #[inline]
     pub fn count(&self) -> usize {
-        self.count
+        self.lanes.count
     }
 
     /// Forgets all pairs.
     #[inline]
     pub fn clear(&mut self) {
-        self.count = 0;
+        self.lanes.count = 0;
     }
 
     /// Adds a pair, of which there may be eight. `thickness` as in
     /// [`sphere_triangle`](super::sphere_triangle::sphere_triangle).
     #[inline(always)]
     pub fn add(&mut self, sphere: &Sphere, set: &TriangleSet, triangle: u32, thickness: f64) {
-        let lane = self.count;
-        put_corners(&mut self.corners, lane, set, triangle);
-        put(&mut self.centers, lane, &sphere.center);
+        let lane = self.lanes.add(&sphere.center, set, triangle, thickness);
         self.radii[lane] = sphere.radius;
-        self.thicknesses[lane] = thickness;
-        self.may_push[lane] = set.triangles[triangle as usize].may_push.0;
-        self.count += 1;
     }
 
     /// Tells the pairs apart; then there are none.
     #[inline]
     pub fn take(&mut self) -> PairsTold {
         let told = tell(self);
-        self.count = 0;
+        self.clear();
         told
     }
 
@@ -79,7 +63,7 @@ impl SphereTrianglePairs {
     #[inline(always)]
     pub fn take_in<S: Simd>(&mut self, simd: S) -> PairsTold {
         let told = tell_in(simd, self);
-        self.count = 0;
+        self.clear();
         told
     }
 }
@@ -160,14 +144,15 @@ fn size<S: Simd>(simd: S, x: S::Eight) -> S::Eight {
 /// Names as in [`InReach`](super::triangle_reach::InReach), whose comparisons come first.
 #[inline(always)]
 fn tell_in<S: Simd>(simd: S, pairs: &SphereTrianglePairs) -> PairsTold {
-    let used = !(LaneBits::MAX.checked_shl(pairs.count as u32).unwrap_or(0));
+    let (used, radii) = (pairs.lanes.used(), &pairs.radii);
+    let pairs = &pairs.lanes;
     let corners = [
         Vector::load(simd, &pairs.corners[0]),
         Vector::load(simd, &pairs.corners[1]),
         Vector::load(simd, &pairs.corners[2]),
     ];
     let center = Vector::load(simd, &pairs.centers);
-    let radius = simd.load(&pairs.radii);
+    let radius = simd.load(radii);
     let edges = [corners[1].less(&corners[0]), corners[2].less(&corners[1]), corners[0].less(&corners[2])];
     let arms = [center.less(&corners[0]), center.less(&corners[1]), center.less(&corners[2])];
     let normal = edges[0].cross(&corners[2].less(&corners[0]));

@@ -16,12 +16,46 @@ pub(super) fn put(vectors: &mut EightVectors, lane: usize, v: &Vec3) {
     (vectors[0][lane], vectors[1][lane], vectors[2][lane]) = (v.x, v.y, v.z);
 }
 
-/// Writes the corners of one triangle.
-#[inline(always)]
-pub(super) fn put_corners(corners: &mut [EightVectors; 3], lane: usize, set: &TriangleSet, triangle: u32) {
-    let record = &set.triangles[triangle as usize];
-    for (corner, &vertex) in corners.iter_mut().zip(&record.vertices) {
-        put(corner, lane, &set.vertices[vertex as usize]);
+/// Up to eight triangles, each with the centre of what may touch it.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+pub(super) struct TriangleLanes {
+    pub corners: [EightVectors; 3],
+    pub centers: EightVectors,
+    /// How far behind a triangle its centre may be and still be pushed to the front, m.
+    pub thicknesses: [f64; LANES],
+    pub may_push: [u8; LANES],
+    pub count: usize,
+}
+
+impl TriangleLanes {
+    pub const NONE: Self = Self {
+        corners: [NOTHING; 3],
+        centers: NOTHING,
+        thicknesses: [0.0; LANES],
+        may_push: [0; LANES],
+        count: 0,
+    };
+
+    /// One more, of which there may be eight; answers its lane.
+    #[inline(always)]
+    pub fn add(&mut self, center: &Vec3, set: &TriangleSet, triangle: u32, thickness: f64) -> usize {
+        let lane = self.count;
+        let record = &set.triangles[triangle as usize];
+        for (corner, &vertex) in self.corners.iter_mut().zip(&record.vertices) {
+            put(corner, lane, &set.vertices[vertex as usize]);
+        }
+        put(&mut self.centers, lane, center);
+        self.thicknesses[lane] = thickness;
+        self.may_push[lane] = record.may_push.0;
+        self.count += 1;
+        lane
+    }
+
+    /// The lanes that hold one.
+    #[inline(always)]
+    pub fn used(&self) -> LaneBits {
+        !(LaneBits::MAX.checked_shl(self.count as u32).unwrap_or(0))
     }
 }
 
