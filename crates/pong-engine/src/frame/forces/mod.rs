@@ -222,6 +222,7 @@ impl PairContext<'_> {
 
     /// φ, worked out once for all contacts of the pair.
     fn rotation(&self, since: &SinceCommit) -> &Vec3 {
+        // Set in place: what a closure returns is copied right after it was written, and that is waited for.
         if self.rotation_b.get().is_none() {
             _ = self.rotation_b.set(since.rotation());
         }

@@ -49,12 +49,24 @@ impl Default for DeferredPairs {
     }
 }
 
+impl DeferredPairs {
+    /// How many there are.
+    #[inline]
+    pub fn count(&self) -> usize {
+        self.spheres.count() + self.ellipsoids.count()
+    }
+
+    fn clear(&mut self) {
+        self.spheres.clear();
+        self.ellipsoids.clear();
+    }
+}
+
 impl<'m> ChunkCandidates<'m> {
     pub fn new(list: &'m mut Table<ContactCandidate>, deferred: &'m mut DeferredPairs) -> Self {
         // A panic may have left some.
         list.clear();
-        deferred.spheres.clear();
-        deferred.ellipsoids.clear();
+        deferred.clear();
         Self { list, seen: 0, overflowed: false, deferred, sides: KnownSides::default() }
     }
 
@@ -66,7 +78,7 @@ impl<'m> ChunkCandidates<'m> {
     /// Whether pairs were put off that are not tested yet.
     #[inline]
     pub fn has_deferred(&self) -> bool {
-        self.deferred.spheres.count() + self.deferred.ellipsoids.count() > 0
+        self.deferred.count() > 0
     }
 
     /// A place for one candidate more; the caller writes all of it.

@@ -1,6 +1,6 @@
 //! Elements of A that may touch an element of B: which contact tester they go to, and eight at a time where that is quicker.
 
-use super::element_pair::{Ball, ChunkCandidates, DeferredPairs, ElementPair};
+use super::element_pair::{Ball, ChunkCandidates, ElementPair};
 use super::on_triangle::{thickness_for_ellipsoid, thickness_for_sphere};
 use super::pair_table::{Test, ellipsoid_triangle, sphere_triangle, test_of};
 use super::registered;
@@ -37,10 +37,7 @@ impl<'a> Target<'a> {
     ) {
         if self.kind_b == Triangle && matches!(chunk.kind, PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid) {
             counts.note_testers(chunk.kind, self.kind_b, near.count_ones(), 0);
-            return match chunk.kind {
-                PrimitiveKind::Sphere => self.defer_spheres(chunk, near, found, counts),
-                _ => self.defer_ellipsoids(chunk, near, found, counts),
-            };
+            return self.defer(chunk, near, found, counts);
         }
         let tested = near.count_ones();
         let near = self.not_separated(simd, chunk, near);
@@ -54,46 +51,30 @@ impl<'a> Target<'a> {
         counts.note_testers(chunk.kind, self.kind_b, tested, (found.seen - before) as u32);
     }
 
-    /// Defers the tests of spheres near a triangle until there are eight such pairs.
+    /// Defers the tests of spheres or ellipsoids near a triangle until there are eight such pairs.
     #[inline(always)]
-    fn defer_spheres(
+    fn defer(
         &self,
         chunk: &Chunk<'_>,
         near: LaneBits,
         found: &mut ChunkCandidates<'_>,
         counts: &mut FrameCounts,
     ) {
-        let triangles = &self.context.body_b.triangles;
+        let (context, item_b) = (self.context, self.item_b);
+        let triangles = &context.body_b.triangles;
         for lane in lanes(near) {
-            let sphere = chunk.sphere(lane);
-            let thickness = thickness_for_sphere(self.context, self.item_b, &sphere);
-            let DeferredPairs { spheres: pairs, from, .. } = &mut *found.deferred;
-            from[pairs.count()] = (lane as u8, self.item_b);
-            pairs.add(&sphere, triangles, self.item_b.element, thickness);
-            if pairs.count() == LANES {
-                test_deferred(self.context, *chunk, found, counts);
+            let deferred = &mut *found.deferred;
+            deferred.from[deferred.count()] = (lane as u8, item_b);
+            if chunk.kind == PrimitiveKind::Sphere {
+                let sphere = chunk.sphere(lane);
+                let thickness = thickness_for_sphere(context, item_b, &sphere);
+                deferred.spheres.add(&sphere, triangles, item_b.element, thickness);
+            } else if let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) {
+                let thickness = thickness_for_ellipsoid(context, item_b, ellipsoid);
+                deferred.ellipsoids.add(ellipsoid, triangles, item_b.element, thickness);
             }
-        }
-    }
-
-    /// The same of ellipsoids.
-    #[inline(never)]
-    fn defer_ellipsoids(
-        &self,
-        chunk: &Chunk<'_>,
-        near: LaneBits,
-        found: &mut ChunkCandidates<'_>,
-        counts: &mut FrameCounts,
-    ) {
-        let triangles = &self.context.body_b.triangles;
-        for lane in lanes(near) {
-            let Some(TransformedPrimitive::Ellipsoid(ellipsoid)) = chunk.carried(lane) else { continue };
-            let thickness = thickness_for_ellipsoid(self.context, self.item_b, ellipsoid);
-            let DeferredPairs { ellipsoids: pairs, from, .. } = &mut *found.deferred;
-            from[pairs.count()] = (lane as u8, self.item_b);
-            pairs.add(ellipsoid, triangles, self.item_b.element, thickness);
-            if pairs.count() == LANES {
-                test_deferred(self.context, *chunk, found, counts);
+            if deferred.count() == LANES {
+                test_deferred(context, *chunk, found, counts);
             }
         }
     }

@@ -46,6 +46,7 @@ pub(crate) fn least_travel_m(
 #[inline]
 pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     let Some(since) = &motion.since_commit else { return false };
+    // There is nothing to go through.
     if plan.least_travel_m == f64::INFINITY {
         return false;
     }
@@ -53,7 +54,8 @@ pub(super) fn may_go_through(plan: &Plan, motion: &Motion) -> bool {
     // The Frobenius norm is no less than how far a rotation carries anything at a distance of 1 m.
     let turn_square = (motion.x_ba.rotation - since.x_ba.rotation).norm_squared();
     let (reach, least) = (plan.reach_a_m, plan.least_travel_m);
-    // As a rule both are small: the square of a sum is no more than twice the sum of the squares, and no root is needed.
+    // As a rule both are small, and no root is needed: the square of a sum is no more than twice the sum of the squares. Twice
+    // that is beyond rounding.
     4.0 * (shift_square + turn_square * (reach * reach)) > least * least
         && shift_square.sqrt() + turn_square.sqrt() * reach > least
 }
