@@ -140,8 +140,8 @@ pub struct Batch {
     /// Boxes around eight elements each, eight boxes at a time; empty if the elements are unbounded, or of a kind
     /// that is B in all of the engine's own tests.
     pub chunks: Vec<ChunkBoxes>,
-    /// Centres and radii by lane, for points and spheres.
-    pub balls: Option<Balls>,
+    /// For points and spheres, by lane; those of the elements 8·i … 8·i + 7 at place *i*. Empty for other kinds.
+    pub balls: Vec<Balls>,
 }
 
 /// Boxes around eight times eight elements of a batch: around its elements 64·i … 64·i + 7 in lane 0 at place *i*.
@@ -177,18 +177,19 @@ impl ChunkBoxes {
     }
 }
 
-/// Points or spheres in lanes of eight: those of the elements 8·i … 8·i + 7 at place *i*. Unused lanes repeat the last element.
-#[derive(Clone, Debug)]
+/// Up to eight points or spheres. Unused lanes repeat the last element.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
 pub struct Balls {
     /// Centres in the movable group's frame, m.
-    pub centers: Vec<Lanes>,
+    pub centers: Lanes,
     /// Radii, m; zero for points.
-    pub radii: Vec<[f64; LANES]>,
+    pub radii: [f64; LANES],
 }
 
 impl Balls {
-    /// The lanes of some elements; `None` for kinds that are no balls.
-    pub(crate) fn new(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Option<Self> {
+    /// Some elements, eight by eight; none of kinds that are no balls.
+    pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
         let ball = |item: &Item| match kind {
             PrimitiveKind::Point => Some((body.points[item.element as usize].position, 0.0)),
             PrimitiveKind::Sphere => {
@@ -197,18 +198,16 @@ impl Balls {
             }
             _ => None,
         };
-        let mut balls = Self { centers: Vec::new(), radii: Vec::new() };
-        for chunk in items.chunks(LANES) {
-            let (mut centers, mut radii) = (Lanes::ORIGIN, [0.0; LANES]);
+        let eight = |chunk: &[Item]| {
+            let mut balls = Self { centers: Lanes::ORIGIN, radii: [0.0; LANES] };
             for lane in 0..LANES {
                 let (center, radius) = ball(&chunk[lane.min(chunk.len() - 1)])?;
-                centers.set(lane, &center);
-                radii[lane] = radius;
+                balls.centers.set(lane, &center);
+                balls.radii[lane] = radius;
             }
-            balls.centers.push(centers);
-            balls.radii.push(radii);
-        }
-        Some(balls)
+            Some(balls)
+        };
+        items.chunks(LANES).map_while(eight).collect()
     }
 }
 

@@ -148,7 +148,7 @@ fn batches(body: &MovableGroup, items: &[Item], tree: &mut Tree) {
         let first = tree.items.len() as u32;
         tree.items.extend(elements.iter().map(|element| element.item));
         let items = first..tree.items.len() as u32;
-        let balls = Balls::new(body, kind, &tree.items[first as usize..]);
+        let balls = Balls::of(body, kind, &tree.items[first as usize..]);
         let never_a =
             matches!(kind, PrimitiveKind::Triangle | PrimitiveKind::Polyhedron | PrimitiveKind::Plane);
         let chunks = if never_a { Vec::new() } else { ChunkBoxes::of(&boxes) };

@@ -437,7 +437,6 @@ fn large_leaves_are_split_and_everything_stays_inside_its_volume() {
 
 /// Every ball lies in the box that its batch has for it, and in the lane that its place says.
 fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
-    let balls = batch.balls.as_ref().expect("spheres have lanes");
     batch.boxes.visit(Portable, &NarrowBox::EVERYTHING, |node, met| {
         for lane in lanes(met) {
             let Child::Element(place) = node.child(lane) else { panic!("a bottom node") };
@@ -447,9 +446,8 @@ fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
                 .boxes
                 .narrowed(&ball.center.add_scalar(-ball.radius), &ball.center.add_scalar(ball.radius));
             assert!(node.boxes.lane(lane).join(&one) == node.boxes.lane(lane), "{item:?}");
-            let centers = &balls.centers[place as usize / 8];
-            assert_eq!(centers.x[place as usize % 8], ball.center.x);
-            assert_eq!(balls.radii[place as usize / 8][place as usize % 8], ball.radius);
+            let (eight, lane) = (&batch.balls[place as usize / 8], place as usize % 8);
+            assert_eq!((eight.centers.x[lane], eight.radii[lane]), (ball.center.x, ball.radius));
         }
     });
 }

@@ -3,7 +3,7 @@
 use crate::frame::energy::buffers::EnergyBuffers;
 use crate::frame::forces::contact::FrameContact;
 use crate::frame::forces::contact_buffer::ContactBuffer;
-use crate::frame::forces::found::FoundContacts;
+use crate::frame::forces::found::{FoundContacts, WorkerBuffers};
 use crate::frame::forces::place::Place;
 use crate::frame::input::WorkerInput;
 use crate::frame::input::relative::Motions;
@@ -31,7 +31,7 @@ pub(crate) struct EvaluationBuffers {
     // testers, sharing, forces: in no order
     pub caller: WorkerContext,
     /// What workers have found in the last round, if it was taken over as it is; otherwise it stands in the caller's context.
-    pub workers: Vec<ContactBuffer>,
+    pub workers: WorkerBuffers,
     // order, limit: where the contacts that count stand, in the order of every sum
     pub order: Table<Place>,
     pub tunnelling: TunnellingEvents,
@@ -53,6 +53,7 @@ impl EvaluationBuffers {
         let as_they_are = sealed.limits.lanes_write_records && !sealed.rays_meet_groups;
         let taken_over = if as_they_are { workers } else { 0 };
         let contacts = sealed.limits.worker_contacts(workers + 1);
+        let buffer = |lane| WorkerContext::buffer(sealed, lane, contacts);
         Self {
             computed: false,
             poses: vec![Pose::identity(); bodies],
@@ -60,7 +61,7 @@ impl EvaluationBuffers {
             near: NearPairs::new(scene, sealed),
             input,
             caller: WorkerContext::new(sealed, 0, sealed.limits.lane_contacts),
-            workers: (1..=taken_over).map(|lane| WorkerContext::buffer(sealed, lane, contacts)).collect(),
+            workers: WorkerBuffers::new((1..=taken_over).map(buffer).collect()),
             order: Table::with_capacity(sealed.limits.lane_contacts, Place::NOWHERE),
             tunnelling: TunnellingEvents::default(),
             energy: EnergyBuffers::new(sealed),
@@ -79,10 +80,7 @@ impl EvaluationBuffers {
         for &body in &*sealed.paired_bodies {
             self.wrenches[body] = Wrench::zero();
         }
-        self.workers
-            .iter_mut()
-            .filter(|worker| worker.holds_a_phase())
-            .for_each(|worker| worker.begin(ContactBuffer::NO_PHASE));
+        self.workers.empty();
         self.beyond_range = None;
         self.report = FrameReport::default();
         self.times = StageTimes::default();

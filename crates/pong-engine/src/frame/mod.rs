@@ -34,7 +34,7 @@ pub(crate) use worker_pool::WorkerPool;
 
 use crate::report::{Stage, Work, WorkTimes};
 use broad_phase::blocks;
-use forces::contact_buffer::ContactBuffer;
+use forces::found::WorkerBuffers;
 use input::relative::Motions;
 use input::states;
 use output::{order, reduce};
@@ -83,10 +83,10 @@ fn find_contacts(
         laps.lap_work(Work::BroadPhase, &mut layout);
         input.phase += 1;
         // There may be more than one round: what workers have found in the one before gives way to what they find in this one.
-        for worker in workers.iter_mut().filter(|worker| worker.holds_a_phase()) {
+        for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
             assert!(caller.out.absorb(worker), "what was taken over has room in the caller's buffer");
-            worker.begin(ContactBuffer::NO_PHASE);
         }
+        workers.empty();
         let shared =
             pool.as_mut().is_some_and(|pool| run_parallel(given, pool, (input, cost_ns), caller, workers));
         if !shared {
@@ -106,7 +106,7 @@ fn find_contacts(
         caller.out.counts.add(&worker.counts);
     }
     times.work = caller.out.times;
-    if let Some(pool) = pool {
+    if let Some(pool) = pool.filter(|pool| pool.has_worked()) {
         pool.times().for_each(|worker| times.work.add(worker));
     }
 }
@@ -117,13 +117,13 @@ fn run_parallel(
     pool: &mut WorkerPool,
     (input, cost_ns): (&WorkerInput, u64),
     caller: &mut WorkerContext,
-    workers: &mut [ContactBuffer],
+    workers: &mut WorkerBuffers,
 ) -> bool {
     if !pool.is_worth(given.memory.records.len(), input.blocks.len(), cost_ns) {
         return false;
     }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(given.memory, input, caller, workers);
+    let done = pool.run_parallel(given.memory, input, caller, workers.to_use());
     if !done {
         caller.out.restore(&before);
     }

@@ -44,9 +44,12 @@ impl<'a> RecordLookup<'a> {
     pub fn under(&self, key: &ContactKey) -> (usize, &'a [ContactRecord]) {
         let found = self.of_head(key.head());
         let records = self.memory.records.found(&found);
-        let before = records.iter().take_while(|record| record.key < *key).count();
-        let count = records[before..].iter().take_while(|record| record.key == *key).count();
-        (found.first() + before, &records[before..before + count])
+        // Their heads are the key's.
+        let tail = key.tail();
+        let others = records.iter().take_while(|record| record.key.tail() < tail).count();
+        let (_, records) = records.split_at(others);
+        let same = records.iter().take_while(|record| record.key.tail() == tail).count();
+        (found.first() + others, &records[..same])
     }
 
     #[inline]

@@ -25,7 +25,7 @@ impl ContactKey {
     /// The fields one after another, as two numbers: they compare faster than five.
     #[inline]
     fn rank(&self) -> (u64, u64) {
-        (self.head(), u64::from(self.shell_b) << 32 | u64::from(self.end))
+        (self.head(), self.tail())
     }
 
     /// The pair of movable groups, and which of them holds A.
@@ -44,6 +44,12 @@ impl ContactKey {
     #[inline]
     pub fn head(&self) -> u64 {
         u64::from(self.group_pair) << 33 | u64::from(self.flipped) << 32 | u64::from(self.primitive_a)
+    }
+
+    /// The second number.
+    #[inline]
+    pub fn tail(&self) -> u64 {
+        u64::from(self.shell_b) << 32 | u64::from(self.end)
     }
 }
 

@@ -43,7 +43,9 @@ pub struct NarrowBoxes {
 }
 
 /// Up to eight boxes, each around a child node or an element.
+// Four cache lines, and no eight bounds span two of them.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 pub struct BoxNode {
     /// The boxes.
     pub boxes: NarrowBoxes,

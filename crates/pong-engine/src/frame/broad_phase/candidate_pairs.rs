@@ -14,6 +14,9 @@ pub(crate) const SUPERCHUNK: u32 = (LANES * LANES) as u32;
 /// CandidatePairs that there is room for; beyond them the chunks of a group go through the trees one by one.
 const CANDIDATE_PAIRS_MAX: usize = 1024;
 
+/// Words of eight pairs each.
+const WORDS: usize = CANDIDATE_PAIRS_MAX / LANES;
+
 /// Nodes that can wait at once: a tree of 2³¹ elements has eleven levels, each leaves at most seven waiting.
 const DEPTH_MAX: usize = 80;
 
@@ -90,8 +93,10 @@ struct StackEntry {
 pub(crate) struct CandidatePairs {
     list: Table<CandidatePair>,
     /// For every pair a bit for every chunk, eight pairs to a word from the lowest byte.
-    chunks: Table<u64>,
-    waiting: Table<StackEntry>,
+    chunks: [u64; WORDS],
+    /// The first `depth` of them.
+    waiting: [StackEntry; DEPTH_MAX],
+    depth: usize,
     any: LaneBits,
 }
 
@@ -101,8 +106,9 @@ impl CandidatePairs {
         let nothing = CandidatePair { reach: 0, place: 0, box_b: WideBox::NOTHING };
         Self {
             list: Table::with_capacity(CANDIDATE_PAIRS_MAX, nothing),
-            chunks: Table::with_capacity(CANDIDATE_PAIRS_MAX / LANES, 0),
-            waiting: Table::with_capacity(DEPTH_MAX, StackEntry { node: 0, chunks: 0 }),
+            chunks: [0; WORDS],
+            waiting: [StackEntry { node: 0, chunks: 0 }; DEPTH_MAX],
+            depth: 0,
             any: 0,
         }
     }
@@ -115,7 +121,7 @@ impl CandidatePairs {
     /// Numbers of the candidate pairs of a chunk.
     #[inline(always)]
     pub fn of(&self, chunk: usize) -> NumbersOfChunk<'_> {
-        NumbersOfChunk { words: &self.chunks, chunk, next: 0, bits: 0 }
+        NumbersOfChunk { words: &self.chunks[..self.words()], chunk, next: 0, bits: 0 }
     }
 
     /// All pairs, by their numbers.
@@ -124,9 +130,15 @@ impl CandidatePairs {
         &self.list
     }
 
+    fn words(&self) -> usize {
+        self.list.len().div_ceil(LANES)
+    }
+
+    #[inline(always)]
     fn clear(&mut self) {
+        let words = self.words();
+        self.chunks[..words].fill(0);
         self.list.clear();
-        self.chunks.clear();
         self.any = 0;
     }
 
@@ -138,9 +150,6 @@ impl CandidatePairs {
     #[inline(always)]
     fn add(&mut self, reach: usize, element: u32, chunks: LaneBits) -> &mut CandidatePair {
         let index = self.list.len();
-        if index.is_multiple_of(LANES) {
-            self.chunks.push(0).expect("room for as many");
-        }
         // Not as bytes: a word that was just written in pieces would be waited for.
         self.chunks[index / LANES] |= u64::from(chunks) << (index % LANES * LaneBits::BITS as usize);
         self.any |= chunks;
@@ -169,7 +178,7 @@ impl CandidatePairs {
             while let Some(StackEntry { node, chunks }) = self.next_waiting() {
                 let node = &batch.boxes.nodes[node as usize];
                 if !self.has_room_for_a_node() {
-                    self.waiting.clear();
+                    self.depth = 0;
                     return false;
                 }
                 // One chunk's box is asked itself; of several, first the box around all, then each box of B that it meets.
@@ -214,14 +223,15 @@ impl CandidatePairs {
 
     #[inline(always)]
     fn wait(&mut self, node: u32, chunks: LaneBits) {
-        self.waiting.push(StackEntry { node, chunks }).expect("room for the deepest tree");
+        // There is room for the deepest tree.
+        self.waiting[self.depth] = StackEntry { node, chunks };
+        self.depth += 1;
     }
 
     #[inline(always)]
     fn next_waiting(&mut self) -> Option<StackEntry> {
-        let last = self.waiting.last().copied();
-        self.waiting.truncate(self.waiting.len().saturating_sub(1));
-        last
+        self.depth = self.depth.checked_sub(1)?;
+        Some(self.waiting[self.depth])
     }
 
     /// Goes on with the traversal of one chunk through the trees until it is through or there is no more room; whether it

@@ -80,11 +80,10 @@ impl<'a> ChunksOfA<'a> {
         let items = &items[..items.len().min(LANES)];
         let ChunkSpace { centers, boxes, balls, carried } = space;
         let mut radii = &[0.0; LANES];
-        match &batch.balls {
+        match batch.balls.get(first as usize / LANES) {
             Some(balls) => {
-                let place = first as usize / LANES;
-                balls.centers[place].carry_in(simd, x_ba, centers);
-                radii = &balls.radii[place];
+                balls.centers.carry_in(simd, x_ba, centers);
+                radii = &balls.radii;
                 boxes.set_to_balls(simd, centers, radii);
             }
             None => {
@@ -114,7 +113,9 @@ pub(crate) struct WideBox {
 }
 
 /// One ball per lane in B's frame: centres, m, and radii with room for rounding.
+// Eight numbers are one cache line: what spans two is loaded in two steps.
 #[derive(Debug)]
+#[repr(align(64))]
 struct LaneBalls {
     centers: [[f64; LANES]; 3],
     /// Squares of the radii, m². Kept as such: a compiler that squares radii ahead of the loop that may need them does so
@@ -125,7 +126,9 @@ struct LaneBalls {
 }
 
 /// One box per lane in B's frame, m. What unused lanes hold is not asked for, but widens nothing.
+// Aligned as balls are.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct LaneBoxes {
     low: [[f64; LANES]; 3],
     high: [[f64; LANES]; 3],

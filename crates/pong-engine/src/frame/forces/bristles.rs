@@ -31,11 +31,10 @@ pub(super) struct Bristle {
 }
 
 /// Up to eight contacts whose friction is still to be worked out.
+// Eight numbers are one cache line: what spans two is loaded in two steps.
 #[derive(Debug)]
+#[repr(C, align(64))]
 pub(super) struct WaitingBristles {
-    count: usize,
-    /// Where in their buffer the contacts stand.
-    places: [u32; LANES],
     normal: Lanes,
     carried: Lanes,
     slip: Lanes,
@@ -44,6 +43,9 @@ pub(super) struct WaitingBristles {
     damping: [f64; LANES],
     kinetic_limit: [f64; LANES],
     static_limit: [f64; LANES],
+    count: usize,
+    /// Where in their buffer the contacts stand.
+    places: [u32; LANES],
     stuck: LaneBits,
 }
 

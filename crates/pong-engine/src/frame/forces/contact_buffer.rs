@@ -133,6 +133,12 @@ impl ContactBuffer {
         Slot::new(self.lane, index)
     }
 
+    /// Whether registered laws keep numbers of contacts.
+    #[inline]
+    pub fn has_law_state(&self) -> bool {
+        self.law_state_len > 0
+    }
+
     /// The numbers of a contact.
     pub fn law_state_of(&self, contact: usize) -> &[f64] {
         &self.law_state[contact * self.law_state_len..(contact + 1) * self.law_state_len]

@@ -181,7 +181,9 @@ impl PairContext<'_> {
     #[inline(always)]
     fn add_friction(&self, contact: &Slipping<'_>, props: &PairProps, out: &mut ContactBuffer) {
         let record = contact.continues.map(|(_, record)| record);
-        if let Some((index, _)) = contact.continues {
+        if let Some((index, _)) = contact.continues
+            && out.has_law_state()
+        {
             out.law_state_mut(contact.place).copy_from_slice(self.memory.law_state_of(index));
         }
         let carried = record.map_or(Vec3::zeros(), |record| {

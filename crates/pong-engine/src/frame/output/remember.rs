@@ -35,7 +35,7 @@ fn adopt(frame: &mut EvaluationBuffers, next: &mut ContactMemory) -> bool {
     if !next.records.adopt(written) {
         return false;
     }
-    let lanes = std::iter::once(&mut caller.out).chain(workers);
+    let lanes = std::iter::once(&mut caller.out).chain(workers.iter_mut());
     for (lane, out) in lanes.enumerate() {
         std::mem::swap(&mut out.records, next.records.lane_mut(lane));
         out.records.clear();

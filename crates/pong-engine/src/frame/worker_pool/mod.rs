@@ -38,6 +38,8 @@ pub(crate) struct WorkerPool {
     pub timeouts: u64,
     /// Whether the workers were given a frame's input since it was last taken back.
     lent: bool,
+    /// Whether the workers were given a round of this frame.
+    worked: bool,
     /// Where the workers' time of this frame's rounds went; zero without a clock.
     times: Vec<WorkTimes>,
 }
@@ -123,7 +125,7 @@ impl WorkerPool {
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); workers];
-        Ok(Self { pool, shared, timeouts: 0, lent: false, times })
+        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, times })
     }
 
     /// Whether a round of so many blocks whose tests may cost so much, ns, is sooner done by all than by the caller alone. What
@@ -149,7 +151,7 @@ impl WorkerPool {
             self.timeouts += 1;
             return false;
         }
-        self.lent = true;
+        (self.lent, self.worked) = (true, true);
         match self.shared.lent.try_write() {
             Ok(mut lent) => lent.copy_from(input, memory),
             Err(TryLockError::Poisoned(lent)) => lent.into_inner().copy_from(input, memory),
@@ -200,7 +202,15 @@ impl WorkerPool {
 
     /// No time has been spent yet.
     pub fn begin_frame(&mut self) {
-        self.times.fill(WorkTimes::default());
+        if self.worked {
+            self.times.fill(WorkTimes::default());
+            self.worked = false;
+        }
+    }
+
+    /// Whether the workers were given a round of this frame.
+    pub fn has_worked(&self) -> bool {
+        self.worked
     }
 
     /// Where the workers' time of the rounds that were shared out went.
