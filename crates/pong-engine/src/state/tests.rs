@@ -5,6 +5,7 @@ use super::lookup::RecordLookup;
 use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
+use super::records::Records;
 use super::slot::Slot;
 use crate::energy::account::{EnergyAccount, WrenchCoupling};
 use crate::energy::contact::{ContactEnergies, ContactEnergy, ContactEnergyRef};
@@ -306,6 +307,36 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
             }
             let mut gone = all.iter().filter(|key| is_cleared(key.group_pair as usize));
             assert!(gone.all(|key| lookup.under(key).1.is_empty()));
+        }
+    }
+}
+
+#[test]
+fn the_first_record_of_a_head_is_found_whatever_was_hinted_before() {
+    /// Primitives so far apart have one hint.
+    const APART: u32 = 1 << 12;
+    let mut random = Random(21);
+    let model = record_of(&mut random);
+    // One list for all: its hints are those of lists before.
+    let mut records = Records::with_capacity(60);
+    for _ in 0..2000 {
+        let some = |random: &mut Random| ContactKey {
+            group_pair: random.below(2) as u32,
+            primitive_a: random.below(9) as u32 + APART * random.below(3) as u32,
+            ..ContactKey::default()
+        };
+        let mut keys: Vec<ContactKey> = (0..random.below(60)).map(|_| some(&mut random)).collect();
+        keys.sort();
+        records.clear();
+        for key in &keys {
+            records.push_with(|record| *record = ContactRecord { key: *key, ..model }).unwrap();
+        }
+        if random.below(3) == 0 {
+            keys.truncate(random.below(keys.len() + 1));
+            records.truncate(keys.len());
+        }
+        for head in (0..100).map(|_| some(&mut random).head()) {
+            assert_eq!(records.place_of_head(head), keys.iter().filter(|key| key.head() < head).count());
         }
     }
 }

@@ -10,8 +10,8 @@ use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
 #[cfg(doc)]
 use crate::primitive::FacePlanes;
-use crate::primitive::Polyhedron;
-use crate::simd::{Simd, run_at_level};
+use crate::primitive::{PlaneBlock, Polyhedron};
+use crate::simd::{LaneBits, Simd, Splat, run_at_level};
 use crate::{Vec3, divisor};
 
 /// Memory follows a faceted curve across an edge only where the cosine between the two normals exceeds this;
@@ -118,7 +118,18 @@ pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
 }
 
 impl Reached {
-    fn at(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Self {
+    #[inline]
+    fn at(p: &Vec3, polyhedron: &Polyhedron, index: usize) -> Self {
+        let face = &index;
+        match polyhedron.planes().only_block() {
+            Some(block) => {
+                run_at_level!(reached_in_block(p: Vec3, block: PlaneBlock, face: usize) -> Reached)
+            }
+            None => Self::at_face_of_many(p, polyhedron, index),
+        }
+    }
+
+    fn at_face_of_many(p: &Vec3, polyhedron: &Polyhedron, face: usize) -> Self {
         let mut best = Self { face, pushes: face, depth: -polyhedron.height(face, p) };
         for rim in polyhedron.rim(face) {
             let neighbor = rim.neighbor as usize;
@@ -130,6 +141,17 @@ impl Reached {
         }
         best
     }
+}
+
+/// The same where all faces are in one block.
+#[inline(always)]
+fn reached_in_block<S: Simd>(simd: S, p: &Vec3, block: &PlaneBlock, &face: &usize) -> Reached {
+    let asked: LaneBits = block.beside[face] | 1 << face;
+    let heights = block.heights(simd, &Splat::new(simd, p));
+    let heights = simd.select(simd.mask(asked), heights, simd.splat(f64::NEG_INFINITY));
+    let top = simd.largest(heights);
+    let pushes = simd.bits(simd.equal(heights, simd.splat(top))).trailing_zeros() as usize;
+    Reached { face, pushes, depth: -top }
 }
 
 /// The active neighbour across a blunt edge below which the point is least deep, if that is less than below the face.

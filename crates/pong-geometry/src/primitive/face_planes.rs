@@ -1,6 +1,6 @@
 //! The planes of a polyhedron's faces, coordinate by coordinate.
 
-use super::polyhedron_parts::PolyhedronFace;
+use super::polyhedron_parts::{PolyhedronFace, PolyhedronParts};
 use crate::simd::{LANES, LaneBits, MODERATE, Simd, Splat, is_moderate};
 
 /// Faces in blocks of eight, in their order.
@@ -33,6 +33,8 @@ pub struct PlaneBlock {
     pub active: LaneBits,
     /// Which lanes hold a closed face.
     pub closed: LaneBits,
+    /// For each face, the active ones in this block that have an edge in common with it.
+    pub beside: [LaneBits; LANES],
 }
 
 impl PlaneBlock {
@@ -92,17 +94,34 @@ impl FacePlanes {
         &self.blocks[index.min(self.blocks.len() - 1)]
     }
 
-    /// The planes of the faces of a piece of some diameter, m.
-    pub fn new(faces: &[PolyhedronFace], diameter: f64) -> Self {
+    /// The only block: most pieces have at most eight faces.
+    #[inline]
+    pub fn only_block(&self) -> Option<&PlaneBlock> {
+        let [only] = &self.blocks[..] else { return None };
+        Some(only)
+    }
+
+    /// The planes of the faces of a piece.
+    pub fn new(parts: &PolyhedronParts) -> Self {
+        let faces = &parts.faces[..];
         let moderate = faces.iter().all(|face| is_moderate(&face.normal) && face.offset.abs() < MODERATE);
         let all_active = faces.iter().all(|face| face.active);
         let simple = all_active && !faces.iter().any(|face| face.closed);
-        let wall_slack = Self::WALL_TOLERANCE * diameter;
-        Self { blocks: faces.chunks(LANES).map(block).collect(), moderate, all_active, simple, wall_slack }
+        let wall_slack = Self::WALL_TOLERANCE * parts.diameter;
+        let blocks = (0..faces.len()).step_by(LANES).map(|first| block(parts, first)).collect();
+        Self { blocks, moderate, all_active, simple, wall_slack }
     }
 }
 
-fn block(faces: &[PolyhedronFace]) -> PlaneBlock {
+/// The block of the faces from `first` on.
+fn block(parts: &PolyhedronParts, first: usize) -> PlaneBlock {
+    let faces = &parts.faces[first..parts.faces.len().min(first + LANES)];
+    let beside = |face: &PolyhedronFace| {
+        let neighbors = parts.rims_of(face).iter().map(|rim| rim.neighbor as usize);
+        let here =
+            neighbors.filter(|&other| parts.faces[other].active).filter_map(|other| other.checked_sub(first));
+        here.filter(|&lane| lane < faces.len()).fold(0, |bits, lane| bits | 1 << lane)
+    };
     let face = |lane: usize| &faces[lane.min(faces.len() - 1)];
     let bits = |is: &dyn Fn(&PolyhedronFace) -> bool| {
         (0..LANES).fold(0, |bits, lane| bits | LaneBits::from(is(face(lane))) << lane)
@@ -113,5 +132,6 @@ fn block(faces: &[PolyhedronFace]) -> PlaneBlock {
         own: LaneBits::MAX >> (LANES - faces.len()),
         active: bits(&|face| face.active),
         closed: bits(&|face| face.closed),
+        beside: std::array::from_fn(|lane| faces.get(lane).map_or(0, beside)),
     }
 }

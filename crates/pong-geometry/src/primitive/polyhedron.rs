@@ -39,7 +39,7 @@ impl Polyhedron {
     /// The finished polyhedron: planes, edges and vertices are set out for the tests.
     pub fn new(parts: PolyhedronParts) -> Self {
         Self {
-            planes: FacePlanes::new(&parts.faces, parts.diameter),
+            planes: FacePlanes::new(&parts),
             edge_blocks: EdgeBlocks::new(&parts),
             vertex_blocks: VertexBlock::all(&parts),
             parts,
