@@ -6,7 +6,7 @@
 mod common;
 mod oracle_support;
 
-use common::{Random, cuboid, cuboid_corners, hull_with_walls, moved, random_motion, stretched_hull};
+use common::{Random, cuboid, cuboid_corners, hull, hull_with_walls, moved, random_motion, stretched_hull};
 use oracle_support::{Worst, polygon};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
@@ -279,12 +279,22 @@ fn degenerate_lines_and_ties() {
 #[test]
 fn ties_go_to_the_lower_face() {
     let cube = cuboid(Vec3::repeat(-1.0), Vec3::repeat(1.0));
-    for (a, b) in [(Vec3::x(), Vec3::y()), (Vec3::z(), Vec3::x()), (-Vec3::y(), Vec3::z())] {
+    // Its floor and its top have four sides each with an axis for a normal, and four more beside: ten faces.
+    let rim = [(1.0, 0.4), (0.4, 1.0), (-0.4, 1.0), (-1.0, 0.4)].map(|(x, y)| Vec3::new(x, y, 1.0));
+    let corners: Vec<Vec3> =
+        rim.iter().flat_map(|p| [*p, -p, Vec3::new(p.x, p.y, -1.0), Vec3::new(-p.x, -p.y, 1.0)]).collect();
+    let prism = hull(&corners);
+    assert_eq!(prism.faces.len(), 10);
+    let z = Vec3::z();
+    let of_cube = [(Vec3::x(), Vec3::y()), (z, Vec3::x()), (-Vec3::y(), z)].map(|two| (&cube, two));
+    let of_prism = [(z, Vec3::x()), (-z, Vec3::x()), (z, -Vec3::y())].map(|two| (&prism, two));
+    for (solid, (a, b)) in of_cube.into_iter().chain(of_prism) {
         let p = (a + b) * 0.5;
-        let tied: Vec<usize> = (0..6).filter(|&f| cube.faces[f].height(&p) == -0.5).collect();
+        let tied: Vec<usize> =
+            (0..solid.faces.len()).filter(|&f| solid.faces[f].height(&p) == -0.5).collect();
         assert_eq!(tied.len(), 2);
         for &reached in &tied {
-            assert_eq!(follow(&p, &cube, reached).pushes, tied[0]);
+            assert_eq!(follow(&p, solid, reached).pushes, tied[0]);
         }
     }
     // A tall prism of eight sides around z, seen from its middle: from the top, and from the bottom, both ways to the side
