@@ -2,65 +2,33 @@
 
 use super::memory::ContactMemory;
 use super::record::{ContactKey, ContactRecord, ContactRole};
-use super::records::Found;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
-use std::cell::Cell;
 use std::ops::Deref;
 
 /// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
 pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
 
-/// Places that were found last: a tester asks for the records of a contact, and its force asks once more.
-const PLACES: usize = 8;
-
-/// Committed contact state, and where the records that were asked for last stand in it.
-#[derive(Clone, Debug)]
-pub(crate) struct RecordLookup<'a> {
-    memory: &'a ContactMemory,
-    /// By the lowest bits of the primitive of A. Nothing but the time depends on them.
-    recent: [Cell<OfHead>; PLACES],
-}
-
-/// Where the records of a head are.
+/// Committed contact state, asked by the keys of contacts.
 #[derive(Clone, Copy, Debug)]
-struct OfHead {
-    head: u64,
-    found: Found,
-}
-
-impl OfHead {
-    /// No key has this head: its pair would be beyond any.
-    const NONE: Self = Self { head: u64::MAX, found: Found::NOTHING };
-}
+pub(crate) struct RecordLookup<'a>(&'a ContactMemory);
 
 impl<'a> RecordLookup<'a> {
     pub fn new(memory: &'a ContactMemory) -> Self {
-        Self { memory, recent: [const { Cell::new(OfHead::NONE) }; PLACES] }
+        Self(memory)
     }
 
     /// The records under one key, with the index of the first: few keys have a head in common.
     #[inline]
     pub fn under(&self, key: &ContactKey) -> (usize, &'a [ContactRecord]) {
-        let found = self.of_head(key.head());
-        let records = self.memory.records.found(&found);
+        let found = self.0.records.of_head(key.head());
+        let records = self.0.records.found(&found);
         // Their heads are the key's.
         let tail = key.tail();
         let others = records.iter().take_while(|record| record.key.tail() < tail).count();
         let (_, records) = records.split_at(others);
         let same = records.iter().take_while(|record| record.key.tail() == tail).count();
         (found.first() + others, &records[..same])
-    }
-
-    #[inline]
-    fn of_head(&self, head: u64) -> Found {
-        let recent = &self.recent[head as usize % PLACES];
-        let mut place = recent.get();
-        if place.head != head {
-            place = OfHead { head, found: self.memory.records.of_head(head) };
-            recent.set(place);
-        }
-        place.found
     }
 
     /// The record of the given role, and its index, that a present contact with normal `n` continues: the one under its key with
@@ -109,6 +77,6 @@ impl Deref for RecordLookup<'_> {
     type Target = ContactMemory;
 
     fn deref(&self) -> &ContactMemory {
-        self.memory
+        self.0
     }
 }

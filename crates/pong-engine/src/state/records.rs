@@ -51,9 +51,6 @@ fn hint_of(head: u64) -> usize {
 const IN_ORDER: usize = Slot::NO_LANE;
 
 impl Found {
-    /// No records.
-    pub const NOTHING: Self = Self { first: 0, count: 0, slot: Slot::new(IN_ORDER, 0) };
-
     /// The index of the first record in the order of keys.
     pub fn first(&self) -> usize {
         self.first as usize
