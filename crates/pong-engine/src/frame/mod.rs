@@ -123,7 +123,7 @@ fn run_parallel(
         return false;
     }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(given.memory, input, caller, workers.to_use());
+    let done = pool.run_parallel(given.memory, input, caller, workers.put_to_use());
     if !done {
         caller.out.restore(&before);
     }

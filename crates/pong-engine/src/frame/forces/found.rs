@@ -28,7 +28,7 @@ impl WorkerBuffers {
     }
 
     /// All of them, for a round that the workers share.
-    pub fn to_use(&mut self) -> &mut [ContactBuffer] {
+    pub fn put_to_use(&mut self) -> &mut [ContactBuffer] {
         self.in_use = true;
         &mut self.all
     }
