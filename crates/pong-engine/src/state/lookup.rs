@@ -4,25 +4,16 @@ use super::memory::ContactMemory;
 use super::record::{ContactKey, ContactRecord, ContactRole};
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
-use std::ops::Deref;
 
 /// A contact continues another of the same key only if the cosine of their normals exceeds this (60°).
 pub(crate) const SAME_WAY_COSINE_MIN: f64 = 0.5;
 
-/// Committed contact state, asked by the keys of contacts.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RecordLookup<'a>(&'a ContactMemory);
-
-impl<'a> RecordLookup<'a> {
-    pub fn new(memory: &'a ContactMemory) -> Self {
-        Self(memory)
-    }
-
+impl ContactMemory {
     /// The records under one key, with the index of the first: few keys have a head in common.
     #[inline]
-    pub fn under(&self, key: &ContactKey) -> (usize, &'a [ContactRecord]) {
-        let found = self.0.records.of_head(key.head());
-        let records = self.0.records.found(&found);
+    pub fn under(&self, key: &ContactKey) -> (usize, &[ContactRecord]) {
+        let found = self.records.of_head(key.head());
+        let records = self.records.found(&found);
         // Their heads are the key's.
         let tail = key.tail();
         let others = records.iter().take_while(|record| record.key.tail() < tail).count();
@@ -42,7 +33,7 @@ impl<'a> RecordLookup<'a> {
         key: &ContactKey,
         normal: &Vec3,
         role: ContactRole,
-    ) -> Option<(usize, &'a ContactRecord)> {
+    ) -> Option<(usize, &ContactRecord)> {
         let (first, records) = self.under(key);
         let mut best: Option<(usize, f64)> = None;
         let same_way = |record: &ContactRecord| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
@@ -70,13 +61,5 @@ impl<'a> RecordLookup<'a> {
             apart(a).total_cmp(&apart(b)).then(is_other(a).cmp(&is_other(b))).then(a.feature.cmp(&b.feature))
         });
         nearest.map(|record| record.role)
-    }
-}
-
-impl Deref for RecordLookup<'_> {
-    type Target = ContactMemory;
-
-    fn deref(&self) -> &ContactMemory {
-        self.0
     }
 }

@@ -13,7 +13,7 @@ mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
-pub(crate) use lookup::{RecordLookup, SAME_WAY_COSINE_MIN};
+pub(crate) use lookup::SAME_WAY_COSINE_MIN;
 pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};

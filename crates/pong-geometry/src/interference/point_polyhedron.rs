@@ -99,7 +99,7 @@ pub struct Reached {
 /// rim, and never to where the face that pushes is deeper: a face reached may lack a sharp neighbour that pushed before.
 ///
 /// So the depth that comes out is at most that of the face that pushes without the walk, and between two commits it grows
-/// by no more than the point has moved.
+/// by no more than the point has moved. Heights above the faces must be finite, as for [`shallowest_face`].
 #[inline]
 pub fn follow(p: &Vec3, polyhedron: &Polyhedron, remembered: usize) -> Reached {
     let mut here = Reached::at(p, polyhedron, remembered);

@@ -96,7 +96,7 @@ impl FacePlanes {
 
     /// The only block: most pieces have at most eight faces.
     #[inline]
-    pub fn only_block(&self) -> Option<&PlaneBlock> {
+    pub(crate) fn only_block(&self) -> Option<&PlaneBlock> {
         let [only] = &self.blocks[..] else { return None };
         Some(only)
     }

@@ -13,6 +13,46 @@ pub(crate) struct FoundContacts<'a> {
     pub workers: &'a [ContactBuffer],
 }
 
+impl<'a> FoundContacts<'a> {
+    #[inline]
+    fn lane(&self, place: &Place) -> &'a ContactBuffer {
+        match place.slot.lane() {
+            0 => self.caller,
+            worker => &self.workers[worker - 1],
+        }
+    }
+
+    #[inline]
+    pub fn contact(&self, place: &Place) -> &'a FrameContact {
+        &self.lane(place).contacts[place.slot.index()]
+    }
+
+    /// What a contact adds to the wrenches.
+    #[inline]
+    pub fn term(&self, place: &Place) -> Term {
+        match place.slot.lane() {
+            0 => Term::of(&self.caller.contacts[place.slot.index()]),
+            worker => self.workers[worker - 1].terms[place.slot.index()],
+        }
+    }
+
+    /// All lanes, the caller's first.
+    pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
+        std::iter::once(self.caller).chain(self.workers)
+    }
+
+    /// Where all of them stand, in no order.
+    #[inline]
+    pub fn places(&self) -> impl Iterator<Item = &'a Place> + Clone + use<'a> {
+        self.lanes().flat_map(|lane| lane.places.iter())
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.lanes().map(|lane| lane.contacts.len()).sum()
+    }
+}
+
 /// Memory for what each worker finds. In a frame of the caller alone it stands empty and out of sight: to look at each buffer
 /// is to wait for a cache line.
 #[derive(Debug)]
@@ -57,45 +97,5 @@ impl DerefMut for WorkerBuffers {
     #[inline]
     fn deref_mut(&mut self) -> &mut [ContactBuffer] {
         if self.in_use { &mut self.all } else { &mut [] }
-    }
-}
-
-impl<'a> FoundContacts<'a> {
-    #[inline]
-    fn lane(&self, place: &Place) -> &'a ContactBuffer {
-        match place.slot.lane() {
-            0 => self.caller,
-            worker => &self.workers[worker - 1],
-        }
-    }
-
-    #[inline]
-    pub fn contact(&self, place: &Place) -> &'a FrameContact {
-        &self.lane(place).contacts[place.slot.index()]
-    }
-
-    /// What a contact adds to the wrenches.
-    #[inline]
-    pub fn term(&self, place: &Place) -> Term {
-        match place.slot.lane() {
-            0 => Term::of(&self.caller.contacts[place.slot.index()]),
-            worker => self.workers[worker - 1].terms[place.slot.index()],
-        }
-    }
-
-    /// All lanes, the caller's first.
-    pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
-        std::iter::once(self.caller).chain(self.workers)
-    }
-
-    /// Where all of them stand, in no order.
-    #[inline]
-    pub fn places(&self) -> impl Iterator<Item = &'a Place> + Clone + use<'a> {
-        self.lanes().flat_map(|lane| lane.places.iter())
-    }
-
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        self.lanes().map(|lane| lane.contacts.len()).sum()
     }
 }

@@ -7,7 +7,7 @@ pub(crate) mod states;
 use crate::report::Clock;
 use crate::scene::{Scene, States};
 use crate::sealed::{Direction, Sealed, SurfaceTable};
-use crate::state::{ContactMemory, RecordLookup};
+use crate::state::ContactMemory;
 use motion::Motion;
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
@@ -97,7 +97,7 @@ pub(crate) struct PairContext<'a> {
     pub body_b: &'a MovableGroup,
     /// Motion of A against B.
     pub motion: &'a Motion,
-    pub memory: RecordLookup<'a>,
+    pub memory: &'a ContactMemory,
     pub table: &'a SurfaceTable,
     pub volume_tests: &'a VolumeTests,
     /// Whether A's Object was named first: of two primitives of one kind A is its.
@@ -121,7 +121,7 @@ impl<'a> PairContext<'a> {
             body_a: scene.body(a),
             body_b: scene.body(b),
             motion,
-            memory: RecordLookup::new(memory),
+            memory,
             table: &input.tables[pair.tables[flipped as usize]],
             volume_tests: &sealed.volume_tests,
             in_order: (flipped == 0) == pair.first_named_first,

@@ -153,7 +153,7 @@ impl<'a> ElementPair<'a> {
     /// For a point inside B's polyhedron, given in both frames, the face that memory reaches and the one that pushes.
     pub fn entry_face(&self, local: &Vec3, p: &Vec3, end: u32) -> Option<EntryFace> {
         PolyhedronEntry {
-            memory: &self.context.memory,
+            memory: self.context.memory,
             body: self.body_b(),
             shell: self.info_b().shell,
             piece: self.item_b.element,

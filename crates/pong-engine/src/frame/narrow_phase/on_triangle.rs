@@ -37,7 +37,7 @@ pub(crate) fn on_triangle(
         return;
     }
     let entry = TriangleEntry {
-        memory: &pair.context.memory,
+        memory: pair.context.memory,
         body: pair.body_b(),
         triangle: pair.item_b,
         center_b: center.center_b,

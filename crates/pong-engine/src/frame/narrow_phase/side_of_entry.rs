@@ -2,7 +2,7 @@
 //! (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
-use crate::state::{ContactKey, ContactRecord, ContactRole, NO_FACE, RecordLookup, SAME_WAY_COSINE_MIN};
+use crate::state::{ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
@@ -43,7 +43,7 @@ impl EntryFace {
 
 /// A point (or a sphere's centre) inside a piece of B.
 pub(crate) struct PolyhedronEntry<'a> {
-    pub memory: &'a RecordLookup<'a>,
+    pub memory: &'a ContactMemory,
     pub body: &'a MovableGroup,
     pub shell: u32,
     /// Which polyhedron of the body.
@@ -135,7 +135,7 @@ impl PolyhedronEntry<'_> {
 
 /// The centre of a sphere or ellipsoid against one triangle of B.
 pub(crate) struct TriangleEntry<'a> {
-    pub memory: &'a RecordLookup<'a>,
+    pub memory: &'a ContactMemory,
     pub body: &'a MovableGroup,
     pub triangle: Item,
     /// The centre, in B's frame.
