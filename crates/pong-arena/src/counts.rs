@@ -7,6 +7,7 @@ use std::cell::Cell;
 pub(crate) struct Counts {
     used: Cell<usize>,
     refused: Cell<usize>,
+    /// Of the past: what there is now is looked at when the arena is reset, or when somebody asks.
     peak: Cell<usize>,
 }
 
@@ -14,6 +15,7 @@ impl Counts {
     /// Forgets what was handed out and refused; the peak stays.
     #[inline]
     pub(crate) fn reset(&self) {
+        self.peak.set(self.peak());
         self.used.set(0);
         self.refused.set(0);
     }
@@ -25,25 +27,19 @@ impl Counts {
     }
 
     /// The most bytes that were handed out and refused between two resets.
+    #[inline]
     pub(crate) fn peak(&self) -> usize {
-        self.peak.get()
+        self.peak.get().max(self.used.get().saturating_add(self.refused.get()))
     }
 
     /// Books what was handed out.
     #[inline]
     pub(crate) fn take(&self, bytes: usize) {
         self.used.set(self.used.get() + bytes);
-        self.note_peak();
     }
 
     /// Remembers what did not fit, for the peak.
     pub(crate) fn refuse(&self, bytes: usize) {
         self.refused.set(self.refused.get().saturating_add(bytes));
-        self.note_peak();
-    }
-
-    #[inline]
-    fn note_peak(&self) {
-        self.peak.set(self.peak.get().max(self.used.get().saturating_add(self.refused.get())));
     }
 }

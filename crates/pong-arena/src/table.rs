@@ -12,9 +12,6 @@ pub struct Table<T: Copy> {
     items: Box<[T]>,
     /// At most the length of `items`.
     len: usize,
-    refused: usize,
-    /// Of the past: what is there now is looked at when somebody asks.
-    peak: usize,
 }
 
 impl<T: Copy> Table<T> {
@@ -25,7 +22,7 @@ impl<T: Copy> Table<T> {
     pub fn with_capacity(capacity: usize, fill: T) -> Self {
         let mut items = vec![fill; capacity].into_boxed_slice();
         std::hint::black_box(&mut items[..]);
-        Self { items, len: 0, refused: 0, peak: 0 }
+        Self { items, len: 0 }
     }
 
     /// Appends an element.
@@ -68,20 +65,19 @@ impl<T: Copy> Table<T> {
     }
 
     /// Takes all elements out.
+    #[inline]
     pub fn clear(&mut self) {
-        self.truncate(0);
-        self.refused = 0;
+        self.len = 0;
     }
 
     /// Keeps the first `len` elements.
+    #[inline]
     pub fn truncate(&mut self, len: usize) {
-        self.peak = self.peak();
         self.len = self.len.min(len);
     }
 
     /// Keeps the elements that `keep` names, in their order.
     pub fn retain(&mut self, mut keep: impl FnMut(&T) -> bool) {
-        self.peak = self.peak();
         let mut kept = 0;
         for index in 0..self.len {
             if keep(&self.items[index]) {
@@ -117,15 +113,8 @@ impl<T: Copy> Table<T> {
         self.items.len()
     }
 
-    /// The most elements there were since the table was made, with those refused since it was last cleared: the
-    /// capacity that would have been enough.
-    pub fn peak(&self) -> usize {
-        self.peak.max(self.len.saturating_add(self.refused))
-    }
-
     #[cold]
-    fn refuse(&mut self, count: usize) -> Full {
-        self.refused = self.refused.saturating_add(count);
+    fn refuse(&self, count: usize) -> Full {
         let size = size_of::<T>();
         let free = self.capacity() - self.len;
         Full { asked: count.saturating_mul(size), free: free * size, capacity: self.capacity() * size }
@@ -135,14 +124,14 @@ impl<T: Copy> Table<T> {
 impl<T: Copy> Default for Table<T> {
     /// No room at all.
     fn default() -> Self {
-        Self { items: Box::default(), len: 0, refused: 0, peak: 0 }
+        Self { items: Box::default(), len: 0 }
     }
 }
 
 impl<T: Copy> Clone for Table<T> {
     /// A table of the same capacity. This allocates: it is for setting up.
     fn clone(&self) -> Self {
-        Self { items: self.items.clone(), ..*self }
+        Self { items: self.items.clone(), len: self.len }
     }
 }
 
@@ -189,7 +178,7 @@ mod tests {
         *table.slot().unwrap() = 1;
         table.push(2).unwrap();
         assert!(table.slot().is_err());
-        assert_eq!((table.as_slice(), table.peak()), (&[1, 2][..], 3));
+        assert_eq!(*table, [1, 2]);
         table.clear();
         // What was there is left over.
         assert_eq!(*table.slot().unwrap(), 1);
@@ -203,20 +192,6 @@ mod tests {
         assert_eq!(table.extend_from_slice(&[4, 5]).unwrap_err(), Full { asked: 2, free: 1, capacity: 4 });
         table.extend_from_slice(&[4]).unwrap();
         assert_eq!(*table, [1, 2, 3, 4]);
-        assert_eq!(table.peak(), 6);
-    }
-
-    #[test]
-    fn the_peak_outlives_frames_and_counts_what_was_refused() {
-        let mut table = Table::with_capacity(3, 0);
-        for wanted in [2, 5, 1] {
-            table.clear();
-            for i in 0..wanted {
-                let _ = table.push(i);
-            }
-            assert_eq!(table.len(), wanted.min(3));
-        }
-        assert_eq!((table.peak(), table.capacity()), (5, 3));
     }
 
     #[test]
@@ -228,18 +203,6 @@ mod tests {
         table.as_mut_slice()[0] = 9;
         assert_eq!(*table, [9, 4]);
         assert_eq!(table.capacity(), 6);
-    }
-
-    #[test]
-    fn the_peak_sees_what_was_taken_out_since() {
-        let mut table = Table::with_capacity(6, 0);
-        table.extend_from_slice(&[1, 2, 3, 4, 5]).unwrap();
-        assert_eq!(table.peak(), 5);
-        table.retain(|x| *x > 3);
-        table.truncate(1);
-        assert_eq!((table.len(), table.peak()), (1, 5));
-        table.clear();
-        assert_eq!(table.peak(), 5);
     }
 
     #[test]

@@ -119,6 +119,12 @@ impl Runtime {
         Ok(clone)
     }
 
+    /// The contact state is no longer what the last commit has made of a frame.
+    fn restated(&mut self) {
+        self.frame.committed = false;
+        self.changed();
+    }
+
     /// What is set now is no longer what the last frame was computed from.
     pub fn changed(&mut self) {
         (self.evaluated, self.current) = (false, false);
@@ -166,6 +172,7 @@ impl Runtime {
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
         watch.lap(Stage::Commit, &mut frame.times);
+        frame.committed = true;
         self.evaluated = false;
     }
 
@@ -220,7 +227,7 @@ impl Runtime {
             next.copy_from(old);
             next.preload(&preloaded);
         });
-        self.changed();
+        self.restated();
         preloaded.len()
     }
 
@@ -232,7 +239,7 @@ impl Runtime {
             next.copy_from(old);
             next.clear_history(&cleared, |index| pairs[index as usize].pair);
         });
-        self.changed();
+        self.restated();
     }
 
     /// Pairs of movable groups with their accounts, what they have stored taken in, and the stiffest of their contacts.
@@ -283,7 +290,7 @@ impl Runtime {
             outcome = read_block(next, sealed.hash, block, exists);
         });
         outcome?;
-        self.changed();
+        self.restated();
         Ok(())
     }
 

@@ -58,7 +58,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
         let Direction { group_pair, flipped } = block.direction;
         let plan = sealed.group_pairs[group_pair as usize].plans[flipped as usize];
         let plan = &sealed.plans[plan as usize];
-        let motion = &input.motions[block.slot as usize][flipped as usize];
+        let motion = input.motions[block.slot as usize].of(block.direction);
         let context = PairContext::new(round, block.direction, motion);
         let batch_a = &context.body_a.tree.batches[block.batch as usize];
         let WorkerContext { arena, scratch, candidates, carried, deferred, found, shared, out } = worker;

@@ -21,6 +21,8 @@ use pong_geometry::{Pose, Twist, Wrench};
 pub(crate) struct EvaluationBuffers {
     /// Whether a frame has been computed since the world was sealed.
     pub computed: bool,
+    /// Whether the contact state is what a commit of this frame, as a whole, has made of it.
+    pub committed: bool,
     // state in
     pub poses: Vec<Pose>,
     pub twists: Vec<Twist>,
@@ -56,6 +58,7 @@ impl EvaluationBuffers {
         let buffer = |lane| WorkerContext::buffer(sealed, lane, contacts);
         Self {
             computed: false,
+            committed: false,
             poses: vec![Pose::identity(); bodies],
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),

@@ -21,7 +21,7 @@ pub(crate) use energy::interval::Interval;
 pub(crate) use forces::contact::FrameContact;
 pub(crate) use forces::place::Place;
 pub(crate) use forces::term::Term;
-pub(crate) use input::motion::Motion;
+pub(crate) use input::motion::PairMotions;
 pub(crate) use input::states::require_states;
 pub(crate) use input::{Block, EvaluationInput, WorkerInput};
 pub(crate) use near_pairs::{MOTIONS_AT_ONCE, NearPairs};
@@ -71,8 +71,9 @@ fn find_contacts(
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, .. } = frame;
+    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, committed, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
+    let mut goes_on = std::mem::take(committed);
     input.clock = clock;
     if let Some(pool) = &mut pool {
         pool.begin_frame();
@@ -95,7 +96,7 @@ fn find_contacts(
         laps = clock.start();
     };
     for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
-        motions.relate(pairs, &mut input.motions);
+        motions.relate(pairs, std::mem::take(&mut goes_on), &mut input.motions);
         blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);

@@ -8,7 +8,7 @@ use super::limits::{bytes_per_contact, least_lane_bytes};
 use crate::energy::account::WrenchCoupling;
 use crate::energy::episodes::PairEnergy;
 use crate::error::EngineError;
-use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, Motion, NearPairs, ROUND};
+use crate::frame::{Block, Interval, MOTIONS_AT_ONCE, NearPairs, PairMotions, ROUND};
 use crate::scene::Scene;
 use crate::sealed::{GroupPair, Limits, Plan};
 use crate::state::CommittedPoses;
@@ -95,7 +95,7 @@ pub(super) fn for_frames(
     let bodies = scene.bodies.len() * (size_of::<(Pose, Twist)>() + size_of::<Wrench>());
     let committed =
         (2 + usize::from(lanes > 0)) * CommittedPoses::bytes(scene.bodies.len(), scene.pairs.len());
-    let motions = (1 + usize::from(lanes > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<[Motion; 2]>();
+    let motions = (1 + usize::from(lanes > 0)) * pairs.min(MOTIONS_AT_ONCE) * size_of::<PairMotions>();
     let near = NearPairs::bytes(pairs, scene.bodies.len());
     let sum = pairs
         .saturating_mul(per_pair(scene))

@@ -13,9 +13,9 @@ mod tests;
 
 pub use block::StateError;
 pub(crate) use block::{largest_len, needed_len, read_block, write_block};
-pub(crate) use lookup::SAME_WAY_COSINE_MIN;
+pub(crate) use lookup::{RecordsOfKey, SAME_WAY_COSINE_MIN};
 pub(crate) use memory::{ContactMemory, Remembered};
 pub(crate) use poses::{CommittedPoses, Past};
 pub(crate) use record::{ContactKey, ContactRecord, ContactRole, NO_FACE};
-pub(crate) use records::Records;
+pub(crate) use records::{RecordRange, Records};
 pub(crate) use slot::Slot;

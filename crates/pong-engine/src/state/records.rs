@@ -24,13 +24,32 @@ pub(crate) struct Records {
     lanes: Vec<Table<ContactRecord>>,
 }
 
-/// Where the records of one head are.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Found {
+/// Where the records of one key or of one head stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct RecordRange {
+    /// Anything if there are none.
     first: u32,
     count: u32,
     /// Of the first; the others follow it.
     slot: Slot,
+}
+
+impl RecordRange {
+    /// No record.
+    const EMPTY: Self = Self { first: 0, count: 0, slot: Slot::new(IN_ORDER, 0) };
+
+    /// The index of the first record in the order of keys, if there is any.
+    #[inline]
+    pub fn first(&self) -> usize {
+        self.first as usize
+    }
+
+    /// What is left of it behind the first so many, `kept` of these.
+    fn part(&self, skipped: usize, kept: usize) -> Self {
+        let skipped = skipped as u32;
+        let slot = Slot::new(self.slot.lane(), self.slot.index() + skipped as usize);
+        Self { first: self.first + skipped, count: kept as u32, slot }
+    }
 }
 
 /// So many are more than most frames have contacts, and do not displace them from the cache.
@@ -49,13 +68,6 @@ fn hint_of(head: u64) -> usize {
 
 /// The lane of records in order.
 const IN_ORDER: usize = Slot::NO_LANE;
-
-impl Found {
-    /// The index of the first record in the order of keys.
-    pub fn first(&self) -> usize {
-        self.first as usize
-    }
-}
 
 impl Records {
     /// Bytes of a record.
@@ -186,20 +198,43 @@ impl Records {
         self.in_order.truncate(len);
     }
 
-    /// Where the records are whose keys have one head.
+    /// Where the records of a key are.
     #[inline]
-    pub fn of_head(&self, head: u64) -> Found {
-        let first = self.place_of_head(head);
-        let count = self.heads[first..].iter().take_while(|&&other| other == head).count();
-        let slot = if count > 0 { self.slot(first) } else { Slot::new(IN_ORDER, 0) };
-        Found { first: first as u32, count: count as u32, slot }
+    pub fn of_key(&self, key: &ContactKey) -> RecordRange {
+        let range = self.of_head(key.head());
+        let tail = key.tail();
+        match self.in_range(&range) {
+            [] => range,
+            // As a rule.
+            [one] if one.key.tail() == tail => range,
+            several => {
+                // Their heads are the key's.
+                let others = several.iter().take_while(|record| record.key.tail() < tail).count();
+                let same = several[others..].iter().take_while(|record| record.key.tail() == tail).count();
+                range.part(others, same)
+            }
+        }
     }
 
-    /// The records that were found.
+    /// Where the records are whose keys have one head.
     #[inline]
-    pub fn found(&self, found: &Found) -> &[ContactRecord] {
-        let first = found.slot.index();
-        &self.table(found.slot)[first..first + found.count as usize]
+    pub fn of_head(&self, head: u64) -> RecordRange {
+        let first = self.place_of_head(head);
+        let mut end = first;
+        while self.heads.get(end) == Some(&head) {
+            end += 1;
+        }
+        if end == first {
+            return RecordRange::EMPTY;
+        }
+        RecordRange { first: first as u32, count: (end - first) as u32, slot: self.slot(first) }
+    }
+
+    /// The records that stand there.
+    #[inline]
+    pub fn in_range(&self, range: &RecordRange) -> &[ContactRecord] {
+        let first = range.slot.index();
+        &self.table(range.slot)[first..first + range.count as usize]
     }
 
     /// The index of the first record whose key has this head, or would have its place there.

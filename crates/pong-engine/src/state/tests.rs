@@ -1,6 +1,7 @@
 //! The memory against slow models of it, and blocks that must be refused.
 
 use super::block::{StateError, largest_len, needed_len, write_block};
+use super::lookup::RecordsOfKey;
 use super::memory::{ContactMemory, Remembered};
 use super::poses::{CommittedPoses, NEVER, Past};
 use super::record::{ContactKey, ContactRecord, ContactRole};
@@ -297,13 +298,13 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
         copy.copy_from(&memory);
         for memory in [&memory, &copy] {
             for (index, Remembered { record, law_state, .. }) in memory.iter().enumerate() {
-                let (first, same) = memory.under(&record.key);
-                assert!(first <= index && index < first + same.len());
-                assert!(same.iter().all(|other| other.key == record.key));
+                let RecordsOfKey { range, records } = memory.under(&record.key);
+                assert!((range.first()..range.first() + records.len()).contains(&index));
+                assert!(records.iter().all(|other| other.key == record.key));
                 assert_eq!(memory.law_state_of(index), law_state);
             }
             let mut gone = all.iter().filter(|key| is_cleared(key.group_pair as usize));
-            assert!(gone.all(|key| memory.under(key).1.is_empty()));
+            assert!(gone.all(|key| memory.under(key).records.is_empty()));
         }
     }
 }
@@ -361,7 +362,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
             .unwrap();
     }
     let found = |normal: Vec3, role| {
-        let (index, record) = memory.matching(&model.key, &normal, role)?;
+        let (index, record) = memory.under(&model.key).matching(&normal, role)?;
         assert_eq!(record, &memory.records[index]);
         Some(index)
     };
@@ -374,7 +375,7 @@ fn a_contact_continues_the_record_of_the_closest_normal_within_60_degrees() {
     assert_eq!(found(Vec3::new(0.0, 0.75_f64.sqrt(), 0.5), ContactRole::Tracked), None);
     assert_eq!(found(Vec3::new(0.0, 0.8, 0.6), ContactRole::Tracked), Some(3));
     let elsewhere = ContactKey { primitive_a: model.key.primitive_a + 1, ..model.key };
-    assert_eq!(memory.matching(&elsewhere, &Vec3::z(), ContactRole::Tracked), None);
+    assert_eq!(memory.under(&elsewhere).matching(&Vec3::z(), ContactRole::Tracked), None);
 }
 
 /// Lanes write the contacts of some heads each, in any order of the heads; some lanes write none, and some of what they write
@@ -412,13 +413,14 @@ fn records_that_lanes_have_written_are_those_that_stand_in_order() {
         assert!(memory.records == expected.records);
         let lookups = [&memory, &expected];
         for record in &in_order {
-            let [(first, found), (index, same)] = lookups.map(|lookup| lookup.under(&record.key));
-            assert!(first == index && found == same && !found.is_empty());
+            let [found, same] = lookups.map(|lookup| lookup.under(&record.key));
+            assert!(found.range.first() == same.range.first() && found.records == same.records);
+            assert!(!found.records.is_empty() && memory.at(found.range).records == found.records);
         }
         for pair in 0..GROUP_PAIRS as u32 {
             assert!(memory.records.of_group_pair(pair).eq(expected.records.of_group_pair(pair)));
         }
-        assert_eq!(memory.records.of_head(u64::MAX).first(), in_order.len());
+        assert_eq!(memory.records.place_of_head(u64::MAX), in_order.len());
         // Any other way to remember begins with a copy, which stands in order.
         let mut copy = memory_of(&mut random, 3, 0);
         copy.copy_from(&memory);

@@ -77,7 +77,7 @@ struct Layout<'a, 'w> {
 
 impl Layout<'_, '_> {
     fn x_ba(&self) -> Transform {
-        self.input.motions[self.slot as usize][self.direction.flipped as usize].x_ba
+        self.input.motions[self.slot as usize].of(self.direction).x_ba
     }
 
     /// Whether a volume of A reaches the root of B's tree.

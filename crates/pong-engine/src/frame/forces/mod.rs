@@ -136,7 +136,11 @@ impl PairContext<'_> {
         let velocity = self.motion.velocity_at(&point);
         let closing = -found.normal_b.dot(&velocity);
         let slip_velocity = velocity + found.normal_b * closing;
-        let continues = self.memory.matching(&found.key, &found.normal_b, ContactRole::Active);
+        let remembered = match found.remembered {
+            Some(range) => self.memory.at(range),
+            None => self.memory.under(&found.key),
+        };
+        let continues = remembered.matching(&found.normal_b, ContactRole::Active);
         let (mut pressed, mut stored) = (0.0, 0.0);
         if found.role == ContactRole::Active {
             let weight = found.full_weight();

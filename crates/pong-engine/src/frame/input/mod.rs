@@ -8,7 +8,7 @@ use crate::report::Clock;
 use crate::scene::{Scene, States};
 use crate::sealed::{Direction, Sealed, SurfaceTable};
 use crate::state::ContactMemory;
-use motion::Motion;
+use motion::{Motion, PairMotions};
 use pong_geometry::Vec3;
 use pong_geometry::bounding::VolumeTests;
 use pong_model::MovableGroup;
@@ -30,7 +30,7 @@ pub(crate) struct WorkerInput {
     /// Number of the phase: what a context holds of another one is stale.
     pub phase: u64,
     /// Two directions of every pair of movable groups of this phase.
-    pub motions: Vec<[Motion; 2]>,
+    pub motions: Vec<PairMotions>,
     /// Values of all pairs of surfaces.
     pub tables: Arc<Vec<SurfaceTable>>,
     /// The work of this phase.

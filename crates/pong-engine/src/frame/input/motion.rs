@@ -1,5 +1,6 @@
 //! Motion of one movable group against another.
 
+use crate::sealed::Direction;
 use pong_geometry::pose::rotation_vector;
 use pong_geometry::{Quat, Transform, Vec3};
 
@@ -8,6 +9,8 @@ use pong_geometry::{Quat, Transform, Vec3};
 pub(crate) struct Motion {
     /// From A's group frame to B's.
     pub x_ba: Transform,
+    /// The same rotation.
+    pub orientation: Quat,
     /// v_A − v_B of the two origins, m/s.
     pub linear_b: Vec3,
     /// Angular velocity of A, rad/s.
@@ -20,14 +23,35 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// No motion at all.
-    pub fn none() -> Self {
+    fn none() -> Self {
         Self {
             x_ba: Transform::identity(),
+            orientation: Quat::identity(),
             linear_b: Vec3::zeros(),
             omega_a_b: Vec3::zeros(),
             omega_b_b: Vec3::zeros(),
             since_commit: None,
         }
+    }
+}
+
+/// The motions of a pair of movable groups, in those of its two directions in which something can be found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PairMotions {
+    pub group_pair: u32,
+    pub(super) directions: [Motion; 2],
+}
+
+impl PairMotions {
+    /// Of no pair.
+    pub fn nobodys() -> Self {
+        Self { group_pair: u32::MAX, directions: [Motion::none(); 2] }
+    }
+
+    /// The motion in a direction of the pair.
+    #[inline]
+    pub fn of(&self, direction: Direction) -> &Motion {
+        &self.directions[direction.flipped as usize]
     }
 }
 

@@ -4,11 +4,11 @@
 //! where the common origin is or how fast it moves (docs/theory.md, 1).
 
 use super::WorkerInput;
-use super::motion::{Motion, SinceCommit};
+use super::motion::{Motion, PairMotions, SinceCommit};
 use crate::frame::near_pairs::NearPairs;
 use crate::sealed::{Direction, Sealed};
 use crate::state::CommittedPoses;
-use pong_geometry::{Pose, Twist};
+use pong_geometry::{Pose, Quat, Transform, Twist};
 use std::borrow::Cow;
 
 /// What the relative motion of any pair is computed from.
@@ -23,30 +23,59 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Fills in the motions of some pairs, in the directions in which something can be found.
-    pub fn relate(&self, pairs: &[u32], out: &mut Vec<[Motion; 2]>) {
+    /// Fills in the motions of some pairs, in the directions in which something can be found. What stands there of the last
+    /// frame is where these pairs are committed, if that frame `was_committed` as a whole: it need not be worked out again.
+    pub fn relate(&self, pairs: &[u32], was_committed: bool, out: &mut Vec<PairMotions>) {
         // What is of no use stays as it is: both directions may be written, and few are not. As a rule there are as many as in
         // the frame before, and nothing is made only to be thrown away.
         if out.len() < pairs.len() {
-            out.resize(pairs.len(), [Motion::none(); 2]);
+            out.resize(pairs.len(), PairMotions::nobodys());
         }
         out.truncate(pairs.len());
         for (motions, &group_pair) in out.iter_mut().zip(pairs) {
+            let is_known = was_committed && motions.group_pair == group_pair;
+            motions.group_pair = group_pair;
             for (_, direction) in self.sealed.plans_of(group_pair) {
-                motions[direction.flipped as usize] = self.of(direction);
+                let motion = &mut motions.directions[direction.flipped as usize];
+                let earlier =
+                    if is_known { Some((motion.x_ba, motion.orientation)) } else { self.earlier(direction) };
+                *motion = self.since(direction, earlier);
             }
         }
     }
 
-    /// The motion of A against B. In place where it is asked for: it is large to hand around.
-    #[inline(always)]
+    /// The motion of A against B.
     pub fn of(&self, direction: Direction) -> Motion {
+        self.since(direction, self.earlier(direction))
+    }
+
+    /// How A stood against B at the last commit: from A's group frame to B's, and the rotation of that.
+    #[inline(always)]
+    fn earlier(&self, direction: Direction) -> Option<(Transform, Quat)> {
         let (body_a, body_b) = self.sealed.bodies_of(direction);
         let pair = self.sealed.group_pairs[direction.group_pair as usize].pair;
+        self.committed.relative(pair, body_a, body_b).map(|pose| (pose.transform(), pose.orientation))
+    }
+
+    /// The motion of A against B since it stood so. In place where it is asked for: it is large to hand around.
+    #[inline(always)]
+    fn since(&self, direction: Direction, earlier: Option<(Transform, Quat)>) -> Motion {
+        let (body_a, body_b) = self.sealed.bodies_of(direction);
         let (x_wa, x_wb) = (&self.poses[body_a], &self.poses[body_b]);
-        let earlier = self.committed.relative(pair, body_a, body_b);
-        let twists = (&self.twists[body_a], &self.twists[body_b]);
-        motion(&Pose::relative(x_wa, x_wb), twists, x_wb, earlier.as_ref())
+        let (v_a, v_b) = (&self.twists[body_a], &self.twists[body_b]);
+        let pose_ba = Pose::relative(x_wa, x_wb);
+        let b_from_w = x_wb.orientation.inverse();
+        Motion {
+            x_ba: pose_ba.transform(),
+            orientation: pose_ba.orientation,
+            linear_b: b_from_w * (v_a.linear - v_b.linear),
+            omega_a_b: b_from_w * v_a.angular,
+            omega_b_b: b_from_w * v_b.angular,
+            since_commit: earlier.map(|(x_ba, orientation)| SinceCommit {
+                x_ba,
+                rotation: pose_ba.orientation * orientation.inverse(),
+            }),
+        }
     }
 
     /// The motion of a direction in which a contact was found: as the frame has it, or computed again.
@@ -57,23 +86,8 @@ impl Motions<'_> {
         direction: Direction,
     ) -> Cow<'i, Motion> {
         match near.slot(direction.group_pair) {
-            Some(slot) => Cow::Borrowed(&input.motions[slot][direction.flipped as usize]),
+            Some(slot) => Cow::Borrowed(input.motions[slot].of(direction)),
             None => Cow::Owned(self.of(direction)),
         }
-    }
-}
-
-#[inline(always)]
-fn motion(pose_ba: &Pose, (v_a, v_b): (&Twist, &Twist), x_wb: &Pose, earlier: Option<&Pose>) -> Motion {
-    let b_from_w = x_wb.orientation.inverse();
-    Motion {
-        x_ba: pose_ba.transform(),
-        linear_b: b_from_w * (v_a.linear - v_b.linear),
-        omega_a_b: b_from_w * v_a.angular,
-        omega_b_b: b_from_w * v_b.angular,
-        since_commit: earlier.map(|earlier| SinceCommit {
-            x_ba: earlier.transform(),
-            rotation: pose_ba.orientation * earlier.orientation.inverse(),
-        }),
     }
 }

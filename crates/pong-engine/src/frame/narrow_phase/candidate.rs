@@ -1,6 +1,6 @@
 //! A contact as a contact tester finds it, before anything is decided about it.
 
-use crate::state::{ContactKey, ContactRole, NO_FACE};
+use crate::state::{ContactKey, ContactRole, NO_FACE, RecordRange};
 use pong_geometry::Vec3;
 use pong_geometry::interference::{Feature, Interference};
 use pong_geometry::primitive::PrimitiveKind;
@@ -19,6 +19,8 @@ pub(crate) struct ContactCandidate {
     pub feature: Feature,
     /// Face that memory has reached in the polyhedron of B.
     pub entry_face: u32,
+    /// The committed records under its key, if the tester has looked for them.
+    pub remembered: Option<RecordRange>,
     pub kind_b: PrimitiveKind,
     /// Half a spring (the end of a segment) or a whole one.
     pub half: bool,
@@ -70,6 +72,7 @@ impl ContactCandidate {
         element_b: 0,
         feature: Feature::WHOLE,
         entry_face: NO_FACE,
+        remembered: None,
         kind_b: PrimitiveKind::Plane,
         half: false,
         shares: false,

@@ -6,7 +6,7 @@ use super::side_of_entry::{EntryFace, PolyhedronEntry};
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
 use crate::frame::input::motion::Motion;
-use crate::state::ContactKey;
+use crate::state::{ContactKey, RecordsOfKey};
 use pong_arena::Table;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
@@ -150,10 +150,17 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
+    /// What is remembered of A's element at one of its ends, 0 if it has but one, and B's surface.
+    #[inline]
+    pub fn remembered(&self, end: u32) -> RecordsOfKey<'a> {
+        self.context.memory.under(&ContactKey { end, ..self.key() })
+    }
+
     /// For a point inside B's polyhedron, given in both frames, the face that memory reaches and the one that pushes.
-    pub fn entry_face(&self, local: &Vec3, p: &Vec3, end: u32) -> Option<EntryFace> {
+    #[inline]
+    pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
         PolyhedronEntry {
-            memory: self.context.memory,
+            records: remembered.records,
             body: self.body_b(),
             shell: self.info_b().shell,
             piece: self.item_b.element,
@@ -161,7 +168,7 @@ impl<'a> ElementPair<'a> {
             earlier_b: self.motion().since_commit.map(|since| since.x_ba.point(local)),
             remembers: self.context.remembers_entry,
         }
-        .face(&ContactKey { end, ..self.key() })
+        .face()
     }
 
     pub fn key(&self) -> ContactKey {

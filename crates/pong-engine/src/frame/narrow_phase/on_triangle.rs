@@ -36,18 +36,20 @@ pub(crate) fn on_triangle(
     if earlier.is_none() && is_set_down_in_front(pair, center, &contact, &mut found.sides) {
         return;
     }
+    let key = ContactKey { end: center.end.unwrap_or(0), ..pair.key() };
+    let remembered = pair.context.memory.under(&key);
     let entry = TriangleEntry {
-        memory: pair.context.memory,
+        remembered: &remembered,
+        shell: key.shell_b,
         body: pair.body_b(),
         triangle: pair.item_b,
         center_b: center.center_b,
         earlier_b: earlier,
         touched_behind: &|feature| touched_triangle_behind(pair, center.end, feature),
     };
-    let key = ContactKey { end: center.end.unwrap_or(0), ..pair.key() };
-    let Some(role) = entry.role(&key, &contact) else { return };
+    let Some(role) = entry.role(&contact) else { return };
     pair.emit(&contact.interference, found, |out| {
-        out.key = key;
+        (out.key, out.remembered) = (key, Some(remembered.range));
         out.half = center.end.is_some();
         out.shares = true;
         out.role = role;

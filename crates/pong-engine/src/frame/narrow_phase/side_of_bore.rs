@@ -14,7 +14,7 @@ pub(crate) fn role_in_bore(
     local: &Vec3,
     contact: &Interference,
 ) -> ContactRole {
-    let remembered = pair.context.memory.role_of_nearest(key, &contact.normal_b, contact.feature);
+    let remembered = pair.context.memory.under(key).role_of_nearest(&contact.normal_b, contact.feature);
     let came_from_behind = || {
         let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(local));
         let bore = &pair.body_b().bores[pair.item_b.element as usize];

@@ -2,7 +2,7 @@
 //! (docs/theory.md, 2.2 and 2.4).
 
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
-use crate::state::{ContactKey, ContactMemory, ContactRecord, ContactRole, NO_FACE, SAME_WAY_COSINE_MIN};
+use crate::state::{ContactRecord, ContactRole, NO_FACE, RecordsOfKey, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
 use pong_geometry::interference::point_polyhedron::{
     entry_of_line, face_most_along, follow, shallowest_face,
@@ -43,7 +43,8 @@ impl EntryFace {
 
 /// A point (or a sphere's centre) inside a piece of B.
 pub(crate) struct PolyhedronEntry<'a> {
-    pub memory: &'a ContactMemory,
+    /// What is remembered of A's primitive there.
+    pub records: &'a [ContactRecord],
     pub body: &'a MovableGroup,
     pub shell: u32,
     /// Which polyhedron of the body.
@@ -58,13 +59,13 @@ pub(crate) struct PolyhedronEntry<'a> {
 
 impl PolyhedronEntry<'_> {
     /// The faces for a point that is inside the piece; `None` if no face of the piece is active.
-    pub fn face(&self, key: &ContactKey) -> Option<EntryFace> {
+    pub fn face(&self) -> Option<EntryFace> {
         let polyhedron = self.polyhedron();
         if !self.remembers {
             let face = shallowest_face(&self.point_b, polyhedron)?;
             return Some(EntryFace::new(face, face));
         }
-        let start = match self.remembered(key) {
+        let start = match self.remembered() {
             Some(face) => face,
             None => self.entered_by()?,
         };
@@ -78,9 +79,8 @@ impl PolyhedronEntry<'_> {
 
     /// The committed face; carried over if it belongs to another piece of the same surface and the straight line
     /// since the last commit came from there through an inner wall.
-    fn remembered(&self, key: &ContactKey) -> Option<usize> {
-        let (_, records) = self.memory.under(key);
-        let with_face = || records.iter().filter(|record| record.entry_face != NO_FACE);
+    fn remembered(&self) -> Option<usize> {
+        let with_face = || self.records.iter().filter(|record| record.entry_face != NO_FACE);
         let record =
             with_face().find(|record| record.element_b == self.piece).or_else(|| with_face().next())?;
         let faces = &self.body.polyhedra.get(record.element_b as usize)?.faces;
@@ -135,7 +135,10 @@ impl PolyhedronEntry<'_> {
 
 /// The centre of a sphere or ellipsoid against one triangle of B.
 pub(crate) struct TriangleEntry<'a> {
-    pub memory: &'a ContactMemory,
+    /// What is remembered of A's primitive and the surface.
+    pub remembered: &'a RecordsOfKey<'a>,
+    /// The surface.
+    pub shell: u32,
     pub body: &'a MovableGroup,
     pub triangle: Item,
     /// The centre, in B's frame.
@@ -148,21 +151,21 @@ pub(crate) struct TriangleEntry<'a> {
 
 impl TriangleEntry<'_> {
     /// Whether a contact pushes or is barred; `None` if it does not count at all.
-    pub fn role(&self, key: &ContactKey, contact: &TriangleContact) -> Option<ContactRole> {
+    pub fn role(&self, contact: &TriangleContact) -> Option<ContactRole> {
         let nearby = self.nearby();
         let may_be_behind = contact.standing != Standing::Front || nearby.is_mirror();
         if may_be_behind && nearby.is_behind(contact) {
-            return self.pushes_from_behind(key, contact).then_some(ContactRole::Active);
+            return self.pushes_from_behind(contact).then_some(ContactRole::Active);
         }
         let Interference { normal_b, feature, .. } = &contact.interference;
-        match self.memory.role_of_nearest(key, normal_b, *feature) {
+        match self.remembered.role_of_nearest(normal_b, *feature) {
             Some(ContactRole::WrongSide) => return Some(ContactRole::WrongSide),
             Some(_) => return Some(ContactRole::Active),
             None => {}
         }
         let Some(earlier) = self.earlier_b else { return Some(ContactRole::Active) };
         let was_in_front = self.was_in_front(&earlier, *feature);
-        let barred = !was_in_front && self.came_from_behind(&earlier, key.shell_b);
+        let barred = !was_in_front && self.came_from_behind(&earlier, self.shell);
         Some(if barred { ContactRole::WrongSide } else { ContactRole::Active })
     }
 
@@ -172,17 +175,17 @@ impl TriangleEntry<'_> {
     /// one and has not merely passed beside it, or if its line since then has come through the surface from the front and
     /// not gone deeper since than it lies below this feature: another sheet of the surface, on whose back the centre has
     /// been all the time, is farther away.
-    fn pushes_from_behind(&self, key: &ContactKey, contact: &TriangleContact) -> bool {
+    fn pushes_from_behind(&self, contact: &TriangleContact) -> bool {
         let Some(earlier) = self.earlier_b else { return true };
         let Interference { depth, normal_b, deepest_b, feature } = &contact.interference;
-        if self.was_held_behind(key, &contact.interference, &earlier) {
+        if self.was_held_behind(&contact.interference, &earlier) {
             return true;
         }
-        if self.memory.matching(key, normal_b, ContactRole::WrongSide).is_some() {
+        if self.remembered.matching(normal_b, ContactRole::WrongSide).is_some() {
             return false;
         }
         if self.was_in_front(&earlier, *feature) {
-            return self.came_through_or_under(key, contact, &earlier);
+            return self.came_through_or_under(contact, &earlier);
         }
         let below = depth - normal_b.dot(&(self.center_b - deepest_b));
         let in_plane = |height: f64, p: &Vec3| height >= -ROUNDING * p.amax();
@@ -195,7 +198,7 @@ impl TriangleEntry<'_> {
         if below > (self.center_b - earlier).norm() {
             return false;
         }
-        let crossed = self.last_crossings(&earlier, key.shell_b);
+        let crossed = self.last_crossings(&earlier, self.shell);
         crossed.from_front < crossed.from_behind && below <= crossed.from_front * (1.0 + ROUNDING)
     }
 
@@ -204,12 +207,12 @@ impl TriangleEntry<'_> {
     ///
     /// Planes reach beyond their faces. A centre whose line since then crosses the surface nowhere, and that is in front of
     /// it now, has passed the plane beside the face: it is pushed as if set down there, unless the contact held it already.
-    fn came_through_or_under(&self, key: &ContactKey, contact: &TriangleContact, earlier: &Vec3) -> bool {
+    fn came_through_or_under(&self, contact: &TriangleContact, earlier: &Vec3) -> bool {
         let normal_b = &contact.interference.normal_b;
-        let held = |role| self.memory.matching(key, normal_b, role).is_some();
+        let held = |role| self.remembered.matching(normal_b, role).is_some();
         held(ContactRole::Active)
             || held(ContactRole::Tracked)
-            || self.last_crossings(earlier, key.shell_b).are_any()
+            || self.last_crossings(earlier, self.shell).are_any()
             || !self.nearby().is_in_front()
     }
 
@@ -227,8 +230,8 @@ impl TriangleEntry<'_> {
     /// Whether a contact that is remembered, of nearly this normal, held the centre from behind, or in its plane. One of
     /// another feature speaks for this one if the centre has come over it since: what it was over already, and did not
     /// push then, does not push now.
-    fn was_held_behind(&self, key: &ContactKey, present: &Interference, earlier: &Vec3) -> bool {
-        let (_, records) = self.memory.under(key);
+    fn was_held_behind(&self, present: &Interference, earlier: &Vec3) -> bool {
+        let records = self.remembered.records;
         let Interference { normal_b, feature, .. } = present;
         let held = |record: &ContactRecord| {
             let place = || place_on_feature(&self.body.triangles, Feature(record.feature));

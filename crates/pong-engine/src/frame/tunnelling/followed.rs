@@ -111,7 +111,7 @@ impl<'a> Seen<'a> {
         let (records, info) =
             (&self.context.memory.records, self.context.body_b.primitives.get(item_b.primitive as usize));
         let head = self.key(primitive_a, shell_b).head();
-        let mut same_head = records.found(&records.of_head(head)).iter();
+        let mut same_head = records.in_range(&records.of_head(head)).iter();
         let triangles = &self.context.body_b.triangles.triangles;
         let of_sheet = |record: &ContactRecord| {
             let triangle = triangles.get(record.element_b as usize);

@@ -55,11 +55,11 @@ fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> Tunnell
         if rounds > 1 {
             let EvaluationBuffers { near, input, poses, twists, .. } = &mut *frame;
             let motions = Motions { sealed: given.sealed, poses, twists, committed: &given.memory.poses };
-            motions.relate(&near.list()[first..end], &mut input.motions);
+            motions.relate(&near.list()[first..end], false, &mut input.motions);
         }
         for (slot, &group_pair) in frame.near.list()[first..end].iter().enumerate() {
             for (plan, direction) in given.sealed.plans_of(group_pair) {
-                let motion = &frame.input.motions[slot][direction.flipped as usize];
+                let motion = frame.input.motions[slot].of(direction);
                 if travel::may_go_through(plan, motion) {
                     Seen::new(given, direction, motion, frame).follow_lines(plan, &mut events);
                 }

@@ -110,14 +110,14 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
 }
 
 /// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
-/// compared with those of one alone; answers of how many the records stand where the lanes have written them.
-fn compare(change: impl Fn(Config) -> Config, rays: usize) -> (u32, u32) {
+/// compared with those of one alone.
+fn compare(change: impl Fn(Config) -> Config, rays: usize) -> Shared {
     let [mut alone, mut shared] =
         [None, Some(one_worker())].map(|workers| brush(change(config(workers)), rays));
     // Until a worker, which may have to wait for a core, has often enough had a part in it.
-    let (mut frame, mut by_worker, mut in_lanes) = (0, 0, 0);
-    while by_worker < 50 {
-        assert!(frame < 20_000, "a worker had a part in {by_worker} of {frame} frames");
+    let (mut frame, mut shared_frames) = (0, Shared::default());
+    while shared_frames.by_worker < 50 {
+        assert!(frame < 20_000, "a worker had a part in few of {frame} frames: {shared_frames:?}");
         frame += 1;
         let t = f64::from(frame);
         for brush in [&mut alone, &mut shared] {
@@ -135,17 +135,30 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> (u32, u32) {
         assert!(told(&found.frame) == told(&expected.frame), "frame {frame}");
         assert_eq!(found.frame.caller.out.counts, expected.frame.caller.out.counts, "frame {frame}");
         if found.lane_work().nth(1).is_some_and(|lane| lane.blocks > 0) {
-            by_worker += 1;
-            in_lanes += u32::from(found.memory.records.in_lanes());
+            shared_frames.by_worker += 1;
+            shared_frames.taken_over +=
+                u32::from(found.frame.workers.iter().any(|worker| worker.holds_a_phase()));
+            shared_frames.in_lanes += u32::from(found.memory.records.in_lanes());
         }
     }
-    (by_worker, in_lanes)
+    shared_frames
+}
+
+/// Of how many frames.
+#[derive(Debug, Default)]
+struct Shared {
+    /// A worker did a part of the blocks.
+    by_worker: u32,
+    /// What it found was taken over as it was: its round was neither given up nor had it too little room.
+    taken_over: u32,
+    /// The records stand where the lanes have written them.
+    in_lanes: u32,
 }
 
 #[test]
 fn what_lanes_have_written_is_what_one_alone_remembers() {
-    let (by_worker, in_lanes) = compare(|config| config, 0);
-    assert_eq!(in_lanes, by_worker);
+    let shared = compare(|config| config, 0);
+    assert!(shared.taken_over > 0 && shared.in_lanes == shared.taken_over, "{shared:?}");
 }
 
 /// Of the floor and the gate below, a ray sees what is nearer.
@@ -157,12 +170,12 @@ fn rays_see_the_same_through_the_eyes_of_all() {
 /// There is room for fewer than half of those that touch.
 #[test]
 fn the_same_are_left_out_by_all() {
-    let (by_worker, in_lanes) = compare(|config| Config { contact_capacity: Some(900), ..config }, 0);
-    assert!(in_lanes < by_worker, "in no frame any was left out");
+    let shared = compare(|config| Config { contact_capacity: Some(900), ..config }, 0);
+    assert!(shared.in_lanes < shared.by_worker, "in no frame any was left out");
 }
 
 #[test]
 fn what_the_ledger_adds_is_the_same() {
-    let (_, in_lanes) = compare(|config| Config { ledger: true, ..config }, 0);
-    assert_eq!(in_lanes, 0);
+    let shared = compare(|config| Config { ledger: true, ..config }, 0);
+    assert_eq!(shared.in_lanes, 0);
 }

@@ -14,11 +14,12 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
         false => status_of(polyhedron.containment(&point.position)),
     };
     let local = pair.body_a().points[pair.item_a.element as usize].position;
-    let Some(face) = pair.entry_face(&local, &point.position, 0) else { return };
+    let remembered = pair.remembered(0);
+    let Some(face) = pair.entry_face(&remembered, &local, &point.position) else { return };
     let contact = point_below_face(&point.position, polyhedron, face.pushes());
     if let Some(contact) = contact {
         pair.emit(&contact, found, |out| {
-            out.entry_face = face.reached();
+            (out.entry_face, out.remembered) = (face.reached(), Some(remembered.range));
             out.status = status;
         });
     }

@@ -23,10 +23,11 @@ pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut Chu
         return;
     }
     let center_a = pair.center_a(ball);
-    let Some(face) = pair.entry_face(center_a, &sphere.center, ball.end.unwrap_or(0)) else { return };
+    let remembered = pair.remembered(ball.end.unwrap_or(0));
+    let Some(face) = pair.entry_face(&remembered, center_a, &sphere.center) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());
     pair.sharing(ball, &contact, found, |out| {
         out.status = status_of(containment);
-        out.entry_face = face.reached();
+        (out.entry_face, out.remembered) = (face.reached(), Some(remembered.range));
     });
 }
