@@ -40,10 +40,14 @@ impl<'m> RecordsOfKey<'m> {
     /// the faces of a plate folded by so little a contact would continue another's bristle.
     #[inline(always)]
     pub fn matching(&self, normal: &Vec3, role: ContactRole) -> Option<(usize, &'m ContactRecord)> {
+        let may =
+            |record: &ContactRecord| record.role == role && record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
+        // As a rule.
+        if let [one] = self.records {
+            return may(one).then_some((self.range.first(), one));
+        }
         let mut best: Option<(usize, f64)> = None;
-        let same_way = |record: &ContactRecord| record.normal_b.dot(normal) > SAME_WAY_COSINE_MIN;
-        let all = self.records.iter().enumerate();
-        for (i, record) in all.filter(|(_, record)| record.role == role && same_way(record)) {
+        for (i, record) in self.records.iter().enumerate().filter(|(_, record)| may(record)) {
             let apart = (record.normal_b - normal).norm_squared();
             let closer = best.is_none_or(|(b, least)| {
                 apart < least || (apart == least && record.feature < self.records[b].feature)

@@ -3,6 +3,7 @@
 use super::record::{ContactKey, ContactRecord};
 use super::slot::Slot;
 use pong_arena::{Full, Table};
+use std::num::NonZeroU32;
 use std::ops::{Index, IndexMut};
 
 /// Records, counted in the order of their keys. What tells most keys apart stands beside them, closely packed: a search reads
@@ -24,31 +25,23 @@ pub(crate) struct Records {
     lanes: Vec<Table<ContactRecord>>,
 }
 
-/// Where the records of one key or of one head stand.
+/// Which records those of one key or of one head are, in the order of keys. Small: every contact of a frame notes one, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RecordRange {
-    /// Anything if there are none.
-    first: u32,
+    /// The index of the first, and one more. Anything if there are none.
+    first: NonZeroU32,
     count: u32,
-    /// Of the first; the others follow it.
-    slot: Slot,
 }
 
 impl RecordRange {
-    /// No record.
-    const EMPTY: Self = Self { first: 0, count: 0, slot: Slot::new(IN_ORDER, 0) };
-
-    /// The index of the first record in the order of keys, if there is any.
-    #[inline]
-    pub fn first(&self) -> usize {
-        self.first as usize
+    fn new(first: usize, count: usize) -> Self {
+        Self { first: NonZeroU32::MIN.saturating_add(first as u32), count: count as u32 }
     }
 
-    /// What is left of it behind the first so many, `kept` of these.
-    fn part(&self, skipped: usize, kept: usize) -> Self {
-        let skipped = skipped as u32;
-        let slot = Slot::new(self.slot.lane(), self.slot.index() + skipped as usize);
-        Self { first: self.first + skipped, count: kept as u32, slot }
+    /// The index of the first record, if there is any.
+    #[inline]
+    pub fn first(&self) -> usize {
+        (self.first.get() - 1) as usize
     }
 }
 
@@ -198,7 +191,7 @@ impl Records {
         self.in_order.truncate(len);
     }
 
-    /// Where the records of a key are.
+    /// The records of a key.
     #[inline]
     pub fn of_key(&self, key: &ContactKey) -> RecordRange {
         let range = self.of_head(key.head());
@@ -211,12 +204,12 @@ impl Records {
                 // Their heads are the key's.
                 let others = several.iter().take_while(|record| record.key.tail() < tail).count();
                 let same = several[others..].iter().take_while(|record| record.key.tail() == tail).count();
-                range.part(others, same)
+                RecordRange::new(range.first() + others, same)
             }
         }
     }
 
-    /// Where the records are whose keys have one head.
+    /// The records whose keys have one head.
     #[inline]
     pub fn of_head(&self, head: u64) -> RecordRange {
         let first = self.place_of_head(head);
@@ -224,17 +217,17 @@ impl Records {
         while self.heads.get(end) == Some(&head) {
             end += 1;
         }
-        if end == first {
-            return RecordRange::EMPTY;
-        }
-        RecordRange { first: first as u32, count: (end - first) as u32, slot: self.slot(first) }
+        RecordRange::new(first, end - first)
     }
 
-    /// The records that stand there.
+    /// The records themselves: those of one head stand one after another.
     #[inline]
     pub fn in_range(&self, range: &RecordRange) -> &[ContactRecord] {
-        let first = range.slot.index();
-        &self.table(range.slot)[first..first + range.count as usize]
+        if range.count == 0 {
+            return &[];
+        }
+        let slot = self.slot(range.first());
+        &self.table(slot)[slot.index()..slot.index() + range.count as usize]
     }
 
     /// The index of the first record whose key has this head, or would have its place there.

@@ -29,12 +29,19 @@ impl BoxTree {
     /// The tree of some elements, which are put into its order. Unbounded elements make every box above them
     /// unbounded: keep them in a tree of their own.
     pub(crate) fn build<T: Copy + Ord>(elements: &mut [Boxed<T>]) -> Self {
-        let mut tree = Self { origin: middle(elements), nodes: Vec::new(), around: NarrowBox::NOTHING };
+        let mut tree = Self {
+            origin: middle(elements),
+            nodes: Vec::new(),
+            around: NarrowBox::NOTHING,
+            is_bounded: false,
+        };
         if !elements.is_empty() {
             let bottoms = elements.len().div_ceil(WIDTH);
             tree.nodes.reserve_exact(bottoms + bottoms / 2 + 2);
             tree.around = tree.add_node(elements, 0, levels_above(bottoms)).1;
             tree.nodes.shrink_to_fit();
+            let bounds = tree.around.low.iter().chain(&tree.around.high);
+            tree.is_bounded = bounds.fold(true, |all, bound| all && bound.abs() < f32::MAX);
         }
         tree
     }

@@ -72,6 +72,8 @@ pub struct BoxTree {
     pub nodes: Vec<BoxNode>,
     /// The box around everything.
     pub around: NarrowBox,
+    /// Whether every element has a bound in each direction.
+    pub is_bounded: bool,
 }
 
 impl NarrowBox {

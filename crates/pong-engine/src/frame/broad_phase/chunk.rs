@@ -235,8 +235,8 @@ impl WideBox {
     pub fn set(&mut self, tree: &BoxTree, boxes: &NarrowBoxes, lane: usize) {
         let [low, high] = &boxes.bounds;
         for axis in 0..3 {
-            self.low[axis] = tree.origin[axis] + widened(low[axis][lane]);
-            self.high[axis] = tree.origin[axis] + widened(high[axis][lane]);
+            self.low[axis] = tree.origin[axis] + widened(low[axis][lane], tree.is_bounded);
+            self.high[axis] = tree.origin[axis] + widened(high[axis][lane], tree.is_bounded);
         }
     }
 }
@@ -370,10 +370,14 @@ impl LaneBalls {
     }
 }
 
-/// A bound of a box of a tree; the greatest there is stands for no bound.
+/// A bound of a box of a tree; the greatest there is stands for no bound, unless all boxes of the tree have bounds.
 #[inline(always)]
-fn widened(bound: f32) -> f64 {
-    if bound.abs() < f32::MAX { f64::from(bound) } else { f64::INFINITY.copysign(f64::from(bound)) }
+fn widened(bound: f32, all_bounded: bool) -> f64 {
+    if all_bounded || bound.abs() < f32::MAX {
+        f64::from(bound)
+    } else {
+        f64::INFINITY.copysign(f64::from(bound))
+    }
 }
 
 /// Square of how far `x` lies outside `low`…`high`.

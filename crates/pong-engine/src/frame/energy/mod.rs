@@ -64,7 +64,7 @@ pub(crate) fn balance(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers
         let motion = motions.known(near, input, found.key.direction());
         let mut before = Before::default();
         // Two contacts may continue one record; its energy goes to the first.
-        let earlier = contact.continues.map(|i| i as usize).filter(|&i| !continued[i]);
+        let earlier = place.continues().filter(|&record| !continued[record]);
         if let Some(earlier) = earlier {
             continued[earlier] = true;
             before = Before::of(&memory.records[earlier]);

@@ -25,8 +25,6 @@ pub(crate) struct FrameContact {
     /// In the normal spring and the bristle, J.
     pub stored: f64,
     pub sticks: bool,
-    /// The committed record that this contact continues.
-    pub continues: Option<u32>,
     /// Work on the bodies since the last commit, J; 0 unless energy accounts are kept, as the next.
     pub work: f64,
     /// Lost since the last commit, J.
@@ -46,7 +44,6 @@ impl FrameContact {
             bristle_b: Vec3::zeros(),
             stored: 0.0,
             sticks: true,
-            continues: None,
             work: 0.0,
             dissipated: 0.0,
         }

@@ -42,7 +42,9 @@ pub(crate) fn compute_forces(
         let counts = || group.iter().filter(|contact| contact.status != CandidateStatus::Culled);
         for one in counts() {
             if let Some(place) = out.slot(one.role, sealed) {
-                context.compute_force((kind_a, one), bristle_share(one, counts()), place, out);
+                // Most are alone.
+                let share = if group.len() > 1 { bristle_share(one, counts()) } else { half_or_whole(one) };
+                context.compute_force((kind_a, one), share, place, out);
             }
         }
     }
@@ -88,9 +90,15 @@ pub(crate) fn bristle_share<'f>(
         })
         .map(|other| other.weight)
         .sum();
-    let half = if contact.half { 0.5 } else { 1.0 };
     // A lone contact has the whole of its own weight, whatever rounding says of n·n.
+    let half = half_or_whole(contact);
     if whole > contact.weight { half * contact.weight / whole } else { half }
+}
+
+/// h: the end of a segment has half of a spring.
+#[inline(always)]
+fn half_or_whole(contact: &ContactCandidate) -> f64 {
+    if contact.half { 0.5 } else { 1.0 }
 }
 
 /// A contact whose friction is asked for.
@@ -160,7 +168,6 @@ impl PairContext<'_> {
             bristle_b,
             stored: in_springs,
             sticks,
-            continues: continued,
             work,
             dissipated,
         } = &mut out.contacts[place];
@@ -168,10 +175,10 @@ impl PairContext<'_> {
         (*point_b, *rate, *normal_force, *slip_velocity_b) = (point, closing, pressed, slip_velocity);
         (*friction_force_b, *bristle_b, *sticks) = (Vec3::zeros(), Vec3::zeros(), !rubs);
         *in_springs = stored;
-        *continued = continues.map(|(index, _)| index as u32);
         (*work, *dissipated) = (0.0, 0.0);
         let pushes = found.role == ContactRole::Active;
-        out.places[place] = Place::new(found.key.head(), slot, pushes, *continued);
+        let continued = continues.map(|(index, _)| index as u32);
+        out.places[place] = Place::new(found.key.head(), slot, pushes, continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
             let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);

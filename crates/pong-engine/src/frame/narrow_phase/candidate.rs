@@ -107,6 +107,11 @@ impl ContactCandidate {
         }
     }
 
+    /// It shares its spring with others under its key; half a spring at the end of an axis.
+    pub fn share(&mut self, half: bool) {
+        (self.shares, self.half) = (true, half);
+    }
+
     /// Where the contact stands in every sum.
     pub fn order(&self) -> ContactOrder {
         (self.key, self.primitive_b, self.element_b, self.feature)

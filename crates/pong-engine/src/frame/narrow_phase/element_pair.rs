@@ -150,12 +150,6 @@ impl<'a> ElementPair<'a> {
         &self.body_b().primitives[self.item_b.primitive as usize]
     }
 
-    /// What is remembered of A's element at one of its ends, 0 if it has but one, and B's surface.
-    #[inline]
-    pub fn remembered(&self, end: u32) -> RecordsOfKey<'a> {
-        self.context.memory.under(&ContactKey { end, ..self.key() })
-    }
-
     /// For a point inside B's polyhedron, given in both frames, the face that memory reaches and the one that pushes.
     #[inline]
     pub fn entry_face(&self, remembered: &RecordsOfKey<'_>, local: &Vec3, p: &Vec3) -> Option<EntryFace> {
@@ -202,18 +196,10 @@ impl<'a> ElementPair<'a> {
     }
 
     /// A contact of a ball, which shares its spring with others of the same surface.
-    pub fn sharing(
-        &self,
-        ball: &Ball<'_>,
-        contact: &Interference,
-        found: &mut ChunkCandidates<'_>,
-        adjust: impl FnOnce(&mut ContactCandidate),
-    ) {
+    pub fn sharing(&self, ball: &Ball<'_>, contact: &Interference, found: &mut ChunkCandidates<'_>) {
         self.emit(contact, found, |out| {
-            out.shares = true;
-            out.half = ball.end.is_some();
+            out.share(ball.end.is_some());
             out.key.end = ball.end.unwrap_or(0);
-            adjust(out);
         });
     }
 
@@ -221,8 +207,7 @@ impl<'a> ElementPair<'a> {
     pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
         self.emit(crossing, found, |out| {
             out.key.end = BETWEEN_ENDS;
-            out.half = true;
-            out.shares = true;
+            out.share(true);
         });
     }
 
@@ -232,8 +217,20 @@ impl<'a> ElementPair<'a> {
         found: &mut ChunkCandidates<'_>,
         adjust: impl FnOnce(&mut ContactCandidate),
     ) {
+        self.emit_under(self.key(), contact, found, adjust);
+    }
+
+    /// A contact under a key that was worked out before.
+    #[inline]
+    pub fn emit_under(
+        &self,
+        key: ContactKey,
+        contact: &Interference,
+        found: &mut ChunkCandidates<'_>,
+        adjust: impl FnOnce(&mut ContactCandidate),
+    ) {
         let out = found.slot();
-        *out = ContactCandidate::new(self.key(), [self.item_a, self.item_b], self.kind_b, contact);
+        *out = ContactCandidate::new(key, [self.item_a, self.item_b], self.kind_b, contact);
         adjust(out);
     }
 }

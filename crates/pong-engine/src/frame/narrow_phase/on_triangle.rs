@@ -48,10 +48,9 @@ pub(crate) fn on_triangle(
         touched_behind: &|feature| touched_triangle_behind(pair, center.end, feature),
     };
     let Some(role) = entry.role(&contact) else { return };
-    pair.emit(&contact.interference, found, |out| {
-        (out.key, out.remembered) = (key, Some(remembered.range));
-        out.half = center.end.is_some();
-        out.shares = true;
+    pair.emit_under(key, &contact.interference, found, |out| {
+        out.remembered = Some(remembered.range);
+        out.share(center.end.is_some());
         out.role = role;
         out.status = match contact.standing {
             Standing::Front => CandidateStatus::Front,

@@ -2,6 +2,7 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, status_of, wrong_kind};
+use crate::state::ContactKey;
 use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
 use pong_geometry::primitive::Containment;
 
@@ -17,16 +18,18 @@ pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut Chu
     if matches!(containment, Containment::Outside | Containment::BeyondWall)
         && let Some(contact) = sphere_outside_polyhedron(sphere, polyhedron)
     {
-        pair.sharing(ball, &contact, found, |_| ());
+        pair.sharing(ball, &contact, found);
     }
     if containment == Containment::Outside {
         return;
     }
     let center_a = pair.center_a(ball);
-    let remembered = pair.remembered(ball.end.unwrap_or(0));
+    let key = ContactKey { end: ball.end.unwrap_or(0), ..pair.key() };
+    let remembered = pair.context.memory.under(&key);
     let Some(face) = pair.entry_face(&remembered, center_a, &sphere.center) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());
-    pair.sharing(ball, &contact, found, |out| {
+    pair.emit_under(key, &contact, found, |out| {
+        out.share(ball.end.is_some());
         out.status = status_of(containment);
         (out.entry_face, out.remembered) = (face.reached(), Some(remembered.range));
     });
