@@ -20,6 +20,12 @@ impl Lanes {
     /// Eight times the origin.
     pub const ORIGIN: Self = Self { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
 
+    /// The point in a lane, m.
+    #[inline(always)]
+    pub fn get(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
     /// Puts a point, m, into a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, p: &Vec3) {

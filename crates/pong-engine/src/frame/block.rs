@@ -5,6 +5,7 @@ use crate::frame::broad_phase::candidate_pairs::{
     CandidatePairs, Reach, SUPERCHUNK, Traversal, chunks_in_reach,
 };
 use crate::frame::broad_phase::chunk::{Chunk, ChunksOfA};
+use crate::frame::forces::ElementsOfA;
 use crate::frame::input::{Block, PairContext, Round};
 use crate::frame::narrow_phase::element_pair::ChunkCandidates;
 use crate::frame::narrow_phase::testers::{Target, test_deferred};
@@ -115,7 +116,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                     let shared = load_sharing::assign_weights(&context, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(&context, sealed, (batch_a.kind, found.list), out);
+                    forces::compute_forces(&context, sealed, (ElementsOfA::of(&chunk), found.list), out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }

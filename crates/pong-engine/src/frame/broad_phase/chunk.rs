@@ -15,7 +15,9 @@ use pong_model::{Batch, ChunkBoxes, Item, MovableGroup};
 pub(crate) struct Chunk<'a> {
     pub kind: PrimitiveKind,
     pub items: &'a [Item],
-    /// Points and spheres: their centres in B's frame.
+    /// Points and spheres: their centres in A's frame.
+    pub own_centers: Option<&'a Lanes>,
+    /// And in B's frame.
     pub centers: &'a Lanes,
     /// Points and spheres: their radii, m.
     pub radii: &'a [f64; LANES],
@@ -80,10 +82,12 @@ impl<'a> ChunksOfA<'a> {
         let items = &items[..items.len().min(LANES)];
         let ChunkSpace { centers, boxes, balls, carried } = space;
         let mut radii = &[0.0; LANES];
+        let mut own_centers = None;
         match batch.balls.get(first as usize / LANES) {
             Some(balls) => {
                 balls.centers.carry_in(simd, x_ba, centers);
                 radii = &balls.radii;
+                own_centers = Some(&balls.centers);
                 boxes.set_to_balls(simd, centers, radii);
             }
             None => {
@@ -101,7 +105,7 @@ impl<'a> ChunksOfA<'a> {
             PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
             _ => None,
         };
-        Chunk { kind, items, centers, radii, carried, boxes, balls }
+        Chunk { kind, items, own_centers, centers, radii, carried, boxes, balls }
     }
 }
 
@@ -162,8 +166,7 @@ impl Chunk<'_> {
     /// One sphere of a chunk of spheres.
     #[inline]
     pub fn sphere(&self, lane: usize) -> Sphere {
-        let center = Vec3::new(self.centers.x[lane], self.centers.y[lane], self.centers.z[lane]);
-        Sphere { center, radius: self.radii[lane] }
+        Sphere { center: self.centers.get(lane), radius: self.radii[lane] }
     }
 
     /// A point or a sphere of a chunk of such.

@@ -8,6 +8,7 @@ pub(crate) mod place;
 pub(crate) mod reference_point;
 pub(crate) mod term;
 
+use crate::frame::broad_phase::chunk::Chunk;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::input::motion::SinceCommit;
 use crate::frame::input::relative::Motions;
@@ -22,8 +23,10 @@ use contact::FrameContact;
 use contact_buffer::ContactBuffer;
 use place::Place;
 use pong_geometry::Vec3;
+use pong_geometry::lanes::Lanes;
 use pong_geometry::pose::carry_by_smallest_rotation;
 use pong_geometry::primitive::PrimitiveKind;
+use pong_geometry::simd::LANES;
 use reference_point::reference_point;
 
 /// Contacts of one key share a bristle's stiffness where the cosine of their normals exceeds this (60°).
@@ -35,7 +38,7 @@ const SHARED_BRISTLE_COSINE_MIN: f64 = 0.5;
 pub(crate) fn compute_forces(
     context: &PairContext<'_>,
     sealed: &Sealed,
-    (kind_a, found): (PrimitiveKind, &[ContactCandidate]),
+    (elements_a, found): (ElementsOfA<'_>, &[ContactCandidate]),
     out: &mut ContactBuffer,
 ) {
     for group in found.chunk_by(|a, b| a.key == b.key) {
@@ -44,7 +47,7 @@ pub(crate) fn compute_forces(
             if let Some(place) = out.slot(one.role, sealed) {
                 // Most are alone.
                 let share = if group.len() > 1 { bristle_share(one, counts()) } else { half_or_whole(one) };
-                context.compute_force((kind_a, one), share, place, out);
+                context.compute_force((elements_a, one), share, place, out);
             }
         }
     }
@@ -69,9 +72,9 @@ pub(crate) fn recompute_forces(given: &EvaluationInput<'_>, frame: &mut Evaluati
             let found = out.contacts[index].found;
             let share =
                 bristle_share(&found, group.iter().map(|place| &out.contacts[place.slot.index()].found));
-            let kind_a = context.body_a.primitives[key.primitive_a as usize].kind;
+            let kind = context.body_a.primitives[key.primitive_a as usize].kind;
             out.law_state_mut(index).fill(0.0);
-            context.compute_force((kind_a, &found), share, index, out);
+            context.compute_force((ElementsOfA { kind, centers: None }, &found), share, index, out);
         }
     }
     out.settle();
@@ -101,9 +104,30 @@ fn half_or_whole(contact: &ContactCandidate) -> f64 {
     if contact.half { 0.5 } else { 1.0 }
 }
 
+/// The elements of A in hand.
+#[derive(Clone, Copy)]
+pub(crate) struct ElementsOfA<'c> {
+    kind: PrimitiveKind,
+    /// Of a chunk of points or spheres, which was just worked on, the centres in A's frame and in B's: those in the model are
+    /// far away.
+    centers: Option<[&'c Lanes; 2]>,
+}
+
+impl<'c> ElementsOfA<'c> {
+    /// Those of a chunk.
+    #[inline(always)]
+    pub fn of(chunk: &Chunk<'c>) -> Self {
+        let centers = match chunk.own_centers {
+            Some(own) => Some([own, chunk.centers]),
+            None => None,
+        };
+        Self { kind: chunk.kind, centers }
+    }
+}
+
 /// A contact whose friction is asked for.
 struct Slipping<'f> {
-    kind_a: PrimitiveKind,
+    elements_a: ElementsOfA<'f>,
     found: &'f ContactCandidate,
     /// c, m, in B's frame, as the next.
     point: Vec3,
@@ -134,7 +158,7 @@ impl PairContext<'_> {
     #[inline(always)]
     fn compute_force(
         &self,
-        (kind_a, found): (PrimitiveKind, &ContactCandidate),
+        (elements_a, found): (ElementsOfA<'_>, &ContactCandidate),
         share: f64,
         place: usize,
         out: &mut ContactBuffer,
@@ -180,7 +204,8 @@ impl PairContext<'_> {
         let continued = continues.map(|(index, _)| index as u32);
         out.places[place] = Place::new(found.key.head(), slot, pushes, continued);
         if rubs && !matches!(props.friction, FrictionProps::None) {
-            let slipping = Slipping { kind_a, found, point, slip_velocity, pressed, continues, share, place };
+            let slipping =
+                Slipping { elements_a, found, point, slip_velocity, pressed, continues, share, place };
             self.add_friction(&slipping, props, out);
             out.settle_if_full();
         } else {
@@ -254,16 +279,24 @@ impl PairContext<'_> {
     #[inline(always)]
     fn slip(&self, contact: &Slipping<'_>, earlier: Option<&ContactRecord>) -> Vec3 {
         let Some(since) = &self.motion.since_commit else { return Vec3::zeros() };
-        let reference =
-            reference_point((self.body_a, contact.kind_a), &contact.found.key, contact.found.element_a);
-        let before = since.x_ba.point(&reference);
-        let now = self.motion.x_ba.point(&reference);
+        let found = contact.found;
+        let (before, now) = match contact.elements_a.centers {
+            Some([own, centers]) => {
+                // No bound to be checked: there are no more.
+                let lane = usize::from(found.lane) % LANES;
+                (since.x_ba.point(&own.get(lane)), centers.get(lane))
+            }
+            None => {
+                let body = (self.body_a, contact.elements_a.kind);
+                let reference = reference_point(body, &found.key, found.element_a);
+                (since.x_ba.point(&reference), self.motion.x_ba.point(&reference))
+            }
+        };
         let present = contact.point - now;
         let lever = earlier.map_or(present, |earlier| ((earlier.point_b - before) + present) * 0.5);
         let displacement = now - before + self.rotation(since).cross(&lever);
-        let approach = -contact.found.normal_b.dot(&displacement);
-        let across = displacement + contact.found.normal_b * approach;
-        let depth = contact.found.depth;
-        if earlier.is_none() { shortened(across, approach, depth) } else { across }
+        let approach = -found.normal_b.dot(&displacement);
+        let across = displacement + found.normal_b * approach;
+        if earlier.is_none() { shortened(across, approach, found.depth) } else { across }
     }
 }

@@ -22,6 +22,8 @@ pub(crate) struct ContactCandidate {
     /// The committed records under its key, if the tester has looked for them.
     pub remembered: Option<RecordRange>,
     pub kind_b: PrimitiveKind,
+    /// Which element of its chunk the element of A is.
+    pub lane: u8,
     /// Half a spring (the end of a segment) or a whole one.
     pub half: bool,
     /// Whether contacts under the same key share one spring.
@@ -74,6 +76,7 @@ impl ContactCandidate {
         entry_face: NO_FACE,
         remembered: None,
         kind_b: PrimitiveKind::Plane,
+        lane: 0,
         half: false,
         shares: false,
         status: CandidateStatus::Front,
@@ -89,8 +92,8 @@ impl ContactCandidate {
     #[inline(always)]
     pub fn new(
         key: ContactKey,
-        [item_a, item_b]: [Item; 2],
-        kind_b: PrimitiveKind,
+        (item_a, lane): (Item, u8),
+        (item_b, kind_b): (Item, PrimitiveKind),
         found: &Interference,
     ) -> Self {
         Self {
@@ -100,6 +103,7 @@ impl ContactCandidate {
             element_b: item_b.element,
             feature: found.feature,
             kind_b,
+            lane,
             depth: found.depth,
             normal_b: found.normal_b,
             deepest_b: found.deepest_b,

@@ -129,6 +129,8 @@ pub(crate) fn end_spheres(capsule: &Capsule) -> [Sphere; 2] {
 pub(crate) struct ElementPair<'a> {
     pub context: &'a PairContext<'a>,
     pub item_a: Item,
+    /// Which of its chunk it is.
+    pub lane: u8,
     pub item_b: Item,
     pub kind_b: PrimitiveKind,
 }
@@ -159,7 +161,8 @@ impl<'a> ElementPair<'a> {
             shell: self.info_b().shell,
             piece: self.item_b.element,
             point_b: *p,
-            earlier_b: self.motion().since_commit.map(|since| since.x_ba.point(local)),
+            point_a: local,
+            since: self.motion().since_commit.as_ref(),
             remembers: self.context.remembers_entry,
         }
         .face()
@@ -230,7 +233,7 @@ impl<'a> ElementPair<'a> {
         adjust: impl FnOnce(&mut ContactCandidate),
     ) {
         let out = found.slot();
-        *out = ContactCandidate::new(key, [self.item_a, self.item_b], self.kind_b, contact);
+        *out = ContactCandidate::new(key, (self.item_a, self.lane), (self.item_b, self.kind_b), contact);
         adjust(out);
     }
 }

@@ -1,6 +1,7 @@
 //! From which side something came in: polyhedra push it back there, triangles leave alone what came from behind
 //! (docs/theory.md, 2.2 and 2.4).
 
+use crate::frame::input::motion::SinceCommit;
 use crate::frame::narrow_phase::nearest_side::{Nearby, ROUNDING, visit_triangles};
 use crate::state::{ContactRecord, ContactRole, NO_FACE, RecordsOfKey, SAME_WAY_COSINE_MIN};
 use pong_geometry::Vec3;
@@ -49,10 +50,11 @@ pub(crate) struct PolyhedronEntry<'a> {
     pub shell: u32,
     /// Which polyhedron of the body.
     pub piece: u32,
-    /// The point, in B's frame.
+    /// The point, in A's frame. Where it was at the last commit is rarely asked for.
+    pub point_a: &'a Vec3,
+    pub since: Option<&'a SinceCommit>,
+    /// And in B's frame.
     pub point_b: Vec3,
-    /// Where it was at the last commit, in B's frame.
-    pub earlier_b: Option<Vec3>,
     /// Whether the model of B remembers sides of entry.
     pub remembers: bool,
 }
@@ -73,6 +75,11 @@ impl PolyhedronEntry<'_> {
         Some(EntryFace::new(reached.face, reached.pushes))
     }
 
+    /// Where the point was at the last commit, in B's frame.
+    fn earlier_b(&self) -> Option<Vec3> {
+        self.since.map(|since| since.x_ba.point(self.point_a))
+    }
+
     fn polyhedron(&self) -> &Polyhedron {
         &self.body.polyhedra[self.piece as usize]
     }
@@ -89,7 +96,7 @@ impl PolyhedronEntry<'_> {
             return Some(record.entry_face as usize).filter(|_| old.active);
         }
         let polyhedron = self.polyhedron();
-        let entry = self.earlier_b.and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
+        let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             // Out of the old piece and in again: leaving has ended the memory.
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
@@ -100,7 +107,7 @@ impl PolyhedronEntry<'_> {
     /// The face by which the straight line since the last commit came in; the least deep one without a line.
     fn entered_by(&self) -> Option<usize> {
         let polyhedron = self.polyhedron();
-        let entry = self.earlier_b.and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
+        let entry = self.earlier_b().and_then(|earlier| entry_of_line(&earlier, &self.point_b, polyhedron));
         match entry {
             Some(entry) if polyhedron.faces[entry.face].active => Some(entry.face),
             Some(entry) => {
@@ -113,7 +120,7 @@ impl PolyhedronEntry<'_> {
     /// The line came through an inner wall at `at`: the active face by which it had come into the surface, the
     /// nearest one before the wall, carried over into this piece.
     fn entered_through_wall(&self, at: f64) -> Option<usize> {
-        let earlier = self.earlier_b?;
+        let earlier = self.earlier_b()?;
         let wall = earlier + (self.point_b - earlier) * at;
         let mut best: Option<(f64, Vec3)> = None;
         let pieces = self.body.primitives.iter().filter(|info| {

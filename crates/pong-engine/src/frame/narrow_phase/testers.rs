@@ -101,6 +101,7 @@ impl<'a> Target<'a> {
         let pair = ElementPair {
             context: self.context,
             item_a: chunk.items[lane],
+            lane: lane as u8,
             item_b: self.item_b,
             kind_b: self.kind_b,
         };
@@ -140,10 +141,10 @@ fn test_spheres(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut ChunkC
     let told = found.deferred.spheres.take();
     for place in lanes(told.near) {
         let (lane, item_b) = found.deferred.from[place];
-        let lane = usize::from(lane);
-        let pair = ElementPair { context, item_a: chunk.items[lane], item_b, kind_b: Triangle };
+        let item_a = chunk.items[usize::from(lane)];
+        let pair = ElementPair { context, item_a, lane, item_b, kind_b: Triangle };
         let over_face = told.over_face >> place & 1 == 1;
-        sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(lane)), over_face, found);
+        sphere_triangle::test_ball(&pair, &Ball::of(&chunk.sphere(usize::from(lane))), over_face, found);
     }
 }
 
@@ -162,7 +163,7 @@ fn test_ellipsoids(context: &PairContext<'_>, chunk: &Chunk<'_>, found: &mut Chu
         };
         let item_a = chunk.items[usize::from(lane)];
         ellipsoid_triangle::test_ready(
-            &ElementPair { context, item_a, item_b, kind_b: Triangle },
+            &ElementPair { context, item_a, lane, item_b, kind_b: Triangle },
             ready,
             found,
         );
