@@ -29,13 +29,14 @@ use solver::{SharedContact, share_within};
 /// Relative: depths this close are as deep as each other.
 const FALLBACK_DEPTH_SLACK: f64 = 1e-9;
 
-/// Sorts the contacts into the order of every sum and assigns their weights. Those that do not count are marked as
-/// dropped. All contacts of a key are among those of one chunk.
+/// Sorts the contacts of a chunk, whose elements are of one kind, into the order of every sum and assigns their weights. Those
+/// that do not count are marked as dropped. All contacts of a key are among those of one chunk.
 ///
 /// # Errors
 /// `Full` if the scratch memory was too small for one surface: the deepest of its contacts were shared.
 pub(crate) fn assign_weights(
     context: &PairContext<'_>,
+    kind_a: PrimitiveKind,
     found: &mut Table<ContactCandidate>,
     shared_contacts: &mut Table<SharedContact>,
     scratch: &mut Arena,
@@ -51,9 +52,6 @@ pub(crate) fn assign_weights(
     }
     let mut outcome = Ok(());
     found.sort_unstable_by_key(ContactCandidate::order);
-    let kind_of = |found: &ContactCandidate| context.body_a.primitives[found.key.primitive_a as usize].kind;
-    // All elements of a chunk are of one kind.
-    let Some(kind_a) = found.first().map(kind_of) else { return Ok(()) };
     match kind_a {
         PrimitiveKind::Ray => keep_first_ray_hits(found, context),
         PrimitiveKind::Sphere | PrimitiveKind::Ellipsoid => {

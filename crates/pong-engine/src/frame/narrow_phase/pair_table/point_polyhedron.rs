@@ -13,10 +13,10 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
         true => CandidateStatus::Front,
         false => status_of(polyhedron.containment(&point.position)),
     };
-    let local = pair.body_a().points[pair.item_a.element as usize].position;
+    let local = &pair.body_a().points[pair.item_a.element as usize].position;
     let key = pair.key();
     let remembered = pair.context.memory.under(&key);
-    let Some(face) = pair.entry_face(&remembered, &local, &point.position) else { return };
+    let Some(face) = pair.entry_face(&remembered, local, &point.position) else { return };
     let contact = point_below_face(&point.position, polyhedron, face.pushes());
     if let Some(contact) = contact {
         pair.emit_under(key, &contact, found, |out| {
