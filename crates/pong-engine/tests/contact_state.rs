@@ -120,6 +120,19 @@ fn a_restored_block_continues_bit_for_bit() {
     assert_eq!(saved(&original.world), saved(&fresh.world));
 }
 
+/// Put back right after a commit: the way since the last commit begins where the block says, not where the world has been.
+#[test]
+fn a_world_put_back_to_an_earlier_block_goes_the_same_way_again() {
+    let mut rig = rig();
+    steps(&mut rig, 0..120);
+    let block = saved(&rig.world);
+    let once = steps(&mut rig, 120..200);
+    for _ in 0..2 {
+        rig.world.restore_state(&block).unwrap();
+        assert_eq!(steps(&mut rig, 120..200), once);
+    }
+}
+
 /// Where a child process finds the block it continues from.
 const BLOCK_FILE: &str = "PONG_TEST_BLOCK";
 

@@ -95,12 +95,17 @@ fn two_kinds_of_ones_own_touch_in_either_order_of_pairing() {
 fn an_endless_floor_holds_a_ball_wherever_it_is_though_a_mesh_lies_beside() {
     let mesh = "Triangle(name: \"t\", vertices: ((0,0,0),(1,0,0),(0,1,0)), thickness: 0.01)";
     let steel = surface(1e5, "");
-    let ball = model("ball", &steel, "Sphere(name: \"s\", center: (0,0,0), radius: 0.1)");
-    let mut rig = Rig::new(&ball, &model("ground", &steel, &format!("{mesh}, {FLOOR}")));
-    for x in [-1e6, 1e37, 1e39, 1e50, 1e99] {
-        rig.place([at(Vec3::new(x, 0.0, 0.09), Quat::identity()), State::identity()]);
-        rig.world.evaluate().unwrap();
-        assert_eq!(rig.world.contacts().len(), 1, "{x:e}");
+    let ground = model("ground", &steel, &format!("{mesh}, {FLOOR}"));
+    // One is tested by its own box, several together by those that the floor's tree tells.
+    for balls in [1, 3] {
+        let each = |i| format!("Sphere(name: \"s{i}\", center: (0, {i}, 0), radius: 0.1)");
+        let spheres: Vec<String> = (0..balls).map(each).collect();
+        let mut rig = Rig::new(&model("balls", &steel, &spheres.join(", ")), &ground);
+        for x in [-1e6, 1e37, 1e39, 1e50, 1e99] {
+            rig.place([at(Vec3::new(x, 0.0, 0.09), Quat::identity()), State::identity()]);
+            rig.world.evaluate().unwrap();
+            assert_eq!(rig.world.contacts().len(), balls, "{x:e}");
+        }
     }
 }
 

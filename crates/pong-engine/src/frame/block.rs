@@ -117,12 +117,7 @@ impl<L: Laps> Kernel for BlockWork<'_, L> {
                         load_sharing::assign_weights(&context, batch_a.kind, found.list, shared, scratch);
                     out.demand.unshared |= shared.is_err();
                     laps.lap(Work::LoadSharing, &mut out.times);
-                    forces::compute_forces(
-                        &context,
-                        sealed,
-                        (ElementsOfA::of(&chunk), found.list),
-                        out,
-                    );
+                    forces::compute_forces(&context, sealed, (ElementsOfA::of(&chunk), found.list), out);
                     found.clear();
                     laps.lap(Work::Forces, &mut out.times);
                 }

@@ -302,6 +302,9 @@ fn records_of_one_key_are_found_together_whatever_was_done_before() {
                 assert!((range.first()..range.first() + records.len()).contains(&index));
                 assert!(records.iter().all(|other| other.key == record.key));
                 assert_eq!(memory.law_state_of(index), law_state);
+                // Most often one record has the head, and that is another end's.
+                let elsewhere = ContactKey { end: record.key.end + 1000, ..record.key };
+                assert!(memory.under(&elsewhere).records.is_empty());
             }
             let mut gone = all.iter().filter(|key| is_cleared(key.group_pair as usize));
             assert!(gone.all(|key| memory.under(key).records.is_empty()));

@@ -68,16 +68,8 @@ fn list(records: usize, frame: &mut EvaluationBuffers) {
     } else {
         put_where_they_were(records, (count, found.places()), order, scratch);
     }
-    let mut first = 0;
-    while first < order.len() {
-        let mut end = first + 1;
-        while end < order.len() && order[end].head == order[first].head {
-            end += 1;
-        }
-        if end - first > 1 {
-            order[first..end].sort_unstable_by_key(|place| found.contact(place).found.order());
-        }
-        first = end;
+    for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
+        ties.sort_unstable_by_key(|place| found.contact(place).found.order());
     }
 }
 
