@@ -40,8 +40,8 @@ impl BoxTree {
             tree.nodes.reserve_exact(bottoms + bottoms / 2 + 2);
             tree.around = tree.add_node(elements, 0, levels_above(bottoms)).1;
             tree.nodes.shrink_to_fit();
-            let bounds = tree.around.low.iter().chain(&tree.around.high);
-            tree.is_bounded = bounds.fold(true, |all, bound| all && bound.abs() < f32::MAX);
+            let mut bounds = tree.around.low.iter().chain(&tree.around.high);
+            tree.is_bounded = bounds.all(|bound| bound.abs() < f32::MAX);
         }
         tree
     }
