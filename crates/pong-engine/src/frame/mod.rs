@@ -95,6 +95,10 @@ fn find_contacts(
         }
         laps = clock.start();
     };
+    if near.list().is_empty() {
+        // The next frame is not to find what the one before this has left.
+        input.motions.clear();
+    }
     for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
         motions.relate(pairs, std::mem::take(&mut goes_on), &mut input.motions);
         blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);

@@ -247,6 +247,36 @@ fn a_far_origin_and_a_common_drift_change_nothing() {
     assert!(2 * near < all, "{near} of {all}: a drift of all is no motion");
 }
 
+/// All are so far apart, but for two balls, that for a frame no pair at all is visited. What the two have moved when they meet
+/// again counts from then, not from the last frame that visited them.
+#[test]
+fn after_a_frame_without_any_pair_the_way_counts_from_there() {
+    /// Of the movable groups the first is a ball, too.
+    const BALL: usize = 5;
+    let mut flocks = [(); 2].map(|()| Flock::new(Config::default(), false, &CALM, &mut Random(50)));
+    flocks[1].world.runtime_mut().frame.near.visit_all();
+    let mut states = flocks[0].states.clone();
+    for (place, state) in states.iter_mut().enumerate() {
+        *state = State { position: [0.0, 0.0, 1e3 * place as f64], ..State::identity() };
+    }
+    let mut visited = Vec::new();
+    let places =
+        [[0.39, 0.0, 0.0], [0.39, 1e-3, 0.0], [50.0, 50.0, 0.0], [-50.0, 50.0, 0.0], [0.39, 2e-3, 0.0]];
+    for (frame, place) in places.into_iter().enumerate() {
+        states[BALL].position = place;
+        let told = flocks.each_mut().map(|flock| {
+            flock.set(&states);
+            let report = flock.world.evaluate().unwrap();
+            let told = flock.told(report);
+            flock.world.commit().unwrap();
+            (told, report.contacts)
+        });
+        assert!(told[0] == told[1], "frame {frame}");
+        visited.push((flocks[0].world.runtime_mut().frame.near.list().len(), told[0].1));
+    }
+    assert_eq!(visited, [(1, 1), (1, 1), (1, 0), (0, 0), (1, 1)]);
+}
+
 #[test]
 fn energies_and_accounts_are_the_same() {
     let held = crate::WrenchCoupling::ZeroOrderHold { delay_frames: 1 };
