@@ -119,12 +119,6 @@ impl Runtime {
         Ok(clone)
     }
 
-    /// The contact state is no longer what the last commit has made of a frame.
-    fn restated(&mut self) {
-        self.frame.committed = false;
-        self.changed();
-    }
-
     /// What is set now is no longer what the last frame was computed from.
     pub fn changed(&mut self) {
         (self.evaluated, self.current) = (false, false);
@@ -166,13 +160,12 @@ impl Runtime {
         let mut watch = self.clock.start();
         let Self { memory, spares, frame, .. } = self;
         take_turns(memory, spares, |old, next| {
-            next.poses.commit(&old.poses, &frame.poses, &states.enabled);
+            next.poses.commit(&old.poses, (frame.number, &frame.poses), &states.enabled);
             remember(frame, next);
             (next.work, next.dissipated) = (frame.energy.work, frame.energy.dissipated);
             next.pair_energies.copy_from(&frame.energy.pairs);
         });
         watch.lap(Stage::Commit, &mut frame.times);
-        frame.committed = true;
         self.evaluated = false;
     }
 
@@ -227,7 +220,7 @@ impl Runtime {
             next.copy_from(old);
             next.preload(&preloaded);
         });
-        self.restated();
+        self.changed();
         preloaded.len()
     }
 
@@ -239,7 +232,7 @@ impl Runtime {
             next.copy_from(old);
             next.clear_history(&cleared, |index| pairs[index as usize].pair);
         });
-        self.restated();
+        self.changed();
     }
 
     /// Pairs of movable groups with their accounts, what they have stored taken in, and the stiffest of their contacts.
@@ -290,7 +283,7 @@ impl Runtime {
             outcome = read_block(next, sealed.hash, block, exists);
         });
         outcome?;
-        self.restated();
+        self.changed();
         Ok(())
     }
 

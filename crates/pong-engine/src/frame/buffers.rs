@@ -21,8 +21,8 @@ use pong_geometry::{Pose, Twist, Wrench};
 pub(crate) struct EvaluationBuffers {
     /// Whether a frame has been computed since the world was sealed.
     pub computed: bool,
-    /// Whether the contact state is what a commit of this frame, as a whole, has made of it.
-    pub committed: bool,
+    /// Of the frame; the first is 1.
+    pub number: u64,
     // state in
     pub poses: Vec<Pose>,
     pub twists: Vec<Twist>,
@@ -58,7 +58,7 @@ impl EvaluationBuffers {
         let buffer = |lane| WorkerContext::buffer(sealed, lane, contacts);
         Self {
             computed: false,
-            committed: false,
+            number: 0,
             poses: vec![Pose::identity(); bodies],
             twists: vec![Twist::zero(); bodies],
             near: NearPairs::new(scene, sealed),
@@ -75,9 +75,10 @@ impl EvaluationBuffers {
         }
     }
 
-    /// Empties the buffers; their memory stays.
+    /// Empties the buffers for the next frame; their memory stays.
     #[inline]
     pub fn begin(&mut self, sealed: &Sealed) {
+        self.number += 1;
         self.caller.out.begin(ContactBuffer::NO_PHASE);
         self.order.clear();
         for &body in &*sealed.paired_bodies {

@@ -71,9 +71,8 @@ fn find_contacts(
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { scene, sealed, memory, clock, .. } = *given;
-    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, committed, .. } = frame;
+    let EvaluationBuffers { input, caller, workers, times, near, poses, twists, number, .. } = frame;
     let motions = Motions { sealed, poses, twists, committed: &memory.poses };
-    let mut goes_on = std::mem::take(committed);
     input.clock = clock;
     if let Some(pool) = &mut pool {
         pool.begin_frame();
@@ -95,12 +94,8 @@ fn find_contacts(
         }
         laps = clock.start();
     };
-    if near.list().is_empty() {
-        // The next frame is not to find what the one before this has left.
-        input.motions.clear();
-    }
     for pairs in near.list().chunks(MOTIONS_AT_ONCE) {
-        motions.relate(pairs, std::mem::take(&mut goes_on), &mut input.motions);
+        motions.relate(pairs, *number, &mut input.motions);
         blocks::lay_out(scene, sealed, pairs, (input, caller), &mut work);
     }
     laps.lap_work(Work::BroadPhase, &mut layout);

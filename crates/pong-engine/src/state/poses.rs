@@ -33,6 +33,9 @@ pub(crate) struct CommittedPoses {
     /// Whether every pair that is on is of moment 0 and every other of none: the next commit changes no moment.
     settled: bool,
     past: Past,
+    /// Number of the frame whose poses these are, if a commit of all pairs has made them of it and nothing was changed since;
+    /// 0 otherwise.
+    frame: u64,
 }
 
 /// How many moments pairs may be of.
@@ -59,6 +62,7 @@ impl CommittedPoses {
             version: 0,
             settled: false,
             past: Past::Nothing,
+            frame: 0,
         }
     }
 
@@ -114,6 +118,11 @@ impl CommittedPoses {
         self.past
     }
 
+    /// The number of the frame that a commit of all pairs has made these poses of; 0 if anything else has.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
     #[inline]
     fn write(&mut self, moment: u8, poses: &[Pose]) {
         let first = usize::from(moment) * self.stride;
@@ -122,10 +131,10 @@ impl CommittedPoses {
         }
     }
 
-    /// A commit of all pairs after `before`: those that are on are of this moment, and nothing is remembered of the others.
-    /// Grows with the movable groups, but for the first commit after some pairs were treated apart.
+    /// A commit of all pairs of a frame, told by its number, after `before`: those that are on are of this moment, and nothing
+    /// is remembered of the others. Grows with the movable groups, but for the first commit after some pairs were treated apart.
     #[inline]
-    pub fn commit(&mut self, before: &Self, poses: &[Pose], enabled: &[bool]) {
+    pub fn commit(&mut self, before: &Self, (frame, poses): (u64, &[Pose]), enabled: &[bool]) {
         if !before.settled {
             for (moment, on) in self.moment_of.iter_mut().zip(enabled) {
                 *moment = if *on { 0 } else { NEVER };
@@ -138,7 +147,7 @@ impl CommittedPoses {
         if self.capacity() > 0 {
             self.write(0, poses);
         }
-        self.past = Past::OneMoment;
+        (self.past, self.frame) = (Past::OneMoment, frame);
     }
 
     /// A moment that no pair needs once the accepted ones are committed; `None` if all are taken.
@@ -182,11 +191,12 @@ impl CommittedPoses {
         self.settled = false;
     }
 
-    /// Becomes equal to the poses of another state of the same world.
+    /// Becomes equal to the poses of another state of the same world. All but a commit of all pairs begins with this.
     pub fn copy_from(&mut self, other: &Self) {
         self.moment_of.copy_from_slice(&other.moment_of);
         self.poses.copy_from_slice(&other.poses);
         (self.version, self.settled, self.past) = (other.version, other.settled, other.past);
+        self.frame = 0;
     }
 
     /// The moments that pairs are of, numbered in the order of the first pair of each: the numbers of a block, which do not

@@ -207,7 +207,7 @@ fn the_past_of_every_pair_is_that_of_its_last_commit() {
                 }
             }
             _ => {
-                spare.commit(&committed, &now, &enabled);
+                spare.commit(&committed, (1, &now), &enabled);
                 assert_eq!(spare.past(), Past::OneMoment);
                 expected = enabled.map(|on| seen().filter(|_| on)).to_vec();
             }

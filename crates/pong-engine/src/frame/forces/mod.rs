@@ -46,7 +46,7 @@ pub(crate) fn compute_forces(
         for one in counts() {
             if let Some(place) = out.slot(one.role, sealed) {
                 // Most are alone.
-                let share = if group.len() > 1 { bristle_share(one, counts()) } else { half_or_whole(one) };
+                let share = if group.len() > 1 { bristle_share(one, counts()) } else { one.half_or_whole() };
                 context.compute_force((elements_a, one), share, place, out);
             }
         }
@@ -94,14 +94,8 @@ pub(crate) fn bristle_share<'f>(
         .map(|other| other.weight)
         .sum();
     // A lone contact has the whole of its own weight, whatever rounding says of n·n.
-    let half = half_or_whole(contact);
+    let half = contact.half_or_whole();
     if whole > contact.weight { half * contact.weight / whole } else { half }
-}
-
-/// h: the end of a segment has half of a spring.
-#[inline(always)]
-fn half_or_whole(contact: &ContactCandidate) -> f64 {
-    if contact.half { 0.5 } else { 1.0 }
 }
 
 /// The elements of A in hand.

@@ -38,14 +38,16 @@ impl Motion {
 /// The motions of a pair of movable groups, in those of its two directions in which something can be found.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PairMotions {
-    pub group_pair: u32,
+    pub(super) group_pair: u32,
+    /// Number of the frame that they are of.
+    pub(super) frame: u64,
     pub(super) directions: [Motion; 2],
 }
 
 impl PairMotions {
     /// Of no pair.
     pub fn nobodys() -> Self {
-        Self { group_pair: u32::MAX, directions: [Motion::none(); 2] }
+        Self { group_pair: u32::MAX, frame: 0, directions: [Motion::none(); 2] }
     }
 
     /// The motion in a direction of the pair.

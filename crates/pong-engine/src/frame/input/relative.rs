@@ -23,9 +23,9 @@ pub(crate) struct Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// Fills in the motions of some pairs, in the directions in which something can be found. What stands there of the last
-    /// frame is where these pairs are committed, if that frame `was_committed` as a whole: it need not be worked out again.
-    pub fn relate(&self, pairs: &[u32], was_committed: bool, out: &mut Vec<PairMotions>) {
+    /// Fills in the motions of some pairs in the frame of this number, in the directions in which something can be found. What
+    /// stands there of the frame that was committed is where its pairs are committed: it need not be worked out again.
+    pub fn relate(&self, pairs: &[u32], frame: u64, out: &mut Vec<PairMotions>) {
         // What is of no use stays as it is: both directions may be written, and few are not. As a rule there are as many as in
         // the frame before, and nothing is made only to be thrown away.
         if out.len() < pairs.len() {
@@ -33,8 +33,8 @@ impl Motions<'_> {
         }
         out.truncate(pairs.len());
         for (motions, &group_pair) in out.iter_mut().zip(pairs) {
-            let is_known = was_committed && motions.group_pair == group_pair;
-            motions.group_pair = group_pair;
+            let is_known = motions.group_pair == group_pair && motions.frame == self.committed.frame();
+            (motions.group_pair, motions.frame) = (group_pair, frame);
             for (_, direction) in self.sealed.plans_of(group_pair) {
                 let motion = &mut motions.directions[direction.flipped as usize];
                 let earlier =

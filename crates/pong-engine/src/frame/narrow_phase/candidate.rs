@@ -126,8 +126,13 @@ impl ContactCandidate {
         self.status != CandidateStatus::Culled && self.role == ContactRole::Active
     }
 
+    /// h: the end of a segment has half of a spring.
+    pub fn half_or_whole(&self) -> f64 {
+        if self.half { 0.5 } else { 1.0 }
+    }
+
     /// Weight with the half spring of a segment's end taken in.
     pub fn full_weight(&self) -> f64 {
-        if self.half { 0.5 * self.weight } else { self.weight }
+        self.half_or_whole() * self.weight
     }
 }

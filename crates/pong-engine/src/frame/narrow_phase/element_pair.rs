@@ -183,6 +183,11 @@ impl<'a> ElementPair<'a> {
         }
     }
 
+    /// The key at one of the ends of A's element.
+    pub fn key_at(&self, end: u32) -> ContactKey {
+        ContactKey { end, ..self.key() }
+    }
+
     /// The centre of a ball of A, in A's frame, m. Most tests end without it.
     pub fn center_a(&self, ball: &Ball<'_>) -> &'a Vec3 {
         let element = self.item_a.element as usize;
@@ -200,18 +205,13 @@ impl<'a> ElementPair<'a> {
 
     /// A contact of a ball, which shares its spring with others of the same surface.
     pub fn sharing(&self, ball: &Ball<'_>, contact: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit(contact, found, |out| {
-            out.share(ball.end.is_some());
-            out.key.end = ball.end.unwrap_or(0);
-        });
+        let key = self.key_at(ball.end.unwrap_or(0));
+        self.emit_under(key, contact, found, |out| out.share(ball.end.is_some()));
     }
 
     /// An edge that a capsule crosses between its ends.
     pub fn between_ends(&self, crossing: &Interference, found: &mut ChunkCandidates<'_>) {
-        self.emit(crossing, found, |out| {
-            out.key.end = BETWEEN_ENDS;
-            out.share(true);
-        });
+        self.emit_under(self.key_at(BETWEEN_ENDS), crossing, found, |out| out.share(true));
     }
 
     pub fn emit(

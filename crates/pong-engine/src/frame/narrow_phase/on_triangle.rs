@@ -6,7 +6,6 @@ use super::nearest_side::{KnownSides, Nearby};
 use super::side_of_entry::TriangleEntry;
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::input::PairContext;
-use crate::state::ContactKey;
 use pong_geometry::Vec3;
 use pong_geometry::interference::Feature;
 use pong_geometry::interference::ellipsoid_triangle::ellipsoid_triangle;
@@ -36,7 +35,7 @@ pub(crate) fn on_triangle(
     if earlier.is_none() && is_set_down_in_front(pair, center, &contact, &mut found.sides) {
         return;
     }
-    let key = ContactKey { end: center.end.unwrap_or(0), ..pair.key() };
+    let key = pair.key_at(center.end.unwrap_or(0));
     let remembered = pair.context.memory.under(&key);
     let entry = TriangleEntry {
         remembered: &remembered,

@@ -1,7 +1,7 @@
 //! Whether what touches the wall of a bore came from the hole (docs/theory.md, 2.8).
 
 use super::element_pair::ElementPair;
-use crate::state::{ContactKey, ContactRole};
+use crate::state::{ContactRole, RecordsOfKey};
 use pong_geometry::Vec3;
 use pong_geometry::interference::Interference;
 use pong_geometry::interference::ball_bore::is_behind_wall;
@@ -10,17 +10,16 @@ use pong_geometry::interference::ball_bore::is_behind_wall;
 /// came through the wall from behind: it is not pushed into the hole until it has left the wall.
 pub(crate) fn role_in_bore(
     pair: &ElementPair<'_>,
-    key: &ContactKey,
+    remembered: &RecordsOfKey<'_>,
     local: &Vec3,
     contact: &Interference,
 ) -> ContactRole {
-    let remembered = pair.context.memory.under(key).role_of_nearest(&contact.normal_b, contact.feature);
     let came_from_behind = || {
         let earlier = pair.motion().since_commit.map(|since| since.x_ba.point(local));
         let bore = &pair.body_b().bores[pair.item_b.element as usize];
         earlier.is_some_and(|earlier| is_behind_wall(&earlier, bore))
     };
-    match remembered {
+    match remembered.role_of_nearest(&contact.normal_b, contact.feature) {
         Some(ContactRole::WrongSide) => ContactRole::WrongSide,
         Some(ContactRole::Active | ContactRole::Tracked) => ContactRole::Active,
         None if came_from_behind() => ContactRole::WrongSide,

@@ -53,9 +53,9 @@ fn follow(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) -> Tunnell
         let first = round * MOTIONS_AT_ONCE;
         let end = frame.near.list().len().min(first + MOTIONS_AT_ONCE);
         if rounds > 1 {
-            let EvaluationBuffers { near, input, poses, twists, .. } = &mut *frame;
+            let EvaluationBuffers { near, input, poses, twists, number, .. } = &mut *frame;
             let motions = Motions { sealed: given.sealed, poses, twists, committed: &given.memory.poses };
-            motions.relate(&near.list()[first..end], false, &mut input.motions);
+            motions.relate(&near.list()[first..end], *number, &mut input.motions);
         }
         for (slot, &group_pair) in frame.near.list()[first..end].iter().enumerate() {
             for (plan, direction) in given.sealed.plans_of(group_pair) {

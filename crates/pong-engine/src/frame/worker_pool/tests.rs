@@ -111,11 +111,11 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
 
 /// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
 /// compared with those of one alone.
-fn compare(change: impl Fn(Config) -> Config, rays: usize) -> Shared {
+fn compare(change: impl Fn(Config) -> Config, rays: usize) -> SharedFrames {
     let [mut alone, mut shared] =
         [None, Some(one_worker())].map(|workers| brush(change(config(workers)), rays));
     // Until a worker, which may have to wait for a core, has often enough had a part in it.
-    let (mut frame, mut shared_frames) = (0, Shared::default());
+    let (mut frame, mut shared_frames) = (0, SharedFrames::default());
     while shared_frames.by_worker < 50 {
         assert!(frame < 20_000, "a worker had a part in few of {frame} frames: {shared_frames:?}");
         frame += 1;
@@ -146,7 +146,7 @@ fn compare(change: impl Fn(Config) -> Config, rays: usize) -> Shared {
 
 /// Of how many frames.
 #[derive(Debug, Default)]
-struct Shared {
+struct SharedFrames {
     /// A worker did a part of the blocks.
     by_worker: u32,
     /// What it found was taken over as it was: its round was neither given up nor had it too little room.

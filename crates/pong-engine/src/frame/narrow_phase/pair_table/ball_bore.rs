@@ -18,10 +18,12 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
     };
     let bore = &pair.body_b().bores[pair.item_b.element as usize];
     for contact in ball_bore(&ball, bore).iter().flatten() {
-        let role = role_in_bore(pair, &pair.key(), &local, contact);
-        pair.emit(contact, found, |out| {
-            out.shares = true;
-            out.role = role;
+        let key = pair.key();
+        let remembered = pair.context.memory.under(&key);
+        let role = role_in_bore(pair, &remembered, &local, contact);
+        pair.emit_under(key, contact, found, |out| {
+            out.share(false);
+            (out.role, out.remembered) = (role, Some(remembered.range));
         });
     }
 }

@@ -2,7 +2,6 @@
 
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{Ball, ChunkCandidates, ElementPair, status_of, wrong_kind};
-use crate::state::ContactKey;
 use pong_geometry::interference::sphere_polyhedron::{sphere_inside_polyhedron, sphere_outside_polyhedron};
 use pong_geometry::primitive::Containment;
 
@@ -24,7 +23,7 @@ pub(super) fn test_ball(pair: &ElementPair<'_>, ball: &Ball<'_>, found: &mut Chu
         return;
     }
     let center_a = pair.center_a(ball);
-    let key = ContactKey { end: ball.end.unwrap_or(0), ..pair.key() };
+    let key = pair.key_at(ball.end.unwrap_or(0));
     let remembered = pair.context.memory.under(&key);
     let Some(face) = pair.entry_face(&remembered, center_a, &sphere.center) else { return };
     let contact = sphere_inside_polyhedron(sphere, polyhedron, face.pushes());

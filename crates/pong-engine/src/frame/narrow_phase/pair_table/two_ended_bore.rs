@@ -3,7 +3,6 @@
 use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use crate::frame::narrow_phase::element_pair::{ChunkCandidates, ElementPair, wrong_kind};
 use crate::frame::narrow_phase::side_of_bore::role_in_bore;
-use crate::state::ContactKey;
 use pong_geometry::interference::two_ended_bore::{capsule_bore, cylinder_bore, segment_bore};
 
 pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut ChunkCandidates<'_>) {
@@ -22,14 +21,13 @@ pub(crate) fn test(pair: &ElementPair<'_>, a: &TransformedPrimitive, found: &mut
         _ => wrong_kind(a),
     };
     for (end, (contacts, local)) in contacts.iter().zip(ends).enumerate() {
-        let key = ContactKey { end: end as u32, ..pair.key() };
         for contact in contacts.iter().flatten() {
-            let role = role_in_bore(pair, &key, &local, contact);
-            pair.emit(contact, found, |out| {
-                out.key = key;
-                out.half = true;
-                out.shares = true;
-                out.role = role;
+            let key = pair.key_at(end as u32);
+            let remembered = pair.context.memory.under(&key);
+            let role = role_in_bore(pair, &remembered, &local, contact);
+            pair.emit_under(key, contact, found, |out| {
+                out.share(true);
+                (out.role, out.remembered) = (role, Some(remembered.range));
             });
         }
     }
