@@ -45,7 +45,7 @@ pub use element::Element;
 pub use error::{ModelError, ModelErrors};
 pub use fnv::Fnv;
 pub use limits::{LARGEST, LARGEST_SIZE, SMALLEST_SIZE};
-pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Tree};
+pub use model::{Balls, Batch, ChunkBoxes, Item, Model, MovableGroup, Node, PrimitiveInfo, Rods, Tree};
 pub use pair_table::pair_entries;
 pub use printable::{printable, printable_lines};
 pub use surface::{Exponent, FrictionLaw, NormalLaw, PairOverride, Surface};

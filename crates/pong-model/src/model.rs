@@ -142,6 +142,8 @@ pub struct Batch {
     pub chunks: Vec<ChunkBoxes>,
     /// For points and spheres, by lane; those of the elements 8·i … 8·i + 7 at place *i*. Empty for other kinds.
     pub balls: Vec<Balls>,
+    /// The same for line segments and capsules.
+    pub rods: Vec<Rods>,
 }
 
 /// Boxes around eight times eight elements of a batch: around its elements 64·i … 64·i + 7 in lane 0 at place *i*.
@@ -206,6 +208,40 @@ impl Balls {
                 balls.radii[lane] = radius;
             }
             Some(balls)
+        };
+        items.chunks(LANES).map_while(eight).collect()
+    }
+}
+
+/// Up to eight line segments or capsules. Unused lanes repeat the last element.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(64))]
+pub struct Rods {
+    /// First and second ends of their axes in the movable group's frame, m.
+    pub ends: [Lanes; 2],
+    /// Radii, m; zero for line segments.
+    pub radii: [f64; LANES],
+}
+
+impl Rods {
+    /// Some elements, eight by eight; none of kinds that are no rods.
+    pub(crate) fn of(body: &MovableGroup, kind: PrimitiveKind, items: &[Item]) -> Vec<Self> {
+        let rod = |item: &Item| match kind {
+            PrimitiveKind::LineSegment => Some((&body.segments[item.element as usize].ends, 0.0)),
+            PrimitiveKind::Capsule => {
+                let capsule = &body.capsules[item.element as usize];
+                Some((&capsule.ends, capsule.radius))
+            }
+            _ => None,
+        };
+        let eight = |chunk: &[Item]| {
+            let mut rods = Self { ends: [Lanes::ORIGIN; 2], radii: [0.0; LANES] };
+            for lane in 0..LANES {
+                let (ends, radius) = rod(&chunk[lane.min(chunk.len() - 1)])?;
+                rods.ends.iter_mut().zip(ends).for_each(|(lanes, end)| lanes.set(lane, end));
+                rods.radii[lane] = radius;
+            }
+            Some(rods)
         };
         items.chunks(LANES).map_while(eight).collect()
     }

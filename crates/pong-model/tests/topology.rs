@@ -452,6 +452,43 @@ fn check_batch(body: &MovableGroup, batch: &pong_model::Batch) {
     });
 }
 
+/// Line segments and capsules by their places in the tree of boxes, in lanes: which were written as they are in the model.
+#[test]
+fn rods_stand_in_the_lanes_of_their_places() {
+    let at = |i: u32, p: u32| f64::from((i + 1).wrapping_mul(p) % 1009) / 100.0;
+    let ends = |i: u32| {
+        let corner = |p: [u32; 3]| format!("({:?},{:?},{:?})", at(i, p[0]), at(i, p[1]), at(i, p[2]));
+        format!("ends: ({},{})", corner([7919, 104_729, 31]), corner([101, 17, 6007]))
+    };
+    let rods: Vec<_> = (0..75)
+        .map(|i| match i % 2 {
+            0 => format!("LineSegment(name: \"r{i}\", {})", ends(i)),
+            _ => format!("Capsule(name: \"r{i}\", {}, radius: {:?})", ends(i), 0.01 + at(i, 53)),
+        })
+        .collect();
+    let model = load(&model_of(&rods.join(",\n")));
+    let body = &model.bodies[0];
+    let batches = body.tree.batches.iter().filter(|batch| !batch.rods.is_empty());
+    let mut seen = 0;
+    for batch in batches {
+        let items = &body.tree.items[batch.items.start as usize..batch.items.end as usize];
+        assert_eq!(batch.rods.len(), items.len().div_ceil(8));
+        for place in 0..8 * batch.rods.len() {
+            let (eight, lane) = (&batch.rods[place / 8], place % 8);
+            // Lanes beyond the last element have that one.
+            let element = items[place.min(items.len() - 1)].element as usize;
+            let (ends, radius) = match batch.kind {
+                PrimitiveKind::LineSegment => (body.segments[element].ends, 0.0),
+                _ => (body.capsules[element].ends, body.capsules[element].radius),
+            };
+            let of_lane = eight.ends.map(|ends| ends.get(lane));
+            assert_eq!((of_lane, eight.radii[lane]), (ends, radius), "{:?} {place}", batch.kind);
+            seen += usize::from(place < items.len());
+        }
+    }
+    assert_eq!(seen, 75);
+}
+
 /// Every volume below a node holds what it must; returns the items below.
 fn check_tree(body: &MovableGroup, node: usize, seen: &mut BTreeSet<usize>) -> Vec<usize> {
     use pong_geometry::bounding::Volume;

@@ -4,7 +4,7 @@ use crate::frame::broad_phase::transformed::TransformedPrimitive;
 use pong_arena::Table;
 use pong_geometry::bounding::RELATIVE_MARGIN;
 use pong_geometry::lanes::Lanes;
-use pong_geometry::primitive::{Point, PrimitiveKind, Sphere};
+use pong_geometry::primitive::{Capsule, LineSegment, Point, PrimitiveKind, Sphere};
 use pong_geometry::simd::{LANES, LaneBits, Numbers, Simd};
 use pong_geometry::{Transform, Vec3};
 use pong_model::box_tree::{BoxTree, NarrowBall, NarrowBox, NarrowBoxes};
@@ -19,7 +19,9 @@ pub(crate) struct Chunk<'a> {
     pub own_centers: Option<&'a Lanes>,
     /// And in B's frame.
     pub centers: &'a Lanes,
-    /// Points and spheres: their radii, m.
+    /// Line segments and capsules: the first and the second ends of their axes in B's frame.
+    pub ends: &'a [Lanes; 2],
+    /// Points, spheres, line segments and capsules: their radii, m.
     pub radii: &'a [f64; LANES],
     /// All other kinds of the tester table, in B's frame. Empty for kinds that only registered tests know.
     carried: &'a [TransformedPrimitive],
@@ -44,9 +46,10 @@ pub(crate) struct ChunksOfA<'a> {
 #[derive(Debug)]
 pub(crate) struct ChunkSpace {
     centers: Lanes,
+    ends: [Lanes; 2],
     boxes: LaneBoxes,
     balls: LaneBalls,
-    /// Those that are neither points nor spheres.
+    /// Those of which whole elements are carried.
     carried: Table<TransformedPrimitive>,
 }
 
@@ -57,6 +60,7 @@ impl ChunkSpace {
     pub fn new() -> Self {
         Self {
             centers: Lanes::ORIGIN,
+            ends: [Lanes::ORIGIN; 2],
             boxes: LaneBoxes { low: [[0.0; LANES]; 3], high: [[0.0; LANES]; 3] },
             balls: LaneBalls { centers: [[0.0; LANES]; 3], squares: [0.0; LANES], first_radius: 0.0 },
             carried: Table::with_capacity(LANES, TransformedPrimitive::NOTHING),
@@ -80,17 +84,24 @@ impl<'a> ChunksOfA<'a> {
         let Self { kind, body, batch, items, x_ba, meets_triangles } = *self;
         let items = &items[first as usize..];
         let items = &items[..items.len().min(LANES)];
-        let ChunkSpace { centers, boxes, balls, carried } = space;
+        let ChunkSpace { centers, ends, boxes, balls, carried } = space;
         let mut radii = &[0.0; LANES];
         let mut own_centers = None;
-        match batch.balls.get(first as usize / LANES) {
-            Some(balls) => {
+        let chunk = first as usize / LANES;
+        match (batch.balls.get(chunk), batch.rods.get(chunk)) {
+            (Some(balls), _) => {
                 balls.centers.carry_in(simd, x_ba, centers);
                 radii = &balls.radii;
                 own_centers = Some(&balls.centers);
                 boxes.set_to_balls(simd, centers, radii);
             }
-            None => {
+            (None, Some(rods)) => {
+                rods.ends[0].carry_in(simd, x_ba, &mut ends[0]);
+                rods.ends[1].carry_in(simd, x_ba, &mut ends[1]);
+                radii = &rods.radii;
+                boxes.set_to_rods(simd, ends, radii);
+            }
+            (None, None) => {
                 carry_each((body, kind), items, x_ba, carried);
                 if carried.len() == items.len() {
                     boxes.set_to_each(carried.iter().map(|one| one.bounds(meets_triangles)));
@@ -105,7 +116,7 @@ impl<'a> ChunksOfA<'a> {
             PrimitiveKind::Ellipsoid if meets_triangles => Some(balls.set_around(carried)),
             _ => None,
         };
-        Chunk { kind, items, own_centers, centers, radii, carried, boxes, balls }
+        Chunk { kind, items, own_centers, centers, ends, radii, carried, boxes, balls }
     }
 }
 
@@ -169,21 +180,25 @@ impl Chunk<'_> {
         Sphere { center: self.centers.get(lane), radius: self.radii[lane] }
     }
 
-    /// A point or a sphere of a chunk of such.
+    /// One element of the kinds that are carried by lane.
     #[inline(always)]
-    pub fn ball(&self, lane: usize) -> Option<TransformedPrimitive> {
-        let sphere = self.sphere(lane);
-        match self.kind {
-            PrimitiveKind::Point => Some(TransformedPrimitive::Point(Point { position: sphere.center })),
-            PrimitiveKind::Sphere => Some(TransformedPrimitive::Sphere(sphere)),
-            _ => None,
-        }
+    pub fn of_lane(&self, lane: usize) -> Option<TransformedPrimitive> {
+        Some(match self.kind {
+            PrimitiveKind::Point => TransformedPrimitive::Point(Point { position: self.centers.get(lane) }),
+            PrimitiveKind::Sphere => TransformedPrimitive::Sphere(self.sphere(lane)),
+            PrimitiveKind::LineSegment => {
+                TransformedPrimitive::Segment(LineSegment { ends: self.ends_of(lane) })
+            }
+            PrimitiveKind::Capsule => {
+                TransformedPrimitive::Capsule(Capsule { ends: self.ends_of(lane), radius: self.radii[lane] })
+            }
+            _ => return None,
+        })
     }
 
-    /// Of a chunk of line segments the first and the second ends.
     #[inline(always)]
-    pub fn ends(&self) -> [Lanes; 2] {
-        ends_of(self.carried)
+    fn ends_of(&self, lane: usize) -> [Vec3; 2] {
+        [self.ends[0].get(lane), self.ends[1].get(lane)]
     }
 
     /// One element of another kind; `None` for kinds that are never A in the table.
@@ -191,18 +206,6 @@ impl Chunk<'_> {
     pub fn carried(&self, lane: usize) -> Option<&TransformedPrimitive> {
         self.carried.get(lane)
     }
-}
-
-/// Apart, and of the list alone: a chunk whose address is handed on is written to memory as a whole, for every chunk.
-#[inline(never)]
-fn ends_of(carried: &[TransformedPrimitive]) -> [Lanes; 2] {
-    let mut ends = [Lanes::ORIGIN; 2];
-    for (lane, one) in carried.iter().enumerate() {
-        if let TransformedPrimitive::Segment(segment) = one {
-            ends.iter_mut().zip(&segment.ends).for_each(|(lanes, end)| lanes.set(lane, end));
-        }
-    }
-    ends
 }
 
 fn carry_each(
@@ -250,6 +253,20 @@ impl LaneBoxes {
         let radius = Numbers::load(simd, radii);
         for (axis, center) in [&centers.x, &centers.y, &centers.z].into_iter().enumerate() {
             self.set_along(axis, Numbers::load(simd, center), radius);
+        }
+    }
+
+    /// As [`set_to_each`](Self::set_to_each) of what [`TransformedPrimitive::bounds`] has for them.
+    #[inline(always)]
+    fn set_to_rods<S: Simd>(&mut self, simd: S, ends: &[Lanes; 2], radii: &[f64; LANES]) {
+        let radius = Numbers::load(simd, radii);
+        let [a, b] = ends;
+        for (axis, (a, b)) in [(&a.x, &b.x), (&a.y, &b.y), (&a.z, &b.z)].into_iter().enumerate() {
+            let (a, b) = (Numbers::load(simd, a), Numbers::load(simd, b));
+            let (low, high) = (a.smaller(b) - radius, a.larger(b) + radius);
+            let extra = low.abs().larger(high.abs()) * radius.all(4.0 * RELATIVE_MARGIN);
+            self.low[axis] = (low - extra).store();
+            self.high[axis] = (high + extra).store();
         }
     }
 
@@ -397,4 +414,51 @@ fn square_outside<S: Simd>(simd: S, x: S::Eight, low: S::Eight, high: S::Eight) 
 #[inline(always)]
 fn margin(size: f64) -> f64 {
     4.0 * RELATIVE_MARGIN * size
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pong_geometry::Pose;
+    use pong_geometry::simd::{self, Kernel};
+    use pong_testkit::Random;
+
+    struct BoxesOfRods<'a> {
+        ends: &'a [Lanes; 2],
+        radii: &'a [f64; LANES],
+    }
+
+    impl Kernel for BoxesOfRods<'_> {
+        type Output = LaneBoxes;
+
+        fn run<S: Simd>(self, simd: S) -> LaneBoxes {
+            let mut boxes = ChunkSpace::new().boxes;
+            boxes.set_to_rods(simd, self.ends, self.radii);
+            boxes
+        }
+    }
+
+    /// Of capsules and line segments of any size, anywhere, eight at a time and one by one.
+    #[test]
+    fn boxes_of_eight_rods_are_those_of_each() {
+        let mut random = Random::new(11, 0, 0);
+        for case in 0..200 {
+            let size = 10.0_f64.powi(case % 9 - 4);
+            let x_ba = Pose::new(random.vector(100.0 * size), [0.3, -0.7, 0.5, 0.4]).transform();
+            let mut ends = [Lanes::ORIGIN; 2];
+            let mut radii = [0.0; LANES];
+            let rods = [0; LANES].map(|_| [random.vector(size), random.vector(size)]);
+            for (lane, rod) in rods.iter().enumerate() {
+                radii[lane] = if case % 2 == 0 { 0.0 } else { random.between(0.0, size) };
+                (0..2).for_each(|end| ends[end].set(lane, &x_ba.point(&rod[end])));
+            }
+            let of_eight = simd::run(BoxesOfRods { ends: &ends, radii: &radii });
+            let mut of_each = ChunkSpace::new().boxes;
+            of_each.set_to_each((0..LANES).map(|lane| {
+                let ends = [ends[0].get(lane), ends[1].get(lane)];
+                TransformedPrimitive::Capsule(Capsule { ends, radius: radii[lane] }).bounds(false)
+            }));
+            assert_eq!((of_eight.low, of_eight.high), (of_each.low, of_each.high), "case {case}");
+        }
+    }
 }

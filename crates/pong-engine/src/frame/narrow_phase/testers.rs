@@ -15,7 +15,7 @@ use pong_model::Item;
 use pong_model::box_tree::lanes;
 
 /// So many line segments near a polyhedron are asked together: fewer end sooner one by one.
-const WORTH_EIGHT: u32 = 4;
+const WORTH_EIGHT: u32 = 3;
 
 /// One element of B against a chunk of A.
 pub(crate) struct Target<'a> {
@@ -90,7 +90,7 @@ impl<'a> Target<'a> {
             PrimitiveKind::Point => near & polyhedron.lanes_inside_or_at_wall_in(simd, chunk.centers),
             PrimitiveKind::Sphere => near & !polyhedron.lanes_outside_in(simd, chunk.centers, chunk.radii),
             PrimitiveKind::LineSegment if near.count_ones() >= WORTH_EIGHT => {
-                near & !polyhedron.lanes_kept_out_in(simd, &chunk.ends())
+                near & !polyhedron.lanes_kept_out_in(simd, chunk.ends)
             }
             _ => near,
         }
@@ -105,11 +105,11 @@ impl<'a> Target<'a> {
             item_b: self.item_b,
             kind_b: self.kind_b,
         };
-        let ball;
-        let a = match chunk.ball(lane) {
+        let of_lane;
+        let a = match chunk.of_lane(lane) {
             Some(one) => {
-                ball = one;
-                Some(&ball)
+                of_lane = one;
+                Some(&of_lane)
             }
             None => chunk.carried(lane),
         };
