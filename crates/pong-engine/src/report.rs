@@ -188,9 +188,22 @@ impl FrameCounts {
         self.testers.tested().map(|(_, _, tally)| u64::from(tally.tested)).sum()
     }
 
+    /// Notes a test of two bounding volumes, A's first.
     #[inline]
     pub(crate) fn note_volumes(&mut self, a: &Volume, b: &Volume, meets: bool) {
-        self.volumes.note(place(a), place(b), Tally { tested: 1, met: u32::from(meets) });
+        self.volumes_against(a).note(b, meets);
+    }
+
+    /// Where tests of a bounding volume of A against several of B's are noted.
+    #[inline]
+    pub(crate) fn volumes_against(&mut self, a: &Volume) -> VolumeTallies<'_> {
+        let (row, table) = (place(a), &mut self.volumes);
+        VolumeTallies {
+            used: &mut table.used,
+            used_bit: 1 << row,
+            used_in: &mut table.used_in[row],
+            tallies: &mut table.tallies[row],
+        }
     }
 
     #[inline]
@@ -210,6 +223,25 @@ impl FrameCounts {
         self.boxes_tested = 0;
         self.volumes.clear();
         self.testers.clear();
+    }
+}
+
+/// The tallies of tests of one bounding volume of A.
+pub(crate) struct VolumeTallies<'c> {
+    used: &'c mut u16,
+    used_bit: u16,
+    used_in: &'c mut u16,
+    tallies: &'c mut [Tally; VOLUME_KINDS],
+}
+
+impl VolumeTallies<'_> {
+    /// Notes a test against one of B's.
+    #[inline]
+    pub fn note(&mut self, b: &Volume, meets: bool) {
+        let column = place(b);
+        *self.used |= self.used_bit;
+        *self.used_in |= 1 << column;
+        self.tallies[column].add(Tally { tested: 1, met: u32::from(meets) });
     }
 }
 

@@ -99,6 +99,10 @@ struct Brush {
     report: SealReport,
 }
 
+/// What the brush does not meet.
+const POST: &str =
+    "(name: \"post\", bound: Sphere, primitives: [Sphere(name: \"top\", center: (9,9,9), radius: 0.1)])";
+
 impl Brush {
     fn new(workers: Option<WorkerSettings>) -> Self {
         let trap = Arc::new(Trap::default());
@@ -115,10 +119,14 @@ impl Brush {
                 format!("Point(name: \"p{index}\", position: ({:?},{:?},{:?}))", p.x, p.y, 0.01 * p.z)
             })
             .collect();
-        let models = [
-            load(&mut builder, &model("brush", &own, &points.join(","))),
-            load(&mut builder, &model("floor", &own, "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)")),
-        ];
+        let plane = "Plane(name: \"f\", normal: (0,0,1), offset: 0.0)";
+        // In groups below the root, whose volumes are asked for every block.
+        let floor = model("floor", &own, plane).replace(
+            &format!("primitives: [ {plane} ]"),
+            &format!("groups: [{POST}, (name: \"slab\", primitives: [{plane}])]"),
+        );
+        let models =
+            [load(&mut builder, &model("brush", &own, &points.join(","))), load(&mut builder, &floor)];
         let objects = [(models[0], "brush"), (models[1], "floor")];
         let [brush, floor] = objects.map(|(model, name)| builder.create_object(model, name).unwrap());
         builder.pair(brush, floor).unwrap();
@@ -142,6 +150,10 @@ impl Brush {
         let mut hash = Hash::default();
         hash.wrench(&self.world.wrench(self.brush).unwrap());
         self.world.contacts_iter().for_each(|contact| hash.contact(&contact));
+        let counts = self.world.counts();
+        [counts.volumes_tested(), counts.primitives_tested(), counts.leaf_pairs, counts.boxes_tested]
+            .into_iter()
+            .for_each(|count| hash.word(count));
         let mut block = vec![0; self.world.state_size()];
         self.world.save_state(&mut block).unwrap();
         hash.bytes(&block);

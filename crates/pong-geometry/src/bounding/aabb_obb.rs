@@ -1,18 +1,18 @@
-//! A box along its frame's axes against one along its own, in either order.
+//! A box along its frame's axes against one along its own, in either order. Centres in B's frame; `r_ba` turns A's frame
+//! into B's.
 
 use super::box_box::boxes_overlap;
-use super::volume::FromAToB;
 use crate::{Mat3, Vec3};
 
 /// A is axis-aligned; B is (centre, axes, half extents).
 #[inline]
-pub(super) fn aabb_obb(a: (&Vec3, &Vec3), b: (&Vec3, &Mat3, &Vec3), x_ba: &FromAToB) -> bool {
-    let m = b.1.tr_mul(&x_ba.rotation);
-    boxes_overlap(a.1, b.2, &m, &b.1.tr_mul(&(x_ba.point(a.0) - b.0)))
+pub(super) fn aabb_obb(a: (&Vec3, &Vec3), b: (&Vec3, &Mat3, &Vec3), r_ba: &Mat3) -> bool {
+    let m = b.1.tr_mul(r_ba);
+    boxes_overlap(a.1, b.2, &m, &b.1.tr_mul(&(a.0 - b.0)))
 }
 
-/// A is (centre, axes, half extents); B is axis-aligned.
+/// A is (centre, axes in A's frame, half extents); B is axis-aligned.
 #[inline]
-pub(super) fn obb_aabb(a: (&Vec3, &Mat3, &Vec3), b: (&Vec3, &Vec3), x_ba: &FromAToB) -> bool {
-    boxes_overlap(a.2, b.1, &(x_ba.rotation * a.1), &(x_ba.point(a.0) - b.0))
+pub(super) fn obb_aabb(a: (&Vec3, &Mat3, &Vec3), b: (&Vec3, &Vec3), r_ba: &Mat3) -> bool {
+    boxes_overlap(a.2, b.1, &(r_ba * a.1), &(a.0 - b.0))
 }

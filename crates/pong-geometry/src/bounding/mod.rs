@@ -29,4 +29,4 @@ pub use bounded::{CustomBounds, Dilated, PointCloud};
 pub use fit::fit;
 pub use margin::RELATIVE_MARGIN;
 pub use volume::{BoundKind, Bounded, CustomVolume, FromAToB, Volume};
-pub use volume_tests::VolumeTests;
+pub use volume_tests::{CarriedVolume, VolumeTests};

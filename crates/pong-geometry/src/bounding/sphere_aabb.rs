@@ -4,10 +4,10 @@
 use super::volume::FromAToB;
 use crate::Vec3;
 
-/// Ball in A's frame, box in B's.
+/// Both in B's frame.
 #[inline]
-pub(super) fn sphere_aabb(a: (&Vec3, f64), b: (&Vec3, &Vec3), x_ba: &FromAToB) -> bool {
-    ball_reaches_box(&(x_ba.point(a.0) - b.0), a.1, b.1)
+pub(super) fn sphere_aabb(a: (&Vec3, f64), b: (&Vec3, &Vec3)) -> bool {
+    ball_reaches_box(&(a.0 - b.0), a.1, b.1)
 }
 
 /// Box in A's frame, ball in B's.

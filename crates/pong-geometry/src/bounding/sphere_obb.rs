@@ -4,10 +4,10 @@ use super::sphere_aabb::{ball_reaches_box, into_a};
 use super::volume::FromAToB;
 use crate::{Mat3, Vec3};
 
-/// Ball in A's frame, box (centre, axes, half extents) in B's.
+/// Ball and box (centre, axes, half extents) in B's frame.
 #[inline]
-pub(super) fn sphere_obb(a: (&Vec3, f64), b: (&Vec3, &Mat3, &Vec3), x_ba: &FromAToB) -> bool {
-    ball_reaches_box(&b.1.tr_mul(&(x_ba.point(a.0) - b.0)), a.1, b.2)
+pub(super) fn sphere_obb(a: (&Vec3, f64), b: (&Vec3, &Mat3, &Vec3)) -> bool {
+    ball_reaches_box(&b.1.tr_mul(&(a.0 - b.0)), a.1, b.2)
 }
 
 /// Box in A's frame, ball in B's.

@@ -7,7 +7,31 @@ use super::sphere_aabb::{aabb_sphere, sphere_aabb};
 use super::sphere_obb::{obb_sphere, sphere_obb};
 use super::sphere_sphere::sphere_sphere;
 use super::volume::{FromAToB, Volume};
+use crate::Vec3;
 use crate::extension::{Extensions, VolumeTest};
+
+/// A volume of A and where it is in B's frame, for tests against several volumes of B: its centre is carried once.
+#[derive(Clone, Copy)]
+pub struct CarriedVolume<'a> {
+    volume: &'a Volume,
+    /// Its centre in B's frame, m; the origin if it has none.
+    center_b: Vec3,
+    x_ba: &'a FromAToB,
+}
+
+impl<'a> CarriedVolume<'a> {
+    /// A volume in A's frame, which `x_ba` carries into B's.
+    #[inline]
+    pub fn new(volume: &'a Volume, x_ba: &'a FromAToB) -> Self {
+        let center_b = match volume {
+            Volume::Aabb { center, .. } | Volume::Sphere { center, .. } | Volume::Obb { center, .. } => {
+                x_ba.point(center)
+            }
+            Volume::Custom(_) | Volume::Unbounded => Vec3::zeros(),
+        };
+        Self { volume, center_b, x_ba }
+    }
+}
 
 /// The built-in pair tests together with those a user has registered.
 #[derive(Clone, Default)]
@@ -38,33 +62,40 @@ impl VolumeTests {
     /// nothing from the heap.
     #[inline]
     pub fn overlap(&self, a: &Volume, b: &Volume, x_ba: &FromAToB) -> bool {
+        self.overlap_carried(&CarriedVolume::new(a, x_ba), b)
+    }
+
+    /// [`overlap`](Self::overlap) of a volume that is tested against several of B's.
+    #[inline]
+    pub fn overlap_carried(&self, a: &CarriedVolume<'_>, b: &Volume) -> bool {
         use Volume::{Aabb, Obb, Sphere, Unbounded};
+        let CarriedVolume { volume: a, center_b, x_ba } = a;
         match (a, b) {
             (Unbounded, _) | (_, Unbounded) => true,
-            (Sphere { center: c, radius: r }, Sphere { center: d, radius: s }) => {
-                sphere_sphere((c, *r), (d, *s), x_ba)
+            (Sphere { radius: r, .. }, Sphere { center: d, radius: s }) => {
+                sphere_sphere((center_b, *r), (d, *s))
             }
-            (Sphere { center: c, radius: r }, Aabb { center: d, half: k }) => {
-                sphere_aabb((c, *r), (d, k), x_ba)
-            }
+            (Sphere { radius: r, .. }, Aabb { center: d, half: k }) => sphere_aabb((center_b, *r), (d, k)),
             (Aabb { center: c, half: h }, Sphere { center: d, radius: s }) => {
                 aabb_sphere((c, h), (d, *s), x_ba)
             }
-            (Sphere { center: c, radius: r }, Obb { center: d, axes, half: k }) => {
-                sphere_obb((c, *r), (d, axes, k), x_ba)
+            (Sphere { radius: r, .. }, Obb { center: d, axes, half: k }) => {
+                sphere_obb((center_b, *r), (d, axes, k))
             }
             (Obb { center: c, axes, half: h }, Sphere { center: d, radius: s }) => {
                 obb_sphere((c, axes, h), (d, *s), x_ba)
             }
-            (Aabb { center: c, half: h }, Aabb { center: d, half: k }) => aabb_aabb((c, h), (d, k), x_ba),
-            (Aabb { center: c, half: h }, Obb { center: d, axes, half: k }) => {
-                aabb_obb((c, h), (d, axes, k), x_ba)
+            (Aabb { half: h, .. }, Aabb { center: d, half: k }) => {
+                aabb_aabb((center_b, h), (d, k), &x_ba.rotation)
             }
-            (Obb { center: c, axes, half: h }, Aabb { center: d, half: k }) => {
-                obb_aabb((c, axes, h), (d, k), x_ba)
+            (Aabb { half: h, .. }, Obb { center: d, axes, half: k }) => {
+                aabb_obb((center_b, h), (d, axes, k), &x_ba.rotation)
             }
-            (Obb { center: c, axes: u, half: h }, Obb { center: d, axes: v, half: k }) => {
-                obb_obb((c, u, h), (d, v, k), x_ba)
+            (Obb { axes, half: h, .. }, Aabb { center: d, half: k }) => {
+                obb_aabb((center_b, axes, h), (d, k), &x_ba.rotation)
+            }
+            (Obb { axes: u, half: h, .. }, Obb { center: d, axes: v, half: k }) => {
+                obb_obb((center_b, u, h), (d, v, k), &x_ba.rotation)
             }
             (Volume::Custom(_), _) | (_, Volume::Custom(_)) => self.custom_overlap(a, b, x_ba),
         }

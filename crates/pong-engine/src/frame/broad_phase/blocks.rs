@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use crate::sealed::{Direction, Plan, Sealed};
 use pong_arena::List;
 use pong_geometry::Transform;
-use pong_geometry::bounding::Volume;
+use pong_geometry::bounding::{CarriedVolume, Volume};
 use pong_geometry::simd::LANES;
 use pong_model::box_tree::{BoxNode, BoxTree, Child, NarrowBox};
 use pong_model::{Batch, MovableGroup, Node};
@@ -188,33 +188,48 @@ pub(crate) fn batches_of_b<'a>(
     counts: &mut FrameCounts,
 ) {
     let (tree_a, tree_b) = (&context.body_a.tree, &context.body_b.tree);
-    let volume = &tree_a.nodes[block.leaf as usize].volume;
     let kind_a = tree_a.batches[block.batch as usize].kind;
     let room = "room for every node of B";
-    // The layout has asked about the root.
-    stack.push(0).expect(room);
-    let mut next = 0;
-    while next < stack.len() {
-        let node = &tree_b.nodes[stack[next] as usize];
-        next += 1;
-        counts.leaf_pairs += u64::from(block.leads && node.children.is_empty());
-        for batch in node.batches.clone() {
-            let batch = &tree_b.batches[batch as usize];
+    let mut take = |node: &Node| {
+        for batch in &tree_b.batches[node.batches.start as usize..node.batches.end as usize] {
             if plan.tests(kind_a, batch.kind) {
                 out.push(batch).expect(room);
             }
         }
-        for child in node.children.clone() {
-            let below = &tree_b.nodes[child as usize].volume;
-            let meets = context.volume_tests.overlap(volume, below, &context.motion.x_ba);
+    };
+    // The layout has asked about the root, and most trees have no more.
+    let root = &tree_b.nodes[0];
+    take(root);
+    if root.children.is_empty() {
+        counts.leaf_pairs += u64::from(block.leads);
+        return;
+    }
+    let volume = &tree_a.nodes[block.leaf as usize].volume;
+    let carried = CarriedVolume::new(volume, &context.motion.x_ba);
+    let (mut leaf_pairs, mut tallies) = (0, counts.volumes_against(volume));
+    stack.push(0).expect(room);
+    let mut next = 0;
+    while next < stack.len() {
+        let children = tree_b.nodes[stack[next] as usize].children.clone();
+        next += 1;
+        for child in children {
+            let below = &tree_b.nodes[child as usize];
+            let meets = context.volume_tests.overlap_carried(&carried, &below.volume);
             if block.leads {
-                counts.note_volumes(volume, below, meets);
+                tallies.note(&below.volume, meets);
             }
-            if meets {
+            if !meets {
+                continue;
+            }
+            take(below);
+            if below.children.is_empty() {
+                leaf_pairs += u64::from(block.leads);
+            } else {
                 stack.push(child).expect(room);
             }
         }
     }
+    counts.leaf_pairs += leaf_pairs;
 }
 
 #[cfg(test)]
