@@ -23,8 +23,11 @@ fn bar_on_floor(folder: &Folder) -> std::path::PathBuf {
 /// One end of the bar is one unit in the last place higher.
 fn by_one_bit(ready: &Ready) -> Vec<Arc<Model>> {
     let mut models = models(ready);
-    let end = &mut Arc::make_mut(&mut models[0]).bodies[0].segments[0].ends[0];
+    let bar = &mut Arc::make_mut(&mut models[0]).bodies[0];
+    let end = &mut bar.segments[0].ends[0];
     end.z = end.z.next_up();
+    // The model has it a second time, by lane.
+    bar.tree.batches[0].rods[0].ends[0].z[0] = end.z;
     models
 }
 
