@@ -200,16 +200,11 @@ impl Balls {
             }
             _ => None,
         };
-        let eight = |chunk: &[Item]| {
-            let mut balls = Self { centers: Lanes::ORIGIN, radii: [0.0; LANES] };
-            for lane in 0..LANES {
-                let (center, radius) = ball(&chunk[lane.min(chunk.len() - 1)])?;
-                balls.centers.set(lane, &center);
-                balls.radii[lane] = radius;
-            }
-            Some(balls)
-        };
-        items.chunks(LANES).map_while(eight).collect()
+        let none = Self { centers: Lanes::ORIGIN, radii: [0.0; LANES] };
+        by_lane(items, none, ball, |balls, lane, (center, radius)| {
+            balls.centers.set(lane, &center);
+            balls.radii[lane] = radius;
+        })
     }
 }
 
@@ -234,17 +229,30 @@ impl Rods {
             }
             _ => None,
         };
-        let eight = |chunk: &[Item]| {
-            let mut rods = Self { ends: [Lanes::ORIGIN; 2], radii: [0.0; LANES] };
-            for lane in 0..LANES {
-                let (ends, radius) = rod(&chunk[lane.min(chunk.len() - 1)])?;
-                rods.ends.iter_mut().zip(ends).for_each(|(lanes, end)| lanes.set(lane, end));
-                rods.radii[lane] = radius;
-            }
-            Some(rods)
-        };
-        items.chunks(LANES).map_while(eight).collect()
+        let none = Self { ends: [Lanes::ORIGIN; 2], radii: [0.0; LANES] };
+        by_lane(items, none, rod, |rods, lane, (ends, radius)| {
+            rods.ends.iter_mut().zip(ends).for_each(|(lanes, end)| lanes.set(lane, end));
+            rods.radii[lane] = radius;
+        })
     }
+}
+
+/// Elements, eight by eight: what `element` reads of each stands where `set` puts it, unused lanes repeat the last one. None
+/// of what `element` does not know.
+fn by_lane<L: Copy, E>(
+    items: &[Item],
+    none: L,
+    element: impl Fn(&Item) -> Option<E>,
+    set: impl Fn(&mut L, usize, E),
+) -> Vec<L> {
+    let eight = |chunk: &[Item]| {
+        let mut lanes = none;
+        for lane in 0..LANES {
+            set(&mut lanes, lane, element(&chunk[lane.min(chunk.len() - 1)])?);
+        }
+        Some(lanes)
+    };
+    items.chunks(LANES).map_while(eight).collect()
 }
 
 /// One element of a leaf.
