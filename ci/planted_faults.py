@@ -59,9 +59,13 @@ class Fault:
         crate = ROOT / "crates" / self.crate
         places = {"lib": crate / "src"}.get(self.binary, crate / "tests" / self.binary)
         files = list(places.rglob("*.rs")) if places.is_dir() else [places.with_suffix(".rs")]
-        function = self.test.split("::")[-1]
+        *module, function = self.test.split("::")
+        # One in a module is named with it.
+        indent = "^ *" if module else "^"
         # As a test of its own, or one that a macro makes for a case.
-        test = re.compile(rf"#\[test\]\s+(?:#\[.*\]\s+)*fn {function}\(|^    {function} => ", re.MULTILINE)
+        test = re.compile(
+            rf"{indent}#\[test\]\s+(?:#\[.*\]\s+)*fn {function}\(|^    {function} => ", re.MULTILINE
+        )
         return any(test.search(path.read_text()) for path in files if path.is_file())
 
     def plant(self):

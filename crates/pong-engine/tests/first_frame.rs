@@ -55,10 +55,20 @@ impl Mesh {
 
     /// A floor, and above it a shelf of some thickness, joined by a wall: two faces that face up, one above the other.
     fn shelf(gap: f64) -> Self {
-        let profile = [(2.0, 0.0), (0.0, 0.0), (0.0, gap), (2.0, gap), (2.0, gap + 0.1), (-0.5, gap + 0.1)];
-        let row = |y: f64| profile.map(|(x, z)| Vec3::new(x, y, z));
-        let strip = |a: usize| [[a, a + 6, a + 7], [a, a + 7, a + 1]];
-        Self::new([row(-2.0), row(2.0)].concat(), (0..5).flat_map(strip).collect())
+        Self::extruded(&[(2.0, 0.0), (0.0, 0.0), (0.0, gap), (2.0, gap), (2.0, gap + 0.1), (-0.5, gap + 0.1)])
+    }
+
+    /// A floor and a sheet above a part of it that faces up as well, joined by walls far away.
+    fn sheet_above(gap: f64) -> Self {
+        Self::extruded(&[(6.0, 0.0), (-4.0, 0.0), (-4.0, -5.0), (9.0, -5.0), (9.0, gap), (0.0, gap)])
+    }
+
+    /// A line in the plane of x and z, drawn out along y.
+    fn extruded(line: &[(f64, f64)]) -> Self {
+        let row = |y: f64| line.iter().map(move |&(x, z)| Vec3::new(x, y, z));
+        let count = line.len();
+        let strip = |a: usize| [[a, a + count, a + count + 1], [a, a + count + 1, a + 1]];
+        Self::new(row(-2.0).chain(row(2.0)).collect(), (0..count - 1).flat_map(strip).collect())
     }
 
     /// In other axes; in single precision on request.
@@ -239,6 +249,30 @@ fn no_ball_is_pushed_from_behind_that_is_set_down_in_front() {
         check("ridge", &ridge, 300, false, &mut random);
     }
     check("shelf", &Mesh { thickness: Some(2.0), ..Mesh::shelf(0.6) }, 300, false, &mut random);
+}
+
+/// A ball that rolls on a floor under a sheet of the same surface comes behind that sheet, and not through it: the floor alone
+/// pushes it, though the sheet is as level as the floor.
+#[test]
+fn no_ball_that_rolls_under_a_sheet_is_pushed_by_its_back() {
+    let mut random = Random(24);
+    for trial in 0..60 {
+        let (turn, shift) = (random.rotation(), random.vector(1.0));
+        let mesh = Mesh::sheet_above(0.7).elsewhere(&turn, &shift, trial % 2 == 1);
+        let mut rig = Rig::new(&ball(&Vec3::repeat(0.5)), &mesh.text());
+        let height = random.between(0.4, 0.49);
+        let mut at_x =
+            |low: f64, high: f64| Vec3::new(random.between(low, high), random.between(-1.4, 1.4), height);
+        let (before, under) = (at_x(-3.0, -0.6), at_x(0.6, 5.0));
+        for place in [before, before, under, under] {
+            let center = turn * place + shift;
+            rig.place([at(center, random.rotation()), State::identity()]);
+            rig.world.step().unwrap();
+            let force = turn.inverse() * rig.wrench(0).force;
+            let expected = Vec3::z() * (SERIES * (0.5 - height));
+            assert!((force - expected).norm() < 1e-5 * SERIES, "{trial}: {force:?}, not {expected:?}");
+        }
+    }
 }
 
 /// In the plane of a two-sided sheet a centre counts as on its front.

@@ -150,7 +150,7 @@ fn forgetting_keeps_all_else_in_order_with_its_numbers() {
     let mut random = Random(1);
     for round in 0..300 {
         let count = random.below(CAPACITY + 1);
-        let memory = memory_of(&mut random, count, round % 4);
+        let memory = memory_with_energies(&mut random, count, round % 4);
         let forgotten = random.below(1 << GROUP_PAIRS);
         let is_forgotten = |pair: u32| forgotten >> pair & 1 == 1;
         let mut left = memory.clone();
