@@ -335,9 +335,13 @@ fn beyond_a_wall_that_ends_in_a_ridge_there_is_no_contact() {
     let tip = model("tip", &steel(), "Point(name: \"p\", position: (0,0,0))");
     for cuts in [&[-1.0, 1.0][..], &[-1.0, 0.1, 1.0]] {
         let mut rig = Rig::new(&tip, &roof(cuts));
-        for (x, inside) in [(1e-7, false), (-1e-7, false), (1e-7, true), (-1e-7, true)] {
+        // Clearly beside the wall and within its slack; above the slope, and below it.
+        let aside =
+            [(1e-7, 1e-8), (1e-12, 1e-13)].into_iter().flat_map(|(x, above)| [(x, above), (-x, above)]);
+        let places = aside.flat_map(|(x, above)| [(x, above, false), (x, -above, true)]);
+        for (x, above, inside) in places {
             // The slopes fall by half of what one goes sideways.
-            let z = 0.5 - 0.5 * f64::abs(x) + if inside { -1e-8 } else { 1e-8 };
+            let z = 0.5 - 0.5 * f64::abs(x) + above;
             rig.world.clear_contact_history(rig.objects[0]).unwrap();
             rig.place_a(Vec3::new(x, 0.1, z), Quat::identity());
             rig.world.evaluate().unwrap();

@@ -399,6 +399,30 @@ fn a_rod_that_lies_flat_in_a_hole_carries_its_spring() {
     }
 }
 
+/// A segment that leans into the wall of a hole is pushed there by what is nearest to its tip, the wall, as long as the mouth is
+/// farther away; how steep it is and where its axis would pass the mouth does not matter.
+#[test]
+fn a_tip_that_leans_into_the_wall_is_pushed_by_the_wall() {
+    let mut random = Random::new(8, 0, 0);
+    for case in 0..500 {
+        let x = random_motion(&mut random, 2.0);
+        let bore = straight_hole(0.2, 1.0);
+        let angle = random.between(0.0, TAU);
+        let side = Vec3::new(angle.cos(), angle.sin(), 0.0);
+        let depth = random.between(1e-4, 5e-3);
+        let own = depth * random.between(1.1, 10.0);
+        let (toward_mouth, lean) = (if case % 2 == 0 { 1.0 } else { -1.0 }, random.between(0.05, 2.0));
+        let tip = side * (0.1 + depth) + Vec3::z() * (toward_mouth * (0.5 - own));
+        let axis = side * lean + Vec3::z() * toward_mouth;
+        let ends = [tip - axis * (0.1 / lean), tip].map(|end| x.point(&end));
+        let rod = Rod { kind: Kind::Segment, ends, radius: 0.0 };
+        let found: Vec<_> = rod.touch(&carried(&bore, &x)).into_iter().flatten().flatten().collect();
+        assert_eq!(found.len(), 1, "{case}: {found:?}");
+        assert!((found[0].depth - depth).abs() < 1e-12, "{case}: {} not {depth}, {own}", found[0].depth);
+        assert!((x.rotation.tr_mul(&found[0].normal_b) + side).norm() < 1e-9, "{case}: {found:?}");
+    }
+}
+
 /// Energy and wrench do not jump while rods slide out through a mouth, tilt, turn in it and come back, their axes in the hole or,
 /// of segments, behind the wall.
 #[test]

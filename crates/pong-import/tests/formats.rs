@@ -194,7 +194,7 @@ fn write(folder: &std::path::Path, name: &str, bytes: impl AsRef<[u8]>) -> PathB
 fn a_mark_of_utf8_costs_no_vertex() {
     let folder = folder("mark");
     let path = write(&folder, "cube.obj", format!("\u{feff}{}", obj(&cube())));
-    let (imported, model) = run(&path, &options()).unwrap();
+    let (imported, model) = run(&path, &options()).unwrap_or_else(|findings| panic!("{findings}"));
     assert_eq!(imported.vertices, 8);
     assert_eq!(corners(&model), sorted(CUBE.to_vec()));
 }
