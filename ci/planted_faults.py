@@ -10,6 +10,7 @@ build error, not by an index out of bounds, not by taking too long.
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import time
@@ -87,10 +88,17 @@ def read_list():
     return faults
 
 
-def cargo(arguments, **options):
-    return subprocess.run(
-        ["cargo", "test", *arguments], cwd=TREE, env=ENVIRONMENT, capture_output=True, text=True, errors="replace", **options
-    )
+def cargo(arguments, timeout=None):
+    """What it printed. One that takes too long is ended with all that it has started."""
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, "errors": "replace"}
+    command = ["cargo", "test", *arguments]
+    with subprocess.Popen(command, cwd=TREE, env=ENVIRONMENT, start_new_session=True, **pipes) as started:
+        try:
+            out, err = started.communicate(timeout=timeout)
+        except subprocess.TimeoutExpired:
+            os.killpg(started.pid, signal.SIGKILL)
+            raise
+    return subprocess.CompletedProcess(command, started.returncode, out, err)
 
 
 def run_clean(faults):
