@@ -255,6 +255,8 @@ fn no_ball_is_pushed_from_behind_that_is_set_down_in_front() {
 /// pushes it, though the sheet is as level as the floor.
 #[test]
 fn no_ball_that_rolls_under_a_sheet_is_pushed_by_its_back() {
+    /// Corners in single precision, some 10 m from the origin, are off by 1e-6 m.
+    const SINGLE: f64 = 1e-5;
     let mut random = Random(24);
     for trial in 0..60 {
         let (turn, shift) = (random.rotation(), random.vector(1.0));
@@ -270,7 +272,7 @@ fn no_ball_that_rolls_under_a_sheet_is_pushed_by_its_back() {
             rig.world.step().unwrap();
             let force = turn.inverse() * rig.wrench(0).force;
             let expected = Vec3::z() * (SERIES * (0.5 - height));
-            assert!((force - expected).norm() < 1e-5 * SERIES, "{trial}: {force:?}, not {expected:?}");
+            assert!((force - expected).norm() < SINGLE * SERIES, "{trial}: {force:?}, not {expected:?}");
         }
     }
 }
