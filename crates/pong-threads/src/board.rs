@@ -2,7 +2,7 @@
 //!
 //! | word | written by | holds |
 //! |---|---|---|
-//! | `claim` | caller opens, all claim | epoch, blocks left, end |
+//! | `claim` | caller opens, all claim | epoch, workers that take part, blocks left, end |
 //! | `tally` of a lane | that worker alone | epoch, blocks done, panicked |
 //! | `asleep` | all | one bit per worker that is parked or about to be |
 //! | `alert` | caller | until when to stay awake |
@@ -71,11 +71,11 @@ impl Board {
 
     // ---- the claim word
 
-    /// Opens a phase. No block of an earlier phase is left to claim, so no claim can come between: a store will do.
+    /// Opens a phase to the first so many workers. No block of an earlier phase is left to claim, so no claim can come between: a store will do.
     /// It publishes what the caller wrote before; each claim, as a read-modify-write, passes that on to the next.
-    pub fn open(&self, epoch: u64, blocks: u32) {
+    pub fn open(&self, epoch: u64, workers: usize, blocks: u32) {
         debug_assert_eq!(Word(self.claim.load(Relaxed)).number(), 0);
-        self.claim.store(Word::new(epoch, blocks, false).0, Release);
+        self.claim.store(Word::new(epoch, blocks, false).among(workers).0, Release);
     }
 
     /// Takes the blocks that are left out of the phase. Answers how many they were.
@@ -90,7 +90,7 @@ impl Board {
     pub fn claim(&self, epoch: u64) -> Option<Range<u32>> {
         let mut seen = Word(self.claim.load(Acquire));
         while seen.epoch() == epoch && seen.number() > 0 {
-            match self.take(seen, self.share_of(seen.number())) {
+            match self.take(seen, Self::share_of(seen.number(), seen.workers())) {
                 Ok(blocks) => return Some(blocks),
                 Err(now) => seen = now,
             }
@@ -98,12 +98,11 @@ impl Board {
         None
     }
 
-    /// How many of the blocks that are left a lane claims at once: its part of them. Early claims are large, so that a lane works
-    /// on neighbours, and late ones small, so that all lanes end together (guided self-scheduling: C. D. Polychronopoulos and
-    /// D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425).
-    pub fn share_of(&self, left: u32) -> u32 {
-        let lanes = self.workers() as u32 + 1;
-        left.div_ceil(lanes)
+    /// How many of the blocks that are left a lane claims at once: its part of them, beside so many workers. Early claims are
+    /// large, so that a lane works on neighbours, and late ones small, so that all lanes end together (guided self-scheduling:
+    /// C. D. Polychronopoulos and D. J. Kuck, IEEE Trans. Comput. C-36 (1987) 1425).
+    pub fn share_of(left: u32, workers: usize) -> u32 {
+        left.div_ceil(workers as u32 + 1)
     }
 
     fn take(&self, seen: Word, blocks: u32) -> Result<Range<u32>, Word> {
@@ -134,9 +133,9 @@ impl Board {
         self.claim.fetch_or(Word::FLAG, AcqRel);
     }
 
-    /// Whether blocks are left to claim, in whatever phase.
-    fn blocks_left(&self) -> u32 {
-        Word(self.claim.load(Relaxed)).number()
+    /// The phase that is open, or was.
+    fn phase(&self) -> Word {
+        Word(self.claim.load(Relaxed))
     }
 
     // ---- the tallies
@@ -160,10 +159,10 @@ impl Board {
         Done { blocks: word.number(), busy_ns: tally.busy_ns.load(Relaxed), panicked: word.flag() }
     }
 
-    /// Blocks that all workers have done in phase `epoch`, and whether one panicked.
-    pub fn done_by_all(&self, epoch: u64) -> (u32, bool) {
+    /// Blocks that the first so many workers have done in phase `epoch`, and whether one panicked.
+    pub fn done_by(&self, workers: usize, epoch: u64) -> (u32, bool) {
         let mut sum = (0, false);
-        for lane in 1..=self.workers() {
+        for lane in 1..=workers {
             let done = self.done(lane, epoch);
             sum = (sum.0 + done.blocks, sum.1 | done.panicked);
         }
@@ -198,9 +197,10 @@ impl Board {
         }
     }
 
-    /// How many workers are asleep, after something was told to all ([`Board::lie_down`] says why it writes).
-    pub fn asleep(&self) -> u32 {
-        self.asleep.fetch_or(0, AcqRel).count_ones()
+    /// How many of the first so many workers are asleep, after something was told to them ([`Board::lie_down`] says why it
+    /// writes).
+    pub fn asleep(&self, workers: usize) -> u32 {
+        (self.asleep.fetch_or(0, AcqRel) & first(workers)).count_ones()
     }
 
     /// Whether a worker seemed awake a moment ago: a hint, on which nothing rests but time.
@@ -208,10 +208,11 @@ impl Board {
         (self.asleep.load(Relaxed).count_ones() as usize) < self.workers()
     }
 
-    /// Wakes up to `at_most` sleeping workers. Whoever clears a worker's bit wakes it, so nobody pays twice.
-    pub fn wake(&self, at_most: u32) {
+    /// Wakes up to `at_most` sleeping ones of the first so many workers. Whoever clears a worker's bit wakes it, so nobody pays
+    /// twice.
+    pub fn wake(&self, at_most: u32, workers: usize) {
         let mut left = at_most;
-        let mut asleep = self.asleep.load(Relaxed);
+        let mut asleep = self.asleep.load(Relaxed) & first(workers);
         while left > 0 && asleep != 0 {
             let bit = asleep & asleep.wrapping_neg();
             let before = self.asleep.fetch_and(!bit, AcqRel);
@@ -219,7 +220,7 @@ impl Board {
                 self.unpark(bit.trailing_zeros() as usize);
                 left -= 1;
             }
-            asleep = before & !bit;
+            asleep = before & !bit & first(workers);
         }
     }
 
@@ -231,8 +232,10 @@ impl Board {
 
     /// A woken worker wakes two more while there is work or an alert, so that the caller pays for one.
     pub fn wake_others(&self, alerted: bool) {
-        let wanted = if alerted { 2 } else { self.blocks_left().min(2) };
-        self.wake(wanted);
+        let phase = self.phase();
+        let (wanted, workers) =
+            if alerted { (2, self.workers()) } else { (phase.number().min(2), phase.workers()) };
+        self.wake(wanted, workers);
     }
 
     // ---- alert
@@ -247,15 +250,25 @@ impl Board {
     }
 }
 
+/// The bits of the first so many workers.
+fn first(workers: usize) -> u64 {
+    u64::MAX.checked_shr(u64::BITS - workers as u32).unwrap_or(0)
+}
+
 #[cfg(all(test, not(loom)))]
 mod tests {
     use super::*;
 
     #[test]
+    fn bits_are_those_of_the_first_workers() {
+        assert_eq!([0, 1, 3, 63, 64].map(first), [0, 1, 7, u64::MAX >> 1, u64::MAX]);
+    }
+
+    #[test]
     fn claims_are_neighbors_from_the_last_to_the_first_and_get_smaller() {
         for (workers, blocks) in [(1, 2), (1, 28), (2, 3), (3, 100), (16, 5), (63, 4000)] {
             let board = Board::new(workers);
-            board.open(1, blocks);
+            board.open(1, workers, blocks);
             let (mut end, mut sizes) = (blocks, Vec::new());
             while let Some(claimed) = board.claim(1) {
                 assert_eq!(claimed.end, end, "{workers} workers, {blocks} blocks");

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::panic::resume_unwind;
 use std::sync::{Arc, TryLockError};
 
-use crate::board::{CALM, Done, PARK};
+use crate::board::{Board, CALM, Done, PARK};
 use crate::sync::{LOOKS, Watch, spin_loop, yield_now};
 use crate::word::Word;
 use crate::worker::{Payload, Shared, YIELD_AFTER_NS};
@@ -16,8 +16,8 @@ pub struct Caller {
     epoch: u64,
     /// What the caller itself did in the last phase.
     own: Done,
-    /// Whether the last phase was opened to workers.
-    shared_out: bool,
+    /// Workers that the last phase was opened to.
+    workers: usize,
     /// Blocks that workers have claimed since the start.
     handed_out: u64,
     /// Whether an alert stands that the next phase ends.
@@ -32,7 +32,7 @@ impl Caller {
             shared,
             epoch: 0,
             own: Done::default(),
-            shared_out: false,
+            workers: 0,
             handed_out: 0,
             alert_stands: false,
             found_asleep_ns: None,
@@ -56,15 +56,15 @@ impl Caller {
     /// Runs the blocks of the job.
     pub fn run(&mut self, blocks: u32) -> Outcome {
         let job = Arc::clone(&self.shared.job);
-        self.run_beside(blocks, &mut |blocks| job.run_neighbors(blocks, 0))
+        self.run_beside(blocks, usize::MAX, &mut |blocks| job.run_neighbors(blocks, 0))
     }
 
-    /// The same; the caller runs its own by `run`.
-    pub fn run_beside(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
+    /// The same, beside the first so many workers; the caller runs its own by `run`.
+    pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
         assert!(blocks <= MAX_BLOCKS, "a phase of {blocks} blocks: at most {MAX_BLOCKS}");
         self.own = Done::default();
-        self.shared_out = blocks > 1 && self.shared.board.workers() > 0;
-        if self.shared_out { self.run_shared(blocks, run) } else { self.run_alone(blocks, run) }
+        self.workers = if blocks > 1 { workers.min(self.shared.board.workers()) } else { 0 };
+        if self.workers > 0 { self.run_shared(blocks, run) } else { self.run_alone(blocks, run) }
     }
 
     fn run_alone(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
@@ -79,8 +79,8 @@ impl Caller {
         self.epoch = Word::next_epoch(self.epoch);
         // Before the phase opens: a worker may finish a block of it at once, which is not yet booked as handed out.
         let stuck = self.stuck();
-        let left = blocks - self.shared.board.share_of(blocks);
-        self.shared.board.open(self.epoch, left);
+        let left = blocks - Board::share_of(blocks, self.workers);
+        self.shared.board.open(self.epoch, self.workers, left);
         self.call_workers(left, stuck);
         let own_panic = self.drain(left..blocks, run).err();
         let unclaimed = if own_panic.is_some() { self.shared.board.close(self.epoch) } else { 0 };
@@ -94,16 +94,17 @@ impl Caller {
         outcome
     }
 
-    /// Tells the open phase to those who sleep, if those who are awake are too few. One is woken, who wakes others.
+    /// Tells the open phase to those of its workers who sleep, if those who are awake are too few. One is woken, who wakes
+    /// others.
     fn call_workers(&mut self, blocks: u32, stuck: u64) {
         self.end_alert();
-        let asleep = u64::from(self.shared.board.asleep());
+        let asleep = u64::from(self.shared.board.asleep(self.workers));
         if asleep == 0 {
             return;
         }
-        let awake = (self.shared.board.workers() as u64 - asleep).saturating_sub(stuck);
+        let awake = (self.workers as u64 - asleep).saturating_sub(stuck);
         if u64::from(blocks) > awake {
-            self.shared.board.wake(1);
+            self.shared.board.wake(1, self.workers);
         }
     }
 
@@ -124,7 +125,7 @@ impl Caller {
             let mut panicked = false;
             for _ in 0..LOOKS {
                 let done;
-                (done, panicked) = self.shared.board.done_by_all(self.epoch);
+                (done, panicked) = self.shared.board.done_by(self.workers, self.epoch);
                 if done == claimed {
                     return (Outcome::Complete, panicked);
                 }
@@ -164,12 +165,12 @@ impl Caller {
     /// Workers that are parked or about to be.
     #[cfg(test)]
     pub fn asleep(&self) -> usize {
-        self.shared.board.asleep() as usize
+        self.shared.board.asleep(self.shared.board.workers()) as usize
     }
 
     pub fn work(&self) -> impl Iterator<Item = LaneWork> + '_ {
         let lane_work = |done: Done| LaneWork { blocks: done.blocks, busy_ns: done.busy_ns };
-        let of_worker = move |lane| match self.shared_out {
+        let of_worker = move |lane| match lane <= self.workers {
             true => lane_work(self.shared.board.done(lane, self.epoch)),
             false => LaneWork::default(),
         };
@@ -180,8 +181,9 @@ impl Caller {
         let until_ns = self.shared.origin.elapsed_ns().saturating_add(at_most_ns).min(PARK - 1);
         self.shared.board.set_alert(until_ns);
         self.alert_stands = true;
-        if self.shared.board.asleep() > 0 {
-            self.shared.board.wake(1);
+        let workers = self.shared.board.workers();
+        if self.shared.board.asleep(workers) > 0 {
+            self.shared.board.wake(1, workers);
         }
     }
 
@@ -201,8 +203,9 @@ impl Caller {
     /// Tells all workers to end. Those that lie down just now are counted neither way, so no count bounds the waking.
     pub fn end(&mut self) {
         self.shared.board.end();
-        if self.shared.board.asleep() > 0 {
-            self.shared.board.wake(u32::MAX);
+        let workers = self.shared.board.workers();
+        if self.shared.board.asleep(workers) > 0 {
+            self.shared.board.wake(u32::MAX, workers);
         }
     }
 }

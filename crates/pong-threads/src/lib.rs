@@ -56,7 +56,7 @@ pub use settings::Settings;
 pub use signals::without_signals;
 
 /// Most blocks of one phase.
-pub const MAX_BLOCKS: u32 = (1 << 23) - 1;
+pub const MAX_BLOCKS: u32 = (1 << 16) - 1;
 /// Most workers of one pool.
 pub const MAX_WORKERS: usize = 64;
 

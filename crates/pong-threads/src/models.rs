@@ -6,6 +6,7 @@
 //! data race, on a failed assertion, and when all threads wait. Blocks are cells that loom watches: two blocks on one
 //! cell, or a caller that reads a cell too early, are races.
 
+use std::ops::Range;
 use std::sync::{Arc, Mutex};
 
 use loom::cell::UnsafeCell;
@@ -124,6 +125,22 @@ fn two_workers_and_the_caller_run_each_block_once() {
     };
     explore(2, two_workers(&[3]));
     explore(1, two_workers(&[3, 2]));
+}
+
+/// One phase for the first of two workers, and one for both: whoever is not asked takes nothing, and is found for the next.
+#[test]
+fn a_phase_for_some_is_left_alone_by_the_others() {
+    explore(1, || {
+        let cells = Cells::new(3);
+        let mut model = Model::start(cells.clone(), 2, 0, PATIENT);
+        for workers in [1, 2] {
+            let own = &mut |blocks: Range<u32>| blocks.for_each(|block| cells.add_one(block));
+            assert_eq!(model.caller.run_beside(3, workers, own), Outcome::Complete);
+            cells.expect_once_each(3);
+            assert!(model.caller.work().skip(1 + workers).all(|lane| lane.blocks == 0));
+        }
+        model.end();
+    });
 }
 
 /// A worker that parks just when the end is told, or a phase opens, is woken: nobody sleeps for ever.

@@ -125,14 +125,15 @@ impl Pool {
         self.caller.run(blocks)
     }
 
-    /// As [`run`](Self::run), but the caller runs the blocks that it claims by `run` and not by the job: in memory of its own,
-    /// which no worker needs to be kept out of. It is called with neighbouring blocks, as [`Job::run_neighbors`].
+    /// As [`run`](Self::run), but beside the first so many workers only, for a phase that more would take longer for; and the
+    /// caller runs the blocks that it claims by `run` and not by the job: in memory of its own, which no worker needs to be kept
+    /// out of. It is called with neighbouring blocks, as [`Job::run_neighbors`].
     ///
     /// # Panics
     ///
     /// As there, or if `run` panics.
-    pub fn run_beside(&mut self, blocks: u32, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
-        self.caller.run_beside(blocks, run)
+    pub fn run_beside(&mut self, blocks: u32, workers: usize, run: &mut dyn FnMut(Range<u32>)) -> Outcome {
+        self.caller.run_beside(blocks, workers, run)
     }
 
     /// Whether no worker is inside a block of an abandoned phase. What such blocks wrote may be read once it is true.

@@ -1,13 +1,16 @@
-//! A number that belongs to a phase, in one atomic word: 40 bits epoch, 23 bits number, 1 bit flag.
+//! A number that belongs to a phase, in one atomic word: 40 bits epoch, 7 bits workers, 16 bits number, 1 bit flag.
 
-use crate::MAX_BLOCKS;
+use crate::{MAX_BLOCKS, MAX_WORKERS};
 
 const NUMBER_SHIFT: u32 = 1;
+const WORKERS_SHIFT: u32 = 17;
+const WORKERS_MASK: u64 = (1 << (EPOCH_SHIFT - WORKERS_SHIFT)) - 1;
 const EPOCH_SHIFT: u32 = 24;
 const EPOCH_MASK: u64 = (1 << 40) - 1;
 
-/// In the claim word the number is the blocks left and the flag tells the workers to end. In a tally the number is
-/// the blocks done and the flag tells that one of them panicked.
+/// In the claim word the number is the blocks left, the workers are those that may claim them, and the flag tells the
+/// workers to end. In a tally the number is the blocks done, there are no workers, and the flag tells that one of the
+/// blocks panicked.
 ///
 /// The epoch starts again after 2⁴⁰ phases: 35 years of one phase per millisecond.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,12 +22,22 @@ impl Word {
         Word((epoch & EPOCH_MASK) << EPOCH_SHIFT | u64::from(number) << NUMBER_SHIFT | u64::from(flag))
     }
 
+    /// The same for so many workers.
+    pub fn among(self, workers: usize) -> Word {
+        debug_assert!(workers <= MAX_WORKERS && self.workers() == 0);
+        Word(self.0 | (workers as u64) << WORKERS_SHIFT)
+    }
+
     pub fn epoch(self) -> u64 {
         self.0 >> EPOCH_SHIFT
     }
 
     pub fn number(self) -> u32 {
         (self.0 >> NUMBER_SHIFT) as u32 & MAX_BLOCKS
+    }
+
+    pub fn workers(self) -> usize {
+        (self.0 >> WORKERS_SHIFT & WORKERS_MASK) as usize
     }
 
     pub fn flag(self) -> bool {
@@ -51,10 +64,11 @@ mod tests {
 
     #[test]
     fn parts_do_not_touch_each_other() {
-        let word = Word::new(EPOCH_MASK, MAX_BLOCKS, true);
-        assert_eq!((word.epoch(), word.number(), word.flag()), (EPOCH_MASK, MAX_BLOCKS, true));
-        let word = Word::new(5, 7, true).less(4);
-        assert_eq!((word.epoch(), word.number(), word.flag()), (5, 3, true));
+        let parts = |word: Word| (word.epoch(), word.workers(), word.number(), word.flag());
+        let word = Word::new(EPOCH_MASK, MAX_BLOCKS, true).among(MAX_WORKERS);
+        assert_eq!(parts(word), (EPOCH_MASK, MAX_WORKERS, MAX_BLOCKS, true));
+        assert_eq!(parts(Word::new(5, 7, true).less(4)), (5, 0, 3, true));
+        assert_eq!(parts(Word::new(5, MAX_BLOCKS, false).among(1).less(MAX_BLOCKS)), (5, 1, 0, false));
     }
 
     #[test]

@@ -85,7 +85,9 @@ impl Worker {
         loop {
             let word = self.wait(seen);
             seen = word.epoch();
-            self.work(seen);
+            if self.lane <= word.workers() {
+                self.work(seen);
+            }
             if word.flag() {
                 return;
             }

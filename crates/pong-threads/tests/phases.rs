@@ -2,6 +2,7 @@
 
 mod common;
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering::SeqCst};
 use std::time::Duration;
@@ -69,6 +70,43 @@ fn sleeping_workers_are_woken_as_many_as_there_are_blocks() {
     }
 }
 
+/// A phase for some of the workers is left alone by the others, awake or asleep, and the next one is for all again.
+#[test]
+fn a_phase_is_shared_with_no_more_workers_than_it_is_opened_to() {
+    let count = Count::new(200);
+    let mut pool = start(&count, &patient(5));
+    for turn in 0..300 {
+        if turn % 3 == 0 {
+            pool.quiesce();
+            std::thread::sleep(Duration::from_micros(200));
+        }
+        let (invited, blocks) = (turn % 7, 2 + 9 * (turn as u32 % 23));
+        let outcome = pool.run_beside(blocks, invited, &mut |blocks| {
+            for block in blocks {
+                std::thread::yield_now();
+                count.run(block, 0);
+            }
+        });
+        assert_eq!(outcome, Outcome::Complete);
+        assert!(count.take().iter().zip(0..).all(|(runs, block)| *runs == u32::from(block < blocks)));
+        let by_lane: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
+        assert_eq!(by_lane.iter().sum::<u32>(), blocks, "{by_lane:?}");
+        assert!(by_lane.iter().skip(1 + invited).all(|&blocks| blocks == 0), "{invited} of {by_lane:?}");
+        assert!(pool.is_quiet());
+    }
+    let all = Arc::new(All { lanes: 3, begun: AtomicU32::new(0) });
+    let mut pool = start(&all, &patient(5));
+    for _ in 0..5 {
+        pool.quiesce();
+        std::thread::sleep(Duration::from_millis(2));
+        let own = &mut |blocks: Range<u32>| blocks.for_each(|block| all.run(block, 0));
+        assert_eq!(pool.run_beside(3, 2, own), Outcome::Complete);
+        let by_lane: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
+        assert_eq!(by_lane, [1, 1, 1, 0, 0, 0], "the first two of five that sleep are woken");
+        all.begun.store(0, SeqCst);
+    }
+}
+
 #[test]
 fn a_pool_of_the_size_of_the_mask_leaves_a_core_to_the_caller() {
     let cores = core_affinity::get_core_ids().unwrap().len();
@@ -113,7 +151,7 @@ fn busy_time_is_told_by_the_clock_of_the_host() {
 }
 
 #[test]
-#[should_panic(expected = "at most 8388607")]
+#[should_panic(expected = "at most 65535")]
 fn too_many_blocks_are_refused() {
     let _ = start(&Count::new(0), &patient(1)).run(pong_threads::MAX_BLOCKS + 1);
 }

@@ -119,11 +119,12 @@ fn run_parallel(
     caller: &mut WorkerContext,
     workers: &mut WorkerBuffers,
 ) -> bool {
-    if !pool.is_worth(given.memory.records.len(), input.blocks.len(), cost_ns) {
+    let asked = pool.worth_asking(given.memory.records.len(), input.blocks.len(), cost_ns);
+    if asked == 0 {
         return false;
     }
     let before = caller.out.checkpoint();
-    let done = pool.run_parallel(given.memory, input, caller, workers.put_to_use());
+    let done = pool.run_parallel(given.memory, (input, asked), caller, workers.put_to_use());
     if !done {
         caller.out.restore(&before);
     }

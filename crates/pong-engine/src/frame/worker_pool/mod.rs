@@ -27,6 +27,10 @@ const WORTH_SHARING_NS: u64 = 5_000;
 /// 10 µs and more, and it comes with cold caches.
 const WORTH_WAKING_NS: u64 = 60_000;
 
+/// For each so much work there is to be a worker, ns: one more takes longer to begin and to be asked what it has found than it
+/// takes off the others.
+const WORTH_A_WORKER_NS: u64 = 4_000;
+
 /// What a contact costs beside its tests, ns.
 const CONTACT_NS: u64 = 200;
 
@@ -128,21 +132,23 @@ impl WorkerPool {
         Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, times })
     }
 
-    /// Whether a round of so many blocks whose tests may cost so much, ns, is sooner done by all than by the caller alone. What
-    /// touched at the last commit, so many `records`, as a rule touches now, and costs as much again.
-    pub fn is_worth(&mut self, records: usize, blocks: usize, cost_ns: u64) -> bool {
+    /// How many workers are worth asking for a round of so many blocks whose tests may cost so much, ns; none if it is sooner
+    /// done by the caller alone. What touched at the last commit, so many `records`, as a rule touches now, and costs as much
+    /// again.
+    pub fn worth_asking(&mut self, records: usize, blocks: usize, cost_ns: u64) -> usize {
         let cost_ns = cost_ns + records as u64 * CONTACT_NS;
-        cost_ns >= WORTH_SHARING_NS
+        let worth = cost_ns >= WORTH_SHARING_NS
             && blocks >= 2
-            && (self.pool.has_workers_at_hand() || (cost_ns >= WORTH_WAKING_NS && self.pool.workers() > 0))
+            && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS);
+        if worth { self.pool.workers().min(1.max((cost_ns / WORTH_A_WORKER_NS) as usize)) } else { 0 }
     }
 
-    /// Runs the blocks of `input` with all workers; whether all that was found is there: in `context`, or in `taken`, a buffer
-    /// for each worker. If not, the caller does it all again by itself.
+    /// Runs the blocks of `input` beside the first so many workers; whether all that was found is there: in `context`, or in
+    /// `taken`, a buffer for each worker. If not, the caller does it all again by itself.
     pub fn run_parallel(
         &mut self,
         memory: &Arc<ContactMemory>,
-        input: &WorkerInput,
+        (input, workers): (&WorkerInput, usize),
         context: &mut WorkerContext,
         taken: &mut [ContactBuffer],
     ) -> bool {
@@ -162,7 +168,7 @@ impl WorkerPool {
         }
         context.out.shares = true;
         let own = &mut |blocks| self.shared.run_blocks((input, memory), blocks, context);
-        let outcome = self.pool.run_beside(input.blocks.len() as u32, own);
+        let outcome = self.pool.run_beside(input.blocks.len() as u32, workers, own);
         context.out.shares = false;
         if outcome == Outcome::Abandoned {
             self.timeouts += 1;
@@ -176,7 +182,11 @@ impl WorkerPool {
     fn gather(&mut self, phase: u64, context: &mut WorkerContext, taken: &mut [ContactBuffer]) -> bool {
         let out = &mut context.out;
         let (mut found, mut overflowed) = (out.contacts.len(), out.demand.overflowed);
-        for other in self.shared.contexts.iter().map(locked).filter(|other| other.out.phase == phase) {
+        // To look at the context of one that has done nothing is to wait for a cache line.
+        let at_work = || self.pool.work().skip(1).map(|lane| lane.blocks > 0);
+        for (other, _) in self.shared.contexts.iter().zip(at_work()).filter(|(_, at_work)| *at_work) {
+            let other = locked(other);
+            debug_assert_eq!(other.out.phase, phase);
             found += other.out.contacts.len();
             overflowed |= other.out.demand.overflowed;
         }
@@ -185,11 +195,12 @@ impl WorkerPool {
         }
         let as_they_are = found <= self.shared.sealed.contact_capacity;
         let mut taken = taken.iter_mut();
-        for (times, other) in self.times.iter_mut().zip(&self.shared.contexts) {
-            let (mut other, taken) = (locked(other), taken.next());
-            if other.out.phase != phase {
+        for ((times, other), at_work) in self.times.iter_mut().zip(&self.shared.contexts).zip(at_work()) {
+            let taken = taken.next();
+            if !at_work {
                 continue;
             }
+            let mut other = locked(other);
             times.add(&other.out.times);
             match taken {
                 Some(taken) if as_they_are && other.out.remembers_all() => taken.take_over(&mut other.out),

@@ -80,7 +80,7 @@ fn leave_a_worker_behind(pool: &mut WorkerPool) -> bool {
     pool.pool.prewake(Duration::from_millis(100));
     // It has its time to claim while the caller is at its own.
     let wait = &mut |_| std::thread::sleep(Duration::from_micros(200));
-    let outcome = pool.pool.run_beside(held.input.blocks.len() as u32, wait);
+    let outcome = pool.pool.run_beside(held.input.blocks.len() as u32, 1, wait);
     drop(held);
     outcome == Outcome::Abandoned
 }
@@ -102,11 +102,31 @@ fn blocks_of_a_round_that_was_given_up_are_not_run_in_the_next() {
         behind += usize::from(leave_a_worker_behind(pool));
         input.phase += 1;
         caller.out.begin(input.phase);
-        if pool.run_parallel(memory, input, caller, &mut []) {
+        if pool.run_parallel(memory, (input, 1), caller, &mut []) {
             assert_eq!(caller.out.contacts.len(), expected, "round {round}");
         }
     }
     assert!(behind > 0, "the worker never came too late");
+}
+
+/// More work than wakes a sleeping worker, and so little that an awake one has to be at hand.
+#[test]
+fn as_many_workers_are_asked_as_there_is_work_for() {
+    let mut world = brush(config(Some(Settings { workers: 40, ..one_worker() })), 0).world;
+    let pool = world.runtime_mut().pool.as_mut().unwrap();
+    let much = WORTH_WAKING_NS + WORTH_A_WORKER_NS / 2;
+    assert_eq!(pool.worth_asking(0, 100, much), 15);
+    assert_eq!(pool.worth_asking(0, 100, 20 * much), 40);
+    // What touched costs, too, and one block has nobody to be shared with.
+    assert_eq!(pool.worth_asking(100, 100, much), 20);
+    assert_eq!(pool.worth_asking(100, 1, much), 0);
+    pool.prewake(Duration::from_secs(60));
+    while !pool.pool.has_workers_at_hand() {
+        std::thread::yield_now();
+    }
+    assert_eq!([0, 1, 2, 3].map(|k| pool.worth_asking(0, 100, k * WORTH_A_WORKER_NS)), [0, 0, 2, 3]);
+    assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS), 1);
+    assert_eq!(pool.worth_asking(0, 100, WORTH_SHARING_NS - 1), 0);
 }
 
 /// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
