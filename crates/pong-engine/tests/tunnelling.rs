@@ -256,6 +256,26 @@ fn what_slides_over_a_ball_is_not_told() {
     assert_eq!(told_at(&mut rig, places.map(|(x, y)| Vec3::new(x, y, 0.0))), [false; 4]);
 }
 
+/// Deep below both sides of a valley, and then deeper, below one of them: the contact with the other has ended, and the ball
+/// is farther behind that side than before.
+#[test]
+fn what_leaves_one_side_of_a_valley_for_the_other_is_not_told() {
+    let valley = plate_mesh("m", 4, 1.0, |u, v| Vec3::new(0.3 * u.abs(), u, v))
+        .replace("TriangleMesh(", "TriangleMesh(thickness: 0.06, ");
+    for (turn, side) in [(0.0, 1.0), (0.7, 1.0), (0.0, -1.0), (0.7, -1.0)] {
+        let mut rig = rig(BALL, &valley);
+        let turned = Quat::from_axis_angle(&Vec3::z_axis(), turn);
+        let pushing = [(-0.005, 0.001), (-0.02, 0.015)].map(|(x, u)| {
+            let place = turned * Vec3::new(x, side * u, 0.02);
+            rig.place([at(place, Quat::identity()), at(Vec3::zeros(), turned)]);
+            let report = rig.world.step().unwrap();
+            assert!(!report.status.contains(StatusBits::TUNNELLED), "at {x}, {u}, turned by {turn}");
+            report.contacts
+        });
+        assert_eq!(pushing, [2, 1], "turned by {turn}");
+    }
+}
+
 /// The faces are 135° apart: no wall. One end of the bar goes from one to the other while the other end crosses an edge.
 #[test]
 fn a_bar_that_goes_round_the_edge_of_a_wedge_goes_through_nothing() {

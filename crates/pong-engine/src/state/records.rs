@@ -100,6 +100,12 @@ impl Records {
         self.heads.len()
     }
 
+    /// The head of a record's key.
+    #[inline]
+    pub fn head(&self, index: usize) -> u64 {
+        self.heads[index]
+    }
+
     /// Whether they stand where lanes have written them.
     pub fn in_lanes(&self) -> bool {
         !self.slots.is_empty()

@@ -40,17 +40,6 @@ impl<'a> FoundContacts<'a> {
     pub fn lanes(&self) -> impl Iterator<Item = &'a ContactBuffer> + Clone + use<'a> {
         std::iter::once(self.caller).chain(self.workers)
     }
-
-    /// Where all of them stand, in no order.
-    #[inline]
-    pub fn places(&self) -> impl Iterator<Item = &'a Place> + Clone + use<'a> {
-        self.lanes().flat_map(|lane| lane.places.iter())
-    }
-
-    /// How many there are.
-    pub fn count(&self) -> usize {
-        self.lanes().map(|lane| lane.contacts.len()).sum()
-    }
 }
 
 /// Memory for what each worker finds. In a frame of the caller alone it stands empty and out of sight: to look at each buffer

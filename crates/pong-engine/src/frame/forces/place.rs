@@ -27,10 +27,6 @@ impl Place {
     /// No contact.
     pub const NOWHERE: Self = Self { head: 0, slot: Slot::NOWHERE, state: Self::BEGINS << 1 };
 
-    pub fn is_nowhere(&self) -> bool {
-        self.slot == Slot::NOWHERE
-    }
-
     /// The same contact in another slot.
     #[inline]
     pub fn at(self, slot: Slot) -> Self {
@@ -68,10 +64,9 @@ mod tests {
                 let place = Place::new(7, slot, pushes, continues);
                 assert_eq!((place.head, place.slot, place.pushes()), (7, slot, pushes));
                 assert_eq!(place.continues(), continues.map(|record| record as usize));
-                assert!(!place.is_nowhere());
             }
         }
         let nowhere = Place::NOWHERE;
-        assert!(nowhere.is_nowhere() && !nowhere.pushes() && nowhere.continues().is_none());
+        assert!(nowhere.slot == Slot::NOWHERE && !nowhere.pushes() && nowhere.continues().is_none());
     }
 }

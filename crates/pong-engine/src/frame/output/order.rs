@@ -11,14 +11,14 @@ use crate::frame::worker_context::WorkerContext;
 use crate::report::StatusBits;
 use crate::scene::Scene;
 use crate::sealed::Sealed;
-use pong_arena::{Arena, Table};
+use pong_arena::Arena;
 
 /// Puts the contacts in order, whoever found them.
 #[inline]
 pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBuffers) {
-    let EvaluationInput { scene, sealed, memory, .. } = *given;
+    let EvaluationInput { scene, sealed, .. } = *given;
     let mut demand = frame.caller.out.demand;
-    list(memory.records.len(), frame);
+    list(frame);
     if sealed.rays_meet_groups {
         keep_first_ray_hits(scene, sealed, frame);
         if !demand.overflowed {
@@ -35,7 +35,7 @@ pub(crate) fn put_in_order(given: &EvaluationInput<'_>, frame: &mut EvaluationBu
         // There is room to remember as many as there is for those that push, and for no fewer interferences at once.
         frame.report.contacts_wanted = saturated(pushing.max(remembered).max(demand.at_once));
         frame.caller.out.keep_deepest(capacity, spare);
-        list(memory.records.len(), frame);
+        list(frame);
         frame.report.contacts = frame.pushing().count() as u32;
         forces::recompute_forces(given, frame);
     }
@@ -49,58 +49,74 @@ fn saturated(count: u64) -> u32 {
 }
 
 /// Contacts below this are simply sorted.
-const WORTH_PLACING: usize = 24;
+const WORTH_DIGITS: usize = 24;
 
 /// Lists all contacts in order.
 #[inline]
-fn list(records: usize, frame: &mut EvaluationBuffers) {
+fn list(frame: &mut EvaluationBuffers) {
     let EvaluationBuffers { caller, workers, order, .. } = &mut *frame;
     let WorkerContext { scratch, out, .. } = caller;
     let found = FoundContacts { caller: out, workers };
     order.clear();
-    let count = found.count();
-    let lasting = || found.places().filter(|place| place.continues().is_some()).count();
-    if count < WORTH_PLACING || lasting() * 2 < count {
-        for lane in found.lanes() {
-            order.extend_from_slice(&lane.places).expect("as many places as contacts");
-        }
+    for lane in found.lanes() {
+        order.extend_from_slice(&lane.places).expect("as many places as contacts");
+    }
+    if order.len() < WORTH_DIGITS {
         order.sort_unstable_by_key(|place| place.head);
     } else {
-        put_where_they_were(records, (count, found.places()), order, scratch);
+        sort_by_digits(order.as_mut_slice(), scratch);
     }
     for ties in order.chunk_by_mut(|a, b| a.head == b.head).filter(|ties| ties.len() > 1) {
         ties.sort_unstable_by_key(|place| found.contact(place).found.order());
     }
 }
 
-/// Sorts the contacts by the heads of their keys: most continue one of so many records, and the records stand in order. The
-/// first that continues a record stands in its place; the others, sorted by themselves, come in between.
-fn put_where_they_were<'a>(
-    records: usize,
-    (count, contacts): (usize, impl Iterator<Item = &'a Place>),
-    order: &mut Table<Place>,
-    scratch: &mut Arena,
-) {
+/// Sorts contacts by the heads of their keys, digit by digit, the lowest first (D. E. Knuth, The Art of Computer Programming,
+/// vol. 3, 5.2.5, radix exchange from the least digit on). To compare heads is to guess: a frame has a few directions and
+/// primitives, in the order of the tree, and no processor foretells which of two is the smaller.
+fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
+    let first = places[0].head;
+    let mut differing = places.iter().fold(0, |bits, place| bits | (place.head ^ first));
+    // Digits of one length, short enough that their counts are few beside the contacts.
+    let digits = differing.count_ones().div_ceil(DIGIT_BITS).max(1);
+    let bits = differing.count_ones().div_ceil(digits);
     scratch.reset();
-    let room = "sealing has sized the scratch";
-    let lasting = scratch.slice(records, Place::NOWHERE).expect(room);
-    let mut others = scratch.list(count).expect(room);
-    for contact in contacts {
-        match contact.continues() {
-            Some(record) if lasting[record].is_nowhere() => lasting[record] = *contact,
-            _ => others.push(*contact).expect(room),
-        }
+    let mut from = places;
+    let mut to = scratch.slice(from.len(), Place::NOWHERE).expect("sealing has sized the scratch");
+    let mut is_in_scratch = false;
+    while differing != 0 {
+        let shift = differing.trailing_zeros();
+        place_by_digit((from, to), shift, (1 << bits) - 1);
+        (from, to) = (to, from);
+        is_in_scratch = !is_in_scratch;
+        differing =
+            differing.checked_shr(shift + bits).and_then(|rest| rest.checked_shl(shift + bits)).unwrap_or(0);
     }
-    others.sort_unstable_by_key(|place| place.head);
-    let mut others = others.iter().peekable();
-    let room = "as many places as contacts";
-    for contact in lasting.iter().filter(|contact| !contact.is_nowhere()) {
-        while let Some(other) = others.next_if(|other| other.head < contact.head) {
-            order.push(*other).expect(room);
-        }
-        order.push(*contact).expect(room);
+    if is_in_scratch {
+        to.copy_from_slice(from);
     }
-    others.for_each(|other| order.push(*other).expect(room));
+}
+
+/// Most bits of a digit.
+const DIGIT_BITS: u32 = 8;
+
+/// Copies places in the order of one digit of their heads; those that have it in common stay in their order.
+fn place_by_digit((from, to): (&[Place], &mut [Place]), shift: u32, mask: u64) {
+    let digit = |place: &Place| (place.head >> shift & mask) as usize;
+    let mut ends = [0_u32; 1 << DIGIT_BITS];
+    let ends = &mut ends[..=mask as usize];
+    for place in from {
+        ends[digit(place)] += 1;
+    }
+    let mut count = 0;
+    for end in ends.iter_mut() {
+        (*end, count) = (count, count + *end);
+    }
+    for place in from {
+        let next = &mut ends[digit(place)];
+        to[*next as usize] = *place;
+        *next += 1;
+    }
 }
 
 /// One contact per ray and opposing Object: the least distance, ties in the order of sums.
@@ -138,39 +154,40 @@ mod tests {
     use crate::state::Slot;
     use pong_testkit::Random;
 
-    /// Of random records some go on, some more than once, and new contacts come with heads of their own or of another's.
+    /// Of few and of many, in few and in many directions, with heads in common: those stay in their order.
     #[test]
-    fn contacts_stand_by_their_keys_whether_they_last_or_are_new() {
+    fn digits_put_contacts_in_the_order_of_their_heads() {
         let mut random = Random::new(7, 0, 0);
-        for case in 0..200 {
-            let mut heads: Vec<u32> = (0..40 + case % 40).map(|_| random.below(60) as u32).collect();
-            heads.sort_unstable();
-            let count = 20 + random.below(80);
-            let contacts: Vec<Place> = (0..count)
-                .map(|index| match random.below(4) {
-                    0 => Place::new(random.below(64) as u64, Slot::new(index % 3, index), true, None),
-                    _ => {
-                        let record = random.below(heads.len());
-                        Place::new(
-                            u64::from(heads[record]),
-                            Slot::new(index % 3, index),
-                            true,
-                            Some(record as u32),
-                        )
-                    }
+        for case in 0..300 {
+            let count = WORTH_DIGITS + random.below(if case % 10 == 0 { 2000 } else { 60 });
+            let [directions, primitives] = [1 << random.below(22), 1 << random.below(31)];
+            let mut places: Vec<Place> = (0..count)
+                .map(|index| {
+                    let head = (random.below(directions) as u64) << 32 | random.below(primitives) as u64;
+                    Place::new(head, Slot::new(index % 3, index), index % 2 == 0, Some(index as u32))
                 })
                 .collect();
-            let mut order = Table::with_capacity(count, Place::NOWHERE);
-            let mut scratch = Arena::with_capacity(64 * (count + heads.len()));
-            put_where_they_were(heads.len(), (count, contacts.iter()), &mut order, &mut scratch);
-            assert!(order.is_sorted_by_key(|place| place.head), "case {case}: {order:?}");
-            let mut listed: Vec<_> = order.iter().map(|place| place.slot.index()).collect();
-            listed.sort_unstable();
-            assert!(listed.iter().copied().eq(0..contacts.len()), "case {case}");
-            for place in order.iter() {
-                let contact = &contacts[place.slot.index()];
-                assert_eq!((place.head, place.slot.lane()), (contact.head, contact.slot.lane()));
-            }
+            let mut expected = places.clone();
+            expected.sort_by_key(|place| place.head);
+            let mut scratch = Arena::with_capacity(16 + count * size_of::<Place>());
+            sort_by_digits(&mut places, &mut scratch);
+            let told = |place: &Place| (place.head, place.slot, place.continues());
+            assert!(places.iter().map(told).eq(expected.iter().map(told)), "case {case}");
+        }
+    }
+
+    /// The highest bit and the lowest, and no difference at all.
+    #[test]
+    fn digits_at_the_ends_of_the_heads_count() {
+        for bit in [0, 1, 32, 55, 56, 62, 63] {
+            let heads = [1_u64 << bit, 0, u64::MAX, !(1 << bit), 1 << bit];
+            let place = |(index, &head): (usize, &u64)| Place::new(head, Slot::new(0, index), true, None);
+            let mut places: Vec<Place> = heads.iter().enumerate().map(place).collect();
+            sort_by_digits(&mut places, &mut Arena::with_capacity(1024));
+            assert!(places.is_sorted_by_key(|place| place.head), "{bit}: {places:?}");
+            places.fill(Place::new(1 << bit, Slot::new(0, 1), true, None));
+            sort_by_digits(&mut places, &mut Arena::with_capacity(1024));
+            assert!(places.iter().all(|place| place.head == 1 << bit));
         }
     }
 }

@@ -8,7 +8,9 @@ use super::solids;
 use crate::frame::buffers::EvaluationBuffers;
 use crate::frame::forces::reference_point::reference_point;
 use crate::frame::input::EvaluationInput;
-use crate::state::{ContactRecord, ContactRole};
+use crate::sealed::Direction;
+use crate::state::{ContactKey, ContactRecord, ContactRole, Records};
+use pong_arena::List;
 use pong_geometry::interference::ball_bore::is_behind_wall;
 use pong_geometry::interference::ray_triangle::ray_triangle;
 use pong_geometry::interference::triangle_features::TriangleView;
@@ -16,10 +18,14 @@ use pong_geometry::primitive::{PrimitiveKind, Ray};
 use pong_geometry::simd::Portable;
 use pong_geometry::{Vec3, divisor};
 use pong_model::box_tree::{Child, lanes};
+use std::borrow::Cow;
 
 /// Two faces are the two sides of a wall where the cosine between their normals is less than this (150°). At a wider angle
 /// they are those of a wedge, round the edge of which what is pressed on one face may well come to the other.
 const BOTH_SIDES_COSINE_MAX: f64 = -0.866;
+
+/// Fewer contacts than this are not waited for together.
+const WORTH_FETCHING: usize = 4;
 
 /// Looks at every committed contact that no present one continues.
 #[inline]
@@ -28,31 +34,61 @@ pub(super) fn look_at_ended(
     frame: &EvaluationBuffers,
     events: &mut TunnellingEvents,
 ) {
-    let records = &given.memory.records;
-    let continued = frame.caller.scratch.slice(records.len(), false).expect("sealing has sized the scratch");
-    for record in frame.order.iter().filter_map(|place| place.continues()) {
-        continued[record] = true;
-    }
-    // Of the others, most of which another core has written, nothing is read.
-    let ended = (0..records.len()).filter(|&index| !continued[index]).map(|index| &records[index]);
-    for record in ended.filter(|record| record.role == ContactRole::Active) {
-        let pair = &given.sealed.group_pairs[record.key.group_pair as usize];
+    let (records, ended) = (&given.memory.records, ended(given, frame));
+    // Both stand in the order of their keys.
+    let mut present = frame.order.as_slice();
+    for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
+        let direction = direction(records, of_direction[0]);
+        let pair = &given.sealed.group_pairs[direction.group_pair as usize];
         if !given.states.enabled[pair.pair] {
             continue;
         }
-        // Most that ended are pushed to the same side from the next facet.
-        if pushing(frame, record.key).any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN) {
-            continue;
-        }
-        let direction = record.key.direction();
         // The two may be far apart by now, and the pair not among those that the frame has visited.
         let motion =
             frame.motions(given.sealed, &given.memory.poses).known(&frame.near, &frame.input, direction);
         let seen = Seen::new(given, direction, &motion, frame);
-        if seen.came_out_behind(record) {
-            events.note(seen.passed(record.key.primitive_a));
+        let of_direction = of_direction.iter().map(|&index| &records[index as usize]);
+        if of_direction.len() >= WORTH_FETCHING {
+            seen.fetch(of_direction.clone());
+        }
+        for record in of_direction {
+            let head = record.key.head();
+            let passed = present.iter().take_while(|place| place.head < head).count();
+            present = &present[passed..];
+            let same_head = present.iter().take_while(|place| place.head == head);
+            // Most that ended are pushed to the same side from the next facet.
+            let mut normals = pushing(frame, same_head, record.key);
+            if !normals.any(|normal| normal.dot(&record.normal_b) > SAME_SIDE_COSINE_MIN)
+                && seen.came_out_behind(record)
+            {
+                events.note(seen.passed(record.key.primitive_a));
+            }
         }
     }
+}
+
+/// Which committed contacts that pushed no present one continues, in the order of their keys.
+#[inline]
+fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<'a, u32> {
+    let (records, scratch, room) =
+        (&given.memory.records, &frame.caller.scratch, "sealing has sized the scratch");
+    let continued = scratch.slice(records.len(), false).expect(room);
+    for record in frame.order.iter().filter_map(|place| place.continues()) {
+        continued[record] = true;
+    }
+    // Of those that go on, most of which another core has written, nothing is read. The others are asked for one thing, so that
+    // what they are waited for falls together.
+    let mut ended = scratch.list(records.len()).expect(room);
+    for index in (0..records.len()).filter(|&index| !continued[index]) {
+        if records[index].role == ContactRole::Active {
+            ended.push(index as u32).expect(room);
+        }
+    }
+    ended
+}
+
+fn direction(records: &Records, index: u32) -> Direction {
+    ContactKey::direction_of(records.head(index as usize))
 }
 
 fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
@@ -60,15 +96,29 @@ fn are_both_sides(one: &Vec3, other: &Vec3) -> bool {
 }
 
 impl Seen<'_> {
+    /// Reads where the lines of these contacts begin, of all at once: what touches no more is in no cache, and would be waited for
+    /// again and again.
+    fn fetch<'r>(&self, records: impl Iterator<Item = &'r ContactRecord> + Clone) {
+        let body_a = self.context.body_a;
+        let info = |record: &ContactRecord| &body_a.primitives[record.key.primitive_a as usize];
+        let elements = records.clone().fold(0, |all, record| all ^ info(record).elements.start);
+        let places = records.map(|record| self.place_of(record).map_or(0.0, |place| place.x));
+        std::hint::black_box((elements, places.sum::<f64>()));
+    }
+
+    /// The place of what carries a contact, in A's frame, m.
+    fn place_of(&self, record: &ContactRecord) -> Option<Cow<'_, Vec3>> {
+        let body_a = self.context.body_a;
+        let info = &body_a.primitives[record.key.primitive_a as usize];
+        let is_followed = info.kind != PrimitiveKind::Custom;
+        is_followed.then(|| reference_point((body_a, info.kind), &record.key, info.elements.start))
+    }
+
     /// Whether what a contact pushed to one side is now on the other side, or is pushed there. What moved
     /// on as it was pushed is not.
     fn came_out_behind(&self, record: &ContactRecord) -> bool {
         let (body, key) = (self.context.body_b, &record.key);
-        let info_a = &self.context.body_a.primitives[key.primitive_a as usize];
-        if info_a.kind == PrimitiveKind::Custom {
-            return false;
-        }
-        let Some(line) = self.line_of(record) else { return false };
+        let Some(line) = self.place_of(record).and_then(|place| self.line(&place)) else { return false };
         if record.normal_b.dot(&(line.to_b - line.from_b)) >= 0.0 {
             return false;
         }
@@ -90,13 +140,6 @@ impl Seen<'_> {
         } else {
             false
         }
-    }
-
-    /// The line of what carries the contact.
-    fn line_of(&self, record: &ContactRecord) -> Option<Line> {
-        let info = &self.context.body_a.primitives[record.key.primitive_a as usize];
-        let element = info.elements.start;
-        self.line(&reference_point((self.context.body_a, info.kind), &record.key, element))
     }
 
     fn came_out_of_solid(&self, record: &ContactRecord, line: &Line) -> bool {

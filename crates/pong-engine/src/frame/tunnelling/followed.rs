@@ -4,6 +4,7 @@ use super::events::{TunnellingEvent, TunnellingEvents};
 use super::line::{Line, Met};
 use super::{curved, sheets, solids, travel};
 use crate::frame::buffers::EvaluationBuffers;
+use crate::frame::forces::place::Place;
 use crate::frame::input::motion::Motion;
 use crate::frame::input::{EvaluationInput, PairContext};
 use crate::frame::narrow_phase::candidate::ContactCandidate;
@@ -145,12 +146,14 @@ impl<'a> Seen<'a> {
 
     /// Normals of the contacts of a primitive of A with a shell of B.
     pub fn pushing(&self, primitive_a: u32, shell_b: u32) -> impl Iterator<Item = &'a Vec3> + use<'a> {
-        pushing(self.frame, self.key(primitive_a, shell_b))
+        let key = self.key(primitive_a, shell_b);
+        pushing(self.frame, same_head(self.frame, key), key)
     }
 
     /// The same of one end of a segment.
     pub fn pushing_at_end(&self, key: ContactKey) -> impl Iterator<Item = &'a Vec3> + use<'a> {
-        let at_end = found(self.frame, key).filter(move |found| found.key.end == key.end);
+        let same_head = same_head(self.frame, key);
+        let at_end = found(self.frame, same_head, key).filter(move |found| found.key.end == key.end);
         at_end.map(|found| &found.normal_b)
     }
 
@@ -160,21 +163,31 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// Normals of the contacts under a key, whatever end of a segment they are at.
-pub(super) fn pushing(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Vec3> + use<'_> {
-    found(frame, key).map(|found| &found.normal_b)
-}
-
-/// Contacts that push under a key.
-fn found(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &ContactCandidate> + use<'_> {
+/// Where the contacts stand whose keys have the head of this one.
+fn same_head(frame: &EvaluationBuffers, key: ContactKey) -> impl Iterator<Item = &Place> + use<'_> {
     let head = key.head();
     let first = frame.order.partition_point(|place| place.head < head);
-    let same_head = frame.order[first..].iter().take_while(move |place| place.head == head);
-    let found = same_head.map(|place| &frame.found().contact(place).found);
-    let counts = move |found: &&ContactCandidate| {
-        found.role == ContactRole::Active && found.key.shell_b == key.shell_b
-    };
-    found.filter(counts)
+    frame.order[first..].iter().take_while(move |place| place.head == head)
+}
+
+/// Normals of the contacts under a key, whatever end of a segment they are at, among those that have its head.
+pub(super) fn pushing<'a>(
+    frame: &'a EvaluationBuffers,
+    same_head: impl Iterator<Item = &'a Place>,
+    key: ContactKey,
+) -> impl Iterator<Item = &'a Vec3> {
+    found(frame, same_head, key).map(|found| &found.normal_b)
+}
+
+/// Contacts that push under a key, among those that have its head.
+fn found<'a>(
+    frame: &'a EvaluationBuffers,
+    same_head: impl Iterator<Item = &'a Place>,
+    key: ContactKey,
+) -> impl Iterator<Item = &'a ContactCandidate> {
+    let pushing = same_head.filter(|place| place.pushes());
+    let found = pushing.map(|place| &frame.found().contact(place).found);
+    found.filter(move |found| found.key.shell_b == key.shell_b)
 }
 
 /// Where an element of A is followed, in A's frame, m.

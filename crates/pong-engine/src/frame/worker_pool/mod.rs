@@ -31,6 +31,9 @@ const WORTH_WAKING_NS: u64 = 60_000;
 /// takes off the others.
 const WORTH_A_WORKER_NS: u64 = 4_000;
 
+/// Longer than it takes to lay out the blocks of any round.
+const LONGEST_LAYOUT: Duration = Duration::from_micros(200);
+
 /// What a contact costs beside its tests, ns.
 const CONTACT_NS: u64 = 200;
 
@@ -44,6 +47,8 @@ pub(crate) struct WorkerPool {
     lent: bool,
     /// Whether the workers were given a round of this frame.
     worked: bool,
+    /// What the last round might cost, ns.
+    last_cost_ns: u64,
     /// Where the workers' time of this frame's rounds went; zero without a clock.
     times: Vec<WorkTimes>,
 }
@@ -129,7 +134,7 @@ impl WorkerPool {
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); workers];
-        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, times })
+        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, times })
     }
 
     /// How many workers are worth asking for a round of so many blocks whose tests may cost so much, ns; none if it is sooner
@@ -137,6 +142,7 @@ impl WorkerPool {
     /// again.
     pub fn worth_asking(&mut self, records: usize, blocks: usize, cost_ns: u64) -> usize {
         let cost_ns = cost_ns + records as u64 * CONTACT_NS;
+        self.last_cost_ns = cost_ns;
         let worth = cost_ns >= WORTH_SHARING_NS
             && blocks >= 2
             && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS);
@@ -211,8 +217,12 @@ impl WorkerPool {
         true
     }
 
-    /// No time has been spent yet.
+    /// No time has been spent yet. Where the last round was worth waking workers for, those who sleep are woken now: they are up
+    /// when the blocks of this one are laid out.
     pub fn begin_frame(&mut self) {
+        if self.last_cost_ns >= WORTH_WAKING_NS {
+            self.pool.prewake(LONGEST_LAYOUT);
+        }
         if self.worked {
             self.times.fill(WorkTimes::default());
             self.worked = false;
