@@ -74,6 +74,7 @@ fn list(frame: &mut EvaluationBuffers) {
 /// Sorts contacts by the heads of their keys, digit by digit, the lowest first (D. E. Knuth, The Art of Computer Programming,
 /// vol. 3, 5.2.5, radix exchange from the least digit on). To compare heads is to guess: a frame has a few directions and
 /// primitives, in the order of the tree, and no processor foretells which of two is the smaller.
+#[inline(never)]
 fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
     let first = places[0].head;
     let mut differing = places.iter().fold(0, |bits, place| bits | (place.head ^ first));

@@ -34,7 +34,21 @@ pub(super) fn look_at_ended(
     frame: &EvaluationBuffers,
     events: &mut TunnellingEvents,
 ) {
-    let (records, ended) = (&given.memory.records, ended(given, frame));
+    let ended = ended(given, frame);
+    if !ended.is_empty() {
+        look_at(&ended, given, frame, events);
+    }
+}
+
+/// Looks at these records, which stand in the order of their keys. Apart: most frames are not made ready for it.
+#[inline(never)]
+fn look_at(
+    ended: &[u32],
+    given: &EvaluationInput<'_>,
+    frame: &EvaluationBuffers,
+    events: &mut TunnellingEvents,
+) {
+    let records = &given.memory.records;
     // Both stand in the order of their keys.
     let mut present = frame.order.as_slice();
     for of_direction in ended.chunk_by(|&a, &b| direction(records, a) == direction(records, b)) {
@@ -72,13 +86,16 @@ pub(super) fn look_at_ended(
 fn ended<'a>(given: &EvaluationInput<'_>, frame: &'a EvaluationBuffers) -> List<'a, u32> {
     let (records, scratch, room) =
         (&given.memory.records, &frame.caller.scratch, "sealing has sized the scratch");
-    let continued = scratch.slice(records.len(), false).expect(room);
+    let (continued, mut left) = (scratch.slice(records.len(), false).expect(room), records.len());
     for record in frame.order.iter().filter_map(|place| place.continues()) {
-        continued[record] = true;
+        left -= usize::from(!std::mem::replace(&mut continued[record], true));
+    }
+    let mut ended = scratch.list(left).expect(room);
+    if left == 0 {
+        return ended;
     }
     // Of those that go on, most of which another core has written, nothing is read. The others are asked for one thing, so that
     // what they are waited for falls together.
-    let mut ended = scratch.list(records.len()).expect(room);
     for index in (0..records.len()).filter(|&index| !continued[index]) {
         if records[index].role == ContactRole::Active {
             ended.push(index as u32).expect(room);
