@@ -70,27 +70,26 @@ fn sleeping_workers_are_woken_as_many_as_there_are_blocks() {
     }
 }
 
+/// Blocks long enough for anyone who is awake to come for one.
+struct Slow;
+
+impl Job for Slow {
+    fn run(&self, _block: u32, _lane: usize) {
+        std::thread::sleep(Duration::from_micros(50));
+    }
+}
+
 /// A phase for some of the workers is left alone by the others, awake or asleep, and the next one is for all again.
 #[test]
 fn a_phase_is_shared_with_no_more_workers_than_it_is_opened_to() {
-    let count = Count::new(200);
-    let mut pool = start(&count, &patient(5));
-    for turn in 0..300 {
-        if turn % 3 == 0 {
-            pool.quiesce();
-            std::thread::sleep(Duration::from_micros(200));
-        }
-        let (invited, blocks) = (turn % 7, 2 + 9 * (turn as u32 % 23));
-        let outcome = pool.run_beside(blocks, invited, &mut |blocks| {
-            for block in blocks {
-                std::thread::yield_now();
-                count.run(block, 0);
-            }
-        });
-        assert_eq!(outcome, Outcome::Complete);
-        assert!(count.take().iter().zip(0..).all(|(runs, block)| *runs == u32::from(block < blocks)));
+    let mut pool = start(&Arc::new(Slow), &patient(5));
+    for invited in (0..=6).cycle().take(70) {
+        pool.prewake(Duration::from_secs(1));
+        std::thread::sleep(Duration::from_micros(300));
+        let own = &mut |blocks: Range<u32>| blocks.for_each(|block| Slow.run(block, 0));
+        assert_eq!(pool.run_beside(24, invited, own), Outcome::Complete);
         let by_lane: Vec<u32> = pool.work().map(|lane| lane.blocks).collect();
-        assert_eq!(by_lane.iter().sum::<u32>(), blocks, "{by_lane:?}");
+        assert_eq!(by_lane.iter().sum::<u32>(), 24, "{invited} of {by_lane:?}");
         assert!(by_lane.iter().skip(1 + invited).all(|&blocks| blocks == 0), "{invited} of {by_lane:?}");
         assert!(pool.is_quiet());
     }

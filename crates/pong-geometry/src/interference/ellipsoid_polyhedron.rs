@@ -19,8 +19,8 @@
 //! least the depth of `a` along n. If `a` lies no less deep below any other face, then it does so along every n: that
 //! face is the minimum, and nothing else is looked at. Otherwise a smaller minimum can only belong to an edge or
 //! vertex of a face that `a` lies less deep below, a *suspect*: n is a sum of the feature's face normals with
-//! coefficients whose sum is at least 1. The face to start from is found by the same test: a face of less overlap is
-//! always a suspect.
+//! coefficients whose sum is at least 1. The face to start from is that of least overlap, which is worked out for eight
+//! faces at a time; faces that the centre is far below are not asked.
 //!
 //! # Rounding
 //!
@@ -49,8 +49,8 @@ use super::ellipsoid_prepared::{PreparedEllipsoid, Shadow};
 use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
-use crate::primitive::{EdgePush, Ellipsoid, Polyhedron};
-use crate::simd::{LANES, LaneBits, Simd, Splat, run_at_level};
+use crate::primitive::{EdgePush, Ellipsoid, FacePlanes, Polyhedron};
+use crate::simd::{Finder, First, LANES, LaneBits, Simd, Splat, run_at_level};
 
 /// How far outside its feature a foot may lie, as a share of the sizes involved.
 const FOOT_SLACK: f64 = 1e-12;
@@ -125,17 +125,7 @@ struct Lead {
     deepest: Vec3,
 }
 
-/// What faces say of a lead.
-enum Verdict {
-    /// None has less overlap; those that may have features of less.
-    Agreed(Suspects),
-    /// A face's plane separates the two.
-    Apart,
-    /// A face of less overlap.
-    Less(Lead),
-}
-
-/// The faces below which the lead's deepest point lies less deep than below the lead.
+/// The other faces below which the lead's deepest point lies less deep than below the lead.
 struct Suspects {
     faces: [u32; Self::CAPACITY],
     /// May exceed the capacity: then every face is suspected.
@@ -148,88 +138,32 @@ impl Lead {
     /// `None` if a face's plane separates the two, or no face is active.
     #[inline(always)]
     fn find<S: Simd>(simd: S, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<(Self, Suspects)> {
-        let highest = highest_of_many(simd, &e.center, p.planes(), Whereabouts::Below(e.largest))?;
-        let mut lead = Self::at(e, p, highest.face);
-        while let Some(better) = lead.better_neighbor(e, p) {
-            lead = better;
-        }
-        if lead.depth <= 0.0 {
-            return None;
-        }
-        // Round and round until all faces have agreed; every change of the lead lowers its overlap.
-        let mut start = 0;
-        loop {
-            match lead.ask_all(simd, e, p, start) {
-                Verdict::Agreed(suspects) => return Some((lead, suspects)),
-                Verdict::Apart => return None,
-                Verdict::Less(other) => {
-                    lead = other;
-                    start = other.face;
-                }
-            }
-        }
+        let planes = p.planes();
+        let highest = highest_of_many(simd, &e.center, planes, Whereabouts::Below(e.largest))?;
+        // Below the highest face the overlap is at most so much; it is no less below a face that the centre is not higher above
+        // than this.
+        let least_height = (e.smallest - e.largest) + highest.height - BOUND_SLACK * e.largest;
+        let face = Overlaps::new(simd, e).least(planes, least_height)?;
+        let lead = Self::at(e, p, face);
+        let suspects = lead.suspects(simd, p);
+        (lead.depth > 0.0).then_some((lead, suspects))
     }
 
-    /// Asks all faces, from one on round to it again, whether one of them has less overlap.
     #[inline(always)]
-    fn ask_all<S: Simd>(&self, simd: S, e: &PreparedEllipsoid, p: &Polyhedron, start: usize) -> Verdict {
-        let deepest = Splat::new(simd, &self.deepest);
-        let blocks = &p.planes().blocks;
+    fn suspects<S: Simd>(&self, simd: S, p: &Polyhedron) -> Suspects {
+        let (deepest, depth) = (Splat::new(simd, &self.deepest), simd.splat(self.depth));
         let mut suspects = Suspects::NONE;
-        // The block of the start comes twice: its lanes from the start on, at the end the others.
-        for step in 0..=blocks.len() {
-            let index = (start / LANES + step) % blocks.len();
-            let heights = blocks[index].heights(simd, &deepest);
-            let under = simd.sub(simd.splat(0.0), heights);
-            let less_deep = !simd.bits(simd.at_least(under, simd.splat(self.depth)));
-            let lanes = match step {
-                0 => LaneBits::MAX << (start % LANES),
-                _ if step == blocks.len() => !(LaneBits::MAX << (start % LANES)),
-                _ => LaneBits::MAX,
-            };
-            let faces = less_deep & lanes & blocks[index].own;
-            if faces != 0
-                && let Some(verdict) = self.ask(e, p, index * LANES, faces, &mut suspects)
-            {
-                return verdict;
+        for (index, block) in p.planes().blocks.iter().enumerate() {
+            let others = if index == self.face / LANES { !(1 << (self.face % LANES)) } else { LaneBits::MAX };
+            let under = simd.sub(simd.splat(0.0), block.heights(simd, &deepest));
+            let mut faces = !simd.bits(simd.at_least(under, depth)) & block.own & others;
+            suspects.pierces &= faces & !simd.bits(simd.below(simd.splat(0.0), under)) == 0;
+            while faces != 0 {
+                suspects.add(index * LANES + faces.trailing_zeros() as usize);
+                faces &= faces - 1;
             }
         }
-        Verdict::Agreed(suspects)
-    }
-
-    /// Asks faces of one block below which the deepest point lies less deep, and lists those that agree as suspects.
-    fn ask(
-        &self,
-        e: &PreparedEllipsoid,
-        p: &Polyhedron,
-        first: usize,
-        mut faces: LaneBits,
-        suspects: &mut Suspects,
-    ) -> Option<Verdict> {
-        while faces != 0 {
-            let index = first + faces.trailing_zeros() as usize;
-            faces &= faces - 1;
-            if index == self.face {
-                continue;
-            }
-            let other = Self::at(e, p, index);
-            if other.depth <= 0.0 {
-                return Some(Verdict::Apart);
-            }
-            if p.faces[index].active && (other.depth, index) < (self.depth, self.face) {
-                return Some(Verdict::Less(other));
-            }
-            suspects.add(index, -p.height(index, &self.deepest));
-        }
-        None
-    }
-
-    fn better_neighbor(&self, e: &PreparedEllipsoid, p: &Polyhedron) -> Option<Self> {
-        p.rim(self.face).iter().find_map(|rim| {
-            let neighbor = rim.neighbor as usize;
-            let suspect = p.faces[neighbor].active && -p.faces[neighbor].height(&self.deepest) < self.depth;
-            suspect.then(|| Self::at(e, p, neighbor)).filter(|other| other.depth < self.depth)
-        })
+        suspects
     }
 
     fn at(e: &PreparedEllipsoid, p: &Polyhedron, face: usize) -> Self {
@@ -243,17 +177,58 @@ impl Lead {
     }
 }
 
+/// The overlaps of an ellipsoid along the normals of eight faces at a time.
+struct Overlaps<S: Simd> {
+    simd: S,
+    center: Splat<S>,
+    /// Rows: principal axes times semi-axes, m.
+    widen: [Splat<S>; 3],
+}
+
+impl<S: Simd> Overlaps<S> {
+    #[inline(always)]
+    fn new(simd: S, e: &PreparedEllipsoid) -> Self {
+        let [a, b, c] = &e.widen;
+        let widen = [Splat::new(simd, a), Splat::new(simd, b), Splat::new(simd, c)];
+        Self { simd, center: Splat::new(simd, &e.center), widen }
+    }
+
+    /// The active face of least overlap among those that the centre is higher above than `least_height`, of equal ones the
+    /// first; `None` if one of them, active or not, has none, or there is none.
+    #[inline(always)]
+    fn least(&self, planes: &FacePlanes, least_height: f64) -> Option<usize> {
+        let simd = self.simd;
+        let (zero, nothing) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
+        let mut first = First::<S>::above(simd, f64::NEG_INFINITY);
+        for (index, block) in planes.blocks.iter().enumerate() {
+            let heights = block.heights(simd, &self.center);
+            if simd.bits(simd.below(simd.splat(least_height), heights)) == 0 {
+                continue;
+            }
+            let [a, b, c] = &self.widen;
+            let (x, y, z) = (a.dot(&block.normal), b.dot(&block.normal), c.dot(&block.normal));
+            let square = simd.add(simd.add(simd.mul(x, x), simd.mul(y, y)), simd.mul(z, z));
+            let less = simd.sub(heights, simd.sqrt(square));
+            if simd.bits(simd.at_least(less, zero)) != 0 {
+                return None;
+            }
+            first.offer(index, simd.select(simd.mask(block.active), less, nothing));
+        }
+        first.found().map(|found| found.place())
+    }
+}
+
 impl Suspects {
     const CAPACITY: usize = 32;
 
     const NONE: Self = Self { faces: [0; Self::CAPACITY], count: 0, pierces: true };
 
-    fn add(&mut self, face: usize, under: f64) {
+    #[inline(always)]
+    fn add(&mut self, face: usize) {
         if let Some(slot) = self.faces.get_mut(self.count) {
             *slot = face as u32;
         }
         self.count += 1;
-        self.pierces &= under > 0.0;
     }
 
     /// `None` if there were too many to list.
