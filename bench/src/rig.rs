@@ -155,6 +155,11 @@ pub fn config(threads: usize) -> Config {
     Config { workers, ..Config::default() }
 }
 
+/// 1, 2, 4 … threads, no more than `most`.
+pub fn thread_counts(most: usize) -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(1), |count| Some(2 * count)).take_while(move |&count| count <= most)
+}
+
 /// Binds the calling thread to the first core that it may use, beside which the workers of [`config`] have theirs.
 pub fn bind_caller() {
     if let Some(&id) = cores().first() {

@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 
 /// Numbers of wedges and tips.
 pub const SIZES: [(usize, usize); 3] = [(12, 200), (48, 1000), (96, 5000)];
+/// A ring with work for many cores.
+pub const LARGE: (usize, usize) = (96, 50_000);
 /// Frames of one pass.
 pub const FRAMES: usize = 64;
 /// Radius of a tip that is a sphere, m.

@@ -6,7 +6,7 @@ use pong_bench::peer::Peer;
 use pong_bench::peer::parry::{Loop, Manifolds};
 use pong_bench::plot::{Panel, svg};
 use pong_bench::race::Race;
-use pong_bench::rig::bind_caller;
+use pong_bench::rig::{self, bind_caller};
 use pong_bench::ring::{self, Ring, Tip};
 use pong_bench::scenes::{self, ring_states};
 use pong_bench::table::{Table, or_dash};
@@ -30,11 +30,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(20)?;
     let into = options.into.clone().unwrap_or_else(|| PathBuf::from("."));
     let smoke = options.smoke;
-    let axes = [
-        ("threads", Clock::Wall, threads(smoke)?),
-        ("triangles", Clock::Thread, triangles(smoke)?),
-        ("points", Clock::Thread, points(smoke)?),
-    ];
+    let mut axes = Vec::new();
+    if options.wants(0) {
+        axes.push(("threads", Clock::Wall, threads(smoke)?));
+    }
+    if options.wants(1) {
+        axes.push(("triangles", Clock::Thread, triangles(smoke)?));
+    }
+    if options.wants(2) {
+        axes.push(("points", Clock::Thread, points(smoke)?));
+    }
     // The pools have begun, with all cores before them.
     bind_caller();
     let (mut panels, mut numbers) = (Vec::new(), String::from("axis,line,at,least_us,middle_us\n"));
@@ -91,15 +96,17 @@ fn table(panel: &Panel) -> Table {
 
 // ---- axes
 
-/// From one thread to eight times as many as there are cores.
+/// From one thread to twice as many as there are cores, and to more than a few where cores are few.
 fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     let cores = std::thread::available_parallelism()?.get();
-    let most = if smoke { 2 } else { 8 * cores };
-    let doubled = std::iter::successors(Some(1), |n| Some(2 * n));
-    let counts: Vec<usize> = doubled.take_while(|&n| n <= most).collect();
-    let sizes = if smoke { &ring::SIZES[..1] } else { &ring::SIZES[..] };
+    let counts: Vec<usize> = rig::thread_counts(if smoke { 2 } else { (2 * cores).max(16) }).collect();
+    let mut sizes = ring::SIZES.to_vec();
+    sizes.push(ring::LARGE);
+    if smoke {
+        sizes.truncate(1);
+    }
     let mut out = Vec::new();
-    for &size in sizes {
+    for size in sizes {
         let ring = Ring::new(size);
         for &count in &counts {
             out.push(ring_entry(format!("Pong, ring of {} points", size.1), count as f64, &ring, count)?);

@@ -15,12 +15,13 @@ const MICRO_NS: f64 = 1e3;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(30)?;
+    let cores = std::thread::available_parallelism()?.get().max(2);
     rig::bind_caller();
     let columns = Stage::ALL.map(Stage::name).into_iter().chain(Work::ALL.map(Work::name));
     let head: Vec<&str> = ["scene", "threads", "frame"].into_iter().chain(columns).collect();
     let mut table = Table::new(&head);
     for (number, (name, scene)) in scenes(options.smoke)?.into_iter().enumerate() {
-        for threads in [1, 2] {
+        for threads in rig::thread_counts(cores) {
             if options.wants(number) {
                 let mut builder = WorldBuilder::new(rig::config(threads));
                 builder.set_clock(now_ns);
@@ -40,7 +41,7 @@ fn scenes(smoke: bool) -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
         ("six spheres on 10,000 triangles".to_owned(), Scene::wheels(&Terrain::SIZES[1], Wheel::BOTH[0])?),
         ("six ellipsoids on 10,000 triangles".to_owned(), Scene::wheels(&Terrain::SIZES[1], Wheel::BOTH[1])?),
     ];
-    for (wedges, points) in ring::SIZES.into_iter().take(if smoke { 1 } else { 3 }) {
+    for (wedges, points) in ring::SIZES.into_iter().chain([ring::LARGE]).take(if smoke { 1 } else { 4 }) {
         let ring = Ring::new((wedges, points));
         scenes.push((format!("ring, {wedges} wedges, {points} spheres"), Scene::ring(&ring, Tip::Sphere)?));
     }

@@ -18,7 +18,6 @@ const MICRO: f64 = 1e-6;
 const PERIOD: Duration = Duration::from_millis(1);
 /// Long enough for a sleeping worker to be up, short against a frame.
 const AHEAD: Duration = Duration::from_micros(100);
-const SECONDS: u32 = 60;
 
 /// Frames of one world before those of the next: what else the machine does then falls on all alike.
 const TURN: u32 = 250;
@@ -36,8 +35,9 @@ struct Way {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let options = Options::read(1)?;
-    let frames = if options.smoke { 50 } else { 1000 * SECONDS };
+    // A round is a second of each way.
+    let options = Options::read(60)?;
+    let frames = if options.smoke { 50 } else { 1000 * u32::try_from(options.rounds)? };
     let ring = Ring::new(ring::SIZES[1]);
     let states = scenes::ring_states();
     let way = |name, threads, prewake, rehearse| -> Result<Way, Box<dyn Error>> {
