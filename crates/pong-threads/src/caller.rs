@@ -39,12 +39,17 @@ impl Caller {
         }
     }
 
+    /// See [`Pool::has_awake_workers`](crate::Pool::has_awake_workers).
+    pub fn has_awake_workers(&self) -> bool {
+        self.shared.board.seems_awake()
+    }
+
     /// See [`Pool::has_workers_at_hand`](crate::Pool::has_workers_at_hand).
     pub fn has_workers_at_hand(&mut self) -> bool {
         if self.shared.board.workers() == 0 {
             return false;
         }
-        if self.shared.board.seems_awake() {
+        if self.has_awake_workers() {
             return true;
         }
         let now_ns = self.shared.origin.elapsed_ns();

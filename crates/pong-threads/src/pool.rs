@@ -114,6 +114,11 @@ impl Pool {
         self.caller.has_workers_at_hand()
     }
 
+    /// Whether a worker seemed awake a moment ago: nothing rests on it but time.
+    pub fn has_awake_workers(&self) -> bool {
+        self.caller.has_awake_workers()
+    }
+
     /// Runs the blocks 0 to `blocks` − 1 of the job, the last first, on the caller and on the workers that are awake
     /// in time. A panic of a block goes on here, after the blocks that others claimed have ended or the worker timeout has; those
     /// that its lane had claimed with it are left out.

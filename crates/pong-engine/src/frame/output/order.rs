@@ -71,9 +71,9 @@ fn list(frame: &mut EvaluationBuffers) {
     }
 }
 
-/// Sorts contacts by the heads of their keys, digit by digit, the lowest first (D. E. Knuth, The Art of Computer Programming,
-/// vol. 3, 5.2.5, radix exchange from the least digit on). To compare heads is to guess: a frame has a few directions and
-/// primitives, in the order of the tree, and no processor foretells which of two is the smaller.
+/// Sorts contacts by the heads of their keys, digit by digit, the lowest first (radix sort: D. E. Knuth, The Art of Computer
+/// Programming, vol. 3, 5.2.5). Contacts come in the order of the tree, so no processor foretells which of two is the smaller:
+/// here none is compared with another.
 #[inline(never)]
 fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
     let first = places[0].head;

@@ -217,10 +217,10 @@ impl WorkerPool {
         true
     }
 
-    /// No time has been spent yet. Where the last round was worth waking workers for, those who sleep are woken now: they are up
-    /// when the blocks of this one are laid out.
+    /// No time has been spent yet. Where the last round was worth waking workers for and all sleep, they are woken now: they are
+    /// up when the blocks of this one are laid out. Whom the host has woken is awake for as long as it said.
     pub fn begin_frame(&mut self) {
-        if self.last_cost_ns >= WORTH_WAKING_NS {
+        if self.last_cost_ns >= WORTH_WAKING_NS && !self.pool.has_awake_workers() {
             self.pool.prewake(LONGEST_LAYOUT);
         }
         if self.worked {

@@ -135,23 +135,26 @@ fn a_long_round_wakes_the_workers_of_the_next_before_it_is_laid_out() {
     let spin = Duration::from_nanos(100);
     let mut world = brush(config(Some(Settings { spin, ..one_worker() })), 0).world;
     let pool = world.runtime_mut().pool.as_mut().unwrap();
-    // One that was asleep a moment ago counts as at hand.
-    let is_awake = |pool: &mut WorkerPool| {
-        std::thread::sleep(10 * spin);
-        pool.pool.has_workers_at_hand()
-    };
     for (cost_ns, wakes) in [(WORTH_WAKING_NS - 1, false), (WORTH_WAKING_NS, true)] {
         pool.quiesce();
-        while is_awake(pool) {}
+        while pool.pool.has_awake_workers() {}
         pool.worth_asking(0, 100, cost_ns);
-        while is_awake(pool) {}
         // It may be up and down again before this thread looks.
         let woken = (0..200).any(|_| {
             pool.begin_frame();
-            (0..20).any(|_| is_awake(pool))
+            (0..20).any(|_| {
+                std::thread::sleep(Duration::from_micros(1));
+                pool.pool.has_awake_workers()
+            })
         });
         assert_eq!(woken, wakes, "{cost_ns} ns");
     }
+    // What the host has asked for is not cut short.
+    pool.prewake(Duration::from_secs(60));
+    while !pool.pool.has_awake_workers() {}
+    pool.begin_frame();
+    std::thread::sleep(Duration::from_millis(20));
+    assert!(pool.pool.has_awake_workers());
 }
 
 /// The brush slides and tilts: contacts end and begin, bristles stretch and slip. Frames in which a worker had a part are
