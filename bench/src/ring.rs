@@ -14,6 +14,11 @@ use std::f64::consts::TAU;
 pub const SIZES: [(usize, usize); 3] = [(12, 200), (48, 1000), (96, 5000)];
 /// A ring with work for many cores.
 pub const LARGE: (usize, usize) = (96, 50_000);
+/// All of these, the smallest first, or that one alone.
+pub fn sizes(smoke: bool) -> impl Iterator<Item = (usize, usize)> {
+    SIZES.into_iter().chain([LARGE]).take(if smoke { 1 } else { usize::MAX })
+}
+
 /// Frames of one pass.
 pub const FRAMES: usize = 64;
 /// Radius of a tip that is a sphere, m.

@@ -26,19 +26,23 @@ struct Entry {
     states: Vec<Vec<State>>,
 }
 
+/// What runs at the places of an axis.
+type Entries = fn(bool) -> Result<Vec<Entry>, Box<dyn Error>>;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let options = Options::read(20)?;
     let into = options.into.clone().unwrap_or_else(|| PathBuf::from("."));
     let smoke = options.smoke;
+    let all: [(_, _, Entries); 3] = [
+        ("threads", Clock::Wall, threads),
+        ("triangles", Clock::Thread, triangles),
+        ("points", Clock::Thread, points),
+    ];
     let mut axes = Vec::new();
-    if options.wants(0) {
-        axes.push(("threads", Clock::Wall, threads(smoke)?));
-    }
-    if options.wants(1) {
-        axes.push(("triangles", Clock::Thread, triangles(smoke)?));
-    }
-    if options.wants(2) {
-        axes.push(("points", Clock::Thread, points(smoke)?));
+    for (number, (axis, clock, entries)) in all.into_iter().enumerate() {
+        if options.wants(number) {
+            axes.push((axis, clock, entries(smoke)?));
+        }
     }
     // The pools have begun, with all cores before them.
     bind_caller();
@@ -100,13 +104,8 @@ fn table(panel: &Panel) -> Table {
 fn threads(smoke: bool) -> Result<Vec<Entry>, Box<dyn Error>> {
     let cores = std::thread::available_parallelism()?.get();
     let counts: Vec<usize> = rig::thread_counts(if smoke { 2 } else { (2 * cores).max(16) }).collect();
-    let mut sizes = ring::SIZES.to_vec();
-    sizes.push(ring::LARGE);
-    if smoke {
-        sizes.truncate(1);
-    }
     let mut out = Vec::new();
-    for size in sizes {
+    for size in ring::sizes(smoke) {
         let ring = Ring::new(size);
         for &count in &counts {
             out.push(ring_entry(format!("Pong, ring of {} points", size.1), count as f64, &ring, count)?);

@@ -41,7 +41,7 @@ fn scenes(smoke: bool) -> Result<Vec<(String, Scene)>, Box<dyn Error>> {
         ("six spheres on 10,000 triangles".to_owned(), Scene::wheels(&Terrain::SIZES[1], Wheel::BOTH[0])?),
         ("six ellipsoids on 10,000 triangles".to_owned(), Scene::wheels(&Terrain::SIZES[1], Wheel::BOTH[1])?),
     ];
-    for (wedges, points) in ring::SIZES.into_iter().chain([ring::LARGE]).take(if smoke { 1 } else { 4 }) {
+    for (wedges, points) in ring::sizes(smoke) {
         let ring = Ring::new((wedges, points));
         scenes.push((format!("ring, {wedges} wedges, {points} spheres"), Scene::ring(&ring, Tip::Sphere)?));
     }

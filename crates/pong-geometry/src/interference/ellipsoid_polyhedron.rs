@@ -50,7 +50,7 @@ use super::highest_face::{Whereabouts, highest_of_many};
 use super::{Feature, Interference};
 use crate::Vec3;
 use crate::primitive::{EdgePush, Ellipsoid, FacePlanes, Polyhedron};
-use crate::simd::{Finder, First, LANES, LaneBits, Simd, Splat, run_at_level};
+use crate::simd::{Finder, First, LANES, LaneBits, Simd, Splat, Vectors, run_at_level};
 
 /// How far outside its feature a foot may lie, as a share of the sizes involved.
 const FOOT_SLACK: f64 = 1e-12;
@@ -143,7 +143,7 @@ impl Lead {
         // Below the highest face the overlap is at most so much; it is no less below a face that the centre is not higher above
         // than this.
         let least_height = (e.smallest - e.largest) + highest.height - BOUND_SLACK * e.largest;
-        let face = Overlaps::new(simd, e).least(planes, least_height)?;
+        let face = least_overlap(simd, e, planes, least_height)?;
         let lead = Self::at(e, p, face);
         let suspects = lead.suspects(simd, p);
         (lead.depth > 0.0).then_some((lead, suspects))
@@ -177,45 +177,33 @@ impl Lead {
     }
 }
 
-/// The overlaps of an ellipsoid along the normals of eight faces at a time.
-struct Overlaps<S: Simd> {
+/// The active face of least overlap among those that the centre is higher above than `least_height`, of equal ones the first;
+/// `None` if one of them, active or not, has none, or there is none.
+#[inline(always)]
+fn least_overlap<S: Simd>(
     simd: S,
-    center: Splat<S>,
-    /// Rows: principal axes times semi-axes, m.
-    widen: [Splat<S>; 3],
-}
-
-impl<S: Simd> Overlaps<S> {
-    #[inline(always)]
-    fn new(simd: S, e: &PreparedEllipsoid) -> Self {
-        let [a, b, c] = &e.widen;
-        let widen = [Splat::new(simd, a), Splat::new(simd, b), Splat::new(simd, c)];
-        Self { simd, center: Splat::new(simd, &e.center), widen }
-    }
-
-    /// The active face of least overlap among those that the centre is higher above than `least_height`, of equal ones the
-    /// first; `None` if one of them, active or not, has none, or there is none.
-    #[inline(always)]
-    fn least(&self, planes: &FacePlanes, least_height: f64) -> Option<usize> {
-        let simd = self.simd;
-        let (zero, nothing) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
-        let mut first = First::<S>::above(simd, f64::NEG_INFINITY);
-        for (index, block) in planes.blocks.iter().enumerate() {
-            let heights = block.heights(simd, &self.center);
-            if simd.bits(simd.below(simd.splat(least_height), heights)) == 0 {
-                continue;
-            }
-            let [a, b, c] = &self.widen;
-            let (x, y, z) = (a.dot(&block.normal), b.dot(&block.normal), c.dot(&block.normal));
-            let square = simd.add(simd.add(simd.mul(x, x), simd.mul(y, y)), simd.mul(z, z));
-            let less = simd.sub(heights, simd.sqrt(square));
-            if simd.bits(simd.at_least(less, zero)) != 0 {
-                return None;
-            }
-            first.offer(index, simd.select(simd.mask(block.active), less, nothing));
+    e: &PreparedEllipsoid,
+    planes: &FacePlanes,
+    least_height: f64,
+) -> Option<usize> {
+    let [a, b, c] = &e.widen;
+    let widen = [Vectors::splat(simd, a), Vectors::splat(simd, b), Vectors::splat(simd, c)];
+    let (center, least_height) = (Splat::new(simd, &e.center), simd.splat(least_height));
+    let (zero, nothing) = (simd.splat(0.0), simd.splat(f64::NEG_INFINITY));
+    let mut first = First::<S>::above(simd, f64::NEG_INFINITY);
+    for (index, block) in planes.blocks.iter().enumerate() {
+        let heights = block.heights(simd, &center);
+        if simd.bits(simd.below(least_height, heights)) == 0 {
+            continue;
         }
-        first.found().map(|found| found.place())
+        let half_widths = Vectors::load(simd, &block.normal).dot_rows(widen).norm();
+        let less = simd.sub(heights, half_widths.eight());
+        if simd.bits(simd.at_least(less, zero)) != 0 {
+            return None;
+        }
+        first.offer(index, simd.select(simd.mask(block.active), less, nothing));
     }
+    first.found().map(|found| found.place())
 }
 
 impl Suspects {

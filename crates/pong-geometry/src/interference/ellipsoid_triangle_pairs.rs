@@ -99,8 +99,7 @@ impl<S: Simd> Ellipsoids<S> {
     /// Scaled normals, whose lengths are the half widths times those of the normals.
     #[inline(always)]
     fn widened(&self, normal: Vectors<S>) -> Vectors<S> {
-        let [first, second, third] = self.widen;
-        Vectors { x: first.dot(normal), y: second.dot(normal), z: third.dot(normal) }
+        normal.dot_rows(self.widen)
     }
 
     /// Vectors as seen where the ellipsoids are unit balls.

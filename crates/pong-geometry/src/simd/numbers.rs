@@ -31,6 +31,12 @@ impl<S: Simd> Numbers<S> {
         self.simd.store(self.eight)
     }
 
+    /// As the instructions take them.
+    #[inline(always)]
+    pub fn eight(self) -> S::Eight {
+        self.eight
+    }
+
     /// This number, eight times.
     #[inline(always)]
     pub fn all(self, value: f64) -> Self {
@@ -168,6 +174,12 @@ impl<S: Simd> Vectors<S> {
     #[inline(always)]
     pub fn dot(self, other: Self) -> Numbers<S> {
         self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The products with three vectors each, as with the rows of matrices.
+    #[inline(always)]
+    pub fn dot_rows(self, [first, second, third]: [Self; 3]) -> Self {
+        Self { x: first.dot(self), y: second.dot(self), z: third.dot(self) }
     }
 
     /// The vectors across these and others.

@@ -81,17 +81,17 @@ fn sort_by_digits(places: &mut [Place], scratch: &mut Arena) {
     // Digits of one length, short enough that their counts are few beside the contacts.
     let digits = differing.count_ones().div_ceil(DIGIT_BITS).max(1);
     let bits = differing.count_ones().div_ceil(digits);
+    let mask = (1 << bits) - 1;
     scratch.reset();
     let mut from = places;
     let mut to = scratch.slice(from.len(), Place::NOWHERE).expect("sealing has sized the scratch");
     let mut is_in_scratch = false;
     while differing != 0 {
         let shift = differing.trailing_zeros();
-        place_by_digit((from, to), shift, (1 << bits) - 1);
+        place_by_digit((from, to), shift, mask);
         (from, to) = (to, from);
         is_in_scratch = !is_in_scratch;
-        differing =
-            differing.checked_shr(shift + bits).and_then(|rest| rest.checked_shl(shift + bits)).unwrap_or(0);
+        differing &= !(mask << shift);
     }
     if is_in_scratch {
         to.copy_from_slice(from);
