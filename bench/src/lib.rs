@@ -22,6 +22,7 @@ pub mod rig;
 pub mod ring;
 pub mod ron;
 pub mod scenes;
+pub mod side_by_side;
 pub mod table;
 pub mod terrain;
 pub mod timing;

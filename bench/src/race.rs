@@ -12,7 +12,7 @@ struct Contender<'a> {
     name: String,
     /// What comes before every pass and is not timed.
     prepare: Box<dyn FnMut() + 'a>,
-    pass: Box<dyn FnMut() + 'a>,
+    pass: Box<dyn FnMut(usize) + 'a>,
 }
 
 impl Default for Race<'_> {
@@ -40,7 +40,16 @@ impl<'a> Race<'a> {
 
     /// One more contender, with what comes before each of its passes and is not timed.
     pub fn enter_prepared(&mut self, name: &str, prepare: impl FnMut() + 'a, pass: impl FnMut() + 'a) {
-        let (prepare, pass) = (Box::new(prepare), Box::new(pass));
+        let mut pass = pass;
+        self.enter_boxed(name, Box::new(prepare), Box::new(move |_| pass()));
+    }
+
+    /// One more contender, which is told the number of the round: for one that is of several equals in turn.
+    pub fn enter_in_turn(&mut self, name: &str, pass: impl FnMut(usize) + 'a) {
+        self.enter_boxed(name, Box::new(|| ()), Box::new(pass));
+    }
+
+    fn enter_boxed(&mut self, name: &str, prepare: Box<dyn FnMut() + 'a>, pass: Box<dyn FnMut(usize) + 'a>) {
         self.contenders.push(Contender { name: name.to_owned(), prepare, pass });
     }
 
@@ -49,14 +58,14 @@ impl<'a> Race<'a> {
     /// shared among: frames, queries.
     pub fn run(mut self, rounds: usize, items: usize) -> Outcome {
         let mut times: Vec<Times> = self.contenders.iter().map(|_| Times::new(items)).collect();
-        for _ in 0..rounds {
+        for round in 0..rounds {
             for (contender, times) in self.contenders.iter_mut().zip(&mut times) {
                 for _ in 0..self.warm_ups {
                     (contender.prepare)();
-                    (contender.pass)();
+                    (contender.pass)(round);
                 }
                 (contender.prepare)();
-                times.run(&mut contender.pass);
+                times.run(|| (contender.pass)(round));
             }
         }
         Outcome(self.contenders.into_iter().map(|contender| contender.name).zip(times).collect())
