@@ -43,7 +43,7 @@ use output::{order, reduce};
 #[inline]
 pub(crate) fn evaluate(
     given: &EvaluationInput<'_>,
-    pool: Option<&mut WorkerPool>,
+    mut pool: Option<&mut WorkerPool>,
     frame: &mut EvaluationBuffers,
 ) {
     let EvaluationInput { sealed, states, memory, clock, .. } = *given;
@@ -52,7 +52,7 @@ pub(crate) fn evaluate(
     states::latch(sealed, states, frame);
     frame.near.find(sealed, &states.enabled, &frame.poses, &memory.poses);
     watch.lap(Stage::Input, &mut frame.times);
-    find_contacts(given, pool, frame);
+    find_contacts(given, pool.as_deref_mut(), frame);
     watch.lap(Stage::Contacts, &mut frame.times);
     order::put_in_order(given, frame);
     tunnelling::watch(given, frame);
@@ -60,6 +60,9 @@ pub(crate) fn evaluate(
     energy::balance(given, frame);
     watch.lap(Stage::Energy, &mut frame.times);
     reduce::sum(given, frame);
+    if let Some(pool) = pool {
+        pool.end_frame();
+    }
     watch.lap(Stage::Output, &mut frame.times);
 }
 

@@ -6,6 +6,7 @@
 
 #[cfg(test)]
 mod tests;
+mod trials;
 
 use crate::frame::block;
 use crate::frame::forces::contact_buffer::ContactBuffer;
@@ -19,6 +20,7 @@ use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 use std::time::Duration;
+use trials::SharingTrials;
 
 /// Work below this is done by the caller alone, ns: waking nobody is quicker.
 const WORTH_SHARING_NS: u64 = 5_000;
@@ -47,8 +49,9 @@ pub(crate) struct WorkerPool {
     lent: bool,
     /// Whether the workers were given a round of this frame.
     worked: bool,
-    /// What the last round might cost, ns.
+    /// What the last round might cost, ns, if it was worth sharing.
     last_cost_ns: u64,
+    trials: SharingTrials,
     /// Where the workers' time of this frame's rounds went; zero without a clock.
     times: Vec<WorkTimes>,
 }
@@ -134,18 +137,20 @@ impl WorkerPool {
         });
         let pool = Pool::start(Arc::clone(&shared) as Arc<dyn Job>, settings)?;
         let times = vec![WorkTimes::default(); workers];
-        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, times })
+        let trials = SharingTrials::NONE;
+        Ok(Self { pool, shared, timeouts: 0, lent: false, worked: false, last_cost_ns: 0, trials, times })
     }
 
     /// How many workers are worth asking for a round of so many blocks whose tests may cost so much, ns; none if it is sooner
     /// done by the caller alone. What touched at the last commit, so many `records`, as a rule touches now, and costs as much
-    /// again.
+    /// again. Where the cost leaves doubts, trials decide: call [`end_frame`](Self::end_frame) when the frame is done.
     pub fn worth_asking(&mut self, records: usize, blocks: usize, cost_ns: u64) -> usize {
         let cost_ns = cost_ns + records as u64 * CONTACT_NS;
-        self.last_cost_ns = cost_ns;
         let worth = cost_ns >= WORTH_SHARING_NS
             && blocks >= 2
-            && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS);
+            && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS)
+            && self.trials.shares(cost_ns, WORTH_SHARING_NS);
+        self.last_cost_ns = if worth { cost_ns } else { 0 };
         if worth { self.pool.workers().min(1.max((cost_ns / WORTH_A_WORKER_NS) as usize)) } else { 0 }
     }
 
@@ -227,6 +232,13 @@ impl WorkerPool {
             self.times.fill(WorkTimes::default());
             self.worked = false;
         }
+    }
+
+    /// All that depends on who did this frame's rounds is done.
+    #[inline]
+    pub fn end_frame(&mut self) {
+        let Self { pool, worked, trials, .. } = self;
+        trials.end_round(|| *worked && pool.work().skip(1).any(|lane| lane.blocks > 0));
     }
 
     /// Whether the workers were given a round of this frame.
