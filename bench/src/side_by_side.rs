@@ -11,8 +11,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::*};
 use std::thread::{JoinHandle, Thread};
 use std::time::{Duration, Instant};
 
-/// How long the second thread waits for the next pass before it sleeps: longer than between a warm-up and its pass.
-const WAITS: Duration = Duration::from_millis(1);
+/// How long the second thread waits for the next pass before it sleeps: longer than between a warm-up and its pass, and shorter
+/// than the warm-up of whoever comes next, whom it would slow down where both cores are one.
+const WAITS: Duration = Duration::from_micros(50);
 
 /// One world for the caller, and one with a thread and a core of its own.
 pub struct SideBySide {

@@ -23,7 +23,8 @@ const MICRO: f64 = 1e-6;
 const ONE: &str = "Pong";
 const TWO: &str = "Pong, two threads";
 const SIDE_BY_SIDE: &str = "Pong, two worlds side by side";
-/// Equal worlds that take turns from round to round: where a world happens to lie in memory moves its frames by 2 to 4 %.
+const FLOOR: &str = "floor";
+/// Equal worlds, and floors, that take turns from round to round: where one happens to lie in memory moves its frames by 2 to 4 %.
 const WORLDS: usize = 4;
 const PEERS: [&str; 4] = ["parry", "parry, own loop", "MuJoCo", "ODE"];
 
@@ -121,21 +122,27 @@ fn run(
     let mut side_by_side =
         SideBySide::new([scenes::ring(&ring, tip, 1)?, scenes::ring(&ring, tip, 1)?], &path);
 
+    let mut floors: Vec<ByHand> = (0..WORLDS).map(|_| ByHand::new(&ring, tip)).collect();
     let mut others = if options.alone { Vec::new() } else { others(&ring, tip) };
     bind_caller();
     let [first, rest @ ..] = &mut one[..] else { return Err("no world".into()) };
     for rig in rest.iter_mut().chain(&mut two) {
         cross_check(&name, first, (ONE, rig), &states)?;
     }
+    for floor in &mut floors {
+        cross_check(&name, first, (FLOOR, floor), &states)?;
+    }
     for (who, peer) in &mut others {
         cross_check(&name, first, (who, &mut **peer), &states)?;
     }
     let mut race = Race::new();
-    race.enter_in_turn(ONE, |round| pass(&mut one[round % WORLDS], &states));
+    // Those with two threads first: after a warm-up of one thread theirs sleep, and slow nobody down.
     race.enter_in_turn(TWO, |round| pass(&mut two[round % WORLDS], &states));
     if let Some(side_by_side) = &mut side_by_side {
         race.enter(SIDE_BY_SIDE, || side_by_side.pass());
     }
+    race.enter_in_turn(ONE, |round| pass(&mut one[round % WORLDS], &states));
+    race.enter_in_turn(FLOOR, |round| pass(&mut floors[round % WORLDS], &states));
     for (name, peer) in &mut others {
         race.enter(name, || pass(&mut **peer, &states));
     }
@@ -144,7 +151,7 @@ fn run(
 }
 
 fn others(ring: &Ring, tip: Tip) -> Vec<Named> {
-    let mut others: Vec<Named> = vec![("floor", Box::new(ByHand::new(ring, tip)))];
+    let mut others: Vec<Named> = Vec::new();
     if tip == Tip::Sphere {
         others.push(("parry", Box::new(Manifolds::ring(ring))));
     }
@@ -220,10 +227,10 @@ impl Tables {
     fn take(&mut self, name: &str, wanted: Wanted, outcome: &Outcome) {
         let name = || std::iter::once(name.to_owned());
         let told = |who, clock| min_and_median(outcome.of(who), clock, MICRO);
-        let others = || std::iter::once("floor").chain(PEERS);
+        let others = || std::iter::once(FLOOR).chain(PEERS);
         let times = std::iter::once(ONE).chain(others()).map(|who| told(who, Clock::Thread));
         self.times.row(name().chain(times));
-        let floor = outcome.ratio(ONE, "floor", Clock::Thread);
+        let floor = outcome.ratio(ONE, FLOOR, Clock::Thread);
         let verdict = ratio_at_most(wanted.over_floor, floor.as_ref().map(Ratios::halves));
         let ratios = PEERS.map(|who| or_dash(outcome.ratio(ONE, who, Clock::Thread)));
         self.ratios.row(name().chain([or_dash(floor), verdict]).chain(ratios));

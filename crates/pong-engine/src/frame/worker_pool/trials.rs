@@ -8,11 +8,12 @@
 
 use std::time::Instant;
 
-/// Rounds that may cost so much, ns, or more are always shared: alone, one of them would take the caller by surprise.
-pub const ALWAYS_SHARED_NS: u64 = 80_000;
+/// Rounds that may cost so much, ns, or more are always shared: alone, one of them would take the caller by surprise. What a round
+/// may cost is a rough estimate, often twice the time that it takes.
+pub const ALWAYS_SHARED_NS: u64 = 160_000;
 
 /// Classes of cost, each up to twice as much as the one before: what pays for long rounds need not for short ones.
-const CLASSES: usize = 4;
+const CLASSES: usize = 5;
 
 /// Usual rounds from one trial to the next: after the usual way has changed, and at most.
 const SOON: u32 = 32;
@@ -305,10 +306,10 @@ mod tests {
     fn each_class_of_cost_is_tried_by_itself() {
         let mut trials = SharingTrials::NONE;
         trials.classes[1].shares = false;
-        let shares = [5_000, 9_999, 10_000, 19_999, 20_000, 79_999, 80_000, 1_000_000]
+        let shares = [5_000, 9_999, 10_000, 19_999, 20_000, 159_999, 160_000, 1_000_000]
             .map(|cost_ns| trials.shares(cost_ns, 5_000));
         assert_eq!(shares, [true, true, false, false, true, true, true, true]);
-        assert_eq!(trials.classes.map(|class| SOON - class.left), [2, 2, 1, 1]);
+        assert_eq!(trials.classes.map(|class| SOON - class.left), [2, 2, 1, 0, 1]);
     }
 
     #[test]
