@@ -122,7 +122,8 @@ fn run(
     let mut side_by_side =
         SideBySide::new([scenes::ring(&ring, tip, 1)?, scenes::ring(&ring, tip, 1)?], &path);
 
-    let mut floors: Vec<ByHand> = (0..WORLDS).map(|_| ByHand::new(&ring, tip)).collect();
+    let mut floors: Vec<Box<dyn Peer>> =
+        (0..WORLDS).map(|_| Box::new(ByHand::new(&ring, tip)) as Box<dyn Peer>).collect();
     let mut others = if options.alone { Vec::new() } else { others(&ring, tip) };
     bind_caller();
     let [first, rest @ ..] = &mut one[..] else { return Err("no world".into()) };
@@ -130,7 +131,7 @@ fn run(
         cross_check(&name, first, (ONE, rig), &states)?;
     }
     for floor in &mut floors {
-        cross_check(&name, first, (FLOOR, floor), &states)?;
+        cross_check(&name, first, (FLOOR, &mut **floor), &states)?;
     }
     for (who, peer) in &mut others {
         cross_check(&name, first, (who, &mut **peer), &states)?;
@@ -142,7 +143,7 @@ fn run(
         race.enter(SIDE_BY_SIDE, || side_by_side.pass());
     }
     race.enter_in_turn(ONE, |round| pass(&mut one[round % WORLDS], &states));
-    race.enter_in_turn(FLOOR, |round| pass(&mut floors[round % WORLDS], &states));
+    race.enter_in_turn(FLOOR, |round| pass(&mut *floors[round % WORLDS], &states));
     for (name, peer) in &mut others {
         race.enter(name, || pass(&mut **peer, &states));
     }
