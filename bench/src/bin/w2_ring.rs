@@ -86,9 +86,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}", tables.times);
     println!("Pong's whole frame over the others' detection, middle [least..greatest] of the rounds\n");
     println!("{}", tables.ratios);
-    println!(
-        "Threads of Pong, µs per frame by the clock on the wall; of two worlds of one thread each, side by side, per frame of either\n"
-    );
+    println!("Threads of Pong, µs per frame by the clock on the wall; of two worlds, per frame of either\n");
     println!("{}", tables.threads);
     Ok(())
 }
