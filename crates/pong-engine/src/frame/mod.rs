@@ -106,7 +106,6 @@ fn find_contacts(
     caller.out.times.add(&layout);
     for worker in workers.iter().filter(|worker| worker.holds_a_phase()) {
         caller.out.demand.add(&worker.demand);
-        caller.out.counts.add(&worker.counts);
     }
     times.work = caller.out.times;
     if let Some(pool) = pool.filter(|pool| pool.has_worked()) {

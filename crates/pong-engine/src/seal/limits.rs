@@ -56,7 +56,7 @@ const BUFFERS_OF_A_WORKER: usize = 2;
 
 /// What a worker's lane takes however small the capacity is, bytes.
 pub(super) fn least_lane_bytes(limits: &Limits, law_state_len: usize) -> usize {
-    let contact = size_of::<FrameContact>() + size_of::<Place>() + law_state_len * size_of::<f64>();
+    let contact = size_of::<FrameContact>() + 2 * size_of::<Place>() + law_state_len * size_of::<f64>();
     BUFFERS_OF_A_WORKER * limits.least_worker_contacts() * contact
         + limits.lane_records()
             * (Records::LANE_BYTES * RECORDS_OF_A_LANE + size_of::<Term>() * BUFFERS_OF_A_WORKER)

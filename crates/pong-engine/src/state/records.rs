@@ -257,14 +257,15 @@ impl Records {
         (self.place_of_head(first)..self.place_of_head(next)).map(|index| &self[index])
     }
 
-    /// Reads the heads, and where their records stand, all at once: a search would wait for one line after another that another
-    /// core has written.
+    /// Reads the heads, their hints, and where their records stand, all at once: a search would wait for one line after another
+    /// that another core has written.
     pub fn fetch(&self) {
         const LINE: usize = 64;
         let heads = self.heads.iter().step_by(LINE / size_of::<u64>()).fold(0, |all, head| all ^ head);
         let slots =
             self.slots.iter().step_by(LINE / size_of::<Slot>()).fold(0, |all, slot| all ^ slot.index());
-        std::hint::black_box((heads, slots));
+        let hints = self.hints.iter().step_by(LINE / size_of::<u16>()).fold(0, |all, hint| all ^ hint);
+        std::hint::black_box((heads, slots, hints));
     }
 
     /// The table of what stands in a slot.

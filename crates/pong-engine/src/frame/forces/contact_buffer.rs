@@ -24,6 +24,8 @@ pub(crate) struct ContactBuffer {
     pub contacts: Table<FrameContact>,
     /// Where they stand, as many.
     pub places: Table<Place>,
+    /// The same once more, written when a claim is done: what the caller asks of. In a worker's buffer alone.
+    told_places: Table<Place>,
     /// What those that have a record add to the wrenches; none in the caller's buffer.
     pub terms: Table<Term>,
     /// What a commit is to remember of the first so many of them, each written as soon as its contact is whole: while others find
@@ -94,6 +96,7 @@ impl ContactBuffer {
             phase: Self::NO_PHASE,
             contacts: Table::with_capacity(contacts, FrameContact::blank()),
             places: Table::with_capacity(contacts, Place::NOWHERE),
+            told_places: Table::with_capacity(if lane > 0 { contacts } else { 0 }, Place::NOWHERE),
             terms: Table::with_capacity(if lane > 0 { records } else { 0 }, Term::nothing()),
             records: Table::with_capacity(records, ContactRecord::blank()),
             bristles: WaitingBristles::new(),
@@ -117,6 +120,7 @@ impl ContactBuffer {
         self.phase = phase;
         self.contacts.clear();
         self.places.clear();
+        self.told_places.clear();
         self.terms.clear();
         self.records.clear();
         self.shares = self.lane > 0;
@@ -159,6 +163,7 @@ impl ContactBuffer {
     pub fn restore(&mut self, checkpoint: &Checkpoint) {
         self.contacts.truncate(checkpoint.contacts);
         self.places.truncate(checkpoint.contacts);
+        self.told_places.truncate(checkpoint.contacts);
         self.terms.truncate(checkpoint.contacts);
         self.records.truncate(checkpoint.contacts);
         self.bristles.clear();
@@ -185,10 +190,13 @@ impl ContactBuffer {
         }
     }
 
-    /// Works out all friction that waits and writes what the new contacts add to the wrenches, all at once: of lines that another
-    /// core has read, a core that writes to several in a row waits for many at a time, and for each if the writes are far apart.
+    /// Works out all friction that waits and writes where the new contacts stand and what they add to the wrenches, all at once: of
+    /// lines that another core has read, a core that writes to several in a row waits for many at a time, and for each if the
+    /// writes are far apart.
     pub fn finish(&mut self) {
         self.settle();
+        let told = self.told_places.len();
+        self.told_places.extend_from_slice(&self.places[told..]).expect("as much room as for contacts");
         for contact in &self.contacts[self.terms.len()..self.records.len()] {
             self.terms.push(Term::of(contact)).expect("as much room as for records");
         }
@@ -207,15 +215,15 @@ impl ContactBuffer {
         self.records.len() == self.contacts.len()
     }
 
-    /// Takes over all that another [finished](Self::finish) buffer of the lane found, without copying a contact, and gives its
-    /// memory for it.
+    /// Takes over all that another [finished](Self::finish) buffer of the lane found, but for its counts, without copying a
+    /// contact, and gives its memory for it.
     pub fn take_over(&mut self, other: &mut Self) {
         debug_assert!(self.lane == other.lane && self.law_state_len == 0);
         swap(&mut self.contacts, &mut other.contacts);
-        swap(&mut self.places, &mut other.places);
+        swap(&mut self.places, &mut other.told_places);
         swap(&mut self.terms, &mut other.terms);
         swap(&mut self.records, &mut other.records);
-        (self.demand, self.counts) = (other.demand, other.counts);
+        self.demand = other.demand;
         (self.phase, other.phase) = (other.phase, Self::NO_PHASE);
     }
 

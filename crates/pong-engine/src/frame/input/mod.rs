@@ -71,7 +71,10 @@ impl WorkerInput {
         self.clock = other.clock;
         self.motions.clear();
         self.motions.extend_from_slice(&other.motions);
-        self.tables = Arc::clone(&other.tables);
+        // To count who holds the tables is to write beside them, where other cores read.
+        if !Arc::ptr_eq(&self.tables, &other.tables) {
+            self.tables = Arc::clone(&other.tables);
+        }
         self.blocks.clear();
         self.blocks.extend_from_slice(&other.blocks);
     }

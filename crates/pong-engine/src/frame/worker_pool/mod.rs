@@ -214,7 +214,10 @@ impl WorkerPool {
             let mut other = locked(other);
             times.add(&other.out.times);
             match taken {
-                Some(taken) if as_they_are && other.out.remembers_all() => taken.take_over(&mut other.out),
+                Some(taken) if as_they_are && other.out.remembers_all() => {
+                    out.counts.add(&other.out.counts);
+                    taken.take_over(&mut other.out);
+                }
                 _ if out.absorb(&other.out) => {}
                 _ => return false,
             }
