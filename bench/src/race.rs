@@ -39,8 +39,7 @@ impl<'a> Race<'a> {
     }
 
     /// One more contender, with what comes before each of its passes and is not timed.
-    pub fn enter_prepared(&mut self, name: &str, prepare: impl FnMut() + 'a, pass: impl FnMut() + 'a) {
-        let mut pass = pass;
+    pub fn enter_prepared(&mut self, name: &str, prepare: impl FnMut() + 'a, mut pass: impl FnMut() + 'a) {
         self.enter_boxed(name, Box::new(prepare), Box::new(move |_| pass()));
     }
 

@@ -167,15 +167,8 @@ pub fn bind_caller() {
     }
 }
 
-/// Binds the calling thread to the core of the first worker.
-pub fn bind_other() {
-    if let Some(&id) = cores().get(1) {
-        core_affinity::set_for_current(CoreId { id });
-    }
-}
-
 /// The cores that this process may use, or might when it began.
-pub fn cores() -> &'static [usize] {
+fn cores() -> &'static [usize] {
     static CORES: OnceLock<Vec<usize>> = OnceLock::new();
     CORES.get_or_init(|| {
         let cores = core_affinity::get_core_ids().unwrap_or_default();

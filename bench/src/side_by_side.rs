@@ -3,112 +3,70 @@
 //! Cores may share more than memory: two that are threads of one processor core, or run slower when both are busy, do less
 //! together than twice what one does alone. Two worlds that know nothing of each other have no other reason to be slow.
 
-use crate::rig::{Rig, bind_other, cores};
-use pong_engine::State;
-use std::hint::{black_box, spin_loop};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::*};
-use std::thread::{JoinHandle, Thread};
-use std::time::{Duration, Instant};
+use crate::rig::{Rig, config};
+use crate::scenes::Frames;
+use pong_engine::WorkerSettings;
+use pong_threads::{Job, Outcome, Pool, StartError};
+use std::hint::black_box;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
-/// How long the second thread waits for the next pass before it sleeps: longer than between a warm-up and its pass, and shorter
-/// than the warm-up of whoever comes next, whom it would slow down where both cores are one.
-const WAITS: Duration = Duration::from_micros(50);
-
-/// One world for the caller, and one with a thread and a core of its own.
+/// One world for the caller, and one for a worker with a core of its own.
 pub struct SideBySide {
-    own: Frames,
-    pass: Arc<Pass>,
-    thread: Option<JoinHandle<()>>,
+    pool: Pool,
+    worlds: Arc<Worlds>,
 }
 
-/// What both are at.
-#[derive(Default)]
-struct Pass {
-    /// Frames that nobody has begun.
+/// Both worlds, of which each lane steps its own.
+struct Worlds {
+    lanes: [Mutex<OnPath>; 2],
+    path: Frames,
+    /// Frames of the pass that nobody has begun.
     left: AtomicUsize,
-    /// Frames that are done.
-    done: AtomicUsize,
-    /// Passes that were begun.
-    number: AtomicUsize,
-    ends: AtomicBool,
 }
 
-/// A world, and where it is on its path.
-struct Frames {
+/// A world, and which frame of the path it has next.
+struct OnPath {
     rig: Rig,
-    states: Vec<Vec<State>>,
     next: usize,
 }
 
 impl SideBySide {
     /// Of two worlds of one thread each, and a path of frames that closes; `None` where there is one core.
-    pub fn new(rigs: [Rig; 2], states: &[Vec<State>]) -> Option<Self> {
-        if cores().len() < 2 {
-            return None;
-        }
-        let pass = Arc::new(Pass::default());
-        let [own, other] = rigs.map(|rig| Frames { rig, states: states.to_vec(), next: 0 });
-        let shared = Arc::clone(&pass);
-        let thread = std::thread::spawn(move || serve(other, &shared));
-        Some(Self { own, pass, thread: Some(thread) })
+    ///
+    /// # Errors
+    /// If the system starts no thread.
+    pub fn new(rigs: [Rig; 2], path: Frames) -> Result<Option<Self>, StartError> {
+        let lanes = rigs.map(|rig| Mutex::new(OnPath { rig, next: 0 }));
+        let worlds = Arc::new(Worlds { lanes, path, left: AtomicUsize::new(0) });
+        // A pass is over when all of its frames are.
+        let worker_timeout = Duration::from_secs(1);
+        let settings = config(2).workers.unwrap_or_default();
+        let settings = WorkerSettings { oversubscribe: false, worker_timeout, ..settings };
+        let pool = Pool::start(Arc::clone(&worlds) as Arc<dyn Job>, &settings)?;
+        Ok((pool.workers() == 1).then_some(Self { pool, worlds }))
     }
 
     /// As many frames as the path has, shared out: whoever is ready begins the next one of its own world.
+    ///
+    /// # Panics
+    /// If the worker does not come back.
     pub fn pass(&mut self) {
-        let frames = self.own.states.len();
-        self.pass.done.store(0, Relaxed);
-        self.pass.left.store(frames, Release);
-        self.pass.number.fetch_add(1, AcqRel);
-        self.other().unpark();
-        self.own.run(&self.pass);
-        while self.pass.done.load(Acquire) < frames {
-            spin_loop();
-        }
-    }
-
-    fn other(&self) -> &Thread {
-        self.thread.as_ref().expect("it runs until the end").thread()
+        self.worlds.left.store(self.worlds.path.len(), Relaxed);
+        let lanes = self.worlds.lanes.len() as u32;
+        assert_eq!(self.pool.run(lanes), Outcome::Complete, "both worlds end their frames");
     }
 }
 
-impl Drop for SideBySide {
-    fn drop(&mut self) {
-        self.pass.ends.store(true, Release);
-        self.other().unpark();
-        if let Some(thread) = self.thread.take() {
-            // Its panic has been told.
-            let _ = thread.join();
+impl Job for Worlds {
+    /// Runs frames until none is left: a block for each lane, however few frames it comes in time for.
+    fn run(&self, _block: u32, lane: usize) {
+        let mut own = self.lanes[lane].lock().unwrap_or_else(PoisonError::into_inner);
+        let OnPath { rig, next } = &mut *own;
+        while self.left.fetch_update(Relaxed, Relaxed, |left| left.checked_sub(1)).is_ok() {
+            black_box(rig.step(&self.path[*next]));
+            *next = (*next + 1) % self.path.len();
         }
-    }
-}
-
-impl Frames {
-    /// Runs frames until none is left.
-    fn run(&mut self, pass: &Pass) {
-        while pass.left.fetch_update(AcqRel, Acquire, |left| left.checked_sub(1)).is_ok() {
-            black_box(self.rig.step(&self.states[self.next]));
-            self.next = (self.next + 1) % self.states.len();
-            pass.done.fetch_add(1, AcqRel);
-        }
-    }
-}
-
-/// The second thread.
-fn serve(mut own: Frames, pass: &Pass) {
-    bind_other();
-    let mut seen = 0;
-    while !pass.ends.load(Acquire) {
-        let waits = Instant::now();
-        while pass.number.load(Acquire) == seen && waits.elapsed() < WAITS {
-            spin_loop();
-        }
-        let number = pass.number.load(Acquire);
-        if number == seen {
-            std::thread::park();
-            continue;
-        }
-        seen = number;
-        own.run(pass);
     }
 }

@@ -59,6 +59,12 @@ fn hint_of(head: u64) -> usize {
     ((head >> 32).wrapping_mul(DIRECTION_APART).wrapping_add(head)) as usize % HINTS
 }
 
+/// As many elements as bring all of a table into the cache.
+fn one_of_each_line<T>(table: &[T]) -> impl Iterator<Item = &T> {
+    const LINE: usize = 64;
+    table.iter().step_by(LINE / size_of::<T>())
+}
+
 /// The lane of records in order.
 const IN_ORDER: usize = Slot::NO_LANE;
 
@@ -260,11 +266,9 @@ impl Records {
     /// Reads the heads, their hints, and where their records stand, all at once: a search would wait for one line after another
     /// that another core has written.
     pub fn fetch(&self) {
-        const LINE: usize = 64;
-        let heads = self.heads.iter().step_by(LINE / size_of::<u64>()).fold(0, |all, head| all ^ head);
-        let slots =
-            self.slots.iter().step_by(LINE / size_of::<Slot>()).fold(0, |all, slot| all ^ slot.index());
-        let hints = self.hints.iter().step_by(LINE / size_of::<u16>()).fold(0, |all, hint| all ^ hint);
+        let heads = one_of_each_line(&self.heads).fold(0, |all, head| all ^ head);
+        let slots = one_of_each_line(&self.slots).fold(0, |all, slot| all ^ slot.index());
+        let hints = one_of_each_line(&self.hints[..]).fold(0, |all, hint| all ^ hint);
         std::hint::black_box((heads, slots, hints));
     }
 

@@ -20,10 +20,7 @@ use pong_threads::{Job, Outcome, Pool, Settings, StartError};
 use std::ops::Range;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 use std::time::Duration;
-use trials::SharingTrials;
-
-/// Work below this is done by the caller alone, ns: waking nobody is quicker.
-const WORTH_SHARING_NS: u64 = 5_000;
+use trials::{SharingTrials, WORTH_SHARING_NS};
 
 /// Work below this wakes no worker, unless frames follow each other so closely that it will stay awake, ns: to wake one takes
 /// 10 µs and more, and it comes with cold caches.
@@ -149,7 +146,7 @@ impl WorkerPool {
         let worth = cost_ns >= WORTH_SHARING_NS
             && blocks >= 2
             && (self.pool.has_workers_at_hand() || cost_ns >= WORTH_WAKING_NS)
-            && self.trials.shares(cost_ns, WORTH_SHARING_NS);
+            && self.trials.shares(cost_ns);
         self.last_cost_ns = if worth { cost_ns } else { 0 };
         if worth { self.pool.workers().min(1.max((cost_ns / WORTH_A_WORKER_NS) as usize)) } else { 0 }
     }

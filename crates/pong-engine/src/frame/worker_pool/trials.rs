@@ -8,12 +8,15 @@
 
 use std::time::Instant;
 
+/// Work below this is done by the caller alone, ns: waking nobody is quicker.
+pub const WORTH_SHARING_NS: u64 = 5_000;
+
 /// Rounds that may cost so much, ns, or more are always shared: alone, one of them would take the caller by surprise. What a round
 /// may cost is a rough estimate, often twice the time that it takes.
 pub const ALWAYS_SHARED_NS: u64 = 160_000;
 
 /// Classes of cost, each up to twice as much as the one before: what pays for long rounds need not for short ones.
-const CLASSES: usize = 5;
+const CLASSES: usize = ((ALWAYS_SHARED_NS - 1) / WORTH_SHARING_NS).ilog2() as usize + 1;
 
 /// Usual rounds from one trial to the next: after the usual way has changed, and at most.
 const SOON: u32 = 32;
@@ -57,13 +60,13 @@ impl SharingTrials {
     /// All rounds are shared until trials say otherwise.
     pub const NONE: Self = Self { classes: [Class::NEW; CLASSES], present: None };
 
-    /// Whether a round that may cost so much, ns, and is worth sharing if a round of `least_ns` is, is to be shared.
-    pub fn shares(&mut self, cost_ns: u64, least_ns: u64) -> bool {
+    /// Whether a round that may cost so much, ns, at least [`WORTH_SHARING_NS`], is to be shared.
+    pub fn shares(&mut self, cost_ns: u64) -> bool {
         self.present = None;
         if cost_ns >= ALWAYS_SHARED_NS {
             return true;
         }
-        let class = (cost_ns / least_ns).max(1).ilog2().min(CLASSES as u32 - 1) as usize;
+        let class = (cost_ns / WORTH_SHARING_NS).ilog2() as usize;
         let next = self.classes[class].next();
         if next.is_timed {
             self.present = Some(Present { class, cost_ns, began: Instant::now() });
@@ -307,7 +310,7 @@ mod tests {
         let mut trials = SharingTrials::NONE;
         trials.classes[1].shares = false;
         let shares = [5_000, 9_999, 10_000, 19_999, 20_000, 159_999, 160_000, 1_000_000]
-            .map(|cost_ns| trials.shares(cost_ns, 5_000));
+            .map(|cost_ns| trials.shares(cost_ns));
         assert_eq!(shares, [true, true, false, false, true, true, true, true]);
         assert_eq!(trials.classes.map(|class| SOON - class.left), [2, 2, 1, 0, 1]);
     }
